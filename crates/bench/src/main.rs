@@ -1,0 +1,2 @@
+//! Times one step of the model.
+fn main() {}

@@ -1,0 +1,6 @@
+//! The physics of Plateau.
+pub mod material;
+pub mod mesh;
+pub mod parameters;
+pub mod state;
+pub mod surface;

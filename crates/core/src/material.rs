@@ -1,0 +1,100 @@
+//! Status of a cell, material properties by (body, status), stiffness of a pair (model sections 2 and 4.1; paper Eq. 5).
+
+/// What a cell is: resin, fibre or coating, or compacted wear debris.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Status {
+    /// Resin of the pin: carries little, wears by a whole wear height at once.
+    None = 0,
+    /// Fibre of the pin or coating of the disc.
+    Primary = 1,
+    /// Compacted debris on top of the substrate.
+    Secondary = 2,
+}
+
+impl Status {
+    /// Whether the cell is a plateau: primary or secondary.
+    pub fn is_plateau(self) -> bool {
+        self != Self::None
+    }
+}
+
+/// Properties of one (body, status).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// E, Pa.
+    pub youngs_modulus: f64,
+    /// ν.
+    pub poisson_ratio: f64,
+    /// κ, 1/Pa = m³/(N·m). Not used for resin.
+    pub specific_wear_rate: f64,
+}
+
+impl Material {
+    /// (1 − ν²)/E, 1/Pa: what this side adds to the compliance of a pair.
+    fn compliance(&self) -> f64 {
+        (1.0 - self.poisson_ratio * self.poisson_ratio) / self.youngs_modulus
+    }
+}
+
+/// The properties of every (body, status) (model section 3; paper Table 2).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Materials {
+    /// Coating of the disc.
+    pub disc_primary: Material,
+    /// Compacted debris on the disc.
+    pub disc_secondary: Material,
+    /// Fibres of the pin.
+    pub pin_primary: Material,
+    /// Compacted debris on the pin.
+    pub pin_secondary: Material,
+    /// Resin of the pin; its wear rate plays no part.
+    pub pin_resin: Material,
+    /// h_m, m: the height that resin loses in a step in which it touches (paper Eq. 7).
+    pub wear_height: f64,
+}
+
+impl Materials {
+    /// Material of a pin cell.
+    pub fn pin(&self, status: Status) -> &Material {
+        match status {
+            Status::None => &self.pin_resin,
+            Status::Primary => &self.pin_primary,
+            Status::Secondary => &self.pin_secondary,
+        }
+    }
+
+    /// Material of a disc cell, which is never resin.
+    pub fn disc(&self, secondary: bool) -> &Material {
+        if secondary { &self.disc_secondary } else { &self.disc_primary }
+    }
+
+    /// E*, Pa: combined modulus of a pair, 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d (paper Eq. 5).
+    pub fn combined_modulus(&self, pin: Status, disc_secondary: bool) -> f64 {
+        1.0 / (self.pin(pin).compliance() + self.disc(disc_secondary).compliance())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_bodies_share_the_compliance() {
+        // Closed form: two equal bodies have E* = E / (2 (1 − ν²)).
+        let steel = Material { youngs_modulus: 2e11, poisson_ratio: 0.3, specific_wear_rate: 0.0 };
+        let materials = Materials {
+            disc_primary: steel,
+            disc_secondary: steel,
+            pin_primary: steel,
+            pin_secondary: steel,
+            pin_resin: Material { youngs_modulus: 1e5, ..steel },
+            wear_height: 5e-6,
+        };
+        let expected = 2e11 / (2.0 * (1.0 - 0.09));
+        assert!((materials.combined_modulus(Status::Primary, false) / expected - 1.0).abs() < 1e-15);
+        // A side that is a million times softer decides alone.
+        let soft = 1e5 / (1.0 - 0.09);
+        assert!((materials.combined_modulus(Status::None, true) / soft - 1.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,99 @@
+//! Everything a simulation is told before its first step, apart from the initial surfaces (model section 3).
+
+use crate::material::Materials;
+use crate::mesh::Mesh;
+
+/// Where worn material waits until it is compacted (model 4.5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DebrisPool {
+    /// One pool for the whole contact.
+    Contact,
+    /// One pool per radius.
+    Track,
+}
+
+/// How the wear of one step follows from its contact (model 4.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integrator {
+    /// Δh = κ p ds: the paper's rule. Unstable when the stiffness number Π exceeds 2.
+    Explicit,
+    /// The overlap decays exponentially over the step; stable for any Π.
+    Exponential,
+}
+
+/// Formation and destruction of secondary plateaus (model 4.3 to 4.5).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateauRules {
+    /// η: fraction of the worn volume that stays in the contact.
+    pub captured_fraction: f64,
+    /// β: the pin's share of a deposit where both surfaces can form a plateau.
+    pub pad_share: f64,
+    /// One pool for the contact or one per radius.
+    pub debris_pool: DebrisPool,
+    /// Rule 4.4; without it captured debris stays in the pool.
+    pub formation: bool,
+    /// Rule 4.3(b): unsupported plateaus of the pin go back to the pool.
+    pub destruction: bool,
+}
+
+/// Parameters of one simulation, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameters {
+    /// Ring mesh.
+    pub mesh: Mesh,
+    /// F_N, N.
+    pub normal_force: f64,
+    /// ω, rad/s.
+    pub angular_velocity: f64,
+    /// Steps to simulate.
+    pub steps: u64,
+    /// h, m: height of the elastic foundation.
+    pub foundation_height: f64,
+    /// Largest accepted |Σ k A u − F_N| / F_N.
+    pub load_tolerance: f64,
+    /// Properties by (body, status).
+    pub materials: Materials,
+    /// Formation and destruction.
+    pub plateaus: PlateauRules,
+    /// m ≥ 1: how many revolutions one simulated revolution stands for (model 4.6).
+    pub time_acceleration: f64,
+    /// How wear follows from contact.
+    pub integrator: Integrator,
+}
+
+impl Parameters {
+    /// m Δt = m Δθ/ω, s: physical time of one step.
+    pub fn step_time(&self) -> f64 {
+        self.time_acceleration * self.mesh.column_angle() / self.angular_velocity
+    }
+
+    /// Number of steps until the physical time `time` (s) is reached: ceil(time/(m Δt) − 1e-9).
+    ///
+    /// Saturates at `u64::MAX`.
+    pub fn steps_until(&self, time: f64) -> u64 {
+        (time / self.step_time() - 1e-9).ceil().max(0.0) as u64
+    }
+
+    /// Physical time at the end of step number `step` (counted from 1), s.
+    pub fn time_at(&self, step: u64) -> f64 {
+        step as f64 * self.step_time()
+    }
+
+    /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2
+    /// it is unstable (model section 8).
+    pub fn stiffness_number(&self) -> f64 {
+        use crate::material::Status::{Primary, Secondary};
+        let radius = self.mesh.radius().last().copied().unwrap_or(0.0);
+        let sliding = self.time_acceleration * radius * self.mesh.column_angle();
+        let mut largest = 0.0_f64;
+        for pin in [Primary, Secondary] {
+            for disc in [false, true] {
+                let wear_rate =
+                    self.materials.pin(pin).specific_wear_rate + self.materials.disc(disc).specific_wear_rate;
+                let stiffness = self.materials.combined_modulus(pin, disc) / self.foundation_height;
+                largest = largest.max(wear_rate * stiffness * sliding);
+            }
+        }
+        largest
+    }
+}

@@ -1,0 +1,89 @@
+//! Heights of disc and pin, and the status that follows from them (model section 2).
+
+use crate::material::Status;
+use crate::mesh::Mesh;
+
+/// Base of a pin cell: what is there before any wear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Base {
+    /// Resin.
+    None = 0,
+    /// Fibre.
+    Primary = 1,
+}
+
+/// Disc ring: one value per cell, column by column (see [`Mesh`]).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Disc {
+    /// z_d, m, positive toward the pin.
+    pub height: Vec<f64>,
+    /// b_d ≤ z_d, m: top of what is not compacted debris.
+    pub substrate: Vec<f64>,
+}
+
+impl Disc {
+    /// Disc before the first step: no build-up anywhere.
+    pub fn new(height: Vec<f64>) -> Self {
+        Self { substrate: height.clone(), height }
+    }
+
+    /// Status of a cell: secondary where the surface stands above the substrate.
+    pub fn status(&self, cell: usize) -> Status {
+        if self.height[cell] > self.substrate[cell] { Status::Secondary } else { Status::Primary }
+    }
+}
+
+/// Pin: one value per cell, column by column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pin {
+    /// z_p, m, on the disc's axis: wear raises it, away from the disc.
+    pub height: Vec<f64>,
+    /// b_p ≥ z_p, m: surface of what is not compacted debris.
+    pub substrate: Vec<f64>,
+    /// Resin or fibre.
+    pub base: Vec<Base>,
+}
+
+impl Pin {
+    /// Pin before the first step: no build-up anywhere.
+    ///
+    /// # Panics
+    /// When the two fields differ in length.
+    pub fn new(height: Vec<f64>, base: Vec<Base>) -> Self {
+        assert_eq!(height.len(), base.len(), "heights and bases of the pin");
+        Self { substrate: height.clone(), height, base }
+    }
+
+    /// Status of a cell: secondary where debris stands out of the substrate toward the disc, else its base.
+    pub fn status(&self, cell: usize) -> Status {
+        if self.height[cell] < self.substrate[cell] {
+            Status::Secondary
+        } else {
+            match self.base[cell] {
+                Base::None => Status::None,
+                Base::Primary => Status::Primary,
+            }
+        }
+    }
+}
+
+/// The two surfaces before the first step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InitialSurfaces {
+    /// z_d of every disc cell, m.
+    pub disc_height: Vec<f64>,
+    /// z_p of every pin cell, m.
+    pub pin_height: Vec<f64>,
+    /// Base of every pin cell.
+    pub pin_base: Vec<Base>,
+}
+
+impl InitialSurfaces {
+    /// Whether every field has the size that the mesh asks for.
+    pub fn fits(&self, mesh: &Mesh) -> bool {
+        self.disc_height.len() == mesh.disc_cells()
+            && self.pin_height.len() == mesh.pin_cells()
+            && self.pin_base.len() == mesh.pin_cells()
+    }
+}
