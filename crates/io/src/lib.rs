@@ -1,1 +1,2 @@
-//! Everything that touches a file.
+//! Everything of Plateau that touches a file.
+pub mod scene;

@@ -1,0 +1,112 @@
+//! What a scene asks for, in SI units: the typed result of reading it.
+
+use std::path::PathBuf;
+
+use plateau_core::observe::Map;
+use plateau_core::parameters::Parameters;
+use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
+
+/// A scene, read, checked and resolved.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Title; the scene file's stem if the scene gives none.
+    pub title: String,
+    /// The scene file.
+    pub path: PathBuf,
+    /// Everything core is told.
+    pub parameters: Parameters,
+    /// Disc heights.
+    pub disc_surface: HeightRecipe,
+    /// Pin heights.
+    pub pin_surface: HeightRecipe,
+    /// Added to the pin's height on cells without fibre, m.
+    pub resin_recess: f64,
+    /// Fibre map of the pin.
+    pub pin_base: BaseSource,
+    /// Threads.
+    pub workers: Workers,
+    /// What is written, where and when.
+    pub output: OutputRecipe,
+    /// Seeds of the scene as (key path, seed), for the run file's provenance.
+    pub seeds: Vec<(String, u64)>,
+    /// The whole resolved scene as TOML: `extends` and `--set` applied, defaults filled in.
+    pub resolved: String,
+    /// Every scene file read (this one and those it extends), for the run file's provenance.
+    pub files: Vec<PathBuf>,
+    /// Things worth telling the user that are no errors (for instance a map time beyond the end).
+    pub warnings: Vec<String>,
+}
+
+/// Heights and how they are prepared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeightRecipe {
+    /// Where the heights come from.
+    pub source: HeightSource,
+    /// View from the front: x is mirrored.
+    pub mirror: bool,
+    /// The preparation chain.
+    pub preparation: Preparation,
+}
+
+/// Where heights come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum HeightSource {
+    /// A file, told by its content; the path is resolved against the scene that names it.
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Dataset in an HDF5 file.
+        dataset: Option<String>,
+    },
+    /// A Gaussian random field.
+    Synthetic(HeightSynthesis),
+    /// All heights zero.
+    Flat,
+}
+
+/// Where the pin's fibre map comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BaseSource {
+    /// Integers in an HDF5 file, 0 = none, 1 = primary, shape (pin_columns, rows).
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Dataset in the file.
+        dataset: Option<String>,
+    },
+    /// Random capsules.
+    Synthetic(FibreSynthesis),
+    /// All cells alike.
+    Uniform(plateau_core::state::Base),
+}
+
+/// How many threads share the ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Workers {
+    /// What is fastest on this machine.
+    Auto,
+    /// This many, at least 1.
+    Count(usize),
+}
+
+/// What is written, where and when.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputRecipe {
+    /// Run file, relative to the working directory.
+    pub file: PathBuf,
+    /// When samples are taken.
+    pub sample_every: SampleEvery,
+    /// Physical times of the maps, s, increasing, none beyond the end; the last state is always written besides.
+    pub maps_at: Vec<f64>,
+    /// The maps that are written.
+    pub maps: Vec<Map>,
+}
+
+/// When samples are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SampleEvery {
+    /// Physical time, s.
+    Time(f64),
+    /// Simulated steps, at least 1.
+    Steps(u64),
+}
