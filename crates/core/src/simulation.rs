@@ -1,0 +1,204 @@
+//! One step of the model, and the state it advances (model section 4).
+
+use thiserror::Error;
+
+use crate::contact::{Contact, ContactError};
+use crate::debris::{Debris, Transfer};
+use crate::filling::Filling;
+use crate::history::History;
+use crate::pair::Pairs;
+use crate::parameters::Parameters;
+use crate::plateau;
+use crate::state::{Base, Disc, InitialSurfaces, Pin};
+use crate::wear;
+
+/// Why a simulation cannot start or go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SimulationError {
+    /// The initial surfaces do not have the mesh's size.
+    #[error("the initial surfaces do not fit the mesh: expected {disc} disc cells and {pin} pin cells")]
+    Size {
+        /// Cells of the disc mesh.
+        disc: usize,
+        /// Cells of the pin mesh.
+        pin: usize,
+    },
+    /// An initial height is infinite or not a number.
+    #[error("{count} of the {surface}'s initial heights are not finite")]
+    Height {
+        /// Disc or pin.
+        surface: &'static str,
+        /// How many.
+        count: usize,
+    },
+    /// The load balance failed.
+    #[error("step {step}: {source}")]
+    Contact {
+        /// The step, counted from 1.
+        step: u64,
+        /// What went wrong.
+        source: ContactError,
+    },
+}
+
+/// A pin on a disc, and everything that happened to them so far.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    pub(crate) parameters: Parameters,
+    pub(crate) pairs: Pairs,
+    pub(crate) disc: Disc,
+    pub(crate) pin: Pin,
+    pub(crate) contact: Contact,
+    pub(crate) debris: Debris,
+    pub(crate) history: History,
+    pub(crate) filling: Filling,
+    transfer: Transfer,
+    pub(crate) step: u64,
+    /// Columns by which the disc was turned before the first step.
+    pub(crate) first_step: u64,
+}
+
+impl Simulation {
+    /// The state at t = 0: no build-up, no debris.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when the surfaces do not fit the mesh or hold a height that is not finite.
+    pub fn new(parameters: Parameters, surfaces: InitialSurfaces) -> Result<Self, SimulationError> {
+        let mesh = &parameters.mesh;
+        if !surfaces.fits(mesh) {
+            return Err(SimulationError::Size { disc: mesh.disc_cells(), pin: mesh.pin_cells() });
+        }
+        for (surface, heights) in [("disc", &surfaces.disc_height), ("pin", &surfaces.pin_height)] {
+            let count = heights.iter().filter(|height| !height.is_finite()).count();
+            if count > 0 {
+                return Err(SimulationError::Height { surface, count });
+            }
+        }
+        let disc = Disc::new(surfaces.disc_height);
+        Ok(Self {
+            pairs: Pairs::new(&parameters),
+            contact: Contact::new(mesh),
+            debris: Debris::new(mesh, &parameters.plateaus),
+            history: History::new(mesh.disc_columns()),
+            filling: Filling::new(mesh, &disc),
+            transfer: Transfer::new(mesh.rows()),
+            disc,
+            pin: Pin::new(surfaces.pin_height, surfaces.pin_base),
+            step: 0,
+            first_step: 0,
+            parameters,
+        })
+    }
+
+    /// Starts with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
+    pub fn with_disc_turned(mut self, columns: u64) -> Self {
+        self.first_step = columns;
+        self
+    }
+
+    /// One step:
+    ///
+    /// | model | what happens | where |
+    /// |---|---|---|
+    /// | 4.1 | every pin cell faces the disc cell under it | [`Contact::face`] |
+    /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
+    /// | 4.4 | debris at hand for each open cell | [`Debris::spread`] |
+    /// | 4.2 to 4.4 | wear, destruction and formation in every cell | [`wear`], [`plateau`] |
+    /// | 4.5 | debris balance | [`Debris::settle`] |
+    /// | 4.6 | the disc turns by one column | |
+    ///
+    /// # Errors
+    /// [`SimulationError::Contact`] when the load balance leaves the finite numbers; the state is then that before the
+    /// step.
+    pub fn advance(&mut self) -> Result<(), SimulationError> {
+        let Parameters { mesh, normal_force, load_tolerance, .. } = &self.parameters;
+        let turned = self.first_step + self.step;
+        self.contact.face(mesh, &self.pairs, &self.disc, &self.pin, turned);
+        self.contact
+            .balance(mesh, *normal_force, *load_tolerance)
+            .map_err(|source| SimulationError::Contact { step: self.step + 1, source })?;
+        self.debris.spread(mesh, self.contact.touching());
+        self.transfer.clear();
+        for column in 0..mesh.pin_columns() {
+            self.update_column(column, turned);
+        }
+        self.debris.settle(&self.parameters.mesh, &self.transfer);
+        self.history.record(self.contact.area(&self.parameters.mesh), self.parameters.step_time());
+        self.step += 1;
+        Ok(())
+    }
+
+    /// Wear, destruction and formation in one column of the pin and the disc column under it (model 4.2 to 4.4).
+    fn update_column(&mut self, column: usize, turned: u64) {
+        let Parameters { mesh, plateaus, materials, .. } = &self.parameters;
+        let rows = mesh.rows();
+        let displacement = self.contact.displacement();
+        let disc_start = mesh.disc_column(column, turned) * rows;
+        let is_last = column + 1 == mesh.pin_columns();
+        for row in 0..rows {
+            let (cell, disc_cell) = (column * rows + row, disc_start + row);
+            let (pin_height, pin_substrate) = (&mut self.pin.height[cell], &mut self.pin.substrate[cell]);
+            let (disc_height, disc_substrate) = (&mut self.disc.height[disc_cell], &mut self.disc.substrate[disc_cell]);
+            let base = self.pin.base[cell];
+            // What the neighbour in the sliding direction was at the start of the step; the last column has none.
+            let supported = !is_last && self.contact.pair(cell + rows).pin_is_plateau();
+
+            let overlap = self.contact.overlap(cell);
+            let touches = overlap > 0.0;
+            if touches {
+                let pair = self.contact.pair(cell);
+                let factors = &self.pairs.wear(row)[pair.index()];
+                if pair.pin_is_plateau() {
+                    let below = if base == Base::Primary { overlap * factors.fibre } else { 0.0 };
+                    self.transfer.worn_pin[row] +=
+                        wear::wear_pin_plateau(pin_height, pin_substrate, overlap * factors.pin, below);
+                } else {
+                    self.transfer.worn_resin[row] += wear::wear_resin(pin_height, pin_substrate, materials.wear_height);
+                }
+                self.transfer.worn_disc[row] +=
+                    wear::wear_disc(disc_height, disc_substrate, overlap * factors.disc, overlap * factors.coating);
+            }
+            if plateaus.destruction {
+                self.transfer.returned[row] +=
+                    plateau::destroy_unsupported(pin_height, *pin_substrate, base, supported);
+            }
+            if !touches {
+                let share = self.debris.share()[row];
+                let deposit =
+                    plateau::form(pin_height, disc_height, displacement, share, supported, plateaus.pad_share);
+                self.transfer.deposited_pin[row] += deposit.pin;
+                self.transfer.deposited_disc[row] += deposit.disc;
+            }
+        }
+    }
+
+    /// What the simulation was told.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The disc as it is now.
+    pub fn disc(&self) -> &Disc {
+        &self.disc
+    }
+
+    /// The pin as it is now.
+    pub fn pin(&self) -> &Pin {
+        &self.pin
+    }
+
+    /// The contact of the last step.
+    pub fn contact(&self) -> &Contact {
+        &self.contact
+    }
+
+    /// Debris account.
+    pub fn debris(&self) -> &Debris {
+        &self.debris
+    }
+
+    /// Steps done.
+    pub fn steps_done(&self) -> u64 {
+        self.step
+    }
+}
