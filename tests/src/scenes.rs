@@ -1,0 +1,87 @@
+//! Small simulations whose outcome is known, and random ones whose outcome must obey the model's laws.
+
+use plateau_core::material::{Material, Materials};
+use plateau_core::mesh::Mesh;
+use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::simulation::Simulation;
+use plateau_core::state::{Base, InitialSurfaces};
+
+/// κ of the pin's plateaus in the paper, 1/Pa.
+pub const WEAR_RATE: f64 = 5e-14;
+
+/// The paper's materials (Table 2).
+pub fn paper_materials() -> Materials {
+    let pin = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: WEAR_RATE };
+    let disc = Material { youngs_modulus: 1e11, specific_wear_rate: 0.0, ..pin };
+    Materials {
+        disc_primary: disc,
+        disc_secondary: disc,
+        pin_primary: pin,
+        pin_secondary: pin,
+        pin_resin: Material { youngs_modulus: 1e5, ..pin },
+        wear_height: 5e-6,
+    }
+}
+
+/// The paper's operation on a mesh of these sizes with the paper's cells, without plateaus.
+pub fn wear_only(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters {
+    let mesh = Mesh::new(rows, disc_columns, pin_columns, 20e-3, 20e-3 + rows as f64 * 50e-6).expect("a valid mesh");
+    Parameters {
+        mesh,
+        normal_force: 10.0,
+        angular_velocity: 89.0,
+        steps: 0,
+        foundation_height: 50e-6,
+        load_tolerance: 1e-12,
+        materials: paper_materials(),
+        plateaus: PlateauRules {
+            captured_fraction: 0.0,
+            pad_share: 0.5,
+            debris_pool: DebrisPool::Contact,
+            formation: false,
+            destruction: false,
+        },
+        time_acceleration: 1.0,
+        integrator: Integrator::Explicit,
+    }
+}
+
+/// Stiffness per area of the pair of pin primary and disc primary in the paper's materials, Pa/m.
+pub fn primary_stiffness(parameters: &Parameters) -> f64 {
+    // Written out anew from model 4.1, not taken from the program.
+    let compliance = (1.0 - 0.27 * 0.27) / 1e9 + (1.0 - 0.27 * 0.27) / 1e11;
+    1.0 / (compliance * parameters.foundation_height)
+}
+
+/// A pin of fibre alone with these heights on a disc with these heights.
+pub fn all_primary(parameters: Parameters, disc_height: Vec<f64>, pin_height: Vec<f64>) -> Simulation {
+    let pin_base = vec![Base::Primary; pin_height.len()];
+    Simulation::new(parameters, InitialSurfaces { disc_height, pin_height, pin_base }).expect("surfaces that fit")
+}
+
+/// A reproducible stream of numbers in 0..1 (SplitMix64), for surfaces whose statistics do not matter.
+#[derive(Debug, Clone)]
+pub struct Stream(pub u64);
+
+impl Stream {
+    /// The next number in 0..1.
+    pub fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut word = self.0;
+        word = (word ^ (word >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        word = (word ^ (word >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((word ^ (word >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A rough disc and a pin of fibres in resin, all drawn from one seed.
+pub fn random_surfaces(mesh: &Mesh, seed: u64) -> InitialSurfaces {
+    let mut stream = Stream(seed);
+    InitialSurfaces {
+        disc_height: (0..mesh.disc_cells()).map(|_| 6e-6 * (stream.uniform() - 1.0)).collect(),
+        pin_height: (0..mesh.pin_cells()).map(|_| 2e-6 * stream.uniform()).collect(),
+        pin_base: (0..mesh.pin_cells())
+            .map(|_| if stream.uniform() < 0.4 { Base::Primary } else { Base::None })
+            .collect(),
+    }
+}

@@ -1,0 +1,210 @@
+//! The closed forms of model section 8.
+//!
+//! Tolerances are derived beside each test: rounding where the discrete problem is solved exactly, the error of the
+//! quadrature where a sum over cells stands for an integral.
+
+use std::f64::consts::PI;
+
+use plateau_core::parameters::{Integrator, Parameters};
+use plateau_tests::scenes::{Stream, WEAR_RATE, all_primary, primary_stiffness, wear_only};
+
+/// Relative rounding of a sum over a few thousand cells, and of the load balance at tolerance 1e-12.
+const ROUNDING: f64 = 4e-12;
+
+fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((found / expected - 1.0).abs() <= tolerance, "{what}: found {found:e}, expected {expected:e}");
+}
+
+#[test]
+fn flat_on_flat_wears_by_the_nominal_pressure() {
+    let parameters = wear_only(1, 60, 20);
+    let pressure = parameters.normal_force / parameters.mesh.pin_area();
+    let stiffness = primary_stiffness(&parameters);
+    let sliding = parameters.mesh.radius()[0] * parameters.mesh.column_angle();
+    let mut simulation = all_primary(parameters, vec![0.0; 60], vec![0.0; 20]);
+    for step in 1..=500 {
+        simulation.advance().unwrap();
+        let sample = simulation.sample();
+        close(sample.max_pressure, pressure, ROUNDING, "pressure");
+        close(sample.mean_pressure, pressure, ROUNDING, "mean pressure");
+        assert_eq!(sample.contact_ratio, 1.0);
+        // The pin recedes by κ p per metre, and the displacement follows it at the constant overlap p/k.
+        let recession = WEAR_RATE * pressure * sliding * f64::from(step);
+        for height in &simulation.pin().height {
+            close(*height, recession, ROUNDING, "recession");
+        }
+        let before = recession - WEAR_RATE * pressure * sliding;
+        close(sample.displacement, before + pressure / stiffness, ROUNDING, "displacement");
+    }
+}
+
+#[test]
+fn worn_volume_is_wear_rate_times_load_times_distance() {
+    // Explicit rule, one row: exact for any distribution of pressure (rough disc here).
+    let parameters = wear_only(1, 97, 31);
+    let mut stream = Stream(1);
+    let disc = (0..97).map(|_| 4e-6 * stream.uniform()).collect();
+    let sliding = parameters.mesh.radius()[0] * parameters.mesh.column_angle();
+    let force = parameters.normal_force;
+    let mut simulation = all_primary(parameters, disc, vec![0.0; 31]);
+    for _ in 0..1000 {
+        simulation.advance().unwrap();
+    }
+    close(simulation.sample().worn_pin, WEAR_RATE * force * sliding * 1000.0, ROUNDING, "κ F s");
+}
+
+#[test]
+fn worn_volume_of_many_rows_is_the_sum_over_cells() {
+    // κ Σ F_cell ds_i, with the forces of the step from the pressure map.
+    let parameters = wear_only(7, 97, 31);
+    let mesh = parameters.mesh.clone();
+    let mut stream = Stream(2);
+    let disc = (0..mesh.disc_cells()).map(|_| 4e-6 * stream.uniform()).collect();
+    let mut simulation = all_primary(parameters, disc, vec![0.0; mesh.pin_cells()]);
+    let mut expected = 0.0;
+    for _ in 0..200 {
+        simulation.advance().unwrap();
+        let snapshot = simulation.snapshot(&[plateau_core::observe::Map::Pressure]);
+        let plateau_core::observe::MapValues::Float(pressure) = &snapshot.maps[0].1 else {
+            panic!("pressure is a float")
+        };
+        for (cell, pressure) in pressure.iter().enumerate() {
+            let row = cell % mesh.rows();
+            expected += WEAR_RATE * pressure * mesh.area()[row] * mesh.radius()[row] * mesh.column_angle();
+        }
+    }
+    close(simulation.sample().worn_pin, expected, ROUNDING, "κ Σ F ds");
+}
+
+#[test]
+fn the_exponential_rule_wears_less_by_its_factor() {
+    // (1 − e^(−Π))/Π per cell; one row, so one Π for all cells.
+    let mut parameters = wear_only(1, 40, 15);
+    parameters.time_acceleration = 3e2;
+    let sliding = parameters.time_acceleration * parameters.mesh.radius()[0] * parameters.mesh.column_angle();
+    let number = WEAR_RATE * primary_stiffness(&parameters) * sliding;
+    assert!((0.5..5.0).contains(&number), "Π = {number} shows the difference");
+    let worn = |integrator| {
+        let parameters = Parameters { integrator, ..parameters.clone() };
+        let mut simulation = all_primary(parameters, vec![0.0; 40], vec![0.0; 15]);
+        simulation.advance().unwrap();
+        simulation.sample().worn_pin
+    };
+    let ratio = worn(Integrator::Exponential) / worn(Integrator::Explicit);
+    close(ratio, (1.0 - (-number).exp()) / number, ROUNDING, "(1 − e^(−Π))/Π");
+}
+
+/// A flat punch of fibre pressed on a surface: separation c = −δ, contact ratio and nominal pressure.
+fn punch(heights: &[f64], rows: usize, force: f64) -> (f64, f64, f64, f64) {
+    let columns = heights.len() / rows;
+    let mut parameters = wear_only(rows, columns, columns);
+    parameters.normal_force = force;
+    let stiffness = primary_stiffness(&parameters);
+    let nominal = force / parameters.mesh.pin_area();
+    let mut simulation = all_primary(parameters, heights.to_vec(), vec![0.0; heights.len()]);
+    simulation.advance().unwrap();
+    let sample = simulation.sample();
+    (-sample.displacement, sample.contact_ratio, nominal, stiffness)
+}
+
+#[test]
+fn a_flat_punch_meets_the_material_ratio_curve() {
+    // One row, so all cells have the same area: contact ratio = Smr(c), nominal pressure = k mean((z − c)₊).
+    let mut stream = Stream(3);
+    let heights: Vec<f64> = (0..5000).map(|_| 6e-6 * stream.uniform().powi(3)).collect();
+    for force in [1e-3, 1.0, 30.0] {
+        let (separation, ratio, nominal, stiffness) = punch(&heights, 1, force);
+        let above: Vec<f64> = heights.iter().map(|z| z - separation).filter(|u| *u > 0.0).collect();
+        close(ratio, above.len() as f64 / 5000.0, ROUNDING, "contact ratio");
+        close(nominal, stiffness * above.iter().sum::<f64>() / 5000.0, ROUNDING, "nominal pressure");
+    }
+}
+
+/// φ(x) and Q(x) of the standard normal distribution; Q by libm's erfc.
+fn gaussian(x: f64) -> (f64, f64) {
+    ((-0.5 * x * x).exp() / (2.0 * PI).sqrt(), 0.5 * libm::erfc(x / 2.0_f64.sqrt()))
+}
+
+#[test]
+fn gaussian_heights_meet_the_formula() {
+    // N independent heights of σ = 1 µm. The ratio is a binomial mean, (z − x)₊ a sample mean; four standard errors
+    // each, with E[(z−x)₊²] = (1 + x²) Q − x φ.
+    const CELLS: usize = 400_000;
+    let sigma = 1e-6;
+    let mut stream = Stream(4);
+    let heights: Vec<f64> = (0..CELLS)
+        .map(|_| sigma * (-2.0 * (1.0 - stream.uniform()).ln()).sqrt() * (2.0 * PI * stream.uniform()).cos())
+        .collect();
+    for force in [3e1, 3e2, 3e3, 2e4] {
+        let (separation, ratio, nominal, stiffness) = punch(&heights, 1, force);
+        let x = separation / sigma;
+        let (density, tail) = gaussian(x);
+        let bound = 4.0 * (tail * (1.0 - tail) / CELLS as f64).sqrt();
+        assert!((ratio - tail).abs() <= bound, "x = {x}: ratio {ratio}, expected {tail} ± {bound}");
+        let mean = density - x * tail;
+        let variance = (1.0 + x * x) * tail - x * density - mean * mean;
+        let found = nominal / (stiffness * sigma);
+        let bound = 4.0 * (variance / CELLS as f64).sqrt();
+        assert!((found - mean).abs() <= bound, "x = {x}: pressure {found}, expected {mean} ± {bound}");
+    }
+}
+
+#[test]
+fn a_sphere_on_a_winkler_foundation() {
+    // F = π k R δ² and contact area π a² = 2π R δ. Cells of size d resolve the circle of radius a = n d: the rim's
+    // cells are in or out as a whole, so the area is off by at most the rim 2π a d (1/n relative to half the area;
+    // errors cancel to n^(−3/2) on average, the bound is 2/n), and the load, whose overlap vanishes at the rim, by
+    // less than (2/n)².
+    let (rows, columns) = (201, 201);
+    let mut parameters = wear_only(rows, 20 * columns, columns);
+    let (pitch_r, mesh) = (parameters.mesh.row_height(), parameters.mesh.clone());
+    // A radius so small that a = 70 cells; heights follow the true distances on the polar mesh.
+    let cells = 70.0;
+    let contact_radius = cells * pitch_r;
+    let displacement = 2e-6;
+    let sphere = contact_radius * contact_radius / (2.0 * displacement);
+    parameters.normal_force = PI * primary_stiffness(&parameters) * sphere * displacement * displacement;
+    let centre = (mesh.radius()[rows / 2], (columns / 2) as f64 * mesh.column_angle());
+    let mut pin = Vec::with_capacity(rows * columns);
+    for column in 0..columns {
+        let angle = column as f64 * mesh.column_angle() - centre.1;
+        for radius in mesh.radius() {
+            let distance = radius * radius + centre.0 * centre.0 - 2.0 * radius * centre.0 * angle.cos();
+            pin.push(distance / (2.0 * sphere));
+        }
+    }
+    let mut simulation = all_primary(parameters, vec![0.0; mesh.disc_cells()], pin);
+    simulation.advance().unwrap();
+    let sample = simulation.sample();
+    // F ∝ δ², so δ is off by half the load's relative error.
+    close(sample.displacement, displacement, (2.0 / cells) * (2.0 / cells), "displacement");
+    close(sample.contact_area, 2.0 * PI * sphere * sample.displacement, 2.0 / cells, "contact area");
+}
+
+#[test]
+fn two_levels_in_permanent_contact_approach_exponentially() {
+    // Their height difference decays by e^(−Π) a step with the exponential rule, by 1 − Π with the explicit one.
+    for (integrator, acceleration) in [(Integrator::Exponential, 2e3), (Integrator::Explicit, 2e2)] {
+        let mut parameters = wear_only(1, 64, 16);
+        parameters.normal_force = 40.0;
+        parameters.integrator = integrator;
+        parameters.time_acceleration = acceleration;
+        let sliding = acceleration * parameters.mesh.radius()[0] * parameters.mesh.column_angle();
+        let number = WEAR_RATE * primary_stiffness(&parameters) * sliding;
+        let decay = match integrator {
+            Integrator::Exponential => (-number).exp(),
+            Integrator::Explicit => 1.0 - number,
+        };
+        let pin = (0..16).map(|column| if column % 2 == 0 { 0.0 } else { 0.2e-6 }).collect();
+        let mut simulation = all_primary(parameters, vec![0.0; 64], pin);
+        let mut expected = 0.2e-6;
+        for _ in 0..20 {
+            simulation.advance().unwrap();
+            assert_eq!(simulation.sample().contact_ratio, 1.0);
+            expected *= decay;
+            let difference = simulation.pin().height[1] - simulation.pin().height[0];
+            // Heights up to 1e-5 m are rounded to 1e-21 m; the difference stays above 1e-8 m.
+            assert!((difference - expected).abs() < 1e-18, "{difference:e}, expected {expected:e}");
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Laws of the model over random small scenes.
+
+use plateau_core::material::Status;
+use plateau_core::mesh::Mesh;
+use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::simulation::Simulation;
+use plateau_core::state::InitialSurfaces;
+use plateau_tests::scenes::{random_surfaces, wear_only};
+use proptest::prelude::*;
+
+/// Any scene of the model on a small mesh.
+fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
+    let mesh = (1..12_usize, 2..40_usize).prop_flat_map(|(rows, columns)| (Just(rows), Just(columns), 1..=columns));
+    let rules = (0.0..=1.0, 0.0..=1.0, any::<bool>(), any::<bool>(), any::<bool>());
+    let wear = (0.0..1e-13, 0.0..1e-13, 0.0..1e-14, 0.0..1e-14);
+    (mesh, rules, wear, 0.01..100.0, 1.0..500.0, any::<bool>(), any::<u64>()).prop_map(
+        |((rows, columns, pin), rules, wear, force, acceleration, exponential, seed)| {
+            let mut parameters = wear_only(rows, columns, pin);
+            parameters.normal_force = force;
+            parameters.time_acceleration = acceleration;
+            parameters.plateaus = PlateauRules {
+                captured_fraction: rules.0,
+                pad_share: rules.1,
+                debris_pool: if rules.2 { DebrisPool::Track } else { DebrisPool::Contact },
+                formation: rules.3,
+                destruction: rules.4,
+            };
+            parameters.integrator = if exponential { Integrator::Exponential } else { Integrator::Explicit };
+            parameters.materials.pin_primary.specific_wear_rate = wear.0;
+            parameters.materials.pin_secondary.specific_wear_rate = wear.1;
+            parameters.materials.disc_primary.specific_wear_rate = wear.2;
+            parameters.materials.disc_secondary.specific_wear_rate = wear.3;
+            parameters.materials.pin_secondary.youngs_modulus = 4e8;
+            parameters.materials.disc_secondary.youngs_modulus = 5e9;
+            (parameters, seed)
+        },
+    )
+}
+
+fn start(parameters: &Parameters, surfaces: InitialSurfaces) -> Simulation {
+    Simulation::new(parameters.clone(), surfaces).expect("surfaces that fit")
+}
+
+/// The disc's field seen from `columns` columns further: column c of the result is column c − `columns`.
+fn rotated(mesh: &Mesh, field: &[f64], columns: usize) -> Vec<f64> {
+    let mut rotated = field.to_vec();
+    rotated.rotate_right(columns % mesh.disc_columns() * mesh.rows());
+    rotated
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn a_rotated_disc_gives_the_same_bits((parameters, seed) in scenes(), columns in 0..50_usize) {
+        let mesh = &parameters.mesh;
+        let surfaces = random_surfaces(mesh, seed);
+        let mut still = start(&parameters, surfaces.clone());
+        // Step n of the turned run lies over the columns of step n + turn, so the disc is moved back by as much.
+        let turn = (mesh.disc_columns() - columns % mesh.disc_columns()) as u64;
+        let disc_height = rotated(mesh, &surfaces.disc_height, columns);
+        let mut turned = start(&parameters, InitialSurfaces { disc_height, ..surfaces }).with_disc_turned(turn);
+        for _ in 0..2 * mesh.disc_columns() {
+            still.advance().unwrap();
+            turned.advance().unwrap();
+            prop_assert_eq!(still.contact().displacement().to_bits(), turned.contact().displacement().to_bits());
+            prop_assert_eq!(still.debris().pool().to_bits(), turned.debris().pool().to_bits());
+        }
+        prop_assert_eq!(still.pin(), turned.pin());
+        prop_assert_eq!(&rotated(mesh, &still.disc().height, columns), &turned.disc().height);
+        prop_assert_eq!(&rotated(mesh, &still.disc().substrate, columns), &turned.disc().substrate);
+    }
+
+    #[test]
+    fn the_state_stays_within_its_bounds((parameters, seed) in scenes()) {
+        let mesh = &parameters.mesh;
+        let mut simulation = start(&parameters, random_surfaces(mesh, seed));
+        for _ in 0..3 * mesh.disc_columns() {
+            simulation.advance().unwrap();
+            let sample = simulation.sample();
+            prop_assert!(sample.load_residual <= parameters.load_tolerance);
+            prop_assert!(sample.balance_residual.abs() <= 1e-12, "balance {:e}", sample.balance_residual);
+            prop_assert!((sample.pin_none + sample.pin_primary + sample.pin_secondary - 1.0).abs() < 1e-13);
+            prop_assert!((0.0..=1.0 + 1e-13).contains(&sample.disc_secondary));
+            prop_assert!(sample.contact_area > 0.0 && sample.contact_ratio <= 1.0 + 1e-13);
+        }
+        let (pin, disc) = (simulation.pin(), simulation.disc());
+        prop_assert!(pin.height.iter().chain(&pin.substrate).chain(&disc.height).chain(&disc.substrate).all(|z| z.is_finite()));
+        prop_assert!(pin.height.iter().zip(&pin.substrate).all(|(z, b)| z <= b), "z_p ≤ b_p");
+        prop_assert!(disc.height.iter().zip(&disc.substrate).all(|(z, b)| z >= b), "z_d ≥ b_d");
+        prop_assert!((0..disc.height.len()).all(|cell| disc.status(cell) != Status::None));
+    }
+
+    #[test]
+    fn heights_scale_with_load_and_foundation((parameters, seed) in scenes(), power in -8..8_i32) {
+        // All lengths in z times λ: the overlap scales by λ and k by 1/λ (the foundation is λ times as high), so
+        // pressure and load stay, and a loss κ p ds scales by λ when κ does. With λ a power of two nothing is rounded
+        // differently, but for the exponential rule's factor, which needs the same argument: κ k ds is unchanged.
+        let scale = 2.0_f64.powi(power);
+        let mesh = &parameters.mesh;
+        let surfaces = random_surfaces(mesh, seed);
+        let mut scaled_parameters = parameters.clone();
+        scaled_parameters.foundation_height *= scale;
+        scaled_parameters.materials.wear_height *= scale;
+        for material in [
+            &mut scaled_parameters.materials.pin_primary,
+            &mut scaled_parameters.materials.pin_secondary,
+            &mut scaled_parameters.materials.disc_primary,
+            &mut scaled_parameters.materials.disc_secondary,
+        ] {
+            material.specific_wear_rate *= scale;
+        }
+        let scaled_surfaces = InitialSurfaces {
+            disc_height: surfaces.disc_height.iter().map(|z| z * scale).collect(),
+            pin_height: surfaces.pin_height.iter().map(|z| z * scale).collect(),
+            pin_base: surfaces.pin_base.clone(),
+        };
+        let (mut plain, mut scaled) = (start(&parameters, surfaces), start(&scaled_parameters, scaled_surfaces));
+        for _ in 0..mesh.disc_columns() {
+            plain.advance().unwrap();
+            scaled.advance().unwrap();
+        }
+        let times = |heights: &[f64]| heights.iter().map(|z| z * scale).collect::<Vec<_>>();
+        prop_assert_eq!(&times(&plain.pin().height), &scaled.pin().height);
+        prop_assert_eq!(&times(&plain.disc().height), &scaled.disc().height);
+        prop_assert_eq!(plain.sample().contact_area, scaled.sample().contact_area);
+        prop_assert_eq!(plain.sample().max_pressure, scaled.sample().max_pressure);
+    }
+
+    #[test]
+    fn pressure_scales_with_load_at_the_same_heights((parameters, seed) in scenes(), power in -8..8_i32) {
+        // Moduli and load times λ, wear rates divided by λ: the same heights to the bit, pressures times λ.
+        let scale = 2.0_f64.powi(power);
+        let mut stiffer = parameters.clone();
+        stiffer.normal_force *= scale;
+        let materials = &mut stiffer.materials;
+        for material in [
+            &mut materials.pin_primary,
+            &mut materials.pin_secondary,
+            &mut materials.pin_resin,
+            &mut materials.disc_primary,
+            &mut materials.disc_secondary,
+        ] {
+            material.youngs_modulus *= scale;
+            material.specific_wear_rate /= scale;
+        }
+        let surfaces = random_surfaces(&parameters.mesh, seed);
+        let (mut plain, mut scaled) = (start(&parameters, surfaces.clone()), start(&stiffer, surfaces));
+        for _ in 0..parameters.mesh.disc_columns() {
+            plain.advance().unwrap();
+            scaled.advance().unwrap();
+        }
+        prop_assert_eq!(plain.pin(), scaled.pin());
+        prop_assert_eq!(plain.disc(), scaled.disc());
+        prop_assert_eq!(plain.sample().max_pressure * scale, scaled.sample().max_pressure);
+    }
+}
