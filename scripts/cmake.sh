@@ -12,7 +12,7 @@ provide_cmake() {
     if [ -z "${CMAKE_GENERATOR:-}" ] && ! command -v make >/dev/null 2>&1; then
         CMAKE_GENERATOR=Ninja
         export CMAKE_GENERATOR
-        command -v ninja >/dev/null 2>&1 || build_tools="$build_tools ninja"
+        command -v ninja >/dev/null 2>&1 || build_tools="${build_tools:+$build_tools }ninja"
     fi
     [ -n "$build_tools" ] || return 0
 
