@@ -1,0 +1,31 @@
+#!/bin/sh
+# Build the program `plateau`, with whatever its libraries need first. Messages go to standard error.
+set -u
+
+root=$(CDPATH='' cd -P "${0%/*}/.." && pwd -P) || exit 1
+. "$root/scripts/paths.sh"
+. "$root/scripts/say.sh"
+. "$root/scripts/lock.sh"
+. "$root/scripts/toolchain.sh"
+
+build() {
+    prepare_toolchain
+    mark=$stamp.$$
+    printf '%s\n' "$stamp_key" >"$mark" || exit 1
+    [ -x "$program" ] || say "building the program; the first time takes a few minutes"
+    # shellcheck disable=SC2086
+    if ! (cd "$root" && cargo build --release --locked -p plateau --target-dir "$target" $feature_options); then
+        rm -f "$mark"
+        die "the program could not be built, see above"
+    fi
+    if [ ! -x "$program" ]; then
+        rm -f "$mark"
+        die "cargo put the program elsewhere than $program: unset CARGO_BUILD_TARGET and build.target"
+    fi
+    mv -f "$mark" "$stamp"
+}
+
+mkdir -p "$target" 2>/dev/null
+[ -w "$target" ] ||
+    die "the program is missing or out of date, and $target cannot be written: set CARGO_TARGET_DIR"
+with_lock "$target/plateau.lock" build >&2 </dev/null

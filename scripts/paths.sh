@@ -1,0 +1,29 @@
+# Where the build lives, and whether it is up to date. Sourced with `root`, the checkout, set.
+# shellcheck shell=sh disable=SC2034,SC2154
+
+target=${CARGO_TARGET_DIR:-$root/target}
+case $target in /*) ;; *) target=$PWD/$target ;; esac
+[ -z "${CARGO_TARGET_DIR:-}" ] || CARGO_TARGET_DIR=$target
+program=$target/release/plateau
+
+# Features other than the default ones, for example PLATEAU_FEATURES=system-hdf5
+features=${PLATEAU_FEATURES:-}
+
+# The stamp is written when a build ends, but as old as its beginning: what changes during a build is newer.
+# Its content is what else decides over the build. A target folder of one's own may serve several checkouts.
+stamp=$target/plateau.stamp
+stamp_key="features=$features toolchain=${RUSTUP_TOOLCHAIN:-} flags=${RUSTFLAGS:-}"
+[ -z "${CARGO_TARGET_DIR:-}" ] || stamp_key="$stamp_key checkout=$root"
+
+# The program is there and nothing that goes into it has changed since it was built. Folders count, so that a
+# deleted file is noticed; the log of the checked-out revision counts, because results name the revision.
+is_fresh() {
+    [ -x "$program" ] && [ -f "$stamp" ] || return 1
+    IFS= read -r built_key <"$stamp" || return 1
+    [ "$built_key" = "$stamp_key" ] || return 1
+    git_dir=$root/.git
+    [ ! -f "$git_dir" ] || read -r _ git_dir <"$git_dir"
+    newer=$(find "$root/crates" "$root/Cargo.toml" "$root/Cargo.lock" "$root/.cargo" "$root/rust-toolchain" \
+        "$root/rust-toolchain.toml" "$git_dir/logs/HEAD" -newer "$stamp" -print -quit 2>/dev/null)
+    [ -z "$newer" ]
+}
