@@ -1,2 +1,21 @@
 //! The program `plateau`.
-fn main() {}
+
+mod arguments;
+mod commands;
+mod drive;
+mod failure;
+mod machine;
+mod number;
+mod progress;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    match commands::perform(arguments::Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,4 +1,35 @@
-//! The physics of Plateau.
+//! The physics of Plateau: a pin of friction material on a rough, coated brake disc, after Riva, Perricone and
+//! Wahlström (Tribology in Industry 41, 2019).
+//!
+//! # Symbols
+//! | symbol | unit | meaning | where |
+//! |---|---|---|---|
+//! | r_i, A_i, Δθ | m, m², rad | radius and area of a row's cells, angle of a column | [`mesh`] |
+//! | E, ν, κ | Pa, 1, 1/Pa | Young's modulus, Poisson ratio, specific wear rate by (body, status) | [`material`] |
+//! | h_m | m | height that resin loses when it touches | [`material`] |
+//! | F_N, ω, h, m | N, rad/s, m, 1 | load, rotational speed, foundation height, time acceleration | [`parameters`] |
+//! | z_d, b_d, z_p, b_p | m | surface and substrate height of disc and pin | [`state`] |
+//! | k = E*/h | Pa/m | stiffness per area of a pair | [`pair`] |
+//! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | [`contact`] |
+//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`debris`], [`plateau`] |
+//!
+//! # One step
+//! | model | equation | function |
+//! |---|---|---|
+//! | 4.1 gap and pairs | g = z_p − z_d, 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d | [`contact::Contact::face`] |
+//! | 4.1 load balance | Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
+//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`] |
+//! | 4.3 destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau::destroy_unsupported`] |
+//! | 4.4 formation | d = min(γ, s), s = M/S | [`debris::Debris::spread`], [`plateau::form`] |
+//! | 4.5 debris balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
+//! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance`] |
+//! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`] |
+//!
+//! # Range of validity
+//! Normal load only: no friction, no heat, no inertia. Cells deform independently (Winkler). Time acceleration m > 1 is
+//! an approximation. The explicit wear rule overshoots when the stiffness number Π = κ k m r Δθ exceeds 1 and is
+//! unstable above 2 ([`parameters::Parameters::stiffness_number`]); the exponential rule never is.
+
 pub mod contact;
 pub mod debris;
 pub mod filling;
@@ -8,8 +39,10 @@ pub mod mesh;
 pub mod observe;
 pub mod pair;
 pub mod parameters;
+pub mod parts;
 pub mod plateau;
 mod sampling;
+pub mod schedule;
 pub mod simulation;
 pub mod state;
 pub mod sum;

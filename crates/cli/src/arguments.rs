@@ -1,0 +1,61 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+/// How a pin of friction material and a rough, coated brake disc wear into each other.
+#[derive(Debug, Parser)]
+#[command(name = "plateau", version, max_term_width = 100, arg_required_else_help = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene and write a run file
+    #[command(after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5 --set operation.normal_force=\"20 N\"")]
+    Run(RunArguments),
+    /// Check a scene without running it: what it resolves to, needs and costs
+    #[command(after_help = "Example:\n  plateau check data/scenes/cermet.toml")]
+    Check(CheckArguments),
+}
+
+/// A scene, with changes.
+#[derive(Debug, Args)]
+pub struct SceneArguments {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Set a key of the scene, such as operation.normal_force="20 N"; may be repeated
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub sets: Vec<String>,
+    /// Threads that share the ring: a number or "auto"; overrides the scene
+    #[arg(long, value_name = "N")]
+    pub workers: Option<String>,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Run file to write, relative to the working directory; overrides the scene
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Replace the run file if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+}

@@ -1,0 +1,35 @@
+//! How the program ends when it cannot do what was asked.
+
+use std::fmt;
+use std::process::ExitCode;
+
+/// Why a command failed, with the exit status that tells whose fault it is.
+#[derive(Debug)]
+pub enum Failure {
+    /// The command line or an input is wrong: exit status 2.
+    Input(String),
+    /// The run failed: exit status 1.
+    Run(String),
+}
+
+impl Failure {
+    /// A wrong input.
+    pub fn input(error: impl fmt::Display) -> Self {
+        Self::Input(error.to_string())
+    }
+
+    /// A failed run.
+    pub fn run(error: impl fmt::Display) -> Self {
+        Self::Run(error.to_string())
+    }
+
+    /// Says what happened on standard error and gives the exit status.
+    pub fn report(self) -> ExitCode {
+        let (message, status) = match self {
+            Self::Input(message) => (message, 2),
+            Self::Run(message) => (message, 1),
+        };
+        eprintln!("plateau: {message}");
+        ExitCode::from(status)
+    }
+}

@@ -1,0 +1,66 @@
+//! Numbers as people read them.
+
+/// An integer with thin groups of three digits.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A number with about four significant digits.
+pub fn short(number: f64) -> String {
+    let magnitude = number.abs();
+    if number == 0.0 {
+        "0".into()
+    } else if !(1e-3..1e6).contains(&magnitude) {
+        format!("{number:.3e}")
+    } else {
+        let decimals = (3 - magnitude.log10().floor() as i32).max(0) as usize;
+        format!("{number:.decimals$}")
+    }
+}
+
+/// A duration given in seconds.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{:.0} ms", seconds * 1e3)
+    } else if seconds < 100.0 {
+        format!("{seconds:.1} s")
+    } else if seconds < 7200.0 {
+        format!("{} min {:02.0} s", (seconds / 60.0).floor(), (seconds % 60.0).floor())
+    } else {
+        format!("{:.1} h", seconds / 3600.0)
+    }
+}
+
+/// A number of bytes.
+pub fn bytes(count: u64) -> String {
+    match count {
+        0..1_000_000 => format!("{:.1} kB", count as f64 / 1e3),
+        1_000_000..1_000_000_000 => format!("{:.1} MB", count as f64 / 1e6),
+        _ => format!("{:.2} GB", count as f64 / 1e9),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(grouped(1_174_629), "1 174 629");
+        assert_eq!(grouped(12), "12");
+        assert_eq!(short(0.012_345_6), "0.01235");
+        assert_eq!(short(123.456), "123.5");
+        assert_eq!(short(1.5e-14), "1.500e-14");
+        assert_eq!(duration(0.25), "250 ms");
+        assert_eq!(duration(119.9), "1 min 59 s");
+        assert_eq!(bytes(2_500_000), "2.5 MB");
+    }
+}

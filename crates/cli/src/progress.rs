@@ -1,0 +1,48 @@
+//! The progress bar: simulated time, steps per second, time left, present contact area.
+
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use plateau_core::simulation::Simulation;
+
+/// Time between two looks at the bar.
+const INTERVAL: Duration = Duration::from_millis(200);
+
+/// A progress bar on standard error; silent where that is no terminal.
+#[derive(Debug)]
+pub struct Progress {
+    bar: ProgressBar,
+    looked: Instant,
+}
+
+impl Progress {
+    /// A bar for this many steps.
+    pub fn new(steps: u64) -> Self {
+        let bar = ProgressBar::new(steps);
+        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {per_sec}  {eta} left") {
+            bar.set_style(style);
+        }
+        Self { bar, looked: Instant::now() }
+    }
+
+    /// Shows how far the simulation is, if the last look was long enough ago.
+    pub fn show(&mut self, simulation: &Simulation) {
+        if self.bar.is_hidden() || self.looked.elapsed() < INTERVAL {
+            return;
+        }
+        self.looked = Instant::now();
+        let parameters = simulation.parameters();
+        self.bar.set_position(simulation.steps_done());
+        self.bar.set_message(format!(
+            "{:.1} of {:.1} s  contact {:.3} mm²",
+            simulation.time(),
+            parameters.time_at(parameters.steps),
+            simulation.contact().area(&parameters.mesh) * 1e6
+        ));
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}

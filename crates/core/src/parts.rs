@@ -1,0 +1,75 @@
+//! Which parts of the model a scene needs, and which it leaves out.
+
+use crate::parameters::{DebrisPool, Integrator, Parameters};
+use crate::state::Base;
+
+/// A part of the model that a scene can do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// What it is called.
+    pub name: &'static str,
+    /// Whether this scene needs it.
+    pub needed: bool,
+    /// What in the scene decides.
+    pub reason: &'static str,
+}
+
+/// The optional parts of the model, each with whether a scene needs it.
+pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
+    let rules = &parameters.plateaus;
+    let materials = &parameters.materials;
+    let has = |base| pin_base.contains(&base);
+    let forms = rules.formation && rules.captured_fraction > 0.0;
+    let disc_wears =
+        materials.disc_primary.specific_wear_rate > 0.0 || (forms && materials.disc_secondary.specific_wear_rate > 0.0);
+    let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
+        || (forms && materials.pin_secondary.specific_wear_rate > 0.0);
+    let part = |name, needed, reason_needed, reason_left_out| Part {
+        name,
+        needed,
+        reason: if needed { reason_needed } else { reason_left_out },
+    };
+    vec![
+        part("wear of plateaus on the pin", pin_wears, "a wear rate above 0", "every wear rate of the pin is 0"),
+        part("wear of the resin", has(Base::None), "the pin has resin", "the pin is fibre alone"),
+        part("wear of the disc", disc_wears, "a wear rate above 0", "every wear rate of the disc is 0"),
+        part(
+            "formation of plateaus",
+            forms,
+            "formation = true and debris is captured",
+            "formation = false or captured_fraction = 0",
+        ),
+        part(
+            "destruction of plateaus",
+            forms && rules.destruction && has(Base::None),
+            "destruction = true on resin",
+            "destruction = false, no formation, or no resin",
+        ),
+        part(
+            "a stiffness of its own for build-up",
+            forms
+                && (materials.pin_primary != materials.pin_secondary
+                    || materials.disc_primary != materials.disc_secondary),
+            "secondary materials differ from primary ones",
+            "secondary materials equal primary ones",
+        ),
+        part(
+            "one debris pool per track",
+            rules.debris_pool == DebrisPool::Track,
+            "debris_pool = \"track\"",
+            "debris_pool = \"contact\"",
+        ),
+        part(
+            "exponential wear",
+            parameters.integrator == Integrator::Exponential,
+            "integrator = \"exponential\"",
+            "integrator = \"explicit\"",
+        ),
+        part(
+            "time acceleration",
+            parameters.time_acceleration > 1.0,
+            "time_acceleration above 1: an approximation, compare with 1",
+            "time_acceleration = 1",
+        ),
+    ]
+}
