@@ -1,6 +1,16 @@
 //! Synthetic fibre maps.
 
-/// Fibres as capsules at random places and angles, up to a given area fraction.
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use thiserror::Error;
+
+use super::random::{Random, Stream};
+use super::{Body, Length};
+use crate::mesh::Mesh;
+use crate::state::Base;
+
+/// Fibres as capsules (rectangles with round ends) at random places and angles, up to a given area fraction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FibreSynthesis {
     /// Seed of the random stream.
@@ -9,6 +19,172 @@ pub struct FibreSynthesis {
     pub fibre_fraction: f64,
     /// Length of a fibre from end to end, m.
     pub fibre_length: f64,
-    /// Width of a fibre, m.
+    /// Width of a fibre, m; a fibre as long as wide is a disc.
     pub fibre_width: f64,
+}
+
+/// Why a fibre map cannot be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FibreError {
+    /// The area fraction is none.
+    #[error("fibre_fraction is {found}, expected 0 to 1")]
+    Fraction {
+        /// What was asked for.
+        found: f64,
+    },
+    /// The width is no length.
+    #[error("fibre_width is {found} m, expected more than 0 and finite")]
+    Width {
+        /// What was asked for.
+        found: f64,
+    },
+    /// The fibre is shorter than wide.
+    #[error("fibre_length is {}, expected at least the fibre_width of {} and finite", Length(*length), Length(*width))]
+    ShorterThanWide {
+        /// Length from end to end, m.
+        length: f64,
+        /// Width, m.
+        width: f64,
+    },
+    /// Too many fibres would be needed.
+    #[error(
+        "after {placed} fibres only {reached:.3e} of the pin is covered, expected {wanted}: fibres of {} by {} \
+         are too small or too long for this pin",
+        Length(*length), Length(*width)
+    )]
+    TooMany {
+        /// Fibres placed.
+        placed: u32,
+        /// Area fraction reached.
+        reached: f64,
+        /// Area fraction asked for.
+        wanted: f64,
+        /// Length from end to end, m.
+        length: f64,
+        /// Width, m.
+        width: f64,
+    },
+}
+
+/// Fibres after which the map is given up.
+const MOST_FIBRES: u32 = 20_000_000;
+
+impl FibreSynthesis {
+    /// Base of every pin cell: fibre where the cell's centre lies in a capsule, x being the arc length at the mean
+    /// radius and y the radius. The last capsule stays only if that brings the area fraction nearer to the target.
+    ///
+    /// # Errors
+    /// [`FibreError`] when [`check`](Self::check) refuses the parameters or the target is out of reach.
+    pub fn base(&self, mesh: &Mesh) -> Result<Vec<Base>, FibreError> {
+        self.check()?;
+        if self.fibre_fraction == 1.0 {
+            return Ok(vec![Base::Primary; mesh.pin_cells()]);
+        }
+        let mut base = vec![Base::None; mesh.pin_cells()];
+        if self.fibre_fraction == 0.0 {
+            return Ok(base);
+        }
+        let (width, height) = (Body::Pin.length(mesh), mesh.rows() as f64 * mesh.row_height());
+        let (area, total) = (mesh.area(), mesh.pin_area());
+        let mut random = Random::new(self.seed, Stream::PinBase);
+        let mut covered = 0.0;
+        let mut open_cells = base.len();
+        for _ in 0..MOST_FIBRES {
+            let capsule = self.draw(&mut random, width, height);
+            let new_cells: Vec<usize> = capsule.cells(mesh).filter(|cell| base[*cell] == Base::None).collect();
+            let before = covered / total;
+            covered += new_cells.iter().map(|cell| area[cell % mesh.rows()]).sum::<f64>();
+            let after = covered / total;
+            if after >= self.fibre_fraction && after - self.fibre_fraction >= self.fibre_fraction - before {
+                return Ok(base);
+            }
+            new_cells.iter().for_each(|cell| base[*cell] = Base::Primary);
+            open_cells -= new_cells.len();
+            // With no cell left the sum may still miss a fraction close to 1 by its rounding.
+            if after >= self.fibre_fraction || open_cells == 0 {
+                return Ok(base);
+            }
+        }
+        Err(FibreError::TooMany {
+            placed: MOST_FIBRES,
+            reached: covered / total,
+            wanted: self.fibre_fraction,
+            length: self.fibre_length,
+            width: self.fibre_width,
+        })
+    }
+
+    /// A capsule anywhere in the pin's rectangle or up to half a length outside it, so that the edges are as dense as
+    /// the middle.
+    fn draw(&self, random: &mut Random, width: f64, height: f64) -> Capsule {
+        let mut place = |size: f64| (size + self.fibre_length) * random.uniform() - 0.5 * self.fibre_length;
+        let centre = (place(width), place(height));
+        Capsule::new(centre, PI * random.uniform(), self.fibre_length, self.fibre_width)
+    }
+
+    /// Refuses what is no fibre map.
+    ///
+    /// # Errors
+    /// [`FibreError`] when the fraction lies outside 0 to 1, the width is not positive or the length is below it.
+    pub fn check(&self) -> Result<(), FibreError> {
+        if !(0.0..=1.0).contains(&self.fibre_fraction) {
+            return Err(FibreError::Fraction { found: self.fibre_fraction });
+        }
+        if !(self.fibre_width > 0.0 && self.fibre_width.is_finite()) {
+            return Err(FibreError::Width { found: self.fibre_width });
+        }
+        if !(self.fibre_length >= self.fibre_width && self.fibre_length.is_finite()) {
+            return Err(FibreError::ShorterThanWide { length: self.fibre_length, width: self.fibre_width });
+        }
+        Ok(())
+    }
+}
+
+/// Area fraction of the pin that is fibre.
+pub fn fibre_fraction(base: &[Base], mesh: &Mesh) -> f64 {
+    let fibre: f64 =
+        base.iter().zip(mesh.area().iter().cycle()).filter(|(base, _)| **base == Base::Primary).map(|(_, a)| a).sum();
+    fibre / mesh.pin_area()
+}
+
+/// All points within `radius` of a straight segment.
+struct Capsule {
+    centre: (f64, f64),
+    direction: (f64, f64),
+    half_segment: f64,
+    radius: f64,
+}
+
+impl Capsule {
+    fn new(centre: (f64, f64), angle: f64, length: f64, width: f64) -> Self {
+        let direction = (libm::cos(angle), libm::sin(angle));
+        Self { centre, direction, half_segment: 0.5 * (length - width), radius: 0.5 * width }
+    }
+
+    fn contains(&self, x: f64, y: f64) -> bool {
+        let (x, y) = (x - self.centre.0, y - self.centre.1);
+        let along = x * self.direction.0 + y * self.direction.1;
+        let across = y * self.direction.0 - x * self.direction.1;
+        let beyond = (along.abs() - self.half_segment).max(0.0);
+        beyond * beyond + across * across <= self.radius * self.radius
+    }
+
+    /// Cells of the pin whose centres lie in the capsule.
+    fn cells(&self, mesh: &Mesh) -> impl Iterator<Item = usize> {
+        let (width, height, rows) = (mesh.column_width(), mesh.row_height(), mesh.rows());
+        let reach_x = self.half_segment * self.direction.0.abs() + self.radius;
+        let reach_y = self.half_segment * self.direction.1.abs() + self.radius;
+        let row_range = span(self.centre.1, reach_y, height, rows);
+        span(self.centre.0, reach_x, width, mesh.pin_columns())
+            .flat_map(move |column| row_range.clone().map(move |row| (column, row)))
+            .filter(move |(column, row)| self.contains((*column as f64 + 0.5) * width, (*row as f64 + 0.5) * height))
+            .map(move |(column, row)| column * rows + row)
+    }
+}
+
+/// Indices of the cells that reach into centre ± reach. The cast saturates at 0.
+fn span(centre: f64, reach: f64, cell: f64, count: usize) -> Range<usize> {
+    let first = (((centre - reach) / cell) as usize).min(count);
+    let last = libm::ceil((centre + reach) / cell) as usize;
+    first..last.min(count)
 }

@@ -1,11 +1,19 @@
 //! Initial surfaces: measured patches and their preparation, synthetic heights and fibre maps.
 
+mod body;
+mod fft;
 mod fibre;
+mod length;
+mod level;
 mod patch;
 mod prepare;
+mod random;
+mod resample;
 mod synthesis;
 
-pub use fibre::FibreSynthesis;
+pub use body::Body;
+pub use fibre::{FibreError, FibreSynthesis, fibre_fraction};
+pub use length::Length;
 pub use patch::Patch;
-pub use prepare::{Level, Preparation};
-pub use synthesis::HeightSynthesis;
+pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};
+pub use synthesis::{HeightSynthesis, SynthesisError};

@@ -22,4 +22,14 @@ impl Patch {
     pub fn missing(&self) -> usize {
         self.heights.iter().filter(|height| height.is_nan()).count()
     }
+
+    /// Extent along x, m: every point stands for one pitch.
+    pub fn length(&self) -> f64 {
+        self.columns as f64 * self.column_pitch
+    }
+
+    /// Extent along y, m.
+    pub fn height(&self) -> f64 {
+        self.rows as f64 * self.row_pitch
+    }
 }
