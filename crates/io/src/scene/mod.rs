@@ -1,2 +1,45 @@
 //! Scenes: what a simulation is told, in TOML (formats.md).
+//!
+//! ```text
+//! scene file, scenes it extends, --set   layers     one list of keys, each with its place in a text
+//!                                        settings   each key checked by the schema, SI units, defaults
+//!                                        build      what keys say together: mesh, steps, memory -> recipe::Scene
+//!                                        resolved   the whole scene as TOML again
+//! ```
+
+mod build;
+mod document;
+mod error;
+mod interpret;
+mod later;
+mod layers;
+mod memory;
 pub mod recipe;
+mod resolved;
+pub mod schema;
+mod settings;
+
+use std::path::Path;
+
+pub use error::{Origin, Problem, SceneError};
+pub use memory::memory_estimate;
+use recipe::Scene;
+use settings::Settings;
+
+/// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
+/// and checks everything that can be checked without reading surfaces.
+///
+/// # Errors
+/// [`SceneError`] with everything that is wrong, each with its place in the text: files that cannot be read, text that
+/// is not TOML, unknown or missing keys, values of a wrong type, unit or range, keys that contradict each other, a mesh
+/// that does not fit into memory.
+pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
+    let layers::Layered { entries, files } = layers::read(path, sets)?;
+    let mut problems = Vec::new();
+    let settings = Settings::read(&entries, path, &mut problems);
+    later::refuse(&entries, &mut problems);
+    if !problems.is_empty() {
+        return Err(SceneError::new(problems));
+    }
+    Ok(build::build(settings, files, path)?)
+}

@@ -23,6 +23,8 @@ pub struct Scene {
     pub resin_recess: f64,
     /// Fibre map of the pin.
     pub pin_base: BaseSource,
+    /// The fibre map is a view of the pin's face: x is mirrored.
+    pub pin_base_mirror: bool,
     /// Threads.
     pub workers: Workers,
     /// What is written, where and when.

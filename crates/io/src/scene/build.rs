@@ -1,0 +1,270 @@
+//! From checked keys to a [`Scene`]: what several keys say together.
+
+use std::path::{Path, PathBuf};
+
+use plateau_core::material::{Material, Materials};
+use plateau_core::mesh::{Mesh, MeshError};
+use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::state::Base;
+use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
+
+use super::error::{Origin, Problem};
+use super::interpret::Setting;
+use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, SampleEvery, Scene, Workers};
+use super::settings::Settings;
+use super::{later, memory, resolved};
+
+/// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
+const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
+
+/// Makes the scene; `files` are the scene file and those it extends.
+pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
+    let mut warnings = Vec::new();
+    later::warn(&settings, &mut warnings);
+    let parameters = parameters(&settings)?;
+    let output = output(&mut settings, &parameters, &mut warnings)?;
+    let workers = match settings.get("numerics.workers") {
+        Some(Setting::Integer(count)) => Workers::Count(address(*count)),
+        _ => Workers::Auto,
+    };
+    let seeds = ["disc.surface.synthetic.seed", "pin.base.synthetic.seed", "pin.surface.synthetic.seed"];
+    let seeds = seeds.into_iter().filter_map(|key| Some((key.to_owned(), settings.integer(key).ok()?)));
+    Ok(Scene {
+        title: settings.text("title")?.to_owned(),
+        path: path.to_path_buf(),
+        disc_surface: heights(&settings, "disc")?,
+        pin_surface: heights(&settings, "pin")?,
+        resin_recess: settings.number("pin.surface.resin_recess")?,
+        pin_base: base(&settings)?,
+        pin_base_mirror: settings.bool("pin.base.mirror")?,
+        workers,
+        seeds: seeds.collect(),
+        resolved: resolved::write(&settings),
+        files,
+        warnings,
+        parameters,
+        output,
+    })
+}
+
+/// A count that is too large for this machine's addresses is too large in any case, and refused as such later.
+fn address(count: u64) -> usize {
+    usize::try_from(count).unwrap_or(usize::MAX)
+}
+
+fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
+    let mesh = mesh(settings)?;
+    let (speed_key, angular_velocity) = match settings.optional_number("operation.rotational_speed")? {
+        Some(speed) => ("operation.rotational_speed", speed),
+        None => {
+            let key = "operation.sliding_speed";
+            (key, settings.number(key)? / mesh.mean_radius())
+        }
+    };
+    let mut parameters = Parameters {
+        mesh,
+        normal_force: settings.number("operation.normal_force")?,
+        angular_velocity,
+        steps: 1,
+        foundation_height: settings.number("contact.foundation_height")?,
+        load_tolerance: settings.number("contact.load_tolerance")?,
+        materials: materials(settings)?,
+        plateaus: plateaus(settings)?,
+        time_acceleration: settings.number("numerics.time_acceleration")?,
+        integrator: match settings.text("numerics.integrator")? {
+            "exponential" => Integrator::Exponential,
+            _ => Integrator::Explicit,
+        },
+    };
+    if !parameters.step_time().is_normal() {
+        let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
+        return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
+    }
+    let (steps_key, steps) = match settings.optional_number("operation.duration")? {
+        Some(duration) => ("operation.duration", parameters.steps_until(duration).max(1)),
+        None => ("operation.steps", settings.integer("operation.steps")?),
+    };
+    if steps > MOST_STEPS {
+        let message =
+            format!("these are more than {MOST_STEPS} steps, which cannot be counted exactly; shorten the run");
+        return Err(Problem::new(&settings.origin(steps_key), steps_key, message));
+    }
+    parameters.steps = steps;
+    Ok(parameters)
+}
+
+fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
+    let keys = ["mesh.rows", "mesh.disc_columns", "mesh.pin_columns"];
+    let counts = [settings.integer(keys[0])?, settings.integer(keys[1])?, settings.integer(keys[2])?];
+    let problem = |key: &str, message: String| Problem::new(&settings.origin(key), key, message);
+    // The mesh itself takes memory, so this comes first. A pin wider than the ring is a clearer message.
+    if counts[2] <= counts[1] {
+        let maps = match settings.get("output.maps") {
+            Some(Setting::Maps(maps)) => maps.as_slice(),
+            _ => &[],
+        };
+        let needed = memory::estimate(counts, maps);
+        if let Some(available) = memory::available().filter(|available| needed > *available) {
+            let message = format!(
+                "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",
+                counts[0],
+                counts[1],
+                memory::in_words(needed),
+                memory::in_words(available),
+            );
+            return Err(problem(if counts[0] > counts[1] { keys[0] } else { keys[1] }, message));
+        }
+    }
+    let [rows, disc_columns, pin_columns] = counts.map(address);
+    let (inner, outer) = (settings.number("mesh.inner_radius")?, settings.number("mesh.outer_radius")?);
+    let mesh = Mesh::new(rows, disc_columns, pin_columns, inner, outer).map_err(|error| {
+        let key = match error {
+            MeshError::PinWiderThanRing { .. } => "mesh.pin_columns",
+            MeshError::Radii { .. } => "mesh.outer_radius",
+            MeshError::Empty { .. } | MeshError::TooLarge { .. } => "mesh.rows",
+        };
+        problem(key, error.to_string())
+    })?;
+    if !mesh.area().first().is_some_and(|area| area.is_normal()) || !mesh.disc_area().is_finite() {
+        return Err(problem(
+            "mesh.outer_radius",
+            "the area of the cells cannot be computed with these radii".to_owned(),
+        ));
+    }
+    Ok(mesh)
+}
+
+fn materials(settings: &Settings) -> Result<Materials, Problem> {
+    let material = |name: &str| {
+        let number = |key: &str| settings.number(&format!("materials.{name}.{key}"));
+        Ok(Material {
+            youngs_modulus: number("youngs_modulus")?,
+            poisson_ratio: number("poisson_ratio")?,
+            // Resin has none.
+            specific_wear_rate: if name == "pin_resin" { 0.0 } else { number("specific_wear_rate")? },
+        })
+    };
+    Ok(Materials {
+        disc_primary: material("disc_primary")?,
+        disc_secondary: material("disc_secondary")?,
+        pin_primary: material("pin_primary")?,
+        pin_secondary: material("pin_secondary")?,
+        pin_resin: material("pin_resin")?,
+        wear_height: settings.number("materials.pin_resin.wear_height")?,
+    })
+}
+
+fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
+    Ok(PlateauRules {
+        captured_fraction: settings.number("plateaus.captured_fraction")?,
+        pad_share: settings.number("plateaus.pad_share")?,
+        debris_pool: match settings.text("plateaus.debris_pool")? {
+            "track" => DebrisPool::Track,
+            _ => DebrisPool::Contact,
+        },
+        formation: settings.bool("plateaus.formation")?,
+        destruction: settings.bool("plateaus.destruction")?,
+    })
+}
+
+fn heights(settings: &Settings, body: &str) -> Result<HeightRecipe, Problem> {
+    let surface = |name: &str| format!("{body}.surface.{name}");
+    let prepare = |name: &str| format!("{body}.prepare.{name}");
+    let source = if let Some((path, dataset)) = file(settings, &format!("{body}.surface")) {
+        HeightSource::File { path, dataset }
+    } else if settings.get(&surface("flat")).is_some() {
+        HeightSource::Flat
+    } else {
+        HeightSource::Synthetic(HeightSynthesis {
+            seed: settings.integer(&surface("synthetic.seed"))?,
+            rms_height: settings.number(&surface("synthetic.rms_height"))?,
+            correlation_length: settings.number(&surface("synthetic.correlation_length"))?,
+            patch: settings.optional_number(&surface("synthetic.patch"))?,
+        })
+    };
+    let preparation = Preparation {
+        level: match settings.text(&prepare("level"))? {
+            "plane" => Level::Plane,
+            "mean" => Level::Mean,
+            _ => Level::None,
+        },
+        fill_missing: settings.get(&prepare("fill")).is_some(),
+        pixel: settings.optional_number(&prepare("pixel"))?,
+        cutoff: settings.optional_number(&prepare("cutoff"))?,
+        repeat: settings.bool(&prepare("repeat"))?,
+        scale: settings.number(&prepare("scale"))?,
+    };
+    Ok(HeightRecipe { source, mirror: settings.bool(&surface("mirror"))?, preparation })
+}
+
+fn base(settings: &Settings) -> Result<BaseSource, Problem> {
+    if let Some((path, dataset)) = file(settings, "pin.base") {
+        return Ok(BaseSource::File { path, dataset });
+    }
+    if settings.get("pin.base.uniform").is_some() {
+        return Ok(BaseSource::Uniform(match settings.text("pin.base.uniform")? {
+            "primary" => Base::Primary,
+            _ => Base::None,
+        }));
+    }
+    let synthesis = FibreSynthesis {
+        seed: settings.integer("pin.base.synthetic.seed")?,
+        fibre_fraction: settings.number("pin.base.synthetic.fibre_fraction")?,
+        fibre_length: settings.number("pin.base.synthetic.fibre_length")?,
+        fibre_width: settings.number("pin.base.synthetic.fibre_width")?,
+    };
+    if synthesis.fibre_length < synthesis.fibre_width {
+        let key = "pin.base.synthetic.fibre_length";
+        let message = "a fibre is shorter than it is wide; expected fibre_length of at least fibre_width";
+        return Err(Problem::new(&settings.origin(key), key, message));
+    }
+    Ok(BaseSource::Synthetic(synthesis))
+}
+
+/// Input file and dataset of a source.
+fn file(settings: &Settings, section: &str) -> Option<(PathBuf, Option<String>)> {
+    let text = |name: &str| settings.text(&format!("{section}.{name}")).ok();
+    Some((text("file")?.into(), text("dataset").map(str::to_owned)))
+}
+
+fn output(
+    settings: &mut Settings,
+    parameters: &Parameters,
+    warnings: &mut Vec<String>,
+) -> Result<OutputRecipe, Problem> {
+    let sample_every = match settings.optional_number("output.sample_every")? {
+        Some(time) => SampleEvery::Time(time),
+        None => SampleEvery::Steps(settings.integer("output.sample_every_steps")?),
+    };
+    let mut maps = match settings.get("output.maps") {
+        Some(Setting::Maps(maps)) => maps.clone(),
+        _ => Vec::new(),
+    };
+    maps.sort_unstable();
+    maps.dedup();
+    settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
+    let file = PathBuf::from(settings.text("output.file")?);
+    Ok(OutputRecipe { file, sample_every, maps_at: map_times(settings, parameters, warnings), maps })
+}
+
+/// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.
+fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Vec<String>) -> Vec<f64> {
+    let key = "output.maps_at";
+    let origin = settings.origin(key);
+    let mut times = match settings.get(key) {
+        Some(Setting::Numbers(times)) => times.clone(),
+        _ => Vec::new(),
+    };
+    times.sort_unstable_by(f64::total_cmp);
+    times.dedup();
+    let end = parameters.time_at(parameters.steps);
+    // The time of a step is rounded; what is nearer to the end than this is the end.
+    let (kept, beyond): (Vec<_>, Vec<_>) = times.into_iter().partition(|time| *time <= end * (1.0 + 1e-9));
+    if !beyond.is_empty() {
+        let beyond: Vec<_> = beyond.iter().map(|time| format!("{time} s")).collect();
+        let message = format!("the run ends at {end} s: no maps at {}", beyond.join(", "));
+        warnings.push(Problem::new(&origin, key, message).to_string());
+    }
+    settings.insert(key, Setting::Numbers(kept.clone()), &origin);
+    kept
+}

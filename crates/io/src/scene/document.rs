@@ -1,0 +1,220 @@
+//! One layer of a scene - a file, or the `--set` arguments - as a flat list of keys that remember where they stand.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Origin, Problem};
+use super::schema;
+
+/// A value as it stands in the text.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Value {
+    Text(String),
+    Integer(i128),
+    Float(f64),
+    Bool(bool),
+    Date(String),
+    Array(Vec<Entry>),
+    /// A table; its keys are entries of their own.
+    Table,
+}
+
+impl Value {
+    /// The value as it stands in a scene.
+    pub(super) fn text(&self) -> String {
+        match self {
+            Self::Text(text) => format!("\"{text}\""),
+            Self::Integer(integer) => integer.to_string(),
+            Self::Float(float) => format!("{float:?}"),
+            Self::Bool(value) => value.to_string(),
+            Self::Date(date) => date.clone(),
+            Self::Array(_) | Self::Table => "this".to_owned(),
+        }
+    }
+}
+
+/// What was found, for messages: `"80" is a string`.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = match self {
+            Self::Text(_) => "a string",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a decimal number",
+            Self::Bool(_) => "a boolean",
+            Self::Date(_) => "a date",
+            Self::Array(_) => "a list",
+            Self::Table => "a table",
+        };
+        write!(f, "{} is {kind}", self.text())
+    }
+}
+
+/// A value and where it was given.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Entry {
+    pub(super) value: Value,
+    pub(super) origin: Origin,
+}
+
+/// Known keys by their full path; tables are entries too, for an empty table is a choice of a source as well.
+pub(super) type Entries = BTreeMap<String, Entry>;
+
+/// Turns positions in a text into origins.
+struct Locator<'a> {
+    file: Arc<Path>,
+    text: &'a str,
+    /// Byte at which each line starts.
+    lines: Vec<usize>,
+}
+
+impl<'a> Locator<'a> {
+    fn new(file: Arc<Path>, text: &'a str) -> Self {
+        let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        Self { file, text, lines }
+    }
+
+    fn origin(&self, span: Range<usize>) -> Origin {
+        let line = self.lines.partition_point(|start| *start <= span.start).max(1);
+        let start = self.lines[line - 1];
+        let column = self.text.get(start..span.start).map_or(0, |before| before.chars().count()) + 1;
+        Origin::Place { file: self.file.clone(), line, column }
+    }
+}
+
+/// Reads the text of a scene file.
+///
+/// What is wrong with single keys is added to `problems`; the error is for a text that is not TOML.
+pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) -> Result<Entries, Problem> {
+    let locator = Locator::new(file.clone(), text);
+    let document = DeTable::parse(text).map_err(|error| {
+        let origin = error.span().map_or(Origin::File(file.clone()), |span| locator.origin(span));
+        Problem::without_key(&origin, format!("this is not TOML: {}", error.message()))
+    })?;
+    let mut flattening = Flattening { locate: |span| locator.origin(span), entries: Entries::new(), problems };
+    flattening.table(document.get_ref(), "");
+    Ok(flattening.entries)
+}
+
+/// Reads `key.path=value`; a value that is not TOML is a string.
+pub(super) fn read_set(argument: &str, problems: &mut Vec<Problem>) -> Entries {
+    let origin = Origin::Set(argument.into());
+    let Some((key, text)) = argument.split_once('=').filter(|(key, _)| !key.trim().is_empty()) else {
+        problems
+            .push(Problem::without_key(&origin, "expected key=value, for instance operation.normal_force=\"47 N\""));
+        return Entries::new();
+    };
+    let path = key.trim();
+    if path == "extends" {
+        problems.push(Problem::new(&origin, path, "only a scene file can extend another"));
+        return Entries::new();
+    }
+    let text = text.trim();
+    let string = || Spanned::new(0..text.len(), DeValue::String(text.into()));
+    let value = DeValue::parse(text).unwrap_or_else(|_| string());
+
+    let mut flattening = Flattening { locate: |_| origin.clone(), entries: Entries::new(), problems };
+    let (mut table, mut rest) = (String::new(), path);
+    while let Some((name, below)) = rest.split_once('.') {
+        if !flattening.is_table(&table, name, &origin) {
+            return Entries::new();
+        }
+        table = schema::join(&table, name);
+        flattening.entries.insert(table.clone(), Entry { value: Value::Table, origin: origin.clone() });
+        rest = below;
+    }
+    flattening.key(&table, rest, origin.clone(), &value);
+    flattening.entries
+}
+
+/// Reads a default of the schema.
+pub(super) fn read_default(text: &str) -> Option<Entry> {
+    let value = DeValue::parse(text).ok()?;
+    let mut flattening = Flattening { locate: |_| Origin::Default, entries: Entries::new(), problems: &mut Vec::new() };
+    flattening.entry("", &value)
+}
+
+/// Walks down a document and keeps what the schema knows.
+struct Flattening<'p, L> {
+    locate: L,
+    entries: Entries,
+    problems: &'p mut Vec<Problem>,
+}
+
+impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
+    fn table(&mut self, table: &DeTable<'_>, path: &str) {
+        for (key, value) in table {
+            let origin = (self.locate)(key.span());
+            self.key(path, key.get_ref(), origin, value);
+        }
+    }
+
+    fn key(&mut self, table: &str, name: &str, key_origin: Origin, value: &Spanned<DeValue<'_>>) {
+        let path = schema::join(table, name);
+        if name.is_empty() || name.contains('.') {
+            let message = "unknown key; write the path of a key without quotes and with a name between all points";
+            self.problems.push(Problem::new(&key_origin, &path, message));
+            return;
+        }
+        let content = match value.get_ref() {
+            DeValue::Table(content) if schema::is_table(&path) => content,
+            _ if schema::find(&path).is_some() => {
+                if let Some(entry) = self.entry(&path, value) {
+                    self.entries.insert(path, entry);
+                }
+                return;
+            }
+            _ => {
+                if self.is_table(table, name, &key_origin) {
+                    let found = self.entry(&path, value).map_or(Value::Table, |entry| entry.value);
+                    let origin = (self.locate)(value.span());
+                    self.problems.push(Problem::new(&origin, &path, format!("{found}, expected a table")));
+                }
+                return;
+            }
+        };
+        self.entries.insert(path.clone(), Entry { value: Value::Table, origin: key_origin });
+        self.table(content, &path);
+    }
+
+    /// Whether the name is a table; if it is not, that is a problem.
+    fn is_table(&mut self, table: &str, name: &str, origin: &Origin) -> bool {
+        let path = schema::join(table, name);
+        let is_table = !path.is_empty() && schema::is_table(&path);
+        if !is_table {
+            let message = match schema::find(&path) {
+                Some(_) => "this key is no table".to_owned(),
+                None => schema::unknown(table, name),
+            };
+            self.problems.push(Problem::new(origin, &path, message));
+        }
+        is_table
+    }
+
+    fn entry(&mut self, path: &str, value: &Spanned<DeValue<'_>>) -> Option<Entry> {
+        let origin = (self.locate)(value.span());
+        let value = match value.get_ref() {
+            DeValue::String(text) => Value::Text(text.clone().into_owned()),
+            DeValue::Integer(integer) => match i128::from_str_radix(integer.as_str(), integer.radix()) {
+                Ok(integer) => Value::Integer(integer),
+                Err(_) => {
+                    self.problems.push(Problem::new(&origin, path, format!("{integer} is too large a number")));
+                    return None;
+                }
+            },
+            DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+            DeValue::Boolean(value) => Value::Bool(*value),
+            DeValue::Datetime(date) => Value::Date(date.to_string()),
+            DeValue::Array(elements) => {
+                Value::Array(elements.iter().filter_map(|element| self.entry(path, element)).collect())
+            }
+            DeValue::Table(_) => Value::Table,
+        };
+        Some(Entry { value, origin })
+    }
+}

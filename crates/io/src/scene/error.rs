@@ -1,0 +1,93 @@
+//! What is wrong with a scene, and where.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+use thiserror::Error;
+
+/// Where a value was given.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// A place in a scene file; line and column (in characters) count from 1.
+    Place {
+        /// The file.
+        file: Arc<Path>,
+        /// Line.
+        line: usize,
+        /// Column.
+        column: usize,
+    },
+    /// A scene file as a whole.
+    File(Arc<Path>),
+    /// An argument `--set key=value`.
+    Set(Arc<str>),
+    /// Nowhere: the program's own default.
+    Default,
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Place { file, line, column } => write!(f, "{}:{line}:{column}", file.display()),
+            Self::File(file) => write!(f, "{}", file.display()),
+            Self::Set(argument) => write!(f, "--set {argument}"),
+            Self::Default => write!(f, "default"),
+        }
+    }
+}
+
+/// One thing that is wrong: where, which key, what was found, what was expected, what to do.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Where.
+    pub origin: Origin,
+    /// Full path of the key, if there is one.
+    pub key: Option<String>,
+    /// What was found, what was expected, what to do.
+    pub message: String,
+}
+
+impl Problem {
+    pub(super) fn new(origin: &Origin, key: &str, message: impl Into<String>) -> Self {
+        Self { origin: origin.clone(), key: Some(key.to_owned()), message: message.into() }
+    }
+
+    pub(super) fn without_key(origin: &Origin, message: impl Into<String>) -> Self {
+        Self { origin: origin.clone(), key: None, message: message.into() }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.key {
+            Some(key) => write!(f, "{}: {key}: {}", self.origin, self.message),
+            None => write!(f, "{}: {}", self.origin, self.message),
+        }
+    }
+}
+
+/// Why a scene cannot be run: everything that was found wrong with it, in the order of the text.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", .problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct SceneError {
+    problems: Vec<Problem>,
+}
+
+impl SceneError {
+    /// What is wrong, at least one thing.
+    pub fn problems(&self) -> &[Problem] {
+        &self.problems
+    }
+
+    pub(super) fn new(mut problems: Vec<Problem>) -> Self {
+        problems.sort_by(|a, b| a.origin.cmp(&b.origin));
+        Self { problems }
+    }
+}
+
+impl From<Problem> for SceneError {
+    fn from(problem: Problem) -> Self {
+        Self { problems: vec![problem] }
+    }
+}

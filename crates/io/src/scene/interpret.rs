@@ -1,0 +1,146 @@
+//! Single values: of the type that their key asks for, in SI units, in range.
+
+use std::path::Path;
+
+use plateau_core::observe::Map;
+
+use super::document::{Entry, Value};
+use super::error::{Origin, Problem};
+use super::schema::{self, Kind, Range};
+use crate::units::{self, Dimension, UnitError};
+
+/// A checked value.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Setting {
+    Number(f64),
+    Integer(u64),
+    Bool(bool),
+    Text(String),
+    Numbers(Vec<f64>),
+    Maps(Vec<Map>),
+}
+
+/// Reads the value of the key `path`; input files named by no scene file are relative to the one at `scene`.
+pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> Result<Setting, Problem> {
+    let elements = |elements: &[Entry]| match kind {
+        Kind::Times => elements.iter().map(|entry| time(entry)).collect::<Result<_, _>>().map(Setting::Numbers),
+        _ => elements.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
+    };
+    match (kind, &entry.value) {
+        (Kind::Times | Kind::Maps, Value::Array(list)) => elements(list),
+        (Kind::InputFile, Value::Text(text)) => {
+            not_empty(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
+        }
+        (_, value) => plain(kind, value).map_err(at(entry)),
+    }
+    .map_err(|(origin, message)| Problem::new(&origin, path, message))
+}
+
+/// Puts the place of an entry beside a message.
+fn at(entry: &Entry) -> impl Fn(String) -> (Origin, String) {
+    |message| (entry.origin.clone(), message)
+}
+
+fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
+    match (kind, value) {
+        (Kind::Quantity { dimension, range, .. }, _) => quantity(value, dimension, range).map(Setting::Number),
+        (Kind::Number(range), Value::Integer(integer)) => in_range(*integer as f64, value, range),
+        (Kind::Number(range), Value::Float(float)) => in_range(*float, value, range),
+        (Kind::Integer(least), Value::Integer(integer)) => count(*integer, least),
+        (Kind::CountOr(_), Value::Integer(integer)) => count(*integer, 1),
+        (Kind::CountOr(word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
+        (Kind::Bool, Value::Bool(value)) => Ok(Setting::Bool(*value)),
+        (Kind::True, Value::Bool(true)) => Ok(Setting::Bool(true)),
+        (Kind::Choice(words), Value::Text(text)) => {
+            one_of(text, words, |word| word).map(|word| Setting::Text((*word).to_owned()))
+        }
+        (Kind::Text, Value::Text(text)) => not_empty(text).map(|text| Setting::Text(text.to_owned())),
+        _ => Err(format!("{value}, expected {}", expectation(kind))),
+    }
+}
+
+/// What a key holds, in words.
+fn expectation(kind: Kind) -> String {
+    match kind {
+        Kind::Quantity { dimension, .. } => dimension.to_string(),
+        Kind::Number(range) => format!("a number, {range}"),
+        Kind::Integer(least) => format!("an integer, at least {least}"),
+        Kind::Bool => "true or false".to_owned(),
+        Kind::True => "true; leave the key out to choose another source".to_owned(),
+        Kind::Choice(words) => quoted(words.iter().copied()),
+        Kind::CountOr(word) => format!("an integer, at least 1, or \"{word}\""),
+        Kind::Text => "a string".to_owned(),
+        Kind::InputFile => "the path of a file as a string".to_owned(),
+        Kind::Times => "a list of times such as [\"0 s\", \"500 s\"]".to_owned(),
+        Kind::Maps => format!("a list of {}", quoted(Map::ALL.iter().map(|map| map.name()))),
+    }
+}
+
+fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, String> {
+    let number = match value {
+        Value::Text(text) => units::parse(text, dimension).map_err(|error| error.to_string())?,
+        Value::Integer(_) | Value::Float(_) => {
+            return Err(UnitError::NoUnit { text: value.text(), expected: dimension }.to_string());
+        }
+        _ => return Err(format!("{value}, expected {dimension}")),
+    };
+    if range.contains(number) {
+        Ok(number)
+    } else {
+        Err(format!("{} is out of range, expected {range} {}", value.text(), dimension.si_unit()))
+    }
+}
+
+fn in_range(number: f64, value: &Value, range: Range) -> Result<Setting, String> {
+    if range.contains(number) {
+        Ok(Setting::Number(number))
+    } else {
+        Err(format!("{} is out of range, expected {range}", value.text()))
+    }
+}
+
+fn count(integer: i128, least: u64) -> Result<Setting, String> {
+    match u64::try_from(integer) {
+        Ok(count) if count >= least => Ok(Setting::Integer(count)),
+        _ => Err(format!("{integer} is out of range, expected an integer from {least} to {}", u64::MAX)),
+    }
+}
+
+fn not_empty(text: &str) -> Result<&str, String> {
+    if text.trim().is_empty() { Err("the text is empty".to_owned()) } else { Ok(text) }
+}
+
+fn one_of<'a, T>(text: &str, choices: &'a [T], name: impl Fn(&T) -> &'static str) -> Result<&'a T, String> {
+    choices.iter().find(|choice| name(choice) == text).ok_or_else(|| {
+        let names = || choices.iter().map(&name);
+        let hint = schema::nearest(text, names()).map(|name| format!("; did you mean \"{name}\"?"));
+        format!("\"{text}\" is unknown, expected {}{}", quoted(names()), hint.unwrap_or_default())
+    })
+}
+
+fn time(entry: &Entry) -> Result<f64, (Origin, String)> {
+    quantity(&entry.value, Dimension::Time, Range::NOT_NEGATIVE).map_err(at(entry))
+}
+
+fn map(entry: &Entry) -> Result<Map, (Origin, String)> {
+    match &entry.value {
+        Value::Text(text) => one_of(text, &Map::ALL, |map| map.name()).copied(),
+        other => Err(format!("{other}, expected the name of a map")),
+    }
+    .map_err(at(entry))
+}
+
+/// `"contact" or "track"`.
+fn quoted<'a>(words: impl Iterator<Item = &'a str>) -> String {
+    words.map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+}
+
+/// Input files are relative to the file that names them; those of `--set` to the scene file.
+fn input_file(text: &str, origin: &Origin, scene: &Path) -> String {
+    let namer = match origin {
+        Origin::Place { file, .. } | Origin::File(file) => file,
+        Origin::Set(_) | Origin::Default => scene,
+    };
+    let path = namer.parent().unwrap_or(Path::new("")).join(text);
+    std::path::absolute(&path).unwrap_or(path).to_string_lossy().into_owned()
+}

@@ -1,0 +1,174 @@
+//! The layers of a scene: the scenes it extends, the scene itself, `--set` arguments; later ones override earlier ones.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::document::{self, Entries, Value};
+use super::error::{Origin, Problem, SceneError};
+use super::schema::{self, Group};
+
+/// The newest version of the scene format that this program reads.
+const VERSION: i128 = 1;
+
+/// A scene is a page of text; what is larger than this is something else.
+const LARGEST_FILE: u64 = 1 << 20;
+
+/// All layers laid over each other.
+#[derive(Debug)]
+pub(super) struct Layered {
+    /// What is left of every layer.
+    pub(super) entries: Entries,
+    /// The scene file and those it extends, from the top down.
+    pub(super) files: Vec<PathBuf>,
+}
+
+/// Reads a scene, what it extends and the `--set` arguments.
+pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> {
+    let mut problems = Vec::new();
+    let (files, mut layers) = read_chain(path, &mut problems)?;
+
+    let mut set = Entries::new();
+    for argument in sets {
+        let entries = document::read_set(argument, &mut problems);
+        refuse_newer_version(&entries)?;
+        lay_over(&mut set, entries);
+    }
+    layers.insert(0, set);
+    for layer in &layers {
+        refuse_two_of_a_group(layer, &mut problems);
+    }
+    if !problems.is_empty() {
+        return Err(SceneError::new(problems));
+    }
+
+    let mut entries = Entries::new();
+    for layer in layers.into_iter().rev() {
+        for group in schema::GROUPS {
+            let chosen = members(group, &layer).next();
+            if let Some((chosen, _)) = chosen {
+                remove_others(group, chosen, &mut entries);
+            }
+        }
+        lay_over(&mut entries, layer);
+    }
+    entries.remove("extends");
+    Ok(Layered { entries, files })
+}
+
+/// Reads the scene and, one after the other, the scenes it extends.
+fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>, Vec<Entries>), SceneError> {
+    let (mut files, mut layers, mut identities) = (Vec::new(), Vec::new(), Vec::new());
+    let mut next = Some((path.to_path_buf(), None));
+    while let Some((path, named)) = next.take() {
+        let file: Arc<Path> = path.as_path().into();
+        let unreadable = |error: io::Error| match &named {
+            Some(origin) => Problem::new(origin, "extends", format!("cannot read {}: {error}", path.display())),
+            None => Problem::without_key(&Origin::File(file.clone()), format!("cannot read the scene: {error}")),
+        };
+        let identity = path.canonicalize().map_err(unreadable)?;
+        files.push(path.clone());
+        if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
+            let chain: Vec<_> = files[first..].iter().map(|file| file.display().to_string()).collect();
+            let message = format!("scenes extend each other in a circle: {}", chain.join(" -> "));
+            return Err(Problem::new(origin, "extends", message).into());
+        }
+        identities.push(identity);
+
+        let text = read_text(&path).map_err(unreadable)?;
+        let entries = document::read(&file, &text, problems).map_err(|problem| {
+            let earlier = std::mem::take(problems);
+            SceneError::new(earlier.into_iter().chain([problem]).collect())
+        })?;
+        refuse_newer_version(&entries)?;
+        if let Some(entry) = entries.get("extends") {
+            match &entry.value {
+                Value::Text(base) if !base.is_empty() => {
+                    let folder = path.parent().unwrap_or(Path::new(""));
+                    next = Some((folder.join(base), Some(entry.origin.clone())));
+                }
+                other => {
+                    let message = format!("{other}, expected the path of a scene");
+                    problems.push(Problem::new(&entry.origin, "extends", message));
+                }
+            }
+        }
+        layers.push(entries);
+    }
+    Ok((files, layers))
+}
+
+fn read_text(path: &Path) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    let refuse = |message: &str| Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    if bytes.starts_with(b"\x89HDF") {
+        return refuse("this is an HDF5 file, expected a scene in TOML");
+    }
+    if bytes.len() as u64 > LARGEST_FILE {
+        return refuse("it is larger than 1 MiB, expected a scene in TOML");
+    }
+    String::from_utf8(bytes).or_else(|error| {
+        let at = error.utf8_error().valid_up_to();
+        refuse(&format!("it is not UTF-8 text (byte {at}), expected a scene in TOML"))
+    })
+}
+
+/// Comes before all other checks, for a newer format may have other keys.
+fn refuse_newer_version(entries: &Entries) -> Result<(), Problem> {
+    if let Some(entry) = entries.get("version")
+        && let Value::Integer(version) = entry.value
+        && version > VERSION
+    {
+        let message =
+            format!("this scene has version {version} and was written for a newer program; this one reads {VERSION}");
+        return Err(Problem::new(&entry.origin, "version", message));
+    }
+    Ok(())
+}
+
+/// Members of a group that a layer gives, with the place of each.
+fn members<'a>(group: &'a Group, entries: &'a Entries) -> impl Iterator<Item = (&'static str, &'a Origin)> {
+    group.members.iter().filter_map(|(name, _)| {
+        let entry = entries.get(&schema::join(group.section, name))?;
+        Some((*name, &entry.origin))
+    })
+}
+
+fn refuse_two_of_a_group(layer: &Entries, problems: &mut Vec<Problem>) {
+    for group in schema::GROUPS {
+        let mut given: Vec<_> = members(group, layer).collect();
+        given.sort_by_key(|(_, origin)| *origin);
+        if let [.., (last, origin)] = given.as_slice()
+            && given.len() > 1
+        {
+            let names: Vec<_> = given.iter().map(|(name, _)| *name).collect();
+            let message = format!("{} are given together, keep one of {}", names.join(" and "), group.names());
+            problems.push(Problem::new(origin, &schema::join(group.section, last), message));
+        }
+    }
+}
+
+/// Removes every member but the chosen one, with what has a meaning only beside it.
+fn remove_others(group: &Group, chosen: &str, entries: &mut Entries) {
+    for (name, companions) in group.members.iter().filter(|(name, _)| *name != chosen) {
+        for removed in [name].into_iter().chain(*companions) {
+            remove(&schema::join(group.section, removed), entries);
+        }
+    }
+}
+
+fn remove(path: &str, entries: &mut Entries) {
+    entries.retain(|known, _| known != path && !schema::is_below(known, path));
+}
+
+/// Overrides key by key; a plain value in place of a table removes the keys of the table.
+fn lay_over(base: &mut Entries, layer: Entries) {
+    for (path, entry) in layer {
+        if entry.value != Value::Table {
+            remove(&path, base);
+        }
+        base.insert(path, entry);
+    }
+}

@@ -1,0 +1,102 @@
+//! How much memory a run takes, and how much there is.
+
+use std::fs;
+use std::path::Path;
+
+use plateau_core::observe::Map;
+
+use super::recipe::Scene;
+
+/// Snapshots that exist at once: one on its way to the writer, one that it writes.
+const SNAPSHOTS: u128 = 2;
+
+const FLOAT: u128 = size_of::<f64>() as u128;
+const STATUS: u128 = size_of::<u8>() as u128;
+
+/// Bytes that a run of the scene keeps in memory at its peak: state and working arrays, and beside them the larger of
+/// the surfaces while they are made and the maps on their way to the file.
+///
+/// Measured surfaces come on top, as large as their files.
+pub fn memory_estimate(scene: &Scene) -> u64 {
+    let mesh = &scene.parameters.mesh;
+    let counts = [mesh.rows(), mesh.disc_columns(), mesh.pin_columns()].map(|count| count as u64);
+    estimate(counts, &scene.output.maps)
+}
+
+/// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
+pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map]) -> u64 {
+    let cells = |columns: u64| u128::from(rows) * u128::from(columns);
+    let (disc, pin) = (cells(disc_columns), cells(pin_columns));
+    let sum = |parts: &[(u128, u128)]| {
+        parts.iter().fold(0_u128, |sum, (count, bytes)| sum.saturating_add(count.saturating_mul(*bytes)))
+    };
+    // Height and substrate of both, the pin's base, two working arrays over the pin, radius and area of every row.
+    let state = sum(&[(disc, 2 * FLOAT), (pin, 4 * FLOAT + STATUS), (rows.into(), 2 * FLOAT)]);
+    let surfaces = sum(&[(disc, 2 * FLOAT), (pin, 2 * (FLOAT + STATUS))]);
+    let size = |map: &Map| {
+        let bytes = if map.is_status() { STATUS } else { FLOAT };
+        (if map.on_disc() { disc } else { pin }, SNAPSHOTS * bytes)
+    };
+    let maps = sum(&maps.iter().map(size).collect::<Vec<_>>());
+    u64::try_from(state.saturating_add(surfaces.max(maps))).unwrap_or(u64::MAX)
+}
+
+/// Bytes that this process can have; `None` where the system does not say.
+pub(super) fn available() -> Option<u64> {
+    let read = |path: &Path| fs::read_to_string(path).ok();
+    let machine = read(Path::new("/proc/meminfo")).as_deref().and_then(mem_available);
+    let group = read(Path::new("/proc/self/cgroup")).as_deref().and_then(|text| {
+        let path = Path::new("/sys/fs/cgroup").join(unified_group(text)?);
+        path.ancestors()
+            .take_while(|folder| folder.starts_with("/sys/fs/cgroup"))
+            .filter_map(|folder| read(&folder.join("memory.max"))?.trim().parse().ok())
+            .min()
+    });
+    machine.into_iter().chain(group).min()
+}
+
+/// MemAvailable of /proc/meminfo (proc(5)), in bytes.
+fn mem_available(meminfo: &str) -> Option<u64> {
+    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kibibytes.checked_mul(1024)
+}
+
+/// Path below the root of the cgroup v2 hierarchy (cgroups(7)): the line with hierarchy 0 and no controllers.
+fn unified_group(cgroup: &str) -> Option<&str> {
+    cgroup.lines().find_map(|line| line.strip_prefix("0::/"))
+}
+
+/// "1.5 GiB".
+pub(super) fn in_words(bytes: u64) -> String {
+    const UNITS: [&str; 7] = ["B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"];
+    let power = bytes.checked_ilog2().unwrap_or(0) as usize / 10;
+    let unit = UNITS.get(power).copied().unwrap_or("B");
+    format!("{:.1} {unit}", bytes as f64 / 2_f64.powi(10 * power as i32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_every_array() {
+        // By hand, 2 rows, 10 disc and 3 pin columns (20 and 6 cells): state 20·16 + 6·(32 + 1) + 2·16 = 550,
+        // surfaces 20·16 + 6·18 = 428; maps: two snapshots of disc height and pin status 2·(20·8 + 6) = 332.
+        let maps = [Map::DiscHeight, Map::PinStatus];
+        assert_eq!(estimate([2, 10, 3], &maps), 550 + 428);
+        // All seven: disc 20·17, pin 6·(17 + 8), twice.
+        assert_eq!(estimate([2, 10, 3], &Map::ALL), 550 + 2 * (20 * 17 + 6 * 25));
+        assert_eq!(estimate([u64::MAX; 3], &maps), u64::MAX);
+    }
+
+    #[test]
+    fn reads_what_linux_writes() {
+        let meminfo = "MemTotal:       24684084 kB\nMemFree:        23673160 kB\nMemAvailable:   24091248 kB\n";
+        assert_eq!(mem_available(meminfo), Some(24_091_248 * 1024));
+        assert_eq!(unified_group("1:cpu:/\n0::/system.slice/slurmd\n"), Some("system.slice/slurmd"));
+        assert_eq!(in_words(0), "0.0 B");
+        assert_eq!(in_words(3 << 29), "1.5 GiB");
+        assert_eq!(in_words(u64::MAX), "16.0 EiB");
+    }
+}

@@ -1,0 +1,46 @@
+//! The resolved scene as TOML: every key that has a value, in the order and the units of the schema.
+
+use plateau_core::observe::Map;
+
+use super::interpret::Setting;
+use super::schema::{self, Key, Kind};
+use super::settings::Settings;
+use crate::units::{self, Dimension};
+
+/// Writes a scene that reads back as the same settings, and needs neither the scenes it extended nor `--set`.
+pub(super) fn write(settings: &Settings) -> String {
+    let mut text = String::new();
+    let mut section = "";
+    for key in schema::keys() {
+        let Some(setting) = settings.get(&key.path()) else { continue };
+        if key.section != section {
+            section = key.section;
+            text.push_str(&format!("\n[{section}]\n"));
+        }
+        text.push_str(&format!("{} = {}\n", key.name, value(key, setting)));
+    }
+    text
+}
+
+fn value(key: &Key, setting: &Setting) -> String {
+    match setting {
+        Setting::Number(number) => match key.kind {
+            Kind::Quantity { dimension, unit, .. } => string(&units::format(*number, unit, dimension)),
+            _ => toml::Value::Float(*number).to_string(),
+        },
+        Setting::Integer(integer) => integer.to_string(),
+        Setting::Bool(value) => value.to_string(),
+        Setting::Text(text) => string(text),
+        Setting::Numbers(times) => list(times, |time| units::format(*time, "s", Dimension::Time)),
+        Setting::Maps(maps) => list(maps, |map: &Map| map.name().to_owned()),
+    }
+}
+
+fn list<T>(elements: &[T], text: impl Fn(&T) -> String) -> String {
+    let elements: Vec<_> = elements.iter().map(|element| string(&text(element))).collect();
+    format!("[{}]", elements.join(", "))
+}
+
+fn string(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}

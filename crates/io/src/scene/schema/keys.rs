@@ -1,0 +1,198 @@
+//! The table of keys.
+
+use super::{Group, Key, Kind, Need, Range};
+use crate::units::Dimension::{Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
+use Kind::{Bool, Choice, CountOr, InputFile, Integer, Maps, Number, Text, Times, True};
+use Need::{Computed, Default, OneOf, Optional, Required, SameAs};
+
+const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", &["dataset"]), ("synthetic", &[]), ("flat", &[])];
+
+/// Keys that exclude each other.
+pub const GROUPS: &[Group] = &[
+    Group { section: "operation", members: &[("rotational_speed", &[]), ("sliding_speed", &[])], required: true },
+    Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true },
+    Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true },
+    Group {
+        section: "pin.base",
+        members: &[("synthetic", &[]), ("image", &["threshold", "pixel"]), ("file", &["dataset"]), ("uniform", &[])],
+        required: true,
+    },
+    Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true },
+    Group { section: "output", members: &[("sample_every", &[]), ("sample_every_steps", &[])], required: false },
+];
+
+const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
+const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
+const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
+
+const fn length(unit: &'static str, range: Range) -> Kind {
+    Kind::Quantity { dimension: Length, unit, range }
+}
+
+const fn time(range: Range) -> Kind {
+    Kind::Quantity { dimension: Time, unit: "s", range }
+}
+
+pub(super) fn all() -> Vec<Key> {
+    let mut table = Table { keys: Vec::new(), section: "" };
+    table.key("version", Integer(1), Required, "version of the scene format: 1");
+    table.key("title", Text, Computed("the scene file's name"), "title of the run");
+    table.key("extends", Text, Optional, "scene that this one takes as its base, relative to this file");
+
+    table.section = "mesh";
+    table.key("inner_radius", length("mm", Range::POSITIVE), Required, "inner radius of the ring");
+    table.key("outer_radius", length("mm", Range::POSITIVE), Required, "outer radius of the ring");
+    table.key("rows", Integer(1), Required, "radial cells");
+    table.key("disc_columns", Integer(1), Required, "cells around the ring");
+    table.key("pin_columns", Integer(1), Required, "cells of the ring that the pin covers");
+
+    table.section = "operation";
+    let force = Kind::Quantity { dimension: Force, unit: "N", range: Range::POSITIVE };
+    table.key("normal_force", force, Required, "force that presses the pin on the disc");
+    let rotation = Kind::Quantity { dimension: RotationalSpeed, unit: "rpm", range: Range::POSITIVE };
+    table.key("rotational_speed", rotation, OneOf, "rotational speed of the disc");
+    let speed = Kind::Quantity { dimension: Speed, unit: "m/s", range: Range::POSITIVE };
+    table.key("sliding_speed", speed, OneOf, "sliding speed at the mean radius");
+    table.key("duration", time(Range::POSITIVE), OneOf, "physical time to simulate");
+    table.key("steps", Integer(1), OneOf, "steps to simulate");
+
+    table.section = "contact";
+    table.key("foundation_height", length("um", Range::POSITIVE), Required, "height of the elastic foundation");
+    table.key("load_tolerance", Number(BETWEEN_0_AND_1), Default("1e-9"), "accepted |sum k A u - F| / F");
+
+    table.material("materials.disc_primary", None);
+    table.material("materials.disc_secondary", Some("materials.disc_primary"));
+    table.material("materials.pin_primary", None);
+    table.material("materials.pin_secondary", Some("materials.pin_primary"));
+    table.section = "materials.pin_resin";
+    table.elasticity(Required);
+    let wear_height = length("um", Range::NOT_NEGATIVE);
+    table.key("wear_height", wear_height, Required, "height that resin loses in a step in which it touches");
+
+    table.section = "plateaus";
+    table.key(
+        "captured_fraction",
+        Number(Range::FRACTION),
+        Required,
+        "fraction of the wear debris that stays in the contact",
+    );
+    table.key("pad_share", Number(Range::FRACTION), Default("0.5"), "pin's share of a deposit on both surfaces");
+    table.key("debris_pool", Choice(&["contact", "track"]), Default("\"contact\""), "one pool, or one per radius");
+    table.key("formation", Bool, Default("true"), "whether plateaus form at all");
+    table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up");
+
+    table.section = "disc.surface";
+    table.heights();
+    table.section = "disc.prepare";
+    table.preparation();
+
+    table.section = "pin.base";
+    table.key("synthetic.seed", Integer(0), Default("0"), "seed of the fibres");
+    table.key("synthetic.fibre_fraction", Number(Range::FRACTION), Required, "area fraction that is fibre");
+    table.key("synthetic.fibre_length", length("um", Range::POSITIVE), Required, "length of a fibre from end to end");
+    table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
+    table.key("image", InputFile, OneOf, "image of the pin, fibres bright");
+    table.key("threshold", Text, Optional, "how the image is parted into fibre and resin");
+    table.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch of the image");
+    table.key("file", InputFile, OneOf, "HDF5 file with the fibre map");
+    table.key("dataset", Text, Optional, "dataset in the file: integers, 0 none, 1 primary, shape (pin_columns, rows)");
+    table.key("uniform", Choice(&["primary", "none"]), OneOf, "all cells alike: fibre or resin");
+    table.key("mirror", Bool, Default("false"), "whether the map is a view of the pin's face, to be mirrored");
+
+    table.section = "pin.surface";
+    table.heights();
+    table.key(
+        "resin_recess",
+        length("um", Range::ANY),
+        Default("\"0 um\""),
+        "added to the height of cells without fibre",
+    );
+    table.section = "pin.prepare";
+    table.preparation();
+
+    table.section = "numerics";
+    table.key(
+        "time_acceleration",
+        Number(AT_LEAST_1),
+        Default("1"),
+        "revolutions that one simulated revolution stands for",
+    );
+    table.key(
+        "time_acceleration.tolerance",
+        Number(BETWEEN_0_AND_1),
+        Required,
+        "error at which the run chooses its acceleration",
+    );
+    table.key("time_acceleration.max", Number(AT_LEAST_1), Required, "largest acceleration that the run chooses");
+    table.key(
+        "integrator",
+        Choice(&["explicit", "exponential"]),
+        Default("\"explicit\""),
+        "how wear follows from contact",
+    );
+    table.key("workers", CountOr("auto"), Default("1"), "threads that share the ring");
+
+    table.section = "output";
+    table.key("file", Text, Computed("the scene file's name with .h5"), "run file, relative to the working directory");
+    table.key("sample_every", time(Range::POSITIVE), OneOf, "physical time between samples");
+    table.key(
+        "sample_every_steps",
+        Integer(1),
+        Computed("one revolution, unless sample_every is given"),
+        "steps between samples",
+    );
+    table.key("maps_at", Times, Default("[]"), "physical times of maps; the last state is always written");
+    table.key("maps", Maps, Computed("all seven"), "maps that are written");
+    table.key("roughness", Bool, Default("false"), "Sa, Sq, Ssk and Sku of disc and pin with every sample");
+    table.key("checkpoint_every", time(Range::POSITIVE), Optional, "wall time between checkpoints");
+    table.keys
+}
+
+/// Collects keys; `section` is the table to which the next ones belong.
+struct Table {
+    keys: Vec<Key>,
+    section: &'static str,
+}
+
+impl Table {
+    fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) {
+        self.keys.push(Key { section: self.section, name, kind, need, meaning });
+    }
+
+    fn elasticity(&mut self, need: Need) {
+        let modulus = Kind::Quantity { dimension: Pressure, unit: "Pa", range: Range::POSITIVE };
+        self.key("youngs_modulus", modulus, need, "Young's modulus");
+        self.key("poisson_ratio", Number(POISSON_RATIO), need, "Poisson's ratio");
+    }
+
+    fn material(&mut self, section: &'static str, like: Option<&'static str>) {
+        self.section = section;
+        let need = like.map_or(Required, SameAs);
+        self.elasticity(need);
+        let rate = Kind::Quantity { dimension: SpecificWearRate, unit: "1/Pa", range: Range::NOT_NEGATIVE };
+        self.key("specific_wear_rate", rate, need, "worn volume per force and sliding distance");
+    }
+
+    fn heights(&mut self) {
+        self.key("file", InputFile, OneOf, "measured heights: .sdf .x3p .txt .xyz .csv .npy .h5");
+        self.key("dataset", Text, Optional, "dataset in an HDF5 file: metres, shape (columns, rows)");
+        self.key("synthetic.seed", Integer(0), Default("0"), "seed of the heights");
+        self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
+        let positive = length("um", Range::POSITIVE);
+        self.key("synthetic.correlation_length", positive, Required, "length l of the autocorrelation exp(-(r/l)^2)");
+        self.key("synthetic.patch", length("mm", Range::POSITIVE), Optional, "length after which the heights repeat");
+        self.key("synthetic.skewness", Number(Range::ANY), Optional, "skewness of the heights");
+        self.key("synthetic.kurtosis", Number(Range::POSITIVE), Optional, "kurtosis of the heights");
+        self.key("flat", True, OneOf, "all heights zero");
+        self.key("mirror", Bool, Default("false"), "whether the heights are a view of the face, to be mirrored");
+    }
+
+    fn preparation(&mut self) {
+        self.key("level", Choice(&["plane", "mean", "none"]), Default("\"none\""), "what is taken out first");
+        self.key("fill", Choice(&["level"]), Optional, "what missing points get; without it they are an error");
+        self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
+        self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
+        self.key("repeat", Bool, Default("false"), "whether the patch is tiled round the ring");
+        self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
+    }
+}

@@ -1,0 +1,224 @@
+//! Every key of a scene: where it belongs, what it holds, what it defaults to and what it means.
+//!
+//! One table ([`keys`]) serves for checking, for messages about unknown keys, for the resolved scene and for
+//! documentation. The order is that of formats.md.
+
+mod keys;
+mod suggest;
+
+use std::fmt;
+use std::sync::LazyLock;
+
+use crate::units::Dimension;
+
+pub use keys::GROUPS;
+pub(crate) use suggest::{nearest, unknown};
+
+/// One key of a scene.
+#[derive(Debug, Clone)]
+pub struct Key {
+    /// Table it belongs to, for instance `disc.surface`; empty at the top.
+    pub section: &'static str,
+    /// Name in that table; a key of an inline table has a dotted name, for instance `synthetic.seed`.
+    pub name: &'static str,
+    /// What it holds.
+    pub kind: Kind,
+    /// What happens when it is absent.
+    pub need: Need,
+    /// What it means, in one line.
+    pub meaning: &'static str,
+}
+
+impl Key {
+    /// Full path, for instance `disc.surface.synthetic.seed`.
+    pub fn path(&self) -> String {
+        join(self.section, self.name)
+    }
+
+    /// Path of the inline table that holds the key, if it is in one.
+    pub fn inline_table(&self) -> Option<String> {
+        self.name.rsplit_once('.').map(|(table, _)| join(self.section, table))
+    }
+}
+
+/// What a key holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    /// A string with a number and a unit.
+    Quantity {
+        /// What the unit measures.
+        dimension: Dimension,
+        /// The unit in which the resolved scene is written.
+        unit: &'static str,
+        /// Accepted values, in SI units.
+        range: Range,
+    },
+    /// A plain number.
+    Number(Range),
+    /// An integer, at least this.
+    Integer(u64),
+    /// true or false.
+    Bool,
+    /// Only true: the key names a choice and has no other value.
+    True,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// An integer, at least 1, or this word.
+    CountOr(&'static str),
+    /// Any text but an empty one.
+    Text,
+    /// Path of an input file, relative to the scene file that names it.
+    InputFile,
+    /// Times, none negative.
+    Times,
+    /// Names of maps, see [`plateau_core::observe::Map::name`].
+    Maps,
+}
+
+/// What happens when a key is absent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Need {
+    /// It is an error; for a key of an inline table, if that table is there.
+    Required,
+    /// The key is one of a group of which one is chosen (see [`GROUPS`]).
+    OneOf,
+    /// This value is taken, in TOML; for a key of an inline table, if that table is there.
+    Default(&'static str),
+    /// The value of the same name in this table is taken.
+    SameAs(&'static str),
+    /// A value that depends on the scene is taken.
+    Computed(&'static str),
+    /// What the key describes is not done.
+    Optional,
+}
+
+/// Keys of which a scene gives exactly one, or at most one.
+#[derive(Debug, Clone, Copy)]
+pub struct Group {
+    /// Table they belong to.
+    pub section: &'static str,
+    /// The alternatives, each with the keys that have a meaning only beside it.
+    pub members: &'static [(&'static str, &'static [&'static str])],
+    /// Whether one must be given.
+    pub required: bool,
+}
+
+impl Group {
+    /// The alternatives as a list: `file, synthetic, flat`.
+    pub fn names(&self) -> String {
+        self.members.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// An interval of numbers; NaN and infinities are in none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    low: f64,
+    low_included: bool,
+    high: f64,
+    high_included: bool,
+}
+
+impl Range {
+    /// Any finite number.
+    pub const ANY: Self = Self::new(f64::NEG_INFINITY, false, f64::INFINITY, false);
+    /// More than 0.
+    pub const POSITIVE: Self = Self::new(0.0, false, f64::INFINITY, false);
+    /// 0 or more.
+    pub const NOT_NEGATIVE: Self = Self::new(0.0, true, f64::INFINITY, false);
+    /// From 0 to 1, both included.
+    pub const FRACTION: Self = Self::new(0.0, true, 1.0, true);
+
+    const fn new(low: f64, low_included: bool, high: f64, high_included: bool) -> Self {
+        Self { low, low_included, high, high_included }
+    }
+
+    /// Whether the interval contains the number.
+    pub fn contains(&self, number: f64) -> bool {
+        number.is_finite()
+            && (number > self.low || self.low_included && number == self.low)
+            && (number < self.high || self.high_included && number == self.high)
+    }
+}
+
+/// In words: "more than -1 and at most 0.5".
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let low = if self.low_included { "at least" } else { "more than" };
+        let high = if self.high_included { "at most" } else { "less than" };
+        match (self.low.is_finite(), self.high.is_finite()) {
+            (true, true) => write!(f, "{low} {} and {high} {}", self.low, self.high),
+            (true, false) => write!(f, "{low} {}", self.low),
+            (false, true) => write!(f, "{high} {}", self.high),
+            (false, false) => write!(f, "a finite number"),
+        }
+    }
+}
+
+/// Every key, in the order of formats.md.
+pub fn keys() -> &'static [Key] {
+    static KEYS: LazyLock<Vec<Key>> = LazyLock::new(keys::all);
+    &KEYS
+}
+
+/// The key with this full path.
+pub fn find(path: &str) -> Option<&'static Key> {
+    keys().iter().find(|key| key.path() == path)
+}
+
+/// Whether keys live below this path.
+pub fn is_table(path: &str) -> bool {
+    path.is_empty() || keys().iter().any(|key| is_below(&key.path(), path))
+}
+
+/// Every table that directly holds keys, in the order of formats.md; the first is the top, with an empty name.
+pub(crate) fn sections() -> Vec<&'static str> {
+    let mut sections: Vec<_> = keys().iter().map(|key| key.section).collect();
+    sections.dedup();
+    sections
+}
+
+/// Whether `path` is a key of the table `table` or of a table in it.
+pub(crate) fn is_below(path: &str, table: &str) -> bool {
+    path.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// Path of a key of a table; the top table has the empty path.
+pub(crate) fn join(table: &str, name: &str) -> String {
+    if table.is_empty() { name.to_owned() } else { format!("{table}.{name}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_say_what_they_contain() {
+        let poisson = Range::new(-1.0, false, 0.5, true);
+        assert_eq!(poisson.to_string(), "more than -1 and at most 0.5");
+        for (number, inside) in [(-1.0, false), (-0.99, true), (0.5, true), (0.51, false), (f64::NAN, false)] {
+            assert_eq!(poisson.contains(number), inside, "{number}");
+        }
+        assert!(!Range::ANY.contains(f64::INFINITY));
+        assert!(!Range::POSITIVE.contains(0.0) && Range::NOT_NEGATIVE.contains(0.0));
+        assert_eq!(Range::POSITIVE.to_string(), "more than 0");
+    }
+
+    #[test]
+    fn every_path_is_there_once_and_every_group_member_is_a_key_or_table() {
+        let mut paths: Vec<_> = keys().iter().map(Key::path).collect();
+        paths.sort();
+        let count = paths.len();
+        paths.dedup();
+        assert_eq!(paths.len(), count);
+        for group in GROUPS {
+            for (member, companions) in group.members {
+                let path = join(group.section, member);
+                assert!(find(&path).is_some() || is_table(&path), "{path}");
+                for companion in *companions {
+                    assert!(find(&join(group.section, companion)).is_some(), "{companion}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! The keys of a scene with their values in SI units: each checked by itself, defaults filled in, none missing.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use plateau_core::observe::Map;
+
+use super::document::{self, Entries, Value};
+use super::error::{Origin, Problem};
+use super::interpret::{Setting, interpret};
+use super::schema::{self, Key, Need};
+
+/// Checked values by full path, with the place of each.
+#[derive(Debug, Default)]
+pub(super) struct Settings {
+    values: BTreeMap<String, (Setting, Origin)>,
+}
+
+impl Settings {
+    /// Checks every entry of the scene at `scene` by itself and fills in what is absent.
+    pub(super) fn read(entries: &Entries, scene: &Path, problems: &mut Vec<Problem>) -> Self {
+        let mut settings = Self::default();
+        for (path, entry) in entries {
+            let Some(key) = schema::find(path) else { continue };
+            if entry.value == Value::Table && schema::is_table(path) {
+                continue;
+            }
+            match interpret(path, key.kind, entry, scene) {
+                Ok(setting) => settings.insert(path, setting, &entry.origin),
+                Err(problem) => problems.push(problem),
+            }
+        }
+        refuse_lone_companions(entries, problems);
+        refuse_missing(entries, scene, problems);
+        settings.fill_in(entries, scene);
+        settings
+    }
+
+    pub(super) fn insert(&mut self, path: &str, setting: Setting, origin: &Origin) {
+        self.values.insert(path.to_owned(), (setting, origin.clone()));
+    }
+
+    pub(super) fn get(&self, path: &str) -> Option<&Setting> {
+        self.values.get(path).map(|(setting, _)| setting)
+    }
+
+    /// Where a key was given.
+    pub(super) fn origin(&self, path: &str) -> Origin {
+        self.values.get(path).map_or(Origin::Default, |(_, origin)| origin.clone())
+    }
+
+    /// The value of a number or quantity (SI units) that a checked scene has.
+    pub(super) fn number(&self, path: &str) -> Result<f64, Problem> {
+        match self.get(path) {
+            Some(Setting::Number(number)) => Ok(*number),
+            other => Err(self.unlike(path, "a number", other)),
+        }
+    }
+
+    /// The value of an integer that a checked scene has.
+    pub(super) fn integer(&self, path: &str) -> Result<u64, Problem> {
+        match self.get(path) {
+            Some(Setting::Integer(integer)) => Ok(*integer),
+            other => Err(self.unlike(path, "an integer", other)),
+        }
+    }
+
+    /// The value of a text or choice that a checked scene has.
+    pub(super) fn text(&self, path: &str) -> Result<&str, Problem> {
+        match self.get(path) {
+            Some(Setting::Text(text)) => Ok(text),
+            other => Err(self.unlike(path, "a text", other)),
+        }
+    }
+
+    /// The value of a switch that a checked scene has.
+    pub(super) fn bool(&self, path: &str) -> Result<bool, Problem> {
+        match self.get(path) {
+            Some(Setting::Bool(value)) => Ok(*value),
+            other => Err(self.unlike(path, "true or false", other)),
+        }
+    }
+
+    /// A number or quantity that may be absent.
+    pub(super) fn optional_number(&self, path: &str) -> Result<Option<f64>, Problem> {
+        self.get(path).map(|_| self.number(path)).transpose()
+    }
+
+    fn unlike(&self, path: &str, expected: &str, found: Option<&Setting>) -> Problem {
+        let found = found.map_or("nothing".to_owned(), |setting| format!("{setting:?}"));
+        Problem::new(&self.origin(path), path, format!("found {found}, expected {expected}"))
+    }
+
+    fn fill_in(&mut self, entries: &Entries, scene: &Path) {
+        for key in schema::keys() {
+            let path = key.path();
+            if entries.contains_key(&path) || !applies(key, entries) {
+                continue;
+            }
+            let setting = match key.need {
+                Need::Default(text) => {
+                    document::read_default(text).and_then(|entry| interpret(&path, key.kind, &entry, scene).ok())
+                }
+                Need::SameAs(table) => self.get(&schema::join(table, key.name)).cloned(),
+                Need::Computed(_) => self.computed(&path, entries, scene),
+                Need::Required | Need::OneOf | Need::Optional => None,
+            };
+            if let Some(setting) = setting {
+                self.insert(&path, setting, &Origin::Default);
+            }
+        }
+    }
+
+    fn computed(&self, path: &str, entries: &Entries, scene: &Path) -> Option<Setting> {
+        let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+        match path {
+            "title" => Some(Setting::Text(stem.into_owned())),
+            "output.file" => Some(Setting::Text(format!("{stem}.h5"))),
+            "output.maps" => Some(Setting::Maps(Map::ALL.to_vec())),
+            // One column a step: a revolution has as many steps as the ring has columns.
+            "output.sample_every_steps" if !entries.contains_key("output.sample_every") => {
+                self.get("mesh.disc_columns").cloned()
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Whether the inline table that holds the key, if it is in one, is there.
+fn applies(key: &Key, entries: &Entries) -> bool {
+    key.inline_table().is_none_or(|table| entries.get(&table).is_some_and(|entry| entry.value == Value::Table))
+}
+
+/// `dataset` means nothing without `file`, and so on.
+fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Problem>) {
+    for group in schema::GROUPS {
+        for (member, companions) in group.members {
+            if entries.contains_key(&schema::join(group.section, member)) {
+                continue;
+            }
+            for path in companions.iter().map(|companion| schema::join(group.section, companion)) {
+                if let Some(entry) = entries.get(&path) {
+                    let message = format!("this key has a meaning only beside \"{member}\", which is not given");
+                    problems.push(Problem::new(&entry.origin, &path, message));
+                }
+            }
+        }
+    }
+}
+
+/// Tells all missing keys at once, table by table.
+fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec<Problem>) {
+    let given = |section, name| entries.contains_key(&schema::join(section, name));
+    let mut message = String::new();
+    for section in schema::sections() {
+        let keys = schema::keys().iter().filter(|key| key.section == section && key.need == Need::Required);
+        let keys = keys.filter(|key| !given(section, key.name) && applies(key, entries));
+        let groups = schema::GROUPS.iter().filter(|group| group.section == section && group.required);
+        let groups = groups.filter(|group| !group.members.iter().any(|(name, _)| given(section, name)));
+
+        let names: Vec<String> = keys
+            .map(|key| key.name.to_owned())
+            .chain(groups.map(|group| format!("one of {{{}}}", group.names())))
+            .collect();
+        if !names.is_empty() {
+            let table = if section.is_empty() { "at the top".to_owned() } else { format!("[{section}]") };
+            message.push_str(&format!("\n  {table} {}", names.join(", ")));
+        }
+    }
+    if !message.is_empty() {
+        let message = format!("required keys are missing:{message}");
+        problems.push(Problem::without_key(&Origin::File(scene.into()), message));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_default_is_a_value_of_its_own_key() {
+        for key in schema::keys() {
+            if let Need::Default(text) = key.need {
+                let entry = document::read_default(text).unwrap();
+                interpret(&key.path(), key.kind, &entry, Path::new("scene.toml")).unwrap();
+            }
+        }
+    }
+}

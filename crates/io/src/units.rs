@@ -1,0 +1,290 @@
+//! Physical quantities as text: "47 N", "850 rpm", "5e-5 mm^3/(N m)".
+//!
+//! A unit is a product of symbols with whole powers; `/` divides by the one factor that follows it. Factors of ten are
+//! taken into the decimal exponent before the number is rounded, so that "50 um" is the same double as `5e-5`.
+
+mod expression;
+
+use std::fmt;
+
+use expression::Scale;
+use thiserror::Error;
+
+/// The kinds of quantity that scenes ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// m.
+    Length,
+    /// N.
+    Force,
+    /// Pa: pressures and elastic moduli.
+    Pressure,
+    /// s.
+    Time,
+    /// m/s.
+    Speed,
+    /// rad/s.
+    RotationalSpeed,
+    /// 1/Pa = m³/(N·m): worn volume per force and sliding distance.
+    SpecificWearRate,
+}
+
+/// Powers of length, mass, time and plane angle.
+///
+/// The angle counts as a dimension of its own, for only so does "14 Hz" differ from "14 rad/s".
+type Powers = [i32; 4];
+
+/// What a unit of these powers measures.
+const MEANINGS: &[(Powers, &str)] = &[
+    ([1, 0, 0, 0], "a length"),
+    ([1, 1, -2, 0], "a force"),
+    ([-1, 1, -2, 0], "a pressure"),
+    ([0, 0, 1, 0], "a time"),
+    ([1, 0, -1, 0], "a speed"),
+    ([0, 0, -1, 1], "a rotational speed"),
+    ([1, -1, 2, 0], "a specific wear rate"),
+    ([0, 0, 0, 0], "a plain number"),
+    ([0, 1, 0, 0], "a mass"),
+    ([0, 0, 0, 1], "an angle"),
+    ([0, 0, -1, 0], "a frequency"),
+    ([2, 0, 0, 0], "an area"),
+    ([3, 0, 0, 0], "a volume"),
+    ([2, 1, -2, 0], "an energy"),
+];
+
+fn meaning(powers: Powers) -> &'static str {
+    MEANINGS.iter().find(|(known, _)| *known == powers).map_or("a quantity of another kind", |(_, name)| name)
+}
+
+impl Dimension {
+    fn powers(self) -> Powers {
+        match self {
+            Self::Length => [1, 0, 0, 0],
+            Self::Force => [1, 1, -2, 0],
+            Self::Pressure => [-1, 1, -2, 0],
+            Self::Time => [0, 0, 1, 0],
+            Self::Speed => [1, 0, -1, 0],
+            Self::RotationalSpeed => [0, 0, -1, 1],
+            Self::SpecificWearRate => [1, -1, 2, 0],
+        }
+    }
+
+    /// The coherent SI unit.
+    pub fn si_unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Force => "N",
+            Self::Pressure => "Pa",
+            Self::Time => "s",
+            Self::Speed => "m/s",
+            Self::RotationalSpeed => "rad/s",
+            Self::SpecificWearRate => "1/Pa",
+        }
+    }
+
+    /// A quantity as a scene may write it.
+    pub fn example(self) -> &'static str {
+        match self {
+            Self::Length => "50 um",
+            Self::Force => "47 N",
+            Self::Pressure => "100 GPa",
+            Self::Time => "3000 s",
+            Self::Speed => "2 m/s",
+            Self::RotationalSpeed => "850 rpm",
+            Self::SpecificWearRate => "5e-14 1/Pa",
+        }
+    }
+
+    /// The units that are commonly used, for messages and documentation.
+    pub fn units(self) -> &'static str {
+        match self {
+            Self::Length => "m, mm, um, nm",
+            Self::Force => "N, kN, mN",
+            Self::Pressure => "Pa, kPa, MPa, GPa",
+            Self::Time => "s, ms, min, h",
+            Self::Speed => "m/s, mm/s, km/h",
+            Self::RotationalSpeed => "rpm, rad/s",
+            Self::SpecificWearRate => "1/Pa, m^2/N, mm^3/(N m)",
+        }
+    }
+}
+
+/// Says what is expected, with an example: `a force such as "47 N" (N, kN, mN)`.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} such as \"{}\" ({})", meaning(self.powers()), self.example(), self.units())
+    }
+}
+
+/// Why a text is no quantity of the kind that is asked for.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum UnitError {
+    /// It does not start with a number.
+    #[error("\"{text}\" does not start with a number, expected {expected}")]
+    NoNumber {
+        /// What was found.
+        text: String,
+        /// What is asked for.
+        expected: Dimension,
+    },
+    /// The number is infinite, not a number, or larger than a double can hold.
+    #[error("\"{text}\" is not finite, expected {expected}")]
+    NotFinite {
+        /// What was found.
+        text: String,
+        /// What is asked for.
+        expected: Dimension,
+    },
+    /// A number alone.
+    #[error("{text} has no unit, expected {expected}")]
+    NoUnit {
+        /// What was found.
+        text: String,
+        /// What is asked for.
+        expected: Dimension,
+    },
+    /// The unit cannot be read.
+    #[error("\"{text}\": {reason}, expected {expected}")]
+    Unit {
+        /// What was found.
+        text: String,
+        /// What is wrong with its unit.
+        reason: String,
+        /// What is asked for.
+        expected: Dimension,
+    },
+    /// The unit measures something else.
+    #[error("\"{text}\" is {found}, expected {expected}{}", advice(found, *expected))]
+    WrongDimension {
+        /// What was found.
+        text: String,
+        /// What its unit measures.
+        found: &'static str,
+        /// What is asked for.
+        expected: Dimension,
+    },
+}
+
+fn advice(found: &str, expected: Dimension) -> &'static str {
+    if expected == Dimension::RotationalSpeed && found == "a frequency" {
+        "; a frequency does not say whether it counts turns or radians"
+    } else {
+        ""
+    }
+}
+
+/// Reads a number with a unit of the given dimension, as the nearest double in the SI unit.
+///
+/// # Errors
+/// [`UnitError`], which says what was found and shows what is expected.
+pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
+    let shown = || text.trim().to_owned();
+    let Some((number, unit)) = split_number(text.trim()) else {
+        let word = text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
+        return Err(if word.starts_with("inf") || word.starts_with("nan") {
+            UnitError::NotFinite { text: shown(), expected }
+        } else {
+            UnitError::NoNumber { text: shown(), expected }
+        });
+    };
+    if unit.is_empty() {
+        return Err(UnitError::NoUnit { text: format!("\"{}\"", shown()), expected });
+    }
+    let scale = Scale::parse(unit).map_err(|reason| UnitError::Unit { text: shown(), reason, expected })?;
+    if scale.powers != expected.powers() {
+        return Err(UnitError::WrongDimension { text: shown(), found: meaning(scale.powers), expected });
+    }
+    let value = shift_decimal(number, scale.tens) * scale.times / scale.over;
+    if value.is_finite() { Ok(value + 0.0) } else { Err(UnitError::NotFinite { text: shown(), expected }) }
+}
+
+/// Writes a value in SI units as a quantity in the given unit, so that [`parse`] gives the same double back.
+///
+/// Where a unit that is no power of ten of the SI unit (rpm) cannot give the same double, the SI unit is used.
+pub fn format(value: f64, unit: &str, dimension: Dimension) -> String {
+    if let Ok(scale) = Scale::parse(unit) {
+        let candidates = if scale.times == 1.0 && scale.over == 1.0 {
+            vec![format!("{value:e}")]
+        } else {
+            let converted = value * scale.over / scale.times;
+            (13..=16).map(|digits| format!("{converted:.digits$e}")).collect()
+        };
+        for candidate in candidates {
+            let text = format!("{} {unit}", decimal(&candidate, -scale.tens));
+            if parse(&text, dimension) == Ok(value) {
+                return text;
+            }
+        }
+    }
+    format!("{} {}", decimal(&format!("{value:e}"), 0), dimension.si_unit())
+}
+
+/// Splits "47 N" into "47" and "N"; `None` if the text does not start with a number.
+fn split_number(text: &str) -> Option<(&str, &str)> {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    let sign = |at: usize| at + usize::from(matches!(bytes.get(at), Some(b'+' | b'-')));
+
+    let start = sign(0);
+    let mut end = digits(start);
+    let mut count = end - start;
+    if bytes.get(end) == Some(&b'.') {
+        let fraction = digits(end + 1);
+        count += fraction - (end + 1);
+        end = fraction;
+    }
+    if count == 0 {
+        return None;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let exponent = sign(end + 1);
+        let exponent_end = digits(exponent);
+        if exponent_end > exponent {
+            end = exponent_end;
+        }
+    }
+    Some((&text[..end], text[end..].trim()))
+}
+
+/// The double nearest to number · 10^tens.
+fn shift_decimal(number: &str, tens: i32) -> f64 {
+    let (mantissa, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
+    // An exponent that does not fit is far beyond any double, on the side that its sign says.
+    let limit = if exponent.starts_with('-') { i64::MIN / 2 } else { i64::MAX / 2 };
+    let exponent = exponent.parse().unwrap_or(limit) + i64::from(tens);
+    format!("{mantissa}e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+/// Number · 10^tens, written plainly where that is short; `scientific` is what `{:e}` gives.
+fn decimal(scientific: &str, tens: i32) -> String {
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((scientific, "0"));
+    let (sign, mantissa) = mantissa.strip_prefix('-').map_or(("", mantissa), |rest| ("-", rest));
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{whole}{fraction}");
+    let digits = digits.trim_end_matches('0');
+    if digits.is_empty() {
+        return "0".to_owned();
+    }
+    let exponent = exponent.parse::<i32>().unwrap_or(0) + tens;
+    let text = match usize::try_from(exponent) {
+        Ok(places) if places < 6.max(digits.len()) => {
+            let padded = format!("{digits:0<width$}", width = places + 1);
+            let (whole, fraction) = padded.split_at(places + 1);
+            if fraction.is_empty() { whole.to_owned() } else { format!("{whole}.{fraction}") }
+        }
+        Err(_) if exponent >= -3 => format!("0.{}{digits}", "0".repeat(exponent.unsigned_abs() as usize - 1)),
+        _ => {
+            let (first, rest) = digits.split_at(1);
+            if rest.is_empty() { format!("{first}e{exponent}") } else { format!("{first}.{rest}e{exponent}") }
+        }
+    };
+    format!("{sign}{text}")
+}
+
+#[cfg(test)]
+mod tests;

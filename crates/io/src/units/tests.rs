@@ -1,0 +1,137 @@
+use proptest::prelude::*;
+
+use super::Dimension::*;
+use super::*;
+
+#[test]
+fn a_power_of_ten_is_exact() {
+    // Expected: the literals, which rustc rounds to the nearest double.
+    for (text, dimension, expected) in [
+        ("50 um", Length, 5e-5),
+        ("50 \u{b5}m", Length, 5e-5),
+        ("50 \u{3bc}m", Length, 5e-5),
+        ("0.3 um", Length, 3e-7),
+        ("400um", Length, 4e-4),
+        ("20 mm", Length, 0.02),
+        ("7 nm", Length, 7e-9),
+        ("-8 um", Length, -8e-6),
+        ("47 N", Force, 47.0),
+        ("0.047 kN", Force, 47.0),
+        ("47000 mN", Force, 47.0),
+        ("1e11 Pa", Pressure, 1e11),
+        ("100 GPa", Pressure, 1e11),
+        ("100 N/mm^2", Pressure, 1e8),
+        ("1.5 bar", Pressure, 1.5e5),
+        ("5e-14 1/Pa", SpecificWearRate, 5e-14),
+        ("5e-14 m^2/N", SpecificWearRate, 5e-14),
+        ("5e-14 m²/N", SpecificWearRate, 5e-14),
+        ("5e-5 mm^3/(N m)", SpecificWearRate, 5e-14),
+        ("5e-5 mm³/(N·m)", SpecificWearRate, 5e-14),
+        ("5e-5 mm^3/N/m", SpecificWearRate, 5e-14),
+        ("5e-5 mm3/Nm", SpecificWearRate, 5e-14),
+        ("5e-5 mm^3 N^-1 m⁻¹", SpecificWearRate, 5e-14),
+        ("0.05 1/TPa", SpecificWearRate, 5e-14),
+        ("0 1/Pa", SpecificWearRate, 0.0),
+        ("3000 s", Time, 3000.0),
+        ("25.54 us", Time, 25.54e-6),
+        ("2 m/s", Speed, 2.0),
+        ("2e3 mm/s", Speed, 2.0),
+        ("1E+2 rad/s", RotationalSpeed, 100.0),
+    ] {
+        assert_eq!(parse(text, dimension), Ok(expected), "{text}");
+    }
+}
+
+#[test]
+fn other_factors_follow_their_definition() {
+    assert_eq!(parse("50 min", Time), Ok(3000.0));
+    assert_eq!(parse("2 h", Time), Ok(7200.0));
+    assert_eq!(parse("72 km/h", Speed), Ok(20.0));
+    let turns = 850.0 * std::f64::consts::TAU / 60.0;
+    assert_eq!(parse("850 rpm", RotationalSpeed), Ok(turns));
+    assert_eq!(parse("850 rev/min", RotationalSpeed), Ok(turns));
+}
+
+#[test]
+fn a_refusal_says_what_was_found_and_what_is_expected() {
+    let message = |text, dimension| parse(text, dimension).unwrap_err().to_string();
+    let force = "expected a force such as \"47 N\" (N, kN, mN)";
+    for (text, start) in [
+        ("47 mm", "\"47 mm\" is a length, "),
+        ("47 kg", "\"47 kg\" is a mass, "),
+        ("47", "\"47\" has no unit, "),
+        ("", "\"\" does not start with a number, "),
+        ("N", "\"N\" does not start with a number, "),
+        ("nan N", "\"nan N\" is not finite, "),
+        ("-inf N", "\"-inf N\" is not finite, "),
+        ("1e400 N", "\"1e400 N\" is not finite, "),
+        ("1e99999999999999999999 N", "\"1e99999999999999999999 N\" is not finite, "),
+        ("47 n", "\"47 n\": unknown unit \"n\", "),
+        ("47,5 N", "\"47,5 N\": a comma does not separate decimals, write a point, "),
+        ("47 N/", "\"47 N/\": the unit is not complete, "),
+        ("47 (N", "\"47 (N\": a parenthesis of the unit is not closed, "),
+        ("47 N)", "\"47 N)\": unexpected ')' in the unit, "),
+        ("47 N^x", "\"47 N^x\": a power in the unit is no digit from 1 to 9, "),
+        ("1.2.3 N", "\"1.2.3 N\": unexpected '.' in the unit, "),
+        ("47 1", "\"47 1\" is a plain number, "),
+    ] {
+        assert_eq!(message(text, Force), format!("{start}{force}"));
+    }
+    assert_eq!(
+        message("14 Hz", RotationalSpeed),
+        "\"14 Hz\" is a frequency, expected a rotational speed such as \"850 rpm\" (rpm, rad/s); \
+         a frequency does not say whether it counts turns or radians"
+    );
+    // Division takes one factor: this is mm³·m/N.
+    assert!(message("5e-5 mm^3/N m", SpecificWearRate).contains("a quantity of another kind"));
+    let deep = format!("1 {}m", "(".repeat(1_000_000));
+    assert!(message(&deep, Length).contains("this is no unit"));
+}
+
+#[test]
+fn an_exponent_beyond_all_doubles_is_zero_or_not_finite() {
+    assert_eq!(parse("1e-99999999999999999999 m", Length), Ok(0.0));
+    assert_eq!(parse("-0 m", Length).map(f64::to_bits), Ok(0));
+}
+
+#[test]
+fn quantities_are_written_as_one_would() {
+    for (value, unit, dimension, expected) in [
+        (5e-5, "um", Length, "50 um"),
+        (0.020300000000000002, "mm", Length, "20.300000000000002 mm"),
+        (1e11, "Pa", Pressure, "1e11 Pa"),
+        (5e-14, "1/Pa", SpecificWearRate, "5e-14 1/Pa"),
+        (3000.0, "s", Time, "3000 s"),
+        (0.001, "s", Time, "0.001 s"),
+        (0.0, "um", Length, "0 um"),
+        (-8e-6, "um", Length, "-8 um"),
+        (850.0 * std::f64::consts::TAU / 60.0, "rpm", RotationalSpeed, "850 rpm"),
+    ] {
+        assert_eq!(format(value, unit, dimension), expected);
+    }
+}
+
+proptest! {
+    #[test]
+    fn what_is_written_reads_back_as_the_same_double(bits in any::<u64>(), which in 0_usize..8) {
+        let value = f64::from_bits(bits);
+        prop_assume!(value.is_finite());
+        let (unit, dimension) = [
+            ("um", Length), ("mm", Length), ("N", Force), ("GPa", Pressure), ("mm^3/(N m)", SpecificWearRate),
+            ("min", Time), ("km/h", Speed), ("rpm", RotationalSpeed),
+        ][which];
+        prop_assert_eq!(parse(&format(value, unit, dimension), dimension), Ok(value));
+    }
+
+    #[test]
+    fn a_decimal_in_micrometres_is_the_literal(digits in 0_u64..1_000_000_000_000, places in 0_i32..12) {
+        // Independent source: Rust's own correctly rounded reading of the same decimal, shifted by six places.
+        let expected: f64 = format!("{digits}e{}", -places - 6).parse().unwrap();
+        prop_assert_eq!(parse(&format!("{digits}e{} um", -places), Length), Ok(expected));
+    }
+
+    #[test]
+    fn any_text_gets_an_answer(text in "\\PC*") {
+        let _ = parse(&text, Length);
+    }
+}
