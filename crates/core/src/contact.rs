@@ -2,13 +2,10 @@
 
 use thiserror::Error;
 
-use crate::material::Status;
+use crate::kernel::{Load, count_touching, face_column, load_of_column, padded};
 use crate::mesh::Mesh;
-use crate::pair::{Pair, Pairs};
+use crate::pair::Table;
 use crate::state::{Disc, Pin};
-
-/// Cells that are summed side by side; fixed, so that sums do not depend on the machine.
-const LANES: usize = 8;
 
 /// Newton's method ends after finitely many iterations; this bound only keeps rounding from going round in circles.
 const MOST_ITERATIONS: u32 = 200;
@@ -31,34 +28,23 @@ pub enum ContactError {
     },
 }
 
-/// The contact of one step: what faces what, how far apart, and the displacement that carries the load.
+/// The contact of one step: how far every pair is apart, how stiff it is, and the displacement that carries the load.
 #[derive(Debug, Clone)]
 pub struct Contact {
     /// g = z_p − z_d of every pin cell, m.
     gap: Vec<f64>,
     /// k A of every pin cell, N/m.
     stiffness: Vec<f64>,
-    /// Statuses of every pin cell and the disc cell under it at the start of the step.
-    pair: Vec<Pair>,
     /// δ, m; none before the first step.
     displacement: Option<f64>,
     /// Σ k A u, N.
     load: f64,
     /// |Σ k A u − F_N| / F_N.
     residual: f64,
-    /// Cells in contact, by row.
-    touching: Vec<u32>,
+    /// Cells in contact by row, padded.
+    touching: Vec<f64>,
     /// Load evaluations of the last balance.
     iterations: u32,
-}
-
-/// Load and its slope at one displacement.
-#[derive(Debug, Clone, Copy, Default)]
-struct LoadSums {
-    /// Σ k A u, N.
-    load: f64,
-    /// Σ k A over cells in contact, N/m.
-    slope: f64,
 }
 
 impl Contact {
@@ -68,28 +54,24 @@ impl Contact {
         Self {
             gap: vec![0.0; cells],
             stiffness: vec![0.0; cells],
-            pair: vec![Pair::new(Status::None, false); cells],
             displacement: None,
             load: 0.0,
             residual: 0.0,
-            touching: vec![0; mesh.rows()],
+            touching: vec![0.0; padded(mesh.rows())],
             iterations: 0,
         }
     }
 
-    /// Faces every pin cell with the disc cell under it in step `step`: gap, statuses and stiffness of each pair.
-    pub fn face(&mut self, mesh: &Mesh, pairs: &Pairs, disc: &Disc, pin: &Pin, step: u64) {
-        let rows = mesh.rows();
-        for column in 0..mesh.pin_columns() {
-            let pin_start = column * rows;
-            let disc_start = mesh.disc_column(column, step) * rows;
-            for row in 0..rows {
-                let (pin_cell, disc_cell) = (pin_start + row, disc_start + row);
-                let pair = Pair::new(pin.status(pin_cell), disc.height[disc_cell] > disc.substrate[disc_cell]);
-                self.gap[pin_cell] = pin.height[pin_cell] - disc.height[disc_cell];
-                self.pair[pin_cell] = pair;
-                self.stiffness[pin_cell] = pairs.stiffness(pair) * mesh.area()[row];
-            }
+    /// Faces every pin cell with the disc cell under it after `turned` columns: gap and stiffness of each pair.
+    ///
+    /// `distinct` tells whether build-up has a stiffness of its own.
+    pub fn face(&mut self, mesh: &Mesh, stiffness: &Table, distinct: bool, disc: &Disc, pin: &Pin, turned: u64) {
+        let face = if distinct { face_column::<true> } else { face_column::<false> };
+        let columns = self.gap.chunks_exact_mut(mesh.rows()).zip(self.stiffness.chunks_exact_mut(mesh.rows()));
+        for (column, (gap, carried)) in columns.enumerate() {
+            let cells = mesh.column(mesh.disc_column(column, turned));
+            let under = (&disc.height[cells.clone()], &disc.substrate[cells]);
+            face(pin.view(mesh.column(column)), under, stiffness, gap, carried);
         }
     }
 
@@ -101,38 +83,37 @@ impl Contact {
     /// # Errors
     /// [`ContactError`] when the numbers leave the finite range.
     pub fn balance(&mut self, mesh: &Mesh, normal_force: f64, tolerance: f64) -> Result<(), ContactError> {
-        let rows = mesh.rows();
         let mut displacement = self.displacement.unwrap_or_else(|| self.upper_bound(normal_force));
         let mut before = f64::NAN;
         self.iterations = 0;
         loop {
-            let sums = self.load_at(displacement, rows);
+            let Load { load, slope } = self.load_at(displacement, mesh.rows());
             self.iterations += 1;
-            let residual = ((sums.load - normal_force) / normal_force).abs();
+            let residual = ((load - normal_force) / normal_force).abs();
             if !residual.is_finite() {
-                return Err(ContactError::NotFinite { displacement, load: sums.load, normal_force });
+                return Err(ContactError::NotFinite { displacement, load, normal_force });
             }
-            let next = if sums.slope > 0.0 {
-                displacement + (normal_force - sums.load) / sums.slope
-            } else {
-                self.upper_bound(normal_force)
-            };
+            let next =
+                if slope > 0.0 { displacement + (normal_force - load) / slope } else { self.upper_bound(normal_force) };
             if residual <= tolerance || next == displacement || next == before || self.iterations == MOST_ITERATIONS {
-                (self.load, self.residual) = (sums.load, residual);
+                (self.load, self.residual) = (load, residual);
                 break;
             }
             (before, displacement) = (displacement, next);
         }
         self.displacement = Some(displacement);
-        self.count_touching(displacement, rows);
+        self.touching.fill(0.0);
+        for gap in self.gap.chunks_exact(mesh.rows()) {
+            count_touching(displacement, gap, &mut self.touching);
+        }
         Ok(())
     }
 
-    /// Σ k A u and its slope at a displacement: column sums in fixed lanes, added up column by column.
-    fn load_at(&self, displacement: f64, rows: usize) -> LoadSums {
-        let mut total = LoadSums::default();
+    /// Σ k A u and its slope at a displacement, added up column by column.
+    fn load_at(&self, displacement: f64, rows: usize) -> Load {
+        let mut total = Load::default();
         for (gap, stiffness) in self.gap.chunks_exact(rows).zip(self.stiffness.chunks_exact(rows)) {
-            let column = column_load(displacement, gap, stiffness);
+            let column = load_of_column(displacement, gap, stiffness);
             total.load += column.load;
             total.slope += column.slope;
         }
@@ -148,38 +129,19 @@ impl Contact {
             .fold(f64::INFINITY, f64::min)
     }
 
-    fn count_touching(&mut self, displacement: f64, rows: usize) {
-        self.touching.fill(0);
-        for gap in self.gap.chunks_exact(rows) {
-            for (count, gap) in self.touching.iter_mut().zip(gap) {
-                *count += u32::from(*gap < displacement);
-            }
-        }
-    }
-
     /// δ, m; 0 before the first step.
     pub fn displacement(&self) -> f64 {
         self.displacement.unwrap_or(0.0)
     }
 
-    /// u = (δ − g)₊ of a pin cell, m.
-    pub fn overlap(&self, cell: usize) -> f64 {
-        (self.displacement() - self.gap[cell]).max(0.0)
-    }
-
-    /// The statuses that faced each other at a pin cell at the start of the step.
-    pub fn pair(&self, cell: usize) -> Pair {
-        self.pair[cell]
-    }
-
-    /// Cells in contact, by row.
-    pub fn touching(&self) -> &[u32] {
+    /// Cells in contact by row; rows beyond the mesh's, which fill a group of lanes, have none.
+    pub fn touching(&self) -> &[f64] {
         &self.touching
     }
 
     /// Contact area Σ A over cells in contact, m².
     pub fn area(&self, mesh: &Mesh) -> f64 {
-        self.touching.iter().zip(mesh.area()).map(|(count, area)| f64::from(*count) * area).sum()
+        self.touching.iter().zip(mesh.area()).map(|(count, area)| count * area).sum()
     }
 
     /// Σ p A, N.
@@ -198,36 +160,12 @@ impl Contact {
     }
 
     /// p = k u of every pin cell in the last step, Pa; all 0 before the first.
-    pub fn pressures<'a>(&'a self, pairs: &'a Pairs) -> impl Iterator<Item = f64> + 'a {
+    pub fn pressures<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = f64> + 'a {
         let displacement = self.displacement.unwrap_or(f64::NEG_INFINITY);
-        self.gap.iter().zip(&self.pair).map(move |(gap, pair)| {
+        let cells = self.gap.iter().zip(&self.stiffness).zip(mesh.area().iter().cycle());
+        cells.map(move |((gap, stiffness), area)| {
             let overlap = displacement - gap;
-            if overlap > 0.0 { pairs.stiffness(*pair) * overlap } else { 0.0 }
+            if overlap > 0.0 { stiffness / area * overlap } else { 0.0 }
         })
     }
-}
-
-/// Load and slope of one column.
-#[inline]
-fn column_load(displacement: f64, gap: &[f64], stiffness: &[f64]) -> LoadSums {
-    let mut load = [0.0; LANES];
-    let mut slope = [0.0; LANES];
-    let gaps = gap.chunks_exact(LANES);
-    let stiffnesses = stiffness.chunks_exact(LANES);
-    let rest = gaps.remainder().iter().zip(stiffnesses.remainder());
-    for (gap, stiffness) in gaps.zip(stiffnesses) {
-        for lane in 0..LANES {
-            let overlap = displacement - gap[lane];
-            let carried = if overlap > 0.0 { stiffness[lane] } else { 0.0 };
-            load[lane] += carried * overlap;
-            slope[lane] += carried;
-        }
-    }
-    for (lane, (gap, stiffness)) in rest.enumerate() {
-        let overlap = displacement - gap;
-        let carried = if overlap > 0.0 { *stiffness } else { 0.0 };
-        load[lane] += carried * overlap;
-        slope[lane] += carried;
-    }
-    LoadSums { load: load.iter().sum(), slope: slope.iter().sum() }
 }

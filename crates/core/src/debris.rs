@@ -1,10 +1,11 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4.4 and 4.5).
 
+use crate::kernel::padded;
 use crate::mesh::Mesh;
 use crate::parameters::{DebrisPool, PlateauRules};
 use crate::sum::RunningSum;
 
-/// Heights taken off and put on in one step, summed along each row, m.
+/// Heights taken off and put on in one step, summed along each row, m; rows are padded to whole groups of lanes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transfer {
     /// Worn off plateaus of the pin.
@@ -24,7 +25,7 @@ pub struct Transfer {
 impl Transfer {
     /// Nothing moved yet.
     pub fn new(rows: usize) -> Self {
-        let zero = vec![0.0; rows];
+        let zero = vec![0.0; padded(rows)];
         Self {
             worn_pin: zero.clone(),
             worn_resin: zero.clone(),
@@ -76,7 +77,9 @@ pub struct Debris {
     formation: bool,
     /// M, m³: one pool, or one per row.
     pools: Vec<RunningSum>,
-    /// s = M/S of every row, m; all 0 without formation.
+    /// Rows of the mesh.
+    rows: usize,
+    /// s = M/S of every row, m, padded; all 0 without formation.
     share: Vec<f64>,
     totals: Totals,
 }
@@ -92,38 +95,36 @@ impl Debris {
             captured_fraction: rules.captured_fraction,
             formation: rules.formation,
             pools: vec![RunningSum::default(); pools],
-            share: vec![0.0; mesh.rows()],
+            rows: mesh.rows(),
+            share: vec![0.0; padded(mesh.rows())],
             totals: Totals::default(),
         }
     }
 
     /// Rows that share each pool.
     fn rows_per_pool(&self) -> usize {
-        self.share.len() / self.pools.len()
+        self.rows / self.pools.len()
     }
 
     /// Spreads each pool evenly over its cells that do not touch: s = M/S; `touching` are the cells in contact by row.
-    pub fn spread(&mut self, mesh: &Mesh, touching: &[u32]) {
+    pub fn spread(&mut self, mesh: &Mesh, touching: &[f64]) {
         if !self.formation {
             return;
         }
         let rows = self.rows_per_pool();
-        let shares = self.share.chunks_mut(rows);
+        let shares = self.share[..self.rows].chunks_mut(rows);
         for (((pool, share), touching), area) in
-            self.pools.iter().zip(shares).zip(touching.chunks(rows)).zip(mesh.area().chunks(rows))
+            self.pools.iter().zip(shares).zip(touching[..self.rows].chunks(rows)).zip(mesh.area().chunks(rows))
         {
-            let open: f64 = touching
-                .iter()
-                .zip(area)
-                .map(|(count, area)| (mesh.pin_columns() as f64 - f64::from(*count)) * area)
-                .sum();
+            let open: f64 =
+                touching.iter().zip(area).map(|(count, area)| (mesh.pin_columns() as f64 - count) * area).sum();
             // Rounding may leave a trace of debt in an emptied pool; it is not spread, and the next step settles it.
             let spread = if open > 0.0 { (pool.value() / open).max(0.0) } else { 0.0 };
             share.fill(spread);
         }
     }
 
-    /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
+    /// s of every row, m, padded: the height of debris that is at hand for each cell that does not touch.
     pub fn share(&self) -> &[f64] {
         &self.share
     }

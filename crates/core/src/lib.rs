@@ -16,10 +16,10 @@
 //! # One step
 //! | model | equation | function |
 //! |---|---|---|
-//! | 4.1 gap and pairs | g = z_p − z_d, 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d | [`contact::Contact::face`] |
+//! | 4.1 gap and pairs | g = z_p − z_d, 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d | [`pair::Coefficients`], [`contact::Contact::face`] |
 //! | 4.1 load balance | Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
-//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`] |
-//! | 4.3 destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau::destroy_unsupported`] |
+//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`], [`wear`] |
+//! | 4.3 destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau::falls`] |
 //! | 4.4 formation | d = min(γ, s), s = M/S | [`debris::Debris::spread`], [`plateau::form`] |
 //! | 4.5 debris balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
 //! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance`] |
@@ -34,6 +34,7 @@ pub mod contact;
 pub mod debris;
 pub mod filling;
 pub mod history;
+pub mod kernel;
 pub mod material;
 pub mod mesh;
 pub mod observe;

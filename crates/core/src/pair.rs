@@ -1,9 +1,10 @@
 //! Coefficients of a pair of cells by status and row: stiffness (model 4.1) and wear per overlap (model 4.2).
 
+use crate::kernel::padded;
 use crate::material::{Materials, Status};
 use crate::parameters::{Integrator, Parameters};
 
-/// The statuses of a pin cell and the disc cell under it, as an index into the tables of [`Pairs`].
+/// The statuses of a pin cell and the disc cell under it, as an index into the tables of [`Coefficients`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Pair(u8);
 
@@ -21,89 +22,61 @@ impl Pair {
         [Status::None, Status::Primary, Status::Secondary].into_iter().flat_map(|pin| [(pin, false), (pin, true)])
     }
 
-    /// Whether the pin cell of this pair is a plateau.
-    pub fn pin_is_plateau(self) -> bool {
-        self.0 >= 2
-    }
-
     /// Index into a table of [`Pair::COUNT`] entries.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }
 }
 
-/// Heights lost in one step per overlap u, dimensionless: the raw loss of a cell is its factor times u.
+/// One coefficient by [`Pair::index`] and row; rows are padded to whole groups of lanes with zeros.
+pub type Table = [Vec<f64>; Pair::COUNT];
+
+/// The coefficients of every pair in every row.
 ///
-/// Whatever the integrator, the loss of a pair in contact is proportional to its overlap; so the integrator shapes this
-/// table and nothing else.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WearFactors {
-    /// Of the pin cell by its own κ; 0 for resin, which loses the wear height instead.
-    pub pin: f64,
-    /// Of the fibre below the pin's build-up, by the κ of pin primary.
-    pub fibre: f64,
-    /// Of the disc cell by its own κ.
-    pub disc: f64,
-    /// Of the coating below the disc's build-up, by the κ of disc primary.
-    pub coating: f64,
-}
-
-/// The coefficients of every pair.
+/// Whatever the integrator, the loss of a pair in contact is proportional to its overlap u; so the integrator shapes
+/// these tables and nothing else.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pairs {
-    /// k = E*/h by pair, Pa/m.
-    stiffness: [f64; Pair::COUNT],
-    /// By row, then by pair.
-    wear: Vec<[WearFactors; Pair::COUNT]>,
+pub struct Coefficients {
+    /// k A, N/m, with k = E*/h.
+    pub stiffness: Table,
+    /// Raw loss of the pin cell per overlap; 0 for resin, which loses the wear height instead.
+    pub pin: Table,
+    /// Raw loss of the disc cell per overlap.
+    pub disc: Table,
+    /// Raw loss of the fibre below the pin cell's build-up over that of the build-up, Δh_sub/Δh.
+    pub fibre: Table,
+    /// Raw loss of the coating below the disc cell's build-up over that of the build-up, Δh_sub/Δh.
+    pub coating: Table,
 }
 
-impl Pairs {
+impl Coefficients {
     /// Tabulates the coefficients.
     pub fn new(parameters: &Parameters) -> Self {
-        let mut stiffness = [0.0; Pair::COUNT];
+        let Parameters { mesh, materials, integrator, .. } = parameters;
+        let table = || std::array::from_fn(|_| vec![0.0; padded(mesh.rows())]);
+        let mut tables = Self { stiffness: table(), pin: table(), disc: table(), fibre: table(), coating: table() };
         for (pin, disc_secondary) in Pair::all() {
-            stiffness[Pair::new(pin, disc_secondary).index()] =
-                parameters.materials.combined_modulus(pin, disc_secondary) / parameters.foundation_height;
+            let pair = Pair::new(pin, disc_secondary).index();
+            let stiffness = materials.combined_modulus(pin, disc_secondary) / parameters.foundation_height;
+            let wear_rate_pin = pin_wear_rate(materials, pin);
+            let wear_rate_disc = materials.disc(disc_secondary).specific_wear_rate;
+            for (row, (radius, area)) in mesh.radius().iter().zip(mesh.area()).enumerate() {
+                let sliding = parameters.time_acceleration * radius * mesh.column_angle();
+                let factor = |own: f64, other: f64| wear_factor(*integrator, own, other, stiffness * sliding);
+                let below = |substrate: f64, own: f64, other: f64| {
+                    if own == 0.0 { 0.0 } else { factor(substrate, other) / factor(own, other) }
+                };
+                tables.stiffness[pair][row] = stiffness * area;
+                tables.pin[pair][row] = factor(wear_rate_pin, wear_rate_disc);
+                tables.disc[pair][row] = factor(wear_rate_disc, wear_rate_pin);
+                tables.fibre[pair][row] =
+                    below(materials.pin_primary.specific_wear_rate, wear_rate_pin, wear_rate_disc);
+                tables.coating[pair][row] =
+                    below(materials.disc_primary.specific_wear_rate, wear_rate_disc, wear_rate_pin);
+            }
         }
-        let turn = parameters.time_acceleration * parameters.mesh.column_angle();
-        let wear =
-            parameters.mesh.radius().iter().map(|radius| wear_of_row(parameters, &stiffness, turn * radius)).collect();
-        Self { stiffness, wear }
+        tables
     }
-
-    /// k, Pa/m.
-    pub fn stiffness(&self, pair: Pair) -> f64 {
-        self.stiffness[pair.index()]
-    }
-
-    /// k of every pair, by [`Pair::index`].
-    pub fn stiffnesses(&self) -> &[f64; Pair::COUNT] {
-        &self.stiffness
-    }
-
-    /// Wear factors of every pair in a row.
-    pub fn wear(&self, row: usize) -> &[WearFactors; Pair::COUNT] {
-        &self.wear[row]
-    }
-}
-
-/// Wear factors of a row whose sliding distance in the step is `sliding` = m r_i Δθ, m.
-fn wear_of_row(parameters: &Parameters, stiffness: &[f64; Pair::COUNT], sliding: f64) -> [WearFactors; Pair::COUNT] {
-    let materials = &parameters.materials;
-    let mut row = [WearFactors::default(); Pair::COUNT];
-    for (pin, disc_secondary) in Pair::all() {
-        let pair = Pair::new(pin, disc_secondary).index();
-        let wear_rate_pin = pin_wear_rate(materials, pin);
-        let wear_rate_disc = materials.disc(disc_secondary).specific_wear_rate;
-        let factor = |own: f64, other: f64| wear_factor(parameters.integrator, own, other, stiffness[pair] * sliding);
-        row[pair] = WearFactors {
-            pin: factor(wear_rate_pin, wear_rate_disc),
-            fibre: factor(materials.pin_primary.specific_wear_rate, wear_rate_disc),
-            disc: factor(wear_rate_disc, wear_rate_pin),
-            coating: factor(materials.disc_primary.specific_wear_rate, wear_rate_pin),
-        };
-    }
-    row
 }
 
 /// κ of a pin cell; 0 for resin, which does not wear by Archard's law.

@@ -14,14 +14,42 @@ pub struct Part {
     pub reason: &'static str,
 }
 
+/// What the update of the cells has to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Needs {
+    /// Build-up can exist and differs from what it lies on.
+    pub distinct: bool,
+    /// The disc can wear.
+    pub disc_wears: bool,
+    /// Plateaus can form.
+    pub forms: bool,
+    /// Plateaus can fall.
+    pub destroys: bool,
+}
+
+impl Needs {
+    /// What these parameters ask for.
+    pub fn of(parameters: &Parameters) -> Self {
+        let rules = &parameters.plateaus;
+        let materials = &parameters.materials;
+        let forms = rules.formation && rules.captured_fraction > 0.0;
+        Self {
+            distinct: forms
+                && (materials.pin_primary != materials.pin_secondary
+                    || materials.disc_primary != materials.disc_secondary),
+            disc_wears: materials.disc_primary.specific_wear_rate > 0.0
+                || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
+            forms,
+            destroys: forms && rules.destruction,
+        }
+    }
+}
+
 /// The optional parts of the model, each with whether a scene needs it.
 pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
-    let rules = &parameters.plateaus;
     let materials = &parameters.materials;
     let has = |base| pin_base.contains(&base);
-    let forms = rules.formation && rules.captured_fraction > 0.0;
-    let disc_wears =
-        materials.disc_primary.specific_wear_rate > 0.0 || (forms && materials.disc_secondary.specific_wear_rate > 0.0);
+    let Needs { distinct, disc_wears, forms, destroys } = Needs::of(parameters);
     let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
         || (forms && materials.pin_secondary.specific_wear_rate > 0.0);
     let part = |name, needed, reason_needed, reason_left_out| Part {
@@ -41,21 +69,19 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
         ),
         part(
             "destruction of plateaus",
-            forms && rules.destruction && has(Base::None),
+            destroys && has(Base::None),
             "destruction = true on resin",
             "destruction = false, no formation, or no resin",
         ),
         part(
-            "a stiffness of its own for build-up",
-            forms
-                && (materials.pin_primary != materials.pin_secondary
-                    || materials.disc_primary != materials.disc_secondary),
+            "properties of their own for build-ups",
+            distinct,
             "secondary materials differ from primary ones",
             "secondary materials equal primary ones",
         ),
         part(
             "one debris pool per track",
-            rules.debris_pool == DebrisPool::Track,
+            parameters.plateaus.debris_pool == DebrisPool::Track,
             "debris_pool = \"track\"",
             "debris_pool = \"contact\"",
         ),

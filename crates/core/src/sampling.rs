@@ -27,7 +27,7 @@ impl Simulation {
             sliding_distance: self.time() * self.parameters.angular_velocity * mesh.mean_radius(),
             contact_ratio: contact_area / mesh.pin_area(),
             mean_pressure: if contact_area > 0.0 { self.contact.load() / contact_area } else { 0.0 },
-            max_pressure: self.contact.pressures(&self.pairs).fold(0.0, f64::max),
+            max_pressure: self.contact.pressures(mesh).fold(0.0, f64::max),
             worn_pin: totals.worn_pin.value(),
             worn_resin: totals.worn_resin.value(),
             worn_disc: totals.worn_disc.value(),
@@ -69,7 +69,7 @@ impl Simulation {
             Map::PinStatus => {
                 MapValues::Status((0..self.pin.height.len()).map(|cell| self.pin.status(cell) as u8).collect())
             }
-            Map::Pressure => MapValues::Float(self.contact.pressures(&self.pairs).collect()),
+            Map::Pressure => MapValues::Float(self.contact.pressures(&self.parameters.mesh).collect()),
         };
         Snapshot { time: self.time(), maps: maps.iter().map(|map| (*map, values(*map))).collect() }
     }

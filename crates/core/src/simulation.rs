@@ -6,11 +6,11 @@ use crate::contact::{Contact, ContactError};
 use crate::debris::{Debris, Transfer};
 use crate::filling::Filling;
 use crate::history::History;
-use crate::pair::Pairs;
+use crate::kernel::{DiscColumn, Outlook, PinColumn, PinView, Update, update};
+use crate::pair::Coefficients;
 use crate::parameters::Parameters;
-use crate::plateau;
-use crate::state::{Base, Disc, InitialSurfaces, Pin};
-use crate::wear;
+use crate::parts::Needs;
+use crate::state::{Disc, InitialSurfaces, Pin};
 
 /// Why a simulation cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -45,7 +45,9 @@ pub enum SimulationError {
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(crate) parameters: Parameters,
-    pub(crate) pairs: Pairs,
+    coefficients: Coefficients,
+    needs: Needs,
+    update: Update,
     pub(crate) disc: Disc,
     pub(crate) pin: Pin,
     pub(crate) contact: Contact,
@@ -75,8 +77,11 @@ impl Simulation {
             }
         }
         let disc = Disc::new(surfaces.disc_height);
+        let needs = Needs::of(&parameters);
         Ok(Self {
-            pairs: Pairs::new(&parameters),
+            coefficients: Coefficients::new(&parameters),
+            update: update(needs.distinct, needs.disc_wears, needs.forms, needs.destroys),
+            needs,
             contact: Contact::new(mesh),
             debris: Debris::new(mesh, &parameters.plateaus),
             history: History::new(mesh.disc_columns()),
@@ -103,7 +108,7 @@ impl Simulation {
     /// | 4.1 | every pin cell faces the disc cell under it | [`Contact::face`] |
     /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
     /// | 4.4 | debris at hand for each open cell | [`Debris::spread`] |
-    /// | 4.2 to 4.4 | wear, destruction and formation in every cell | [`wear`], [`plateau`] |
+    /// | 4.2 to 4.4 | wear, destruction and formation in every cell | [`crate::wear`], [`crate::plateau`] |
     /// | 4.5 | debris balance | [`Debris::settle`] |
     /// | 4.6 | the disc turns by one column | |
     ///
@@ -113,62 +118,48 @@ impl Simulation {
     pub fn advance(&mut self) -> Result<(), SimulationError> {
         let Parameters { mesh, normal_force, load_tolerance, .. } = &self.parameters;
         let turned = self.first_step + self.step;
-        self.contact.face(mesh, &self.pairs, &self.disc, &self.pin, turned);
+        self.contact.face(mesh, &self.coefficients.stiffness, self.needs.distinct, &self.disc, &self.pin, turned);
         self.contact
             .balance(mesh, *normal_force, *load_tolerance)
             .map_err(|source| SimulationError::Contact { step: self.step + 1, source })?;
         self.debris.spread(mesh, self.contact.touching());
         self.transfer.clear();
-        for column in 0..mesh.pin_columns() {
-            self.update_column(column, turned);
-        }
+        self.update_columns(turned);
         self.debris.settle(&self.parameters.mesh, &self.transfer);
         self.history.record(self.contact.area(&self.parameters.mesh), self.parameters.step_time());
         self.step += 1;
         Ok(())
     }
 
-    /// Wear, destruction and formation in one column of the pin and the disc column under it (model 4.2 to 4.4).
-    fn update_column(&mut self, column: usize, turned: u64) {
+    /// Wear, destruction and formation in every column of the pin and the disc column under it (model 4.2 to 4.4).
+    fn update_columns(&mut self, turned: u64) {
         let Parameters { mesh, plateaus, materials, .. } = &self.parameters;
         let rows = mesh.rows();
-        let displacement = self.contact.displacement();
-        let disc_start = mesh.disc_column(column, turned) * rows;
-        let is_last = column + 1 == mesh.pin_columns();
-        for row in 0..rows {
-            let (cell, disc_cell) = (column * rows + row, disc_start + row);
-            let (pin_height, pin_substrate) = (&mut self.pin.height[cell], &mut self.pin.substrate[cell]);
-            let (disc_height, disc_substrate) = (&mut self.disc.height[disc_cell], &mut self.disc.substrate[disc_cell]);
-            let base = self.pin.base[cell];
-            // What the neighbour in the sliding direction was at the start of the step; the last column has none.
-            let supported = !is_last && self.contact.pair(cell + rows).pin_is_plateau();
-
-            let overlap = self.contact.overlap(cell);
-            let touches = overlap > 0.0;
-            if touches {
-                let pair = self.contact.pair(cell);
-                let factors = &self.pairs.wear(row)[pair.index()];
-                if pair.pin_is_plateau() {
-                    let below = if base == Base::Primary { overlap * factors.fibre } else { 0.0 };
-                    self.transfer.worn_pin[row] +=
-                        wear::wear_pin_plateau(pin_height, pin_substrate, overlap * factors.pin, below);
-                } else {
-                    self.transfer.worn_resin[row] += wear::wear_resin(pin_height, pin_substrate, materials.wear_height);
-                }
-                self.transfer.worn_disc[row] +=
-                    wear::wear_disc(disc_height, disc_substrate, overlap * factors.disc, overlap * factors.coating);
-            }
-            if plateaus.destruction {
-                self.transfer.returned[row] +=
-                    plateau::destroy_unsupported(pin_height, *pin_substrate, base, supported);
-            }
-            if !touches {
-                let share = self.debris.share()[row];
-                let deposit =
-                    plateau::form(pin_height, disc_height, displacement, share, supported, plateaus.pad_share);
-                self.transfer.deposited_pin[row] += deposit.pin;
-                self.transfer.deposited_disc[row] += deposit.disc;
-            }
+        for column in 0..mesh.pin_columns() {
+            let cells = mesh.column(column);
+            let (height, height_ahead) = self.pin.height[cells.start..].split_at_mut(rows);
+            let (substrate, substrate_ahead) = self.pin.substrate[cells.start..].split_at_mut(rows);
+            let (base, base_ahead) = self.pin.base[cells.start..].split_at(rows);
+            let ahead = (column + 1 < mesh.pin_columns()).then(|| PinView {
+                height: &height_ahead[..rows],
+                substrate: &substrate_ahead[..rows],
+                base: &base_ahead[..rows],
+            });
+            let under = mesh.column(mesh.disc_column(column, turned));
+            let outlook = Outlook {
+                displacement: self.contact.displacement(),
+                share: self.debris.share(),
+                pad_share: plateaus.pad_share,
+                wear_height: materials.wear_height,
+                ahead,
+            };
+            (self.update)(
+                PinColumn { height, substrate, base },
+                DiscColumn { height: &mut self.disc.height[under.clone()], substrate: &mut self.disc.substrate[under] },
+                &outlook,
+                &self.coefficients,
+                &mut self.transfer,
+            );
         }
     }
 

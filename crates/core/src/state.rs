@@ -1,5 +1,8 @@
 //! Heights of disc and pin, and the status that follows from them (model section 2).
 
+use std::ops::Range;
+
+use crate::kernel::PinView;
 use crate::material::Status;
 use crate::mesh::Mesh;
 
@@ -53,6 +56,15 @@ impl Pin {
     pub fn new(height: Vec<f64>, base: Vec<Base>) -> Self {
         assert_eq!(height.len(), base.len(), "heights and bases of the pin");
         Self { substrate: height.clone(), height, base }
+    }
+
+    /// Some cells of it.
+    pub fn view(&self, cells: Range<usize>) -> PinView<'_> {
+        PinView {
+            height: &self.height[cells.clone()],
+            substrate: &self.substrate[cells.clone()],
+            base: &self.base[cells],
+        }
     }
 
     /// Status of a cell: secondary where debris stands out of the substrate toward the disc, else its base.
