@@ -1,2 +1,3 @@
 //! Everything of Plateau that touches a file.
+pub mod run_file;
 pub mod scene;
