@@ -64,7 +64,11 @@ impl Dimensions {
             scales.push(VarLenArray::from_slice(&[self.file.reference::<ObjectReference1>(name)?]));
             self.users.entry(name).or_default().push(Axis { dataset: itself, dimension });
         }
-        dataset.new_attr::<VarLenArray<ObjectReference1>>().shape(scales.len()).create("DIMENSION_LIST")?.write_raw(&scales)
+        dataset
+            .new_attr::<VarLenArray<ObjectReference1>>()
+            .shape(scales.len())
+            .create("DIMENSION_LIST")?
+            .write_raw(&scales)
     }
 
     /// Writes into every scale which datasets it describes.

@@ -64,7 +64,10 @@ pub enum RunFileError {
         name: &'static str,
     },
     /// Writing failed; what was written before can be read (h5py: `swmr=True`).
-    #[error("writing {} failed: {reason}; samples before this remain readable; free space or write elsewhere", path.display())]
+    #[error(
+        "writing {} failed: {reason}; what was written before can still be read; free space or write elsewhere",
+        path.display()
+    )]
     Write {
         /// The run file.
         path: PathBuf,

@@ -188,7 +188,8 @@ impl<'a> Layout<'a> {
 
     fn pin_base(&mut self, header: &Header) -> hdf5::Result<()> {
         let dimensions = ["pin_angle", "radius"];
-        let dataset = self.dataset("pin/base", &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
+        let dataset =
+            self.dataset("pin/base", &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
         write_flags(&dataset)?;
         self.dimensions.attach(&dataset, &dimensions)?;
         let base: Vec<StoredStatus> = header.pin_base.iter().copied().map(StoredStatus::from).collect();

@@ -32,7 +32,8 @@ impl Place {
             return Err(RunFileError::NoDirectory { path: path.into(), directory: parent.into() });
         }
         // Absolute, so that a change of the working directory does no harm.
-        let refused = |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
+        let refused =
+            |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
         let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
         if fs::symlink_metadata(&resolved).is_ok() {
             if !overwrite {

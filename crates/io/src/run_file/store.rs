@@ -1,6 +1,7 @@
 //! The open run file: what is appended to it and how it is closed.
 
 use std::fs;
+use std::io::{self, Write as _};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
@@ -21,6 +22,9 @@ use super::{End, Header, RunFileError};
 ///
 /// Nothing is read back, so it need hold no more than the chunk that is being filled.
 const CHUNK_CACHE: (usize, usize, f64) = (521, 1024 * 1024, 1.0);
+
+/// More bytes than the attributes of the end take.
+const ROOM: usize = 128 * 1024;
 
 /// A run file while it is written. Only one thread uses it.
 pub(super) struct Store {
@@ -69,18 +73,25 @@ impl Store {
         self.datasets.append_snapshot(&self.file, snapshot).map_err(failed(&self.path))
     }
 
-    /// States how the run ended and closes the file for good.
+    /// Lets go of a file that can no longer be written, as the end of the process would.
     ///
-    /// Whatever fails, `state` does not say more than what was done: it is the last thing that is written.
+    /// Closing it would make HDF5 try once more to write what it could not, and leave the file marked in a way in which
+    /// nobody reads it. Not closed, it is what a killed writer leaves: readable up to the last complete sample.
+    pub(super) fn abandon(self) {
+        std::mem::forget(self);
+    }
+
+    /// States how the run ended and closes the file for good; `state` is the last thing that is written.
     pub(super) fn seal(self, end: &End) -> Result<Written, RunFileError> {
         let Self { path, identity: written_to, started, file, datasets } = self;
         let (samples, snapshots) = (datasets.samples, datasets.snapshots);
         drop(datasets);
         file.close().map_err(failed(&path))?;
-        // Readers that follow a run do not allow new attributes, so the file is opened once more without them.
         if identity(&path) != written_to {
             return Err(RunFileError::Moved { path });
         }
+        check_room(&path).map_err(|error| RunFileError::Write { path: path.clone(), reason: error.to_string() })?;
+        // A file that readers follow takes no new attributes, so it is opened once more without them.
         let state_end = || {
             let file = open(&path)?;
             layout::write_text(&file, "end_time", &iso_8601(SystemTime::now()))?;
@@ -180,6 +191,17 @@ fn open(path: &Path) -> hdf5::Result<File> {
     FileBuilder::new()
         .with_fapl(|list| list.libver_v110().file_locking(false).chunk_cache(slots, bytes, preemption))
         .open_rw(path)
+}
+
+/// Checks that the attributes of the end will find room behind the end of the file.
+///
+/// A file in which HDF5 could write only half of them would be damaged; like this it stays as it is.
+fn check_room(path: &Path) -> io::Result<()> {
+    let mut file = fs::OpenOptions::new().append(true).open(path)?;
+    let length = file.metadata()?.len();
+    let written = file.write_all(&[0; ROOM]);
+    file.set_len(length)?;
+    written
 }
 
 fn identity(path: &Path) -> Option<(u64, u64)> {

@@ -101,7 +101,8 @@ impl RunWriter {
     /// Writes what is still in the queue, states how the run ended, and closes the file.
     ///
     /// # Errors
-    /// The error of the writer if it has failed, now or before; `state` then is not `finished`.
+    /// The error of the writer if it has failed, now or before; `state` then still is `running`, as if the program had
+    /// been killed.
     pub fn finish(mut self, end: &End) -> Result<WriterReport, RunFileError> {
         let store = self.join()?;
         let written = store.seal(end)?;
@@ -176,17 +177,11 @@ fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
 }
 
 /// Body of the thread: appends what arrives until both queues are closed and empty.
-///
-/// After an error it states the failure in the file as far as that is possible.
-fn write(
-    mut store: Store,
-    samples: &Receiver<Sample>,
-    snapshots: &Receiver<Snapshot>,
-) -> Result<Store, RunFileError> {
+fn write(mut store: Store, samples: &Receiver<Sample>, snapshots: &Receiver<Snapshot>) -> Result<Store, RunFileError> {
     match append_all(&mut store, samples, snapshots) {
         Ok(()) => Ok(store),
         Err(error) => {
-            let _ = store.seal(&End::Failed(error.to_string()));
+            store.abandon();
             Err(error)
         }
     }
