@@ -1,3 +1,4 @@
 //! Everything of Plateau that touches a file.
+pub mod run_file;
 pub mod scene;
 pub mod units;

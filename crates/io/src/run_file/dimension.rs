@@ -1,0 +1,82 @@
+//! HDF5 dimension scales: what gives the axes of a dataset names and coordinates in h5py, xarray and netCDF4.
+//!
+//! The conventions are those of the HDF5 "Dimension Scale Specification": a scale has the attributes CLASS and NAME, and
+//! REFERENCE_LIST names its users; a user's DIMENSION_LIST holds references to its scales.
+
+use std::collections::BTreeMap;
+
+use hdf5::types::{FixedAscii, VarLenArray};
+use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
+
+/// An HDF5 file without any objects. Its root group keeps the order in which links are made, and has one attribute,
+/// CLASS = "DIMENSION_SCALE" as the specification wants it: 16 bytes, null-terminated.
+///
+/// The crate `hdf5` makes null-padded strings only, with which the HDF5 library does not recognise a dimension scale.
+/// This file is where the type comes from; every run file starts as a copy of it. It was made by h5py:
+/// ```python
+/// with h5py.File("empty.h5", "w", libver=("v110", "v110"), track_order=True) as file:
+///     text = h5py.h5t.C_S1.copy(); text.set_size(16); text.set_strpad(h5py.h5t.STR_NULLTERM)
+///     attribute = h5py.h5a.create(file.id, b"CLASS", text, h5py.h5s.create(h5py.h5s.SCALAR))
+///     attribute.write(numpy.array(b"DIMENSION_SCALE", dtype="S16"))
+/// ```
+pub(super) const EMPTY_FILE: &[u8] = include_bytes!("empty.h5");
+
+type Text = FixedAscii<16>;
+
+/// One entry of REFERENCE_LIST: a dataset, and which of its axes the scale describes.
+#[derive(Clone, Copy, H5Type)]
+#[repr(C)]
+struct Axis {
+    dataset: ObjectReference1,
+    dimension: i32,
+}
+
+/// The dimension scales of a file that started as [`EMPTY_FILE`].
+pub(super) struct Dimensions {
+    file: File,
+    text: Datatype,
+    users: BTreeMap<&'static str, Vec<Axis>>,
+}
+
+impl Dimensions {
+    /// Takes the string type out of the file.
+    pub(super) fn new(file: &File) -> hdf5::Result<Self> {
+        let text = file.attr("CLASS")?.dtype()?;
+        file.delete_attr("CLASS")?;
+        Ok(Self { file: file.clone(), text, users: BTreeMap::new() })
+    }
+
+    /// Makes a dataset of the root group the scale of the dimension that has its name.
+    pub(super) fn make_scale(&mut self, dataset: &Dataset, name: &'static str) -> hdf5::Result<()> {
+        for (attribute, value) in [("CLASS", "DIMENSION_SCALE"), ("NAME", name)] {
+            let value = Text::from_ascii(value).map_err(|error| hdf5::Error::from(error.to_string()))?;
+            dataset.new_attr_builder().empty_as(self.text.clone()).create(attribute)?.write_scalar(&value)?;
+        }
+        self.users.insert(name, Vec::new());
+        Ok(())
+    }
+
+    /// Names the axes of a dataset by scales made before.
+    pub(super) fn attach(&mut self, dataset: &Dataset, dimensions: &[&'static str]) -> hdf5::Result<()> {
+        let itself: ObjectReference1 = self.file.reference(&dataset.name())?;
+        let mut scales = Vec::with_capacity(dimensions.len());
+        for (dimension, name) in (0..).zip(dimensions) {
+            scales.push(VarLenArray::from_slice(&[self.file.reference::<ObjectReference1>(name)?]));
+            self.users.entry(name).or_default().push(Axis { dataset: itself, dimension });
+        }
+        dataset
+            .new_attr::<VarLenArray<ObjectReference1>>()
+            .shape(scales.len())
+            .create("DIMENSION_LIST")?
+            .write_raw(&scales)
+    }
+
+    /// Writes into every scale which datasets it describes.
+    pub(super) fn finish(self) -> hdf5::Result<()> {
+        for (name, users) in self.users.iter().filter(|(_, users)| !users.is_empty()) {
+            let scale = self.file.dataset(name)?;
+            scale.new_attr::<Axis>().shape(users.len()).create("REFERENCE_LIST")?.write_raw(users)?;
+        }
+        Ok(())
+    }
+}

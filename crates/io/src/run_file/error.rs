@@ -1,0 +1,86 @@
+//! What can go wrong with a run file.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// Why a run file cannot be made or written.
+///
+/// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::Write`] mean that an input is
+/// wrong and that nothing was touched; a [`RunFileError::Write`] means that the run failed.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum RunFileError {
+    /// There is something at the output path and it was not asked to be replaced.
+    #[error("the output file {} exists; give --force to replace it, or write elsewhere with -o FILE", path.display())]
+    Exists {
+        /// The output path.
+        path: PathBuf,
+    },
+    /// What is at the output path is a directory, a device or the like.
+    #[error("the output {} is no regular file and is not replaced; write elsewhere with -o FILE", path.display())]
+    NotAFile {
+        /// The output path.
+        path: PathBuf,
+    },
+    /// The directory of the output file does not exist or is no directory.
+    #[error("cannot write {}: {} is no directory; make it, or write elsewhere with -o FILE", path.display(), directory.display())]
+    NoDirectory {
+        /// The output path.
+        path: PathBuf,
+        /// Its directory.
+        directory: PathBuf,
+    },
+    /// The HDF5 library takes names in UTF-8 only.
+    #[error("the output path {} is not valid UTF-8; choose another name with -o FILE", path.display())]
+    NotUtf8 {
+        /// The output path.
+        path: PathBuf,
+    },
+    /// No file can be made in the directory of the output file.
+    #[error(
+        "cannot make a file in {}: {reason}; make the directory writable, or write elsewhere with -o FILE",
+        directory.display()
+    )]
+    Directory {
+        /// The directory.
+        directory: PathBuf,
+        /// What the system said.
+        reason: String,
+    },
+    /// A field does not have the size that the mesh asks for.
+    #[error("{name} has {found} values, expected {expected} for this mesh")]
+    Size {
+        /// The field.
+        name: &'static str,
+        /// Values it has.
+        found: usize,
+        /// Values it should have.
+        expected: usize,
+    },
+    /// A snapshot does not hold the maps that the header names.
+    #[error("a snapshot lacks the map {name}, or has it as another type, though the run file was made for it")]
+    Map {
+        /// The map.
+        name: &'static str,
+    },
+    /// Writing failed; what was written before can be read (h5py: `swmr=True`).
+    #[error(
+        "writing {} failed: {reason}; what was written before can still be read; free space or write elsewhere",
+        path.display()
+    )]
+    Write {
+        /// The run file.
+        path: PathBuf,
+        /// What the HDF5 library or the system said.
+        reason: String,
+    },
+    /// The writer ended without saying why: a defect of the program.
+    #[error("the writer of the run file stopped; this is a defect of the program, please report it")]
+    Stopped,
+    /// The run file was moved or replaced by another program while the run went on.
+    #[error("{} was moved or replaced while the run went on; its final state could not be recorded", path.display())]
+    Moved {
+        /// Where the run file should be.
+        path: PathBuf,
+    },
+}

@@ -1,0 +1,90 @@
+//! What a run file says about its run before the first step.
+
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use plateau_core::mesh::Mesh;
+use plateau_core::observe::Map;
+use plateau_core::state::Base;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use super::RunFileError;
+
+/// What is fixed before the first step of a run: its mesh, the maps it records, and where it comes from.
+#[derive(Debug, Clone)]
+pub struct Header {
+    /// Title of the scene.
+    pub title: String,
+    /// The ring mesh.
+    pub mesh: Mesh,
+    /// Base of every pin cell, column by column.
+    pub pin_base: Vec<Base>,
+    /// The maps to be recorded; no others exist in the file.
+    pub maps: Vec<Map>,
+    /// The whole resolved scene, TOML.
+    pub scene: String,
+    /// Name and version of the program.
+    pub program: String,
+    /// Revision of its source.
+    pub source_revision: String,
+    /// Name of the machine.
+    pub host: String,
+    /// Threads that share the ring.
+    pub workers: usize,
+    /// The instruction set that the kernel uses.
+    pub instruction_set: String,
+    /// Seeds as (key path in the scene, seed).
+    pub seeds: Vec<(String, u64)>,
+    /// Every file that was read.
+    pub inputs: Vec<InputFile>,
+}
+
+impl Header {
+    /// Whether the fields fit the mesh.
+    pub(super) fn check(&self) -> Result<(), RunFileError> {
+        let (found, expected) = (self.pin_base.len(), self.mesh.pin_cells());
+        if found == expected { Ok(()) } else { Err(RunFileError::Size { name: "pin base", found, expected }) }
+    }
+}
+
+/// A file that was read for a run, with what it held.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct InputFile {
+    /// Path as the run used it; characters that are no Unicode are replaced.
+    pub path: String,
+    /// SHA-256 of the content, 64 hexadecimal digits.
+    pub sha256: String,
+}
+
+impl InputFile {
+    /// Reads a file and notes its digest.
+    ///
+    /// # Errors
+    /// What the system says when the file cannot be read.
+    pub fn read(path: &Path) -> io::Result<Self> {
+        let mut hasher = Sha256::new();
+        io::copy(&mut std::fs::File::open(path)?, &mut hasher)?;
+        let mut sha256 = String::with_capacity(64);
+        for byte in hasher.finalize() {
+            let _ = write!(sha256, "{byte:02x}");
+        }
+        Ok(Self { path: path.to_string_lossy().into_owned(), sha256 })
+    }
+
+    /// Digests every file of a list, each file once.
+    ///
+    /// # Errors
+    /// The first file that cannot be read, with what the system says.
+    pub fn read_all<'a>(paths: impl IntoIterator<Item = &'a PathBuf>) -> Result<Vec<Self>, (PathBuf, io::Error)> {
+        let mut files: Vec<Self> = Vec::new();
+        for path in paths {
+            let file = Self::read(path).map_err(|error| (path.clone(), error))?;
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        Ok(files)
+    }
+}

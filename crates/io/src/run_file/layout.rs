@@ -1,0 +1,250 @@
+//! Groups, datasets and attributes of a run file before the first step.
+
+use std::str::FromStr;
+use std::time::SystemTime;
+
+use hdf5::plist::file_create::LinkCreationOrder;
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, Datatype, Extent, File, H5Type, Location, SimpleExtents};
+use plateau_core::mesh::Mesh;
+use plateau_core::observe::{Map, QUANTITIES};
+
+use super::Header;
+use super::dimension::Dimensions;
+use super::status::StoredStatus;
+use super::timestamp::iso_8601;
+
+/// `format_version` of the files written here.
+const FORMAT_VERSION: i32 = 1;
+const CONVENTIONS: &str = "CF-1.11";
+const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Contact Area and Pressure Dependence of \
+    Initial Surface Roughness for Cermet-Coated Discs Used in Disc Brakes, Tribology in Industry 41 (2019)";
+
+/// Times in one chunk of a series.
+///
+/// A chunk that is not full yet is written anew with every flush, and while others may be reading its old place in the
+/// file is not used again. Short chunks keep that loss to some kB a flush.
+const SERIES_CHUNK: usize = 64;
+/// Bytes in one chunk of a map before compression, at most.
+const MAP_CHUNK_BYTES: usize = 512 * 1024;
+
+/// Path of the datasets that say how much of a file is complete.
+pub(super) const TIME: &str = "time";
+/// See [`TIME`].
+pub(super) const MAP_TIME: &str = "map_time";
+
+/// Path of a series.
+pub(super) fn series_path(name: &str) -> String {
+    format!("series/{name}")
+}
+
+/// Path of a map.
+pub(super) fn map_path(map: Map) -> &'static str {
+    match map {
+        Map::DiscHeight => "disc/height",
+        Map::DiscSubstrate => "disc/substrate",
+        Map::DiscStatus => "disc/status",
+        Map::PinHeight => "pin/height",
+        Map::PinSubstrate => "pin/substrate",
+        Map::PinStatus => "pin/status",
+        Map::Pressure => "pin/pressure",
+    }
+}
+
+fn map_unit(map: Map) -> &'static str {
+    match map {
+        Map::DiscStatus | Map::PinStatus => "1",
+        Map::Pressure => "Pa",
+        _ => "m",
+    }
+}
+
+fn map_long_name(map: Map) -> &'static str {
+    match map {
+        Map::DiscHeight => "surface height of the disc, positive toward the pin",
+        Map::DiscSubstrate => "height of the disc below any compacted debris",
+        Map::DiscStatus => "status of the disc cells",
+        Map::PinHeight => "surface height of the pin, positive away from the disc",
+        Map::PinSubstrate => "height of the pin below any compacted debris, positive away from the disc",
+        Map::PinStatus => "status of the pin cells",
+        Map::Pressure => "contact pressure",
+    }
+}
+
+/// Writes everything that is known before the first step, and makes every other dataset with no times in it yet.
+///
+/// No object of the file is open any more when this returns.
+pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
+    write_provenance(file, header, start)?;
+    let mut layout = Layout::new(file, &header.mesh)?;
+    layout.coordinates(!header.maps.is_empty())?;
+    for quantity in QUANTITIES {
+        layout.series(quantity.name, quantity.unit, quantity.long_name)?;
+    }
+    for map in Map::ALL.into_iter().filter(|map| header.maps.contains(map)) {
+        layout.map(map)?;
+    }
+    layout.pin_base(header)?;
+    layout.dimensions.finish()
+}
+
+fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
+    let seeds: serde_json::Map<_, _> = header.seeds.iter().map(|(key, seed)| (key.clone(), (*seed).into())).collect();
+    let inputs = serde_json::to_string(&header.inputs).map_err(|error| hdf5::Error::from(error.to_string()))?;
+
+    write_text(file, "title", &header.title)?;
+    write_number(file, "format_version", FORMAT_VERSION)?;
+    write_text(file, "conventions", CONVENTIONS)?;
+    write_text(file, "Conventions", CONVENTIONS)?; // the spelling that netCDF readers look for
+    write_text(file, "references", REFERENCES)?;
+    write_text(file, "program", &header.program)?;
+    write_text(file, "source_revision", &header.source_revision)?;
+    write_text(file, "scene", &header.scene)?;
+    write_text(file, "inputs", &inputs)?;
+    write_text(file, "seeds", &serde_json::Value::from(seeds).to_string())?;
+    write_text(file, "host", &header.host)?;
+    write_number(file, "workers", header.workers as i64)?;
+    write_text(file, "instruction_set", &header.instruction_set)?;
+    write_text(file, "start_time", &iso_8601(start))?;
+    write_text(file, "state", "running")
+}
+
+/// Sets a text attribute, new or not.
+pub(super) fn write_text(location: &Location, name: &str, text: &str) -> hdf5::Result<()> {
+    // HDF5 ends a text at a null character; there is no other way to store one.
+    let text = VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))
+        .map_err(|error| hdf5::Error::from(error.to_string()))?;
+    match location.attr(name) {
+        Ok(attribute) => attribute.write_scalar(&text),
+        Err(_) => location.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&text),
+    }
+}
+
+/// Adds an attribute that is one number.
+pub(super) fn write_number<T: H5Type>(location: &Location, name: &str, number: T) -> hdf5::Result<()> {
+    location.new_attr::<T>().create(name)?.write_scalar(&number)
+}
+
+/// The datasets of a file while they are made.
+struct Layout<'a> {
+    file: &'a File,
+    mesh: &'a Mesh,
+    dimensions: Dimensions,
+    float: Datatype,
+    /// Committed, since netCDF-4 knows enumerations only as named types.
+    status: Datatype,
+}
+
+impl<'a> Layout<'a> {
+    fn new(file: &'a File, mesh: &'a Mesh) -> hdf5::Result<Self> {
+        let status = Datatype::from_type::<StoredStatus>()?;
+        let dimensions = Dimensions::new(file)?;
+        file.commit_datatype("status", &status)?;
+        for group in ["series", "disc", "pin"] {
+            file.create_group_builder()
+                .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
+                .create(group)?;
+        }
+        Ok(Self { file, mesh, dimensions, float: Datatype::from_type::<f64>()?, status })
+    }
+
+    /// Radius, angles and times, each the scale of the dimension of its name.
+    fn coordinates(&mut self, with_maps: bool) -> hdf5::Result<()> {
+        let centres = |columns| (0..columns).map(|c| (c as f64 + 0.5) * self.mesh.column_angle()).collect::<Vec<_>>();
+        let disc_angle = centres(self.mesh.disc_columns());
+        let pin_angle = centres(self.mesh.pin_columns());
+        let radius = self.mesh.radius().to_vec();
+        self.scale("radius", "m", "radius of the cell centres")?.write_raw(&radius)?;
+        self.scale("disc_angle", "rad", "angle of the cell centres on the disc")?.write_raw(&disc_angle)?;
+        self.scale("pin_angle", "rad", "angle of the cell centres on the pin, from its leading edge")?
+            .write_raw(&pin_angle)?;
+        self.scale(TIME, "s", "physical time of the samples")?;
+        if with_maps {
+            self.scale(MAP_TIME, "s", "physical time of the maps")?;
+        }
+        Ok(())
+    }
+
+    fn scale(&mut self, name: &'static str, unit: &str, long_name: &str) -> hdf5::Result<Dataset> {
+        let scale = self.dataset(name, &self.float, &[name], unit, long_name)?;
+        self.dimensions.make_scale(&scale, name)?;
+        Ok(scale)
+    }
+
+    fn series(&mut self, name: &str, unit: &str, long_name: &str) -> hdf5::Result<()> {
+        let series = self.dataset(&series_path(name), &self.float, &[TIME], unit, long_name)?;
+        self.dimensions.attach(&series, &[TIME])
+    }
+
+    fn map(&mut self, map: Map) -> hdf5::Result<()> {
+        let dimensions = [MAP_TIME, if map.on_disc() { "disc_angle" } else { "pin_angle" }, "radius"];
+        let datatype = if map.is_status() { &self.status } else { &self.float };
+        let dataset = self.dataset(map_path(map), datatype, &dimensions, map_unit(map), map_long_name(map))?;
+        if map.is_status() {
+            write_flags(&dataset)?;
+        }
+        self.dimensions.attach(&dataset, &dimensions)
+    }
+
+    fn pin_base(&mut self, header: &Header) -> hdf5::Result<()> {
+        let dimensions = ["pin_angle", "radius"];
+        let dataset =
+            self.dataset("pin/base", &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
+        write_flags(&dataset)?;
+        self.dimensions.attach(&dataset, &dimensions)?;
+        let base: Vec<StoredStatus> = header.pin_base.iter().copied().map(StoredStatus::from).collect();
+        let shape = (self.mesh.pin_columns(), self.mesh.rows());
+        let base = ndarray::ArrayView2::from_shape(shape, &base).map_err(hdf5::Error::from)?;
+        dataset.write(base)
+    }
+
+    /// Makes a dataset; the two time dimensions are empty and can grow.
+    fn dataset(
+        &self,
+        path: &str,
+        datatype: &Datatype,
+        dimensions: &[&str],
+        unit: &str,
+        long_name: &str,
+    ) -> hdf5::Result<Dataset> {
+        let extents = dimensions.iter().map(|&dimension| match dimension {
+            "radius" => Extent::fixed(self.mesh.rows()),
+            "disc_angle" => Extent::fixed(self.mesh.disc_columns()),
+            "pin_angle" => Extent::fixed(self.mesh.pin_columns()),
+            _ => Extent::resizable(0),
+        });
+        let extents = SimpleExtents::from_vec(extents.collect());
+        let dataset = self
+            .file
+            .new_dataset_builder()
+            .chunk(chunk(&extents, datatype.size()))
+            .shuffle()
+            .deflate(1)
+            .empty_as(datatype)
+            .shape(extents)
+            .create(path)?;
+        write_text(&dataset, "units", unit)?;
+        write_text(&dataset, "long_name", long_name)?;
+        Ok(dataset)
+    }
+}
+
+/// Shape of the chunks: a series is cut in time; a map has one time per chunk and is cut into equal parts by columns.
+fn chunk(extents: &SimpleExtents, bytes_per_value: usize) -> Vec<usize> {
+    match extents.dims().as_slice() {
+        &[0] => vec![SERIES_CHUNK],
+        &[.., columns, rows] => {
+            let parts = (columns * rows * bytes_per_value).div_ceil(MAP_CHUNK_BYTES).min(columns);
+            let mut chunk = vec![1; extents.ndim() - 2];
+            chunk.extend([columns.div_ceil(parts), rows]);
+            chunk
+        }
+        dims => dims.to_vec(),
+    }
+}
+
+/// The CF way to say what a status means, for readers that do not show enumerations.
+fn write_flags(dataset: &Dataset) -> hdf5::Result<()> {
+    dataset.new_attr_builder().with_data(&StoredStatus::FLAG_VALUES).create("flag_values")?;
+    write_text(dataset, "flag_meanings", StoredStatus::FLAG_MEANINGS)
+}

@@ -1,0 +1,27 @@
+//! Run files: HDF5 with netCDF-4 conventions, as formats.md fixes them.
+//!
+//! [`RunWriter::create`] makes the file and hands it to a writer thread. A simulation sends its samples and maps over
+//! a bounded queue and goes on; it waits only when the queue is full. [`RunWriter::finish`] states how the run ended.
+//!
+//! From the first sample on another process can follow the run in HDF5's single-writer-multiple-reader mode (h5py:
+//! `File(path, swmr=True)`). The length of `/time` tells how many samples are complete: every series is written and
+//! flushed before the times are. `/map_time` tells the same of the maps.
+//!
+//! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands.
+mod dimension;
+mod end;
+mod error;
+mod header;
+mod layout;
+mod limit;
+mod place;
+mod status;
+mod store;
+mod timestamp;
+mod writer;
+
+pub use end::End;
+pub use error::RunFileError;
+pub use header::{Header, InputFile};
+pub use limit::report_file_size_limit;
+pub use writer::{RunWriter, WriterReport};

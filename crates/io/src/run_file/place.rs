@@ -1,0 +1,87 @@
+//! The place of a run file: a new file appears there complete, or not at all.
+
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::RunFileError;
+
+/// An output path and the temporary file beside it that becomes the output once it is set up.
+///
+/// The temporary is removed when this is dropped.
+pub(super) struct Place {
+    path: PathBuf,
+    temporary: PathBuf,
+    overwrite: bool,
+}
+
+impl Place {
+    /// Checks that a file may be written at `path` and starts the temporary with the given bytes.
+    pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+
+        if path.to_str().is_none() {
+            return Err(RunFileError::NotUtf8 { path: path.into() });
+        }
+        let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else {
+            return Err(RunFileError::NotAFile { path: path.into() });
+        };
+        let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+        if !parent.is_dir() {
+            return Err(RunFileError::NoDirectory { path: path.into(), directory: parent.into() });
+        }
+        // Absolute, so that a change of the working directory does no harm.
+        let refused =
+            |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
+        let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
+        if fs::symlink_metadata(&resolved).is_ok() {
+            if !overwrite {
+                return Err(RunFileError::Exists { path: path.into() });
+            }
+            // What is replaced is the file that a symbolic link points to, not the link.
+            resolved = fs::canonicalize(&resolved)
+                .ok()
+                .filter(|target| target.is_file())
+                .ok_or_else(|| RunFileError::NotAFile { path: path.into() })?;
+        }
+        let number = COUNT.fetch_add(1, Ordering::Relaxed);
+        let temporary = resolved.with_file_name(format!(".plateau-{}-{number}.tmp", std::process::id()));
+        let place = Self { path: resolved, temporary, overwrite };
+        fs::write(&place.temporary, start).map_err(refused)?;
+        Ok(place)
+    }
+
+    /// Where the file is until it is published.
+    pub(super) fn temporary(&self) -> &Path {
+        &self.temporary
+    }
+
+    /// Gives the temporary its final name; replaces an existing file only where that was asked for.
+    pub(super) fn publish(self) -> Result<PathBuf, RunFileError> {
+        let exists = |path: &Path| RunFileError::Exists { path: path.into() };
+        let published = if self.overwrite {
+            fs::rename(&self.temporary, &self.path)
+        } else {
+            // A link fails where a file has appeared meanwhile; a rename would replace it.
+            match fs::hard_link(&self.temporary, &self.path) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(exists(&self.path)),
+                Err(_) if fs::symlink_metadata(&self.path).is_ok() => return Err(exists(&self.path)),
+                // Some file systems have no hard links.
+                Err(_) => fs::rename(&self.temporary, &self.path),
+                Ok(()) => Ok(()),
+            }
+        };
+        published.map(|()| self.path.clone()).map_err(|error| RunFileError::Directory {
+            directory: self.path.parent().unwrap_or(&self.path).into(),
+            reason: error.to_string(),
+        })
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        // Gone already where it was renamed; otherwise there is nobody left to tell.
+        let _ = fs::remove_file(&self.temporary);
+    }
+}

@@ -1,0 +1,227 @@
+//! The thread that writes a run file, and the queue before it.
+
+use std::path::Path;
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+use crossbeam::channel::{self, Receiver, Sender, TrySendError};
+use plateau_core::mesh::Mesh;
+use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
+
+use super::store::Store;
+use super::{End, Header, RunFileError};
+
+/// Samples in the queue, at most: some 100 kB.
+const QUEUED_SAMPLES: usize = 1024;
+/// Snapshots in the queue, at most; with the one that is being written two are under way.
+const QUEUED_SNAPSHOTS: usize = 1;
+/// Samples written at once, at most: some MB. A multiple of the chunks of the series, so that full batches fill chunks.
+const BATCH: usize = 8192;
+/// How long a sample waits for others before it is written.
+const LATENCY: Duration = Duration::from_millis(500);
+
+/// Writes a run file from a thread of its own.
+///
+/// A writer that is dropped without [`finish`](Self::finish) leaves a file whose state is `failed`.
+#[derive(Debug)]
+pub struct RunWriter {
+    mesh: Mesh,
+    maps: Vec<Map>,
+    queues: Option<Queues>,
+    thread: Option<JoinHandle<Result<Store, RunFileError>>>,
+    failure: Option<RunFileError>,
+    waited: Duration,
+}
+
+/// What a finished run file holds and what writing it cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WriterReport {
+    /// How long the simulation waited for the queue, in all.
+    pub waited: Duration,
+    /// Samples in the file.
+    pub samples: usize,
+    /// Moments of which there are maps in the file.
+    pub snapshots: usize,
+    /// Size of the file.
+    pub bytes: u64,
+}
+
+#[derive(Debug)]
+struct Queues {
+    samples: Sender<Sample>,
+    snapshots: Sender<Snapshot>,
+}
+
+impl RunWriter {
+    /// Makes the run file at `path` and starts its writer.
+    ///
+    /// The file appears under its name only once it is set up, with `state` = `running`, and readers can follow it from
+    /// then on. An existing file is replaced only with `overwrite`, and only by that complete new file.
+    ///
+    /// # Errors
+    /// [`RunFileError`] when the path cannot be written, when something is there already, or when the header does not
+    /// fit its mesh. Nothing is left behind.
+    pub fn create(path: &Path, overwrite: bool, header: &Header) -> Result<Self, RunFileError> {
+        let store = Store::create(path, overwrite, header)?;
+        let (sample_sender, samples) = channel::bounded(QUEUED_SAMPLES);
+        let (snapshot_sender, snapshots) = channel::bounded(QUEUED_SNAPSHOTS);
+        let thread = thread::Builder::new().name("run file".into()).spawn(move || write(store, &samples, &snapshots));
+        let thread =
+            thread.map_err(|error| RunFileError::Write { path: path.into(), reason: format!("no thread: {error}") })?;
+        Ok(Self {
+            mesh: header.mesh.clone(),
+            maps: header.maps.clone(),
+            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender }),
+            thread: Some(thread),
+            failure: None,
+            waited: Duration::ZERO,
+        })
+    }
+
+    /// Sends a sample; readers see it within a second. Waits only when the queue is full.
+    ///
+    /// # Errors
+    /// The error of the writer once it has failed; no more is written then.
+    pub fn sample(&mut self, sample: Sample) -> Result<(), RunFileError> {
+        let sent = self.queues.as_ref().is_some_and(|queues| send(&queues.samples, sample, &mut self.waited));
+        if sent { Ok(()) } else { Err(self.stop()) }
+    }
+
+    /// Sends maps. Waits only when the queue is full.
+    ///
+    /// # Errors
+    /// [`RunFileError::Map`] or [`RunFileError::Size`] when they are not the maps of the header on its mesh; otherwise
+    /// as [`sample`](Self::sample).
+    pub fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), RunFileError> {
+        self.check(&snapshot)?;
+        let sent = self.queues.as_ref().is_some_and(|queues| send(&queues.snapshots, snapshot, &mut self.waited));
+        if sent { Ok(()) } else { Err(self.stop()) }
+    }
+
+    /// Writes what is still in the queue, states how the run ended, and closes the file.
+    ///
+    /// # Errors
+    /// The error of the writer if it has failed, now or before; `state` then still is `running`, as if the program had
+    /// been killed.
+    pub fn finish(mut self, end: &End) -> Result<WriterReport, RunFileError> {
+        let store = self.join()?;
+        let written = store.seal(end)?;
+        Ok(WriterReport {
+            waited: self.waited,
+            samples: written.samples,
+            snapshots: written.snapshots,
+            bytes: written.bytes,
+        })
+    }
+
+    /// Whether a snapshot holds the maps of the header on its mesh.
+    fn check(&self, snapshot: &Snapshot) -> Result<(), RunFileError> {
+        for &map in &self.maps {
+            let name = map.name();
+            let values = snapshot.maps.iter().find(|(recorded, _)| *recorded == map).map(|(_, values)| values);
+            let found = match values {
+                Some(MapValues::Float(values)) if !map.is_status() => values.len(),
+                Some(MapValues::Status(values)) if map.is_status() => values.len(),
+                _ => return Err(RunFileError::Map { name }),
+            };
+            let expected = if map.on_disc() { self.mesh.disc_cells() } else { self.mesh.pin_cells() };
+            if found != expected {
+                return Err(RunFileError::Size { name, found, expected });
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the thread and takes the store back.
+    fn join(&mut self) -> Result<Store, RunFileError> {
+        self.queues = None;
+        let result = match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(result)) => result,
+            Some(Err(_)) => Err(RunFileError::Stopped),
+            None => Err(self.failure.clone().unwrap_or(RunFileError::Stopped)),
+        };
+        if let Err(error) = &result {
+            self.failure = Some(error.clone());
+        }
+        result
+    }
+
+    /// The error with which the writer stopped taking anything.
+    fn stop(&mut self) -> RunFileError {
+        self.join().err().unwrap_or(RunFileError::Stopped)
+    }
+}
+
+impl Drop for RunWriter {
+    fn drop(&mut self) {
+        if self.thread.is_some()
+            && let Ok(store) = self.join()
+        {
+            let _ = store.seal(&End::Failed("the program stopped before the run was done".into()));
+        }
+    }
+}
+
+/// Sends and adds to `waited` how long that took if the queue was full; false when nobody receives any more.
+fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
+    match queue.try_send(value) {
+        Ok(()) => true,
+        Err(TrySendError::Disconnected(_)) => false,
+        Err(TrySendError::Full(value)) => {
+            let start = Instant::now();
+            let sent = queue.send(value).is_ok();
+            *waited += start.elapsed();
+            sent
+        }
+    }
+}
+
+/// Body of the thread: appends what arrives until both queues are closed and empty.
+fn write(mut store: Store, samples: &Receiver<Sample>, snapshots: &Receiver<Snapshot>) -> Result<Store, RunFileError> {
+    match append_all(&mut store, samples, snapshots) {
+        Ok(()) => Ok(store),
+        Err(error) => {
+            store.abandon();
+            Err(error)
+        }
+    }
+}
+
+fn append_all(
+    store: &mut Store,
+    samples: &Receiver<Sample>,
+    snapshots: &Receiver<Snapshot>,
+) -> Result<(), RunFileError> {
+    let mut batch: Vec<Sample> = Vec::new();
+    let mut due = channel::never();
+    loop {
+        crossbeam::select! {
+            recv(samples) -> sample => {
+                let Ok(sample) = sample else { break };
+                if batch.is_empty() {
+                    due = channel::after(LATENCY);
+                }
+                batch.push(sample);
+            }
+            recv(snapshots) -> snapshot => {
+                let Ok(snapshot) = snapshot else { break };
+                store.append_snapshot(&snapshot)?;
+            }
+            recv(due) -> _ => {
+                store.append_samples(&batch)?;
+                batch.clear();
+                due = channel::never();
+            }
+        }
+        if batch.len() >= BATCH {
+            store.append_samples(&batch)?;
+            batch.clear();
+            due = channel::never();
+        }
+    }
+    batch.extend(samples.try_iter());
+    for snapshot in snapshots.try_iter() {
+        store.append_snapshot(&snapshot)?;
+    }
+    if batch.is_empty() { Ok(()) } else { store.append_samples(&batch) }
+}

@@ -1,0 +1,477 @@
+//! Run files: what is in them, what is never overwritten, and what is left when something fails.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use hdf5::file::OpenMode;
+use hdf5::types::VarLenUnicode;
+use plateau_core::mesh::Mesh;
+use plateau_core::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
+use plateau_core::state::Base;
+use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, report_file_size_limit};
+
+fn header(rows: usize, disc_columns: usize, pin_columns: usize, maps: &[Map]) -> Header {
+    let mesh = Mesh::new(rows, disc_columns, pin_columns, 20e-3, 24e-3).unwrap();
+    Header {
+        title: "Größe".into(),
+        pin_base: (0..mesh.pin_cells()).map(|cell| if cell % 3 == 0 { Base::Primary } else { Base::None }).collect(),
+        mesh,
+        maps: maps.to_vec(),
+        scene: "version = 1\n".into(),
+        program: "plateau 0.1.0".into(),
+        source_revision: "0123abc".into(),
+        host: "bench".into(),
+        workers: 2,
+        instruction_set: "baseline".into(),
+        seeds: vec![("disc.surface.synthetic.seed".into(), u64::MAX)],
+        inputs: vec![InputFile { path: "scene.toml".into(), sha256: "ab".repeat(32) }],
+    }
+}
+
+fn small() -> Header {
+    header(4, 12, 5, &Map::ALL)
+}
+
+/// A sample in which every quantity differs from every other.
+fn sample(step: u64) -> Sample {
+    let t = step as f64;
+    Sample {
+        step,
+        time: 0.25 * t,
+        displacement: t + 0.01,
+        contact_area: t + 0.02,
+        contact_area_mean: t + 0.03,
+        contact_area_integral: t + 0.04,
+        sliding_distance: t + 0.05,
+        contact_ratio: t + 0.06,
+        mean_pressure: t + 0.07,
+        max_pressure: t + 0.08,
+        worn_pin: t + 0.09,
+        worn_resin: t + 0.10,
+        worn_disc: t + 0.11,
+        pool: t + 0.12,
+        emitted: t + 0.13,
+        deposited_pin: t + 0.14,
+        deposited_disc: t + 0.15,
+        returned: t + 0.16,
+        pin_primary: t + 0.17,
+        pin_secondary: t + 0.18,
+        pin_none: t + 0.19,
+        disc_secondary: t + 0.20,
+        filled_fraction: t + 0.21,
+        load_residual: t + 0.22,
+        balance_residual: t + 0.23,
+    }
+}
+
+/// Maps in which every cell differs from its neighbours; heights grow with cell, map and time.
+fn snapshot(header: &Header, time: f64) -> Snapshot {
+    let values = |map: Map| {
+        let cells = if map.on_disc() { header.mesh.disc_cells() } else { header.mesh.pin_cells() };
+        let offset = 1000.0 * time + map as u8 as f64 / 10.0;
+        match map {
+            Map::DiscStatus => MapValues::Status((0..cells).map(|cell| 1 + (cell % 2) as u8).collect()),
+            Map::PinStatus => MapValues::Status((0..cells).map(|cell| (cell % 3) as u8).collect()),
+            _ => MapValues::Float((0..cells).map(|cell| cell as f64 + offset).collect()),
+        }
+    };
+    Snapshot { time, maps: header.maps.iter().map(|&map| (map, values(map))).collect() }
+}
+
+fn text(file: &hdf5::File, name: &str) -> String {
+    file.attr(name).unwrap().read_scalar::<VarLenUnicode>().unwrap().to_string()
+}
+
+fn open_following(path: &Path) -> hdf5::File {
+    hdf5::File::with_options().with_fapl(|list| list.file_locking(false)).open_as(path, OpenMode::ReadSWMR).unwrap()
+}
+
+fn entries(directory: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_finished_run_holds_what_was_sent() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let header = small();
+    let mut writer = RunWriter::create(&path, false, &header).unwrap();
+    writer.snapshot(snapshot(&header, 0.0)).unwrap();
+    for step in 1..=1000 {
+        writer.sample(sample(step)).unwrap();
+    }
+    writer.snapshot(snapshot(&header, 250.0)).unwrap();
+    let report = writer.finish(&End::Finished).unwrap();
+    assert_eq!((report.samples, report.snapshots), (1000, 2));
+    assert_eq!(report.bytes, fs::metadata(&path).unwrap().len());
+    assert_eq!(entries(directory.path()), ["run.h5"]);
+
+    let file = hdf5::File::open(&path).unwrap();
+    assert_eq!(text(&file, "state"), "finished");
+    let times = file.dataset("time").unwrap().read_raw::<f64>().unwrap();
+    assert_eq!(times, (1..=1000).map(|step| 0.25 * f64::from(step)).collect::<Vec<_>>());
+    for (index, quantity) in QUANTITIES.iter().enumerate() {
+        let series = file.dataset(&format!("series/{}", quantity.name)).unwrap().read_raw::<f64>().unwrap();
+        let expected: Vec<_> = (1..=1000).map(|step| f64::from(step) + (index + 1) as f64 / 100.0).collect();
+        for (found, expected) in series.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-9, "{}: {found} for {expected}", quantity.name);
+        }
+        assert_eq!(series.len(), 1000, "{}", quantity.name);
+    }
+    // Column 3, row 2 of the second level: cell 3 · 4 + 2 = 14.
+    let height = file.dataset("disc/height").unwrap().read_dyn::<f64>().unwrap();
+    assert_eq!(height.shape(), [2, 12, 4]);
+    assert_eq!(height[[1, 3, 2]], 14.0 + 250_000.0);
+    let pressure = file.dataset("pin/pressure").unwrap().read_dyn::<f64>().unwrap();
+    assert_eq!(pressure.shape(), [2, 5, 4]);
+    assert_eq!(pressure[[0, 3, 2]], 14.0 + 0.6);
+    assert_eq!(file.dataset("map_time").unwrap().read_raw::<f64>().unwrap(), [0.0, 250.0]);
+}
+
+#[test]
+fn only_the_maps_asked_for_exist() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let header = header(4, 12, 5, &[Map::Pressure]);
+    let mut writer = RunWriter::create(&path, false, &header).unwrap();
+    writer.snapshot(snapshot(&header, 1.0)).unwrap();
+    writer.finish(&End::Finished).unwrap();
+    let file = hdf5::File::open(&path).unwrap();
+    assert_eq!(file.group("disc").unwrap().member_names().unwrap(), [""; 0]);
+    assert_eq!(file.group("pin").unwrap().member_names().unwrap(), ["pressure", "base"]);
+    drop(file);
+
+    let bare = self::header(4, 12, 5, &[]);
+    RunWriter::create(&path, true, &bare).unwrap().finish(&End::Finished).unwrap();
+    let file = hdf5::File::open(&path).unwrap();
+    assert_eq!(file.group("pin").unwrap().member_names().unwrap(), ["base"]);
+    assert!(!file.link_exists("map_time") && file.link_exists("time"));
+}
+
+#[test]
+fn the_attributes_say_where_the_run_comes_from() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let mut header = small();
+    // Longer than the 64 KiB that an object header can hold.
+    header.scene = "# a long scene, µm\n".repeat(11_000);
+    header.title = "null\0inside".into();
+    let writer = RunWriter::create(&path, false, &header).unwrap();
+    std::thread::sleep(Duration::from_millis(20));
+    writer.finish(&End::Failed("out of luck".into())).unwrap();
+
+    let file = hdf5::File::open(&path).unwrap();
+    assert!(header.scene.len() > 200_000);
+    assert_eq!(text(&file, "scene"), header.scene);
+    assert_eq!(text(&file, "title"), "null\u{fffd}inside");
+    assert_eq!(text(&file, "program"), "plateau 0.1.0");
+    assert_eq!(text(&file, "conventions"), "CF-1.11");
+    assert_eq!(text(&file, "state"), "failed");
+    assert_eq!(text(&file, "error"), "out of luck");
+    assert_eq!(file.attr("format_version").unwrap().read_scalar::<i64>().unwrap(), 1);
+    assert_eq!(file.attr("workers").unwrap().read_scalar::<i64>().unwrap(), 2);
+    assert!(file.attr("wall_time").unwrap().read_scalar::<f64>().unwrap() >= 0.02);
+    let inputs: serde_json::Value = serde_json::from_str(&text(&file, "inputs")).unwrap();
+    assert_eq!(inputs, serde_json::json!([{ "path": "scene.toml", "sha256": "ab".repeat(32) }]));
+    let seeds: serde_json::Value = serde_json::from_str(&text(&file, "seeds")).unwrap();
+    assert_eq!(seeds, serde_json::json!({ "disc.surface.synthetic.seed": u64::MAX }));
+    assert!(text(&file, "start_time") <= text(&file, "end_time"));
+}
+
+#[test]
+fn digests_are_those_of_the_standard() {
+    // FIPS 180-2, appendix B.1: SHA-256 of "abc".
+    let file = tempfile::NamedTempFile::new().unwrap();
+    fs::write(file.path(), "abc").unwrap();
+    let path = file.path().to_path_buf();
+    let inputs = InputFile::read_all([&path, &path]).unwrap();
+    assert_eq!(inputs.len(), 1, "a file that is read twice is listed once");
+    assert_eq!(inputs[0].sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+#[test]
+fn an_existing_file_is_replaced_only_on_demand_and_only_by_a_complete_one() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    fs::write(&path, "precious").unwrap();
+    let error = RunWriter::create(&path, false, &small()).unwrap_err();
+    assert_eq!(error, RunFileError::Exists { path: path.clone() });
+    assert!(error.to_string().contains("--force"), "{error}");
+
+    // A header that does not fit must not cost the old file, even with --force.
+    let mut wrong = small();
+    wrong.pin_base.pop();
+    let error = RunWriter::create(&path, true, &wrong).unwrap_err();
+    assert_eq!(error, RunFileError::Size { name: "pin base", found: 19, expected: 20 });
+    assert_eq!(fs::read(&path).unwrap(), b"precious");
+    assert_eq!(entries(directory.path()), ["run.h5"]);
+
+    RunWriter::create(&path, true, &small()).unwrap().finish(&End::Interrupted).unwrap();
+    assert_eq!(text(&hdf5::File::open(&path).unwrap(), "state"), "interrupted");
+    assert_eq!(entries(directory.path()), ["run.h5"]);
+}
+
+#[test]
+fn only_regular_files_are_replaced() {
+    let directory = tempfile::tempdir().unwrap();
+    let error = RunWriter::create(directory.path(), true, &small()).unwrap_err();
+    assert_eq!(error, RunFileError::NotAFile { path: directory.path().into() });
+    let error = RunWriter::create(Path::new("/dev/null"), true, &small()).unwrap_err();
+    assert_eq!(error, RunFileError::NotAFile { path: "/dev/null".into() });
+
+    // With --force the target of a link is replaced, and the link stays.
+    let (target, link) = (directory.path().join("target.h5"), directory.path().join("link.h5"));
+    fs::write(&target, "old").unwrap();
+    std::os::unix::fs::symlink(&target, &link).unwrap();
+    RunWriter::create(&link, true, &small()).unwrap().finish(&End::Finished).unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(text(&hdf5::File::open(&target).unwrap(), "state"), "finished");
+}
+
+#[test]
+fn a_directory_that_cannot_be_used_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    let missing = directory.path().join("missing");
+    let error = RunWriter::create(&missing.join("run.h5"), false, &small()).unwrap_err();
+    assert_eq!(error, RunFileError::NoDirectory { path: missing.join("run.h5"), directory: missing });
+
+    let file = directory.path().join("file");
+    fs::write(&file, "").unwrap();
+    let error = RunWriter::create(&file.join("run.h5"), false, &small()).unwrap_err();
+    assert!(matches!(error, RunFileError::NoDirectory { .. }), "{error}");
+
+    // Not even the superuser makes files in /proc.
+    let error = RunWriter::create(Path::new("/proc/run.h5"), false, &small()).unwrap_err();
+    assert!(matches!(error, RunFileError::Directory { .. }), "{error}");
+}
+
+#[test]
+fn maps_that_do_not_fit_are_refused_and_the_run_goes_on() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let header = small();
+    let mut writer = RunWriter::create(&path, false, &header).unwrap();
+    let mut lacking = snapshot(&header, 1.0);
+    lacking.maps.retain(|(map, _)| *map != Map::PinHeight);
+    assert_eq!(writer.snapshot(lacking), Err(RunFileError::Map { name: "pin_height" }));
+    let mut short = snapshot(&header, 1.0);
+    short.maps[0].1 = MapValues::Float(vec![0.0; 47]);
+    assert_eq!(writer.snapshot(short), Err(RunFileError::Size { name: "disc_height", found: 47, expected: 48 }));
+    writer.snapshot(snapshot(&header, 2.0)).unwrap();
+    assert_eq!(writer.finish(&End::Finished).unwrap().snapshots, 1);
+}
+
+#[test]
+fn a_run_that_is_given_up_is_marked_failed() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let mut writer = RunWriter::create(&path, false, &small()).unwrap();
+    writer.sample(sample(1)).unwrap();
+    drop(writer);
+    let file = hdf5::File::open(&path).unwrap();
+    assert_eq!(text(&file, "state"), "failed");
+    assert_eq!(file.dataset("time").unwrap().size(), 1);
+}
+
+#[test]
+fn a_file_that_was_replaced_by_another_is_left_alone() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let writer = RunWriter::create(&path, false, &small()).unwrap();
+    fs::rename(&path, directory.path().join("moved.h5")).unwrap();
+    fs::write(&path, "another").unwrap();
+    assert!(matches!(writer.finish(&End::Finished), Err(RunFileError::Moved { .. })));
+    assert_eq!(fs::read(&path).unwrap(), b"another");
+    let moved = hdf5::File::open(directory.path().join("moved.h5")).unwrap();
+    assert_eq!(text(&moved, "state"), "running");
+}
+
+#[test]
+fn a_reader_sees_a_sample_within_a_second() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    let header = small();
+    let mut writer = RunWriter::create(&path, false, &header).unwrap();
+    let reader = open_in_another_process(&path);
+    writer.sample(sample(1)).unwrap();
+    writer.snapshot(snapshot(&header, 1.0)).unwrap();
+    let seen = reader.wait_with_output().unwrap();
+    assert!(seen.status.success(), "{}", String::from_utf8_lossy(&seen.stdout));
+    writer.finish(&End::Finished).unwrap();
+}
+
+/// Runs one of the `child_…` functions below on `path` in a process of its own, under a shell command.
+fn child(function: &str, shell: &str, path: &Path) -> Command {
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", &format!("{shell} exec \"$0\" --ignored --exact {function} --nocapture")])
+        .arg(std::env::current_exe().unwrap())
+        .env("RUN_FILE", path)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+fn run_file() -> PathBuf {
+    std::env::var_os("RUN_FILE").expect("the path of the run file in RUN_FILE").into()
+}
+
+fn open_in_another_process(path: &Path) -> std::process::Child {
+    child("child_follows", "", path).spawn().unwrap()
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn child_follows() {
+    let file = open_following(&run_file());
+    let (time, map_time) = (file.dataset("time").unwrap(), file.dataset("map_time").unwrap());
+    let start = Instant::now();
+    while time.size() + map_time.size() < 2 {
+        assert!(start.elapsed() < Duration::from_secs(1), "{} times, {} map times", time.size(), map_time.size());
+        std::thread::sleep(Duration::from_millis(10));
+        time.refresh().unwrap();
+        map_time.refresh().unwrap();
+    }
+    let pool = file.dataset("series/pool").unwrap().read_raw::<f64>().unwrap();
+    assert_eq!(pool, [sample(1).pool]);
+}
+
+#[test]
+fn a_killed_writer_leaves_what_was_complete() {
+    let directory = tempfile::tempdir().unwrap();
+    for attempt in 0..10 {
+        let path = directory.path().join(format!("run{attempt}.h5"));
+        let mut writer = child("child_writes_for_ever", "", &path).spawn().unwrap();
+        let start = Instant::now();
+        while !path.exists() {
+            assert!(start.elapsed() < Duration::from_secs(30));
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(700 + 61 * attempt));
+        writer.kill().unwrap();
+        writer.wait().unwrap();
+
+        let file = open_following(&path);
+        assert_eq!(text(&file, "state"), "running");
+        let samples = file.dataset("time").unwrap().size();
+        assert!(samples > 0);
+        for (index, quantity) in QUANTITIES.iter().enumerate() {
+            let series = file.dataset(&format!("series/{}", quantity.name)).unwrap().read_raw::<f64>().unwrap();
+            for (step, value) in (1..=samples).zip(&series) {
+                assert!((value - step as f64 - (index + 1) as f64 / 100.0).abs() < 1e-6, "{}[{step}]", quantity.name);
+            }
+            assert!(series.len() >= samples);
+        }
+        let maps = file.dataset("map_time").unwrap().size();
+        assert!(maps > 0);
+        let height = file.dataset("disc/height").unwrap().read_dyn::<f64>().unwrap();
+        for level in 0..maps {
+            assert_eq!(height[[level, 3, 2]], 14.0 + 1000.0 * level as f64, "level {level}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn child_writes_for_ever() {
+    let header = small();
+    let mut writer = RunWriter::create(&run_file(), false, &header).unwrap();
+    for step in 1.. {
+        writer.sample(sample(step)).unwrap();
+        if step % 100 == 1 {
+            writer.snapshot(snapshot(&header, (step / 100) as f64)).unwrap();
+        }
+        std::thread::sleep(Duration::from_micros(200));
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_of_the_run() {
+    let directory = tempfile::tempdir().unwrap();
+    // The limit, in blocks of 512 bytes, is met while samples, maps or the last attributes are written.
+    for blocks in [200, 300, 500, 1000, 2000] {
+        let path = directory.path().join(format!("run{blocks}.h5"));
+        let output = child("child_fills_the_disk", &format!("ulimit -f {blocks};"), &path).output().unwrap();
+        let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+        assert!(output.status.success(), "{blocks} blocks: {:?}\n{out}\n{err}", output.status);
+        assert!(out.contains("File too large"), "{out}");
+        assert!(!err.contains("HDF5"), "the library's own messages are of no use to a user: {err}");
+        let file = open_following(&path);
+        assert_eq!(text(&file, "state"), "running");
+        let samples = file.dataset("time").unwrap().size();
+        for quantity in QUANTITIES {
+            let series = file.dataset(&format!("series/{}", quantity.name)).unwrap();
+            let found = series.read_slice_1d::<f64, _>(..samples).unwrap();
+            assert!(found.iter().zip(1..).all(|(value, step)| value.floor() == f64::from(step)), "{}", quantity.name);
+        }
+    }
+}
+
+#[test]
+fn a_disk_that_is_full_from_the_start_gets_no_file() {
+    let directory = tempfile::tempdir().unwrap();
+    for blocks in [0, 1, 20, 100] {
+        let path = directory.path().join("run.h5");
+        let output = child("child_cannot_create", &format!("ulimit -f {blocks};"), &path).output().unwrap();
+        let out = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{blocks} blocks: {out}{}", String::from_utf8_lossy(&output.stderr));
+        assert!(out.contains("File too large"), "{out}");
+        assert_eq!(entries(directory.path()), [""; 0], "{blocks} blocks");
+    }
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn child_cannot_create() {
+    report_file_size_limit().unwrap();
+    let mut header = small();
+    header.scene = "# a long scene\n".repeat(10_000);
+    println!("{}", RunWriter::create(&run_file(), false, &header).unwrap_err());
+}
+
+#[test]
+fn a_disk_that_is_full_at_the_end_leaves_a_readable_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    // The limit, 128 KiB, is what is asked for behind the end of the file, so that it is never there.
+    let output = child("child_cannot_end", "ulimit -f 256;", &path).output().unwrap();
+    let out = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{out}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(out.contains("File too large"), "{out}");
+    let file = hdf5::File::open(&path).unwrap();
+    assert_eq!(text(&file, "state"), "running");
+    assert_eq!(file.dataset("time").unwrap().read_raw::<f64>().unwrap(), [0.25]);
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn child_cannot_end() {
+    report_file_size_limit().unwrap();
+    let mut writer = RunWriter::create(&run_file(), false, &small()).unwrap();
+    writer.sample(sample(1)).unwrap();
+    println!("{}", writer.finish(&End::Finished).unwrap_err());
+}
+
+#[test]
+#[ignore = "started by another test"]
+fn child_fills_the_disk() {
+    report_file_size_limit().unwrap();
+    let header = header(40, 200, 50, &Map::ALL);
+    let mut writer = RunWriter::create(&run_file(), false, &header).unwrap();
+    let start = Instant::now();
+    let error = (1..)
+        .find_map(|step| {
+            assert!(start.elapsed() < Duration::from_secs(60), "no error in a minute");
+            let sent = writer.sample(sample(step));
+            let sent = if step % 1000 == 0 { sent.and(writer.snapshot(snapshot(&header, step as f64))) } else { sent };
+            sent.err()
+        })
+        .unwrap();
+    println!("{error}");
+    assert_eq!(writer.finish(&End::Finished).unwrap_err(), error);
+}
