@@ -1,2 +1,3 @@
 //! Everything of Plateau that touches a file.
 pub mod scene;
+pub mod surface;
