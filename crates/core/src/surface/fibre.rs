@@ -188,3 +188,110 @@ fn span(centre: f64, reach: f64, cell: f64, count: usize) -> Range<usize> {
     let last = libm::ceil((centre + reach) / cell) as usize;
     first..last.min(count)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Square cells of 10 µm at the mean radius, pin of 4 mm by 2 mm.
+    fn mesh() -> Mesh {
+        let mean_radius = 1e-5 * 4000.0 / (2.0 * PI);
+        Mesh::new(200, 4000, 400, mean_radius - 1e-3, mean_radius + 1e-3).unwrap()
+    }
+
+    fn fibres(seed: u64, fibre_fraction: f64) -> FibreSynthesis {
+        FibreSynthesis { seed, fibre_fraction, fibre_length: 400e-6, fibre_width: 100e-6 }
+    }
+
+    #[test]
+    fn a_capsule_has_the_area_of_a_rectangle_and_a_circle() {
+        // The count of centres in a convex shape misses its area by less than its perimeter times a cell's half
+        // diagonal.
+        let mesh = mesh();
+        let centre = (2e-3, 1e-3);
+        for (length, width) in [(400e-6, 100e-6), (300e-6, 300e-6), (900e-6, 40e-6)] {
+            for angle in [0.0, 0.3, 1.2, PI / 2.0, 2.5] {
+                let cells = Capsule::new(centre, angle, length, width).cells(&mesh).count() as f64;
+                let area = (length - width) * width + PI * width * width / 4.0;
+                let perimeter = 2.0 * (length - width) + PI * width;
+                let tolerance = perimeter * 1e-5 / 2.0_f64.sqrt();
+                assert!((cells * 1e-10 - area).abs() < tolerance, "{length} {width} {angle}: {cells}");
+            }
+        }
+    }
+
+    #[test]
+    fn angles_and_places_are_uniform() {
+        // Means of cos 2α and sin 2α over uniform α: 0 with variance 1/2; of the place in units of its range: ½ with
+        // variance 1/12. Five standard errors.
+        let mut random = Random::new(3, Stream::PinBase);
+        let count = 40_000;
+        let mut sums = [0.0; 4];
+        for _ in 0..count {
+            let capsule = fibres(3, 0.5).draw(&mut random, 4e-3, 2e-3);
+            let (x, y) = capsule.direction;
+            let place = |position: f64, size: f64| (position + 200e-6) / (size + 400e-6) - 0.5;
+            let terms = [x * x - y * y, 2.0 * x * y, place(capsule.centre.0, 4e-3), place(capsule.centre.1, 2e-3)];
+            sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term / f64::from(count));
+        }
+        for (sum, variance) in sums.iter().zip([0.5, 0.5, 1.0 / 12.0, 1.0 / 12.0]) {
+            assert!(sum.abs() < 5.0 * (variance / f64::from(count)).sqrt(), "{sums:?}");
+        }
+    }
+
+    #[test]
+    fn the_area_fraction_is_met_to_half_a_fibre() {
+        let mesh = mesh();
+        let fibre = (300e-6 * 100e-6 + PI * 2.5e-9 + 9.2e-4 * 1e-5) / mesh.pin_area();
+        for target in [0.001, 0.1, 0.3, 0.7, 0.99] {
+            for seed in 0..5 {
+                let base = fibres(seed, target).base(&mesh).unwrap();
+                let found = fibre_fraction(&base, &mesh);
+                assert!((found - target).abs() <= 0.5 * fibre, "seed {seed}: {found}, expected {target}");
+                assert_eq!(base, fibres(seed, target).base(&mesh).unwrap());
+            }
+        }
+    }
+
+    #[test]
+    fn the_edges_are_as_dense_as_the_middle() {
+        // Fraction of the outermost columns over 200 maps. Fibres that meet a column cover about 0.15 mm of its 2 mm:
+        // some 13 independent parts a map with the variance f (1 − f), so the mean has the standard error
+        // √(0.21/(13 · 400)). Centres confined to the pin would halve the fraction.
+        let mesh = mesh();
+        let mut edge = 0.0;
+        for seed in 0..200 {
+            let base = fibres(seed, 0.3).base(&mesh).unwrap();
+            let (first, last) = (&base[..200], &base[399 * 200..]);
+            let fibre = first.iter().chain(last).filter(|base| **base == Base::Primary).count();
+            edge += fibre as f64 / (400.0 * 200.0);
+        }
+        assert!((edge - 0.3).abs() < 5.0 * (0.21_f64 / (13.0 * 400.0)).sqrt(), "{edge}");
+    }
+
+    #[test]
+    fn none_and_all_are_exact() {
+        let mesh = mesh();
+        assert!(fibres(1, 0.0).base(&mesh).unwrap().iter().all(|base| *base == Base::None));
+        assert!(fibres(1, 1.0).base(&mesh).unwrap().iter().all(|base| *base == Base::Primary));
+        assert!(fibres(1, 1.0 - 1e-16).base(&mesh).unwrap().iter().all(|base| *base == Base::Primary));
+    }
+
+    #[test]
+    fn refuses_what_is_no_fibre() {
+        let mesh = mesh();
+        for fraction in [-0.1, 1.1, f64::NAN] {
+            assert!(matches!(fibres(1, fraction).base(&mesh), Err(FibreError::Fraction { .. })));
+        }
+        for (fibre_length, fibre_width) in [(1e-4, 0.0), (1e-4, f64::NAN), (1e-4, -1e-5)] {
+            let recipe = FibreSynthesis { fibre_length, fibre_width, ..fibres(1, 0.3) };
+            assert!(matches!(recipe.base(&mesh), Err(FibreError::Width { .. })));
+        }
+        for fibre_length in [0.5e-4, f64::NAN, f64::INFINITY] {
+            let recipe = FibreSynthesis { fibre_length, ..fibres(1, 0.3) };
+            assert!(matches!(recipe.base(&mesh), Err(FibreError::ShorterThanWide { .. })));
+        }
+        let dust = FibreSynthesis { fibre_length: 1e-12, fibre_width: 1e-12, ..fibres(1, 0.3) };
+        assert!(matches!(dust.base(&mesh), Err(FibreError::TooMany { .. })));
+    }
+}

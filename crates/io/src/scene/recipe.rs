@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use plateau_core::observe::Map;
 use plateau_core::parameters::Parameters;
+use plateau_core::schedule::SampleEvery;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
 
 /// A scene, read, checked and resolved.
@@ -102,13 +103,4 @@ pub struct OutputRecipe {
     pub maps_at: Vec<f64>,
     /// The maps that are written.
     pub maps: Vec<Map>,
-}
-
-/// When samples are taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SampleEvery {
-    /// Physical time, s.
-    Time(f64),
-    /// Simulated steps, at least 1.
-    Steps(u64),
 }

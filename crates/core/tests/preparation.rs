@@ -1,0 +1,249 @@
+//! The preparation chain against hand computation and closed forms.
+
+use std::f64::consts::TAU;
+
+use plateau_core::mesh::Mesh;
+use plateau_core::surface::{Body, Level, Patch, Preparation, PreparationError, RawHeights};
+
+/// Cells of 1 mm by 1 mm at the mean radius.
+fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
+    let mean_radius = 1e-3 * columns as f64 / TAU;
+    let half = 0.5e-3 * rows as f64;
+    Mesh::new(rows, columns, pin_columns, mean_radius - half, mean_radius + half).unwrap()
+}
+
+fn patch(columns: usize, rows: usize, pitch: f64, height: impl Fn(usize, usize) -> f64) -> Patch {
+    let heights = (0..columns * rows).map(|index| height(index / rows, index % rows)).collect();
+    Patch { columns, rows, column_pitch: pitch, row_pitch: pitch, heights }
+}
+
+/// Rough enough to tell every pixel from every other.
+fn rough(column: usize, row: usize) -> f64 {
+    ((column * 7919 + row * 104_729) % 1009) as f64 * 1e-9
+}
+
+fn apply(preparation: Preparation, raw: RawHeights, body: Body, mesh: &Mesh) -> Result<Vec<f64>, PreparationError> {
+    preparation.apply(raw, false, body, mesh).map(|prepared| prepared.heights)
+}
+
+fn close(found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len());
+    for (index, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!((found - expected).abs() <= tolerance, "{index}: {found}, expected {expected}");
+    }
+}
+
+#[test]
+fn heights_on_the_mesh_come_through_bit_for_bit() {
+    let mesh = ring(12, 3, 4);
+    for (body, cells) in [(Body::Disc, 36), (Body::Pin, 12)] {
+        let heights: Vec<f64> = (0..cells).map(|i| (f64::from(i) * 0.7).sin() * 1e-6 - 0.0).collect();
+        for repeat in [false, true] {
+            let preparation = Preparation { repeat, ..Preparation::default() };
+            let prepared = preparation.apply(RawHeights::OnMesh(heights.clone()), false, body, &mesh).unwrap();
+            let bits = |heights: &[f64]| heights.iter().map(|height| height.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&prepared.heights), bits(&heights));
+            assert!(prepared.report.is_empty());
+        }
+    }
+}
+
+#[test]
+fn a_plane_is_taken_out_whatever_its_offset() {
+    // Roughness of the pattern + − − + in both directions has no mean and no slope, so it is what must be left. The
+    // heights themselves are rounded to half an ulp of 76 mm, 7e-18 m, in each of a few operations.
+    let mesh = ring(400, 32, 32);
+    let sign = |index: usize| if matches!(index % 4, 0 | 3) { 1.0 } else { -1.0 };
+    let roughness = |column: usize, row: usize| 0.2e-6 * sign(column) * sign(row);
+    let tilted =
+        patch(32, 32, 1e-3, |column, row| 76e-3 + 3e-4 * column as f64 - 2e-4 * row as f64 + roughness(column, row));
+    let preparation = Preparation { level: Level::Plane, ..Preparation::default() };
+    let expected = patch(32, 32, 1e-3, roughness).heights;
+    let heights = apply(preparation, RawHeights::OnMesh(tilted.heights.clone()), Body::Pin, &mesh).unwrap();
+    close(&heights, &expected, 5e-17);
+
+    // Missing points take no part: those that are left follow the plane exactly, and the filled ones get the mean 0.
+    let mut holed = patch(32, 32, 1e-3, |column, row| 76e-3 + 3e-4 * column as f64 - 2e-4 * row as f64);
+    holed.heights[5..300].fill(f64::NAN);
+    let preparation = Preparation { fill_missing: true, ..preparation };
+    let heights = apply(preparation, RawHeights::OnMesh(holed.heights), Body::Pin, &mesh).unwrap();
+    close(&heights, &[0.0; 1024], 5e-17);
+}
+
+#[test]
+fn points_on_one_line_are_levelled_along_it() {
+    let mesh = ring(40, 4, 4);
+    let diagonal = patch(4, 4, 1e-3, |column, row| if column == row { 1.0 + column as f64 } else { f64::NAN });
+    let preparation = Preparation { level: Level::Plane, fill_missing: true, ..Preparation::default() };
+    close(&apply(preparation, RawHeights::Patch(diagonal), Body::Pin, &mesh).unwrap(), &[0.0; 16], 1e-15);
+}
+
+#[test]
+fn a_ring_is_levelled_without_a_step() {
+    let mesh = ring(100, 10, 10);
+    let wave = |column: usize| (TAU * column as f64 / 100.0).sin();
+    let heights = patch(100, 10, 1e-3, |column, row| 5.0 + 0.3 * row as f64 + wave(column)).heights;
+    let preparation = Preparation { level: Level::Plane, ..Preparation::default() };
+    let levelled = apply(preparation, RawHeights::OnMesh(heights), Body::Disc, &mesh).unwrap();
+    // A whole sine has no mean but does have a slope along the columns, which must be left.
+    close(&levelled, &patch(100, 10, 1e-3, |column, _| wave(column)).heights, 1e-14);
+}
+
+#[test]
+fn mean_cutoff_and_scale_follow_the_hand_computation() {
+    // Mean of 0, 1, 2, 9 is 3: cut at 3 + 2 = 5, then taken half.
+    let mesh = ring(40, 2, 2);
+    let heights = vec![0.0, 1.0, 2.0, 9.0];
+    let preparation = Preparation { cutoff: Some(2.0), scale: 0.5, ..Preparation::default() };
+    let prepared = preparation.apply(RawHeights::OnMesh(heights.clone()), false, Body::Pin, &mesh).unwrap();
+    assert_eq!(prepared.heights, [0.0, 0.5, 1.0, 2.5]);
+    assert!(prepared.report[0].contains("25.000 % of points"), "{:?}", prepared.report);
+    // Levelled first, the same cut lies at 2.
+    let preparation = Preparation { level: Level::Mean, ..preparation };
+    let levelled = apply(preparation, RawHeights::OnMesh(heights), Body::Pin, &mesh).unwrap();
+    assert_eq!(levelled, [-1.5, -1.0, -0.5, 1.0]);
+}
+
+#[test]
+fn pixels_as_large_as_cells_are_taken_one_by_one() {
+    // A place is rounded to ε times the ring's 50 cells, a height thereby to that times the largest step of 1e-6.
+    let mesh = ring(50, 8, 12);
+    let pixels = patch(50, 8, 1e-3, rough);
+    let disc = apply(Preparation::default(), RawHeights::Patch(pixels.clone()), Body::Disc, &mesh).unwrap();
+    close(&disc, &pixels.heights, 1e-19);
+    let pin = apply(Preparation::default(), RawHeights::Patch(pixels.clone()), Body::Pin, &mesh).unwrap();
+    close(&pin, &pixels.heights[..96], 1e-19);
+    // Mirrored, x runs from the other end.
+    let mirrored = Preparation::default().apply(RawHeights::Patch(pixels), true, Body::Pin, &mesh).unwrap();
+    close(&mirrored.heights, &patch(12, 8, 1e-3, |column, row| rough(49 - column, row)).heights, 1e-19);
+}
+
+#[test]
+fn rows_are_centred_and_planes_are_interpolated_exactly() {
+    // Bilinear interpolation reproduces a plane; the track's middle lies on the patch's middle.
+    let mesh = ring(50, 4, 6);
+    let pitch = 2.5e-3;
+    let plane = patch(4, 5, pitch, |column, row| 3.0 * (column as f64 + 0.5) + 2.0 * (row as f64 + 0.5));
+    let pin = apply(Preparation::default(), RawHeights::Patch(plane), Body::Pin, &mesh).unwrap();
+    // In pixels: x = (c + ½)/2.5, beyond the outermost centres constant; y = 2.5 + (i − 1.5)/2.5.
+    let expected = patch(6, 4, 1e-3, |column, row| {
+        3.0 * ((column as f64 + 0.5) / 2.5).max(0.5) + 2.0 * (2.5 + (row as f64 - 1.5) / 2.5)
+    });
+    close(&pin, &expected.heights, 1e-13);
+}
+
+#[test]
+fn finer_pixels_are_averaged() {
+    let mesh = ring(20, 3, 5);
+    let fine = patch(15, 9, 1e-3 / 3.0, rough);
+    let pin = apply(Preparation::default(), RawHeights::Patch(fine.clone()), Body::Pin, &mesh).unwrap();
+    let expected = patch(5, 3, 1e-3, |column, row| {
+        let pixels = (0..9).map(|k| fine.heights[(3 * column + k / 3) * 9 + 3 * row + k % 3]);
+        pixels.sum::<f64>() / 9.0
+    });
+    close(&pin, &expected.heights, 1e-19);
+}
+
+#[test]
+fn a_repeated_patch_leaves_no_step() {
+    // Whatever the ratio of ring and patch, no step between neighbours is larger than the largest inside the patch.
+    for (columns, length) in [(50, 7), (50, 10), (51, 8), (49, 30), (40, 60)] {
+        let mesh = ring(columns, 6, columns);
+        let pixels = patch(length, 6, 1e-3, rough);
+        let largest = |heights: &[f64], closed: bool| {
+            let next = heights[6..].iter().chain(if closed { &heights[..6] } else { &[] });
+            heights.iter().zip(next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        let preparation = Preparation { repeat: true, ..Preparation::default() };
+        for (body, closed) in [(Body::Disc, true), (Body::Pin, false)] {
+            let heights = apply(preparation, RawHeights::Patch(pixels.clone()), body, &mesh).unwrap();
+            let limit = largest(&pixels.heights, false) + 1e-18;
+            assert!(largest(&heights, closed) <= limit, "{columns} columns, patch of {length}, {body:?}");
+            // The first half of the ring, and all of the pin, is the patch, its mirror image, the patch ...
+            let count = if closed { columns / 2 } else { columns };
+            let tiled = patch(count, 6, 1e-3, |column, row| {
+                let place = column % (2 * length);
+                rough(place.min(2 * length - 1 - place), row)
+            });
+            close(&heights[..6 * count], &tiled.heights, 1e-18);
+        }
+    }
+}
+
+#[test]
+fn a_field_with_a_pixel_is_taken_as_a_patch() {
+    let mesh = ring(40, 4, 8);
+    let heights = patch(8, 4, 1e-3, rough).heights;
+    let preparation = Preparation { pixel: Some(2e-3), ..Preparation::default() };
+    let found = apply(preparation, RawHeights::OnMesh(heights.clone()), Body::Pin, &mesh).unwrap();
+    let twice = Patch { columns: 8, rows: 4, column_pitch: 2e-3, row_pitch: 2e-3, heights };
+    assert_eq!(found, apply(Preparation::default(), RawHeights::Patch(twice), Body::Pin, &mesh).unwrap());
+}
+
+#[test]
+fn missing_points_are_an_error_that_says_how_many() {
+    let mesh = ring(40, 2, 4);
+    let mut heights = vec![1.0, 2.0, 3.0, 6.0, 1.0, 2.0, 3.0, 6.0];
+    heights[0] = f64::NAN;
+    heights[4] = f64::NAN;
+    let raw = RawHeights::OnMesh(heights);
+    let error = apply(Preparation::default(), raw.clone(), Body::Pin, &mesh).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "2 of 8 points are missing; fill = \"level\" gives them the mean of the levelled surface"
+    );
+    let filled = Preparation { fill_missing: true, ..Preparation::default() };
+    let mean = 22.0 / 6.0;
+    let found = apply(filled, raw, Body::Pin, &mesh).unwrap();
+    close(&found, &[mean, 2.0, 3.0, 6.0, mean, 2.0, 3.0, 6.0], 1e-15);
+    let none = RawHeights::OnMesh(vec![f64::NAN; 8]);
+    assert_eq!(apply(filled, none, Body::Pin, &mesh), Err(PreparationError::AllMissing { points: 8 }));
+}
+
+#[test]
+fn refuses_patches_that_do_not_cover_the_body() {
+    let mesh = ring(100, 8, 20);
+    let error = |pixels, body, repeat| {
+        let preparation = Preparation { repeat, ..Preparation::default() };
+        apply(preparation, RawHeights::Patch(pixels), body, &mesh).unwrap_err().to_string()
+    };
+    assert_eq!(
+        error(patch(30, 10, 1e-3, rough), Body::Disc, false),
+        "the patch is 30 mm long, the ring 100 mm at the mean radius: repeat = true tiles the patch without a step at \
+         the seams"
+    );
+    assert_eq!(
+        error(patch(10, 10, 1e-3, rough), Body::Pin, false),
+        "the patch is 10 mm long, the pin 20 mm at the mean radius: repeat = true tiles the patch without a step at \
+         the seams"
+    );
+    assert_eq!(
+        error(patch(200, 4, 1e-3, rough), Body::Disc, true),
+        "the patch is 4 mm wide in r, the track 8 mm: a pixel of at least 2 mm lets its 4 rows cover the track"
+    );
+    let mut thin = patch(3, 10, 1e-3, rough);
+    thin.column_pitch = 1e-300;
+    assert!(error(thin, Body::Disc, true).contains("one column 1 mm"));
+}
+
+#[test]
+fn refuses_numbers_that_make_no_sense() {
+    let mesh = ring(40, 2, 2);
+    let error = |preparation: Preparation, raw| apply(preparation, raw, Body::Pin, &mesh).unwrap_err();
+    let good = || RawHeights::OnMesh(vec![1.0; 4]);
+    let nothing = Preparation::default();
+    for pixel in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let preparation = Preparation { pixel: Some(pixel), ..nothing };
+        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "pixel", .. }));
+    }
+    let preparation = Preparation { cutoff: Some(f64::NAN), ..nothing };
+    assert!(matches!(error(preparation, good()), PreparationError::Value { key: "cutoff", .. }));
+    let preparation = Preparation { scale: f64::INFINITY, ..nothing };
+    assert!(matches!(error(preparation, good()), PreparationError::Value { key: "scale", .. }));
+    let infinite = RawHeights::OnMesh(vec![1.0, f64::INFINITY, 1.0, 1.0]);
+    assert!(matches!(error(nothing, infinite), PreparationError::NotFinite { count: 1, .. }));
+    let short = RawHeights::OnMesh(vec![1.0; 3]);
+    assert!(matches!(error(nothing, short), PreparationError::Grid { points: 3, .. }));
+    let empty = Patch { columns: 0, rows: 0, column_pitch: 1.0, row_pitch: 1.0, heights: vec![] };
+    assert!(matches!(error(nothing, RawHeights::Patch(empty)), PreparationError::Grid { .. }));
+}

@@ -1,0 +1,90 @@
+//! Why the initial surfaces of a scene cannot be made.
+
+use std::io;
+use std::path::PathBuf;
+
+use plateau_core::surface::{FibreError, PreparationError, SynthesisError};
+use thiserror::Error;
+
+use super::format::Format;
+use super::hdf5::Hdf5Error;
+use super::sdf::SdfError;
+
+/// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
+#[derive(Debug, Error)]
+pub enum SurfaceError {
+    /// A file cannot be read.
+    #[error("{key}: {}: {reason}", path.display())]
+    File {
+        /// Table of the scene.
+        key: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: FileError,
+    },
+    /// Synthetic heights cannot be made.
+    #[error("{key}: {reason}")]
+    Synthesis {
+        /// Table of the scene.
+        key: &'static str,
+        /// What is wrong with the recipe.
+        reason: SynthesisError,
+    },
+    /// A synthetic fibre map cannot be made.
+    #[error("{key}: {reason}")]
+    Fibre {
+        /// Table of the scene.
+        key: &'static str,
+        /// What is wrong with the recipe.
+        reason: FibreError,
+    },
+    /// Heights cannot be prepared.
+    #[error("{key}: {reason}")]
+    Preparation {
+        /// Table of the scene.
+        key: &'static str,
+        /// What is wrong with heights or preparation.
+        reason: PreparationError,
+    },
+}
+
+/// Why a surface file cannot be read.
+#[derive(Debug, Error)]
+pub enum FileError {
+    /// The operating system refused.
+    #[error("cannot be read: {0}")]
+    System(#[from] io::Error),
+    /// A folder, a device or the like.
+    #[error("is not a regular file")]
+    NotAFile,
+    /// Nobody knows what it is.
+    #[error("is no surface file that is known ({found}); {READABLE}")]
+    Unknown {
+        /// What the file starts with.
+        found: String,
+    },
+    /// It is known what it is, but this version does not read it.
+    #[error("is {0}, which this version does not read; {READABLE}")]
+    NotReadable(Format),
+    /// A fibre map in a format of heights.
+    #[error("is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
+    NotABase(Format),
+    /// `dataset` was given for a file that has none.
+    #[error("is {format}, which has no datasets: leave out dataset = \"{dataset}\"")]
+    NoDatasets {
+        /// The format.
+        format: Format,
+        /// The dataset asked for.
+        dataset: String,
+    },
+    /// A damaged or unusual SDF file.
+    #[error(transparent)]
+    Sdf(#[from] SdfError),
+    /// A damaged or unsuitable HDF5 file.
+    #[error(transparent)]
+    Hdf5(#[from] Hdf5Error),
+}
+
+/// What to do about a file that cannot be read.
+const READABLE: &str = "convert it to SDF ISO-1.0 (ASCII or binary) or HDF5";

@@ -1,0 +1,248 @@
+//! Heights and fibre maps in HDF5 files.
+
+use std::path::Path;
+
+use hdf5::types::TypeDescriptor;
+use hdf5::{Dataset, Group};
+use plateau_core::state::Base;
+use thiserror::Error;
+
+/// Why an HDF5 file gives no surface.
+#[derive(Debug, Error)]
+pub enum Hdf5Error {
+    /// The library cannot make sense of it.
+    #[error("cannot be read as HDF5: {0}")]
+    Library(#[from] hdf5::Error),
+    /// The dataset is not there.
+    #[error("has no dataset \"{dataset}\"; {present}")]
+    Missing {
+        /// The dataset asked for.
+        dataset: String,
+        /// The datasets of the file.
+        present: String,
+    },
+    /// No dataset was named and the file does not leave one choice.
+    #[error("has {found} datasets with {wanted}, expected one: name it with dataset = \"...\"; {present}")]
+    Ambiguous {
+        /// How many could be meant.
+        found: usize,
+        /// What is looked for.
+        wanted: String,
+        /// The datasets of the file.
+        present: String,
+    },
+    /// The dataset holds something else.
+    #[error("dataset {dataset} has {found}, expected {wanted}")]
+    Unsuitable {
+        /// The dataset.
+        dataset: String,
+        /// Its type and shape.
+        found: String,
+        /// What is looked for.
+        wanted: String,
+    },
+    /// The shape is not that of the mesh and the pitch is unknown.
+    #[error(
+        "dataset {dataset} has shape ({}, {}), expected ({}, {}) for the whole body; \
+         as a patch it needs its pitch: pixel = \"50 um\", for example",
+        found.0, found.1, mesh.0, mesh.1
+    )]
+    NoPitch {
+        /// The dataset.
+        dataset: String,
+        /// Its shape (columns, rows).
+        found: (usize, usize),
+        /// Shape of the body's fields.
+        mesh: (usize, usize),
+    },
+    /// More points than are read.
+    #[error("dataset {dataset} has shape ({}, {}), which is more than the {MOST_POINTS} points that are read", shape.0, shape.1)]
+    TooLarge {
+        /// The dataset.
+        dataset: String,
+        /// Its shape.
+        shape: (usize, usize),
+    },
+    /// Infinite heights.
+    #[error(
+        "{count} of {points} heights in dataset {dataset} are infinite, expected heights in m, NaN for a missing point"
+    )]
+    Infinite {
+        /// The dataset.
+        dataset: String,
+        /// Infinite heights.
+        count: usize,
+        /// All heights.
+        points: usize,
+    },
+    /// A base that is none.
+    #[error("dataset {dataset} has {found} at (column {column}, row {row}), expected 0 = none or 1 = primary")]
+    Base {
+        /// The dataset.
+        dataset: String,
+        /// What stands there.
+        found: i64,
+        /// Pin column.
+        column: usize,
+        /// Row.
+        row: usize,
+    },
+}
+
+/// Points of the largest dataset that is read (2 GiB of heights): a shape can promise more than any memory holds.
+const MOST_POINTS: usize = 1 << 28;
+/// How deep groups are searched, for links may run in a circle.
+const DEPTH: usize = 8;
+/// Datasets named in a message.
+const NAMED: usize = 12;
+
+/// What is looked for.
+#[derive(Clone, Copy)]
+enum Wanted {
+    Heights,
+    /// Shape (columns, rows).
+    Base((usize, usize)),
+}
+
+impl Wanted {
+    fn fits(self, dataset: &Dataset) -> bool {
+        let number = descriptor(dataset);
+        match (self, dataset.shape()[..].as_ref()) {
+            (Self::Heights, [_, _]) => matches!(number, Some(TypeDescriptor::Float(_))),
+            (Self::Base(expected), &[columns, rows]) => {
+                (columns, rows) == expected
+                    && matches!(
+                        number,
+                        Some(
+                            TypeDescriptor::Integer(_)
+                                | TypeDescriptor::Unsigned(_)
+                                | TypeDescriptor::Enum(_)
+                                | TypeDescriptor::Boolean
+                        )
+                    )
+            }
+            _ => false,
+        }
+    }
+
+    fn describe(self) -> String {
+        match self {
+            Self::Heights => "floating-point numbers and 2 dimensions (columns, rows)".to_owned(),
+            Self::Base((columns, rows)) => format!("integers and shape (pin_columns, rows) = ({columns}, {rows})"),
+        }
+    }
+}
+
+/// Heights of an HDF5 file, column by column.
+pub(super) struct Heights {
+    pub(super) dataset: String,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) heights: Vec<f64>,
+}
+
+/// Reads heights, m: floating-point numbers with 2 dimensions (columns, rows), NaN where there is none. Without a name
+/// the file's only suitable dataset is taken.
+///
+/// # Errors
+/// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
+pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf5Error> {
+    let dataset = find(path, dataset, Wanted::Heights)?;
+    let (name, (columns, rows)) = (dataset.name(), bounded_shape(&dataset)?);
+    let heights = dataset.read_raw::<f64>()?;
+    let count = heights.iter().filter(|height| height.is_infinite()).count();
+    if count > 0 {
+        return Err(Hdf5Error::Infinite { dataset: name, count, points: heights.len() });
+    }
+    Ok(Heights { dataset: name, columns, rows, heights })
+}
+
+/// Reads a fibre map: integers of shape (columns, rows), 0 = none and 1 = primary. Gives the dataset's name too.
+///
+/// # Errors
+/// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or holds another number.
+pub(super) fn base(
+    path: &Path,
+    dataset: Option<&str>,
+    shape: (usize, usize),
+) -> Result<(String, Vec<Base>), Hdf5Error> {
+    let dataset = find(path, dataset, Wanted::Base(shape))?;
+    let name = dataset.name();
+    let base = dataset.read_raw::<i64>()?.into_iter().enumerate().map(|(cell, number)| match number {
+        0 => Ok(Base::None),
+        1 => Ok(Base::Primary),
+        found => Err(Hdf5Error::Base { dataset: name.clone(), found, column: cell / shape.1, row: cell % shape.1 }),
+    });
+    let base = base.collect::<Result<_, _>>()?;
+    Ok((name, base))
+}
+
+/// The dataset of that name, or the only suitable one.
+fn find(path: &Path, dataset: Option<&str>, wanted: Wanted) -> Result<Dataset, Hdf5Error> {
+    let file = hdf5::File::open(path)?;
+    let Some(name) = dataset else {
+        let all = all_datasets(&file)?;
+        let mut suitable: Vec<&Dataset> = all.iter().filter(|dataset| wanted.fits(dataset)).collect();
+        return match (suitable.pop(), suitable.len()) {
+            (Some(only), 0) => Ok(only.clone()),
+            (last, others) => Err(Hdf5Error::Ambiguous {
+                found: others + usize::from(last.is_some()),
+                wanted: wanted.describe(),
+                present: list(&all),
+            }),
+        };
+    };
+    let Ok(dataset) = file.dataset(name) else {
+        return Err(Hdf5Error::Missing { dataset: name.to_owned(), present: list(&all_datasets(&file)?) });
+    };
+    if wanted.fits(&dataset) {
+        Ok(dataset)
+    } else {
+        Err(Hdf5Error::Unsuitable { dataset: dataset.name(), found: describe(&dataset), wanted: wanted.describe() })
+    }
+}
+
+fn all_datasets(file: &Group) -> hdf5::Result<Vec<Dataset>> {
+    let mut found = Vec::new();
+    let mut groups = vec![(file.clone(), 0)];
+    while let Some((group, depth)) = groups.pop() {
+        found.extend(group.datasets()?);
+        if depth < DEPTH {
+            groups.extend(group.groups()?.into_iter().map(|inner| (inner, depth + 1)));
+        }
+    }
+    found.sort_by_key(|dataset| dataset.name());
+    found.dedup_by_key(|dataset| dataset.name());
+    Ok(found)
+}
+
+fn list(datasets: &[Dataset]) -> String {
+    if datasets.is_empty() {
+        return "it has no datasets".to_owned();
+    }
+    let mut names: Vec<String> =
+        datasets.iter().take(NAMED).map(|dataset| format!("{} ({})", dataset.name(), describe(dataset))).collect();
+    if datasets.len() > NAMED {
+        names.push(format!("and {} more", datasets.len() - NAMED));
+    }
+    format!("it has {}", names.join(", "))
+}
+
+fn describe(dataset: &Dataset) -> String {
+    let number = descriptor(dataset).map_or_else(|| "an unknown type".to_owned(), |number| number.to_string());
+    let shape: Vec<String> = dataset.shape().iter().map(ToString::to_string).collect();
+    format!("{number}, shape ({})", shape.join(", "))
+}
+
+fn descriptor(dataset: &Dataset) -> Option<TypeDescriptor> {
+    dataset.dtype().and_then(|dtype| dtype.to_descriptor()).ok()
+}
+
+fn bounded_shape(dataset: &Dataset) -> Result<(usize, usize), Hdf5Error> {
+    let shape = dataset.shape();
+    let (columns, rows) = (shape.first().copied().unwrap_or(0), shape.get(1).copied().unwrap_or(0));
+    match columns.checked_mul(rows) {
+        Some(points) if points <= MOST_POINTS => Ok((columns, rows)),
+        _ => Err(Hdf5Error::TooLarge { dataset: dataset.name(), shape: (columns, rows) }),
+    }
+}

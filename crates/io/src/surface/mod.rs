@@ -1,0 +1,13 @@
+//! Initial surfaces: from what a scene asks for to heights and bases of every cell.
+
+mod error;
+mod format;
+mod hdf5;
+mod inputs;
+mod load;
+pub mod sdf;
+
+pub use error::{FileError, SurfaceError};
+pub use format::Format;
+pub use hdf5::Hdf5Error;
+pub use load::{Loaded, load};
