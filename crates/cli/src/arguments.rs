@@ -17,7 +17,9 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run a scene and write a run file
-    #[command(after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5 --set operation.normal_force=\"20 N\"")]
+    #[command(
+        after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5 --set operation.normal_force=\"20 N\""
+    )]
     Run(RunArguments),
     /// Check a scene without running it: what it resolves to, needs and costs
     #[command(after_help = "Example:\n  plateau check data/scenes/cermet.toml")]

@@ -8,6 +8,7 @@ mod machine;
 mod number;
 mod progress;
 mod table;
+mod version;
 
 use std::process::ExitCode;
 

@@ -1,0 +1,206 @@
+//! `plateau check`: what a scene resolves to, what it needs and what it will cost, without running it.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use plateau_core::parameters::{Integrator, Parameters};
+use plateau_core::parts::{Part, parts};
+use plateau_core::schedule::Schedule;
+use plateau_core::simulation::Simulation;
+use plateau_io::scene::{memory_estimate, recipe::Scene};
+use plateau_io::surface;
+use serde::Serialize;
+
+use super::load_scene;
+use crate::arguments::CheckArguments;
+use crate::failure::Failure;
+use crate::number;
+use crate::table::{print, table};
+
+/// How long the trial that the estimated time rests on may take.
+const TRIAL: Duration = Duration::from_millis(300);
+
+/// Π above which the explicit rule is worth a warning.
+const LARGE_STIFFNESS_NUMBER: f64 = 0.1;
+
+/// Checks a scene.
+pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
+    let scene = load_scene(&arguments.scene)?;
+    let loaded = surface::load(&scene).map_err(Failure::input)?;
+    let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
+    let simulation = Simulation::new(scene.parameters.clone(), loaded.surfaces).map_err(Failure::input)?;
+    let seconds_per_step = trial(simulation)?;
+    let check = Check::new(&scene, loaded.report, &parts, seconds_per_step);
+    if check.warns_of_stiffness {
+        eprintln!("plateau: warning: {}", stiffness_warning(check.stiffness_number));
+    }
+    if scene.output.file.exists() {
+        eprintln!(
+            "plateau: warning: {} exists; `plateau run` needs --force to replace it, or -o FILE",
+            scene.output.file.display()
+        );
+    }
+    if arguments.scene.json {
+        let text = serde_json::to_string_pretty(&check).map_err(Failure::run)?;
+        print(&format!("{text}\n"))
+    } else {
+        print(&check.to_text())
+    }
+}
+
+/// Seconds per step, measured on the first steps.
+fn trial(mut simulation: Simulation) -> Result<f64, Failure> {
+    let steps = simulation.parameters().steps;
+    // The first step searches its displacement from afar and is not typical.
+    if steps > 1 {
+        simulation.advance().map_err(Failure::run)?;
+    }
+    let (start, before) = (Instant::now(), simulation.steps_done());
+    while simulation.steps_done() < steps && start.elapsed() < TRIAL {
+        simulation.advance().map_err(Failure::run)?;
+    }
+    Ok(start.elapsed().as_secs_f64() / (simulation.steps_done() - before) as f64)
+}
+
+fn stiffness_warning(number: f64) -> String {
+    format!(
+        "the stiffness number is {number:.3}: above {LARGE_STIFFNESS_NUMBER} the explicit rule errs, above 1 it \
+         overshoots, above 2 it is unstable; lower numerics.time_acceleration or set numerics.integrator = \
+         \"exponential\""
+    )
+}
+
+/// What `plateau check` reports.
+#[derive(Debug, Serialize)]
+struct Check {
+    title: String,
+    scene: String,
+    surfaces: Vec<String>,
+    rows: usize,
+    disc_columns: usize,
+    pin_columns: usize,
+    cell_height: f64,
+    cell_width: f64,
+    nominal_pressure: f64,
+    steps: u64,
+    step_time: f64,
+    revolutions: f64,
+    samples: u64,
+    maps: usize,
+    memory: u64,
+    estimated_time: f64,
+    stiffness_number: f64,
+    warns_of_stiffness: bool,
+    needed: Vec<Reasoned>,
+    left_out: Vec<Reasoned>,
+}
+
+/// A part of the model or of the output, and what in the scene decides over it.
+#[derive(Debug, Serialize)]
+struct Reasoned {
+    part: String,
+    reason: String,
+}
+
+impl Check {
+    fn new(scene: &Scene, surfaces: Vec<String>, parts: &[Part], seconds_per_step: f64) -> Self {
+        let parameters = &scene.parameters;
+        let mesh = &parameters.mesh;
+        let schedule = Schedule::new(parameters, scene.output.sample_every, &scene.output.maps_at);
+        let mut reasoned: Vec<(bool, Reasoned)> = parts
+            .iter()
+            .map(|part| (part.needed, Reasoned { part: part.name.into(), reason: part.reason.into() }))
+            .collect();
+        reasoned.extend(plateau_core::observe::Map::ALL.map(|map| {
+            let asked = scene.output.maps.contains(&map);
+            let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
+            (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })
+        }));
+        let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
+        let stiffness_number = parameters.stiffness_number();
+        Self {
+            title: scene.title.clone(),
+            scene: scene.resolved.clone(),
+            surfaces,
+            rows: mesh.rows(),
+            disc_columns: mesh.disc_columns(),
+            pin_columns: mesh.pin_columns(),
+            cell_height: mesh.row_height(),
+            cell_width: mesh.column_width(),
+            nominal_pressure: parameters.normal_force / mesh.pin_area(),
+            steps: parameters.steps,
+            step_time: parameters.step_time(),
+            revolutions: parameters.steps as f64 / mesh.disc_columns() as f64,
+            samples: schedule.samples(),
+            maps: if scene.output.maps.is_empty() { 0 } else { schedule.maps() },
+            memory: memory_estimate(scene),
+            estimated_time: seconds_per_step * parameters.steps as f64,
+            stiffness_number,
+            warns_of_stiffness: warns_of_stiffness(parameters, stiffness_number),
+            needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
+            left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
+        }
+    }
+
+    fn to_text(&self) -> String {
+        let micrometres = |length: f64| format!("{} µm", number::short(length * 1e6));
+        let stiffness = format!(
+            "Π = {}{}",
+            number::short(self.stiffness_number),
+            if self.warns_of_stiffness { " (large, see the warning)" } else { "" }
+        );
+        let rows = [
+            (
+                "mesh",
+                format!(
+                    "{} rows, {} columns round the ring, {} under the pin: {} disc and {} pin cells of {} by {}",
+                    self.rows,
+                    self.disc_columns,
+                    self.pin_columns,
+                    number::grouped((self.rows * self.disc_columns) as u64),
+                    number::grouped((self.rows * self.pin_columns) as u64),
+                    micrometres(self.cell_height),
+                    micrometres(self.cell_width)
+                ),
+            ),
+            ("nominal pressure", format!("{} MPa", number::short(self.nominal_pressure * 1e-6))),
+            (
+                "steps",
+                format!(
+                    "{} of {} s: {} revolutions, {} s",
+                    number::grouped(self.steps),
+                    number::short(self.step_time),
+                    number::short(self.revolutions),
+                    number::short(self.step_time * self.steps as f64)
+                ),
+            ),
+            ("output", format!("{} samples, maps at {} times", number::grouped(self.samples), self.maps)),
+            ("stiffness number", stiffness),
+            ("memory", number::bytes(self.memory)),
+            ("estimated time", format!("{} (from a short trial)", number::duration(self.estimated_time))),
+        ];
+        let list = |reasoned: &[Reasoned]| {
+            let rows: Vec<_> = reasoned.iter().map(|entry| (entry.part.as_str(), entry.reason.clone())).collect();
+            rows
+        };
+        let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
+        text.push_str("Surfaces\n");
+        for line in &self.surfaces {
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "  {line}");
+        }
+        let _ = write!(
+            text,
+            "\n{}\n{}\n{}",
+            table("Run", &rows),
+            table("Needed", &list(&self.needed)),
+            table("Left out", &list(&self.left_out))
+        );
+        text
+    }
+}
+
+/// Whether the explicit rule of a scene deserves a warning.
+fn warns_of_stiffness(parameters: &Parameters, stiffness_number: f64) -> bool {
+    parameters.integrator == Integrator::Explicit && stiffness_number > LARGE_STIFFNESS_NUMBER
+}

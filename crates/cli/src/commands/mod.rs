@@ -1,0 +1,28 @@
+//! One file per command.
+
+mod check;
+mod run;
+
+use plateau_io::scene::{self, recipe::Scene};
+
+use crate::arguments::{Arguments, Command, SceneArguments};
+use crate::failure::Failure;
+
+/// Does what the command line asks for.
+pub fn perform(arguments: Arguments) -> Result<(), Failure> {
+    match arguments.command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+    }
+}
+
+/// Reads the scene with the changes of the command line; warnings go to standard error.
+fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
+    let mut sets = arguments.sets.clone();
+    sets.extend(arguments.workers.iter().map(|workers| format!("numerics.workers={workers}")));
+    let scene = scene::load(&arguments.scene, &sets).map_err(Failure::input)?;
+    for warning in &scene.warnings {
+        eprintln!("plateau: warning: {warning}");
+    }
+    Ok(scene)
+}
