@@ -47,11 +47,9 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
     if let Some(sibling) = nearest(name, siblings.iter().map(String::as_str)) {
         return format!("unknown key, did you mean \"{sibling}\"?");
     }
-    let leaves = keys().iter().filter(|key| !key.section.is_empty());
-    if let Some(key) = leaves.filter(|key| nearest(name, [key.name]).is_some()).max_by(|a, b| {
-        let likeness = |key: &super::Key| strsim::normalized_damerau_levenshtein(name, key.name);
-        likeness(a).total_cmp(&likeness(b))
-    }) {
+    let elsewhere = || keys().iter().filter(|key| !key.section.is_empty());
+    let like = nearest(name, elsewhere().map(|key| key.name));
+    if let Some(key) = elsewhere().find(|key| Some(key.name) == like) {
         return format!("unknown key, did you mean \"{}\" in [{}]?", key.name, key.section);
     }
     let place = if table.is_empty() { "a scene".to_owned() } else { format!("[{table}]") };
