@@ -178,7 +178,7 @@ fn advice(found: &str, expected: Dimension) -> &'static str {
 /// # Errors
 /// [`UnitError`], which says what was found and shows what is expected.
 pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
-    let shown = || text.trim().to_owned();
+    let shown = || text.trim().escape_debug().to_string();
     let Some((number, unit)) = split_number(text.trim()) else {
         let word = text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
         return Err(if word.starts_with("inf") || word.starts_with("nan") {

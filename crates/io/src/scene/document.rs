@@ -29,7 +29,7 @@ impl Value {
     /// The value as it stands in a scene.
     pub(super) fn text(&self) -> String {
         match self {
-            Self::Text(text) => format!("\"{text}\""),
+            Self::Text(text) => format!("\"{}\"", text.escape_debug()),
             Self::Integer(integer) => integer.to_string(),
             Self::Float(float) => format!("{float:?}"),
             Self::Bool(value) => value.to_string(),
@@ -104,12 +104,13 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
 /// Reads `key.path=value`; a value that is not TOML is a string.
 pub(super) fn read_set(argument: &str, problems: &mut Vec<Problem>) -> Entries {
     let origin = Origin::Set(argument.into());
-    let Some((key, text)) = argument.split_once('=').filter(|(key, _)| !key.trim().is_empty()) else {
+    let complete = |path: &str| path.split('.').all(|name| !name.trim().is_empty());
+    let Some((path, text)) = argument.split_once('=').filter(|(path, _)| complete(path)) else {
         problems
             .push(Problem::without_key(&origin, "expected key=value, for instance operation.normal_force=\"47 N\""));
         return Entries::new();
     };
-    let path = key.trim();
+    let path = path.trim();
     if path == "extends" {
         problems.push(Problem::new(&origin, path, "only a scene file can extend another"));
         return Entries::new();
@@ -157,7 +158,7 @@ impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
     fn key(&mut self, table: &str, name: &str, key_origin: Origin, value: &Spanned<DeValue<'_>>) {
         let path = schema::join(table, name);
         if name.is_empty() || name.contains('.') {
-            let message = "unknown key; write the path of a key without quotes and with a name between all points";
+            let message = "unknown key; write the path of a key without quotes";
             self.problems.push(Problem::new(&key_origin, &path, message));
             return;
         }

@@ -22,12 +22,9 @@ pub(super) enum Setting {
 
 /// Reads the value of the key `path`; input files named by no scene file are relative to the one at `scene`.
 pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> Result<Setting, Problem> {
-    let elements = |elements: &[Entry]| match kind {
-        Kind::Times => elements.iter().map(|entry| time(entry)).collect::<Result<_, _>>().map(Setting::Numbers),
-        _ => elements.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
-    };
     match (kind, &entry.value) {
-        (Kind::Times | Kind::Maps, Value::Array(list)) => elements(list),
+        (Kind::Times, Value::Array(list)) => list.iter().map(time).collect::<Result<_, _>>().map(Setting::Numbers),
+        (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
         (Kind::InputFile, Value::Text(text)) => {
             not_empty(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
         }
@@ -102,7 +99,8 @@ fn in_range(number: f64, value: &Value, range: Range) -> Result<Setting, String>
 fn count(integer: i128, least: u64) -> Result<Setting, String> {
     match u64::try_from(integer) {
         Ok(count) if count >= least => Ok(Setting::Integer(count)),
-        _ => Err(format!("{integer} is out of range, expected an integer from {least} to {}", u64::MAX)),
+        Err(_) if integer > 0 => Err(format!("{integer} is out of range, expected at most {}", u64::MAX)),
+        _ => Err(format!("{integer} is out of range, expected an integer, at least {least}")),
     }
 }
 

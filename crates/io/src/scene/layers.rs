@@ -22,9 +22,14 @@ pub(super) struct Layered {
     pub(super) entries: Entries,
     /// The scene file and those it extends, from the top down.
     pub(super) files: Vec<PathBuf>,
+    /// What is wrong with single layers: unknown keys, alternatives given together.
+    pub(super) problems: Vec<Problem>,
 }
 
 /// Reads a scene, what it extends and the `--set` arguments.
+///
+/// Tables are laid over each other key by key, inline tables too. The error is for files that cannot be read as scenes
+/// of this version.
 pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> {
     let mut problems = Vec::new();
     let (files, mut layers) = read_chain(path, &mut problems)?;
@@ -39,9 +44,6 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
     for layer in &layers {
         refuse_two_of_a_group(layer, &mut problems);
     }
-    if !problems.is_empty() {
-        return Err(SceneError::new(problems));
-    }
 
     let mut entries = Entries::new();
     for layer in layers.into_iter().rev() {
@@ -54,7 +56,7 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
         lay_over(&mut entries, layer);
     }
     entries.remove("extends");
-    Ok(Layered { entries, files })
+    Ok(Layered { entries, files, problems })
 }
 
 /// Reads the scene and, one after the other, the scenes it extends.

@@ -34,10 +34,14 @@ use settings::Settings;
 /// is not TOML, unknown or missing keys, values of a wrong type, unit or range, keys that contradict each other, a mesh
 /// that does not fit into memory.
 pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
-    let layers::Layered { entries, files } = layers::read(path, sets)?;
-    let mut problems = Vec::new();
-    let settings = Settings::read(&entries, path, &mut problems);
+    let layers::Layered { entries, files, mut problems } = layers::read(path, sets)?;
+    if problems.is_empty() {
+        // A key that is mistyped or was dropped is not missing too.
+        settings::refuse_missing(&entries, path, &mut problems);
+    }
+    settings::refuse_lone_companions(&entries, &mut problems);
     later::refuse(&entries, &mut problems);
+    let settings = Settings::read(&entries, path, &mut problems);
     if !problems.is_empty() {
         return Err(SceneError::new(problems));
     }

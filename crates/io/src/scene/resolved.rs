@@ -26,7 +26,7 @@ fn value(key: &Key, setting: &Setting) -> String {
     match setting {
         Setting::Number(number) => match key.kind {
             Kind::Quantity { dimension, unit, .. } => string(&units::format(*number, unit, dimension)),
-            _ => toml::Value::Float(*number).to_string(),
+            _ => format!("{number:?}"),
         },
         Setting::Integer(integer) => integer.to_string(),
         Setting::Bool(value) => value.to_string(),

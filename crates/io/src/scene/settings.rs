@@ -30,8 +30,6 @@ impl Settings {
                 Err(problem) => problems.push(problem),
             }
         }
-        refuse_lone_companions(entries, problems);
-        refuse_missing(entries, scene, problems);
         settings.fill_in(entries, scene);
         settings
     }
@@ -132,7 +130,7 @@ fn applies(key: &Key, entries: &Entries) -> bool {
 }
 
 /// `dataset` means nothing without `file`, and so on.
-fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Problem>) {
+pub(super) fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Problem>) {
     for group in schema::GROUPS {
         for (member, companions) in group.members {
             if entries.contains_key(&schema::join(group.section, member)) {
@@ -149,7 +147,7 @@ fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Problem>) {
 }
 
 /// Tells all missing keys at once, table by table.
-fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec<Problem>) {
+pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec<Problem>) {
     let given = |section, name| entries.contains_key(&schema::join(section, name));
     let mut message = String::new();
     for section in schema::sections() {
@@ -163,7 +161,7 @@ fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec<Problem>) 
             .chain(groups.map(|group| format!("one of {{{}}}", group.names())))
             .collect();
         if !names.is_empty() {
-            let table = if section.is_empty() { "at the top".to_owned() } else { format!("[{section}]") };
+            let table = if section.is_empty() { "at the top:".to_owned() } else { format!("[{section}]") };
             message.push_str(&format!("\n  {table} {}", names.join(", ")));
         }
     }

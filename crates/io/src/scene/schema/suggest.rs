@@ -35,24 +35,32 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
     if let Some((_, why)) = EXPLAINED.iter().find(|(end, _)| path.ends_with(end)) {
         return format!("unknown key: {why}");
     }
+    if find(name).is_some() {
+        return "unknown key here, it belongs at the top, before the first table".to_owned();
+    }
+    let tables = tables().into_iter().filter(|other| known(&join(other, name)));
+    if let Some((first, more)) = of_the_same_body(table, tables.collect()).split_first() {
+        let more: String = more.iter().map(|table| format!(" or [{table}]")).collect();
+        return format!("unknown key here, it belongs in [{first}]{more}");
+    }
     let siblings = children(table);
     if let Some(sibling) = nearest(name, siblings.iter().map(String::as_str)) {
         return format!("unknown key, did you mean \"{sibling}\"?");
     }
-    let elsewhere: Vec<String> = tables().into_iter().filter(|other| known(&join(other, name))).collect();
-    if let Some((first, more)) = elsewhere.split_first() {
-        let more: String = more.iter().map(|table| format!(" or [{table}]")).collect();
-        return format!("unknown key here, it belongs in [{first}]{more}");
-    }
-    let leaves = keys().iter().filter(|key| !key.section.is_empty());
-    if let Some(key) = leaves.filter(|key| nearest(name, [key.name]).is_some()).max_by(|a, b| {
-        let likeness = |key: &super::Key| strsim::normalized_damerau_levenshtein(name, key.name);
-        likeness(a).total_cmp(&likeness(b))
-    }) {
+    let elsewhere = || keys().iter().filter(|key| !key.section.is_empty());
+    let like = nearest(name, elsewhere().map(|key| key.name));
+    if let Some(key) = elsewhere().find(|key| Some(key.name) == like) {
         return format!("unknown key, did you mean \"{}\" in [{}]?", key.name, key.section);
     }
     let place = if table.is_empty() { "a scene".to_owned() } else { format!("[{table}]") };
     format!("unknown key, {place} has {}", siblings.join(", "))
+}
+
+/// Of several tables those of the same body (disc, pin, ...) as `table`, if there are any.
+fn of_the_same_body(table: &str, tables: Vec<String>) -> Vec<String> {
+    let body = |table: &str| table.split('.').next().map(str::to_owned);
+    let same: Vec<_> = tables.iter().filter(|other| body(other) == body(table)).cloned().collect();
+    if same.is_empty() { tables } else { same }
 }
 
 fn known(path: &str) -> bool {
@@ -100,10 +108,9 @@ mod tests {
         assert_eq!(unknown("mesh", "row"), "unknown key, did you mean \"rows\"?");
         assert_eq!(unknown("", "contacts"), "unknown key, did you mean \"contact\"?");
         assert_eq!(unknown("mesh", "normal_force"), "unknown key here, it belongs in [operation]");
-        assert_eq!(
-            unknown("disc.prepare", "seed"),
-            "unknown key here, it belongs in [disc.surface.synthetic] or [pin.base.synthetic] or [pin.surface.synthetic]"
-        );
+        assert_eq!(unknown("disc.prepare", "seed"), "unknown key here, it belongs in [disc.surface.synthetic]");
+        assert_eq!(unknown("contact", "level"), "unknown key here, it belongs in [disc.prepare] or [pin.prepare]");
+        assert_eq!(unknown("output", "title"), "unknown key here, it belongs at the top, before the first table");
         assert_eq!(unknown("", "normal_forces"), "unknown key, did you mean \"normal_force\" in [operation]?");
         assert_eq!(unknown("contact", "zzz"), "unknown key, [contact] has foundation_height, load_tolerance");
         assert!(unknown("materials.pin_resin", "specific_wear_rate").contains("give wear_height"));

@@ -1,0 +1,100 @@
+//! Every bad scene is refused, with a message that is fixed here.
+
+use std::path::{Path, PathBuf};
+
+use plateau_io::scene;
+use proptest::prelude::*;
+
+/// What a scene is refused with; the memory of this machine is left out.
+fn message(path: &Path, sets: &[&str]) -> String {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    let message = match scene::load(path, &sets) {
+        Ok(scene) => panic!("{} was accepted:\n{}", path.display(), scene.resolved),
+        Err(error) => error.to_string(),
+    };
+    match (message.find("of memory and "), message.find(" are available")) {
+        (Some(start), Some(end)) => format!("{}of memory and [memory]{}", &message[..start], &message[end..]),
+        _ => message,
+    }
+}
+
+#[test]
+fn every_bad_scene_is_refused_with_its_message() {
+    let mut scenes: Vec<PathBuf> =
+        std::fs::read_dir("tests/scenes/bad").unwrap().map(|entry| entry.unwrap().path()).collect();
+    scenes.sort();
+    assert!(scenes.len() > 50);
+    let messages: Vec<_> =
+        scenes.iter().map(|path| format!("# {}\n{}\n", path.display(), message(path, &[]))).collect();
+    insta::assert_snapshot!("bad_scenes", messages.join("\n"));
+}
+
+#[test]
+fn every_bad_set_is_refused_with_its_message() {
+    let scene = Path::new("tests/scenes/good/minimal.toml");
+    let cases: &[&[&str]] = &[
+        &["mesh.rows"],
+        &["=3"],
+        &["mesh..rows=3"],
+        &[".mesh=3"],
+        &["mesh=3"],
+        &["mesh.rows.count=3"],
+        &["mesh.row=3"],
+        &["mesh.rows=0"],
+        &["mesh.rows=eight"],
+        &["mesh.rows="],
+        &["mesh={ row = 3 }"],
+        &["meshes.rows=3"],
+        &["operation.normal_force=47"],
+        &["operation.normal_force=47 mm"],
+        &["operation.normal_force=47 N\nsteps = 3"],
+        &["operation.steps=5", "operation.duration=1 s"],
+        &["disc.surface.file=a.sdf", "disc.surface.flat=true"],
+        &["extends=other.toml"],
+        &["version=2"],
+        &["plateaus.captured_fraction=1.5", "plateaus.pad_share=half"],
+    ];
+    let messages: Vec<_> = cases.iter().map(|sets| format!("# {sets:?}\n{}\n", message(scene, sets))).collect();
+    insta::assert_snapshot!("bad_sets", messages.join("\n"));
+}
+
+#[test]
+fn what_is_no_readable_file_is_refused() {
+    assert!(message(Path::new("tests/scenes"), &[]).starts_with("tests/scenes: cannot read the scene: "));
+    assert!(message(Path::new("tests/none.toml"), &[]).starts_with("tests/none.toml: cannot read the scene: "));
+    let folder = tempfile::tempdir().unwrap();
+    let large = folder.path().join("large.toml");
+    std::fs::write(&large, "# a comment\n".repeat(100_000)).unwrap();
+    assert!(message(&large, &[]).ends_with("it is larger than 1 MiB, expected a scene in TOML"));
+}
+
+#[test]
+fn a_text_of_any_depth_gets_an_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    for (open, close) in [("[", "]"), ("{a=", "}")] {
+        let path = folder.path().join("deep.toml");
+        std::fs::write(&path, format!("title = {}1{}", open.repeat(100_000), close.repeat(100_000))).unwrap();
+        message(&path, &[]);
+    }
+    message(Path::new("tests/scenes/good/minimal.toml"), &[&format!("mesh.rows={}", "[".repeat(100_000))]);
+}
+
+proptest! {
+    #[test]
+    fn a_damaged_scene_gets_an_answer(at in any::<prop::sample::Index>(), length in 0_usize..20, text in "[ -~\\n]{0,4}") {
+        let scene = std::fs::read_to_string("tests/scenes/good/full.toml").unwrap();
+        let start = scene.floor_char_boundary(at.index(scene.len()));
+        let end = scene.floor_char_boundary((start + length).min(scene.len()));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("damaged.toml");
+        std::fs::write(&path, format!("{}{text}{}", &scene[..start], &scene[end..])).unwrap();
+        // Accepted or refused with a message; what is accepted is written as a scene that is accepted too.
+        match scene::load(&path, &[]) {
+            Err(error) => prop_assert!(error.to_string().contains("damaged.toml")),
+            Ok(scene) => {
+                std::fs::write(&path, &scene.resolved).unwrap();
+                prop_assert_eq!(scene::load(&path, &[]).map(|again| again.resolved), Ok(scene.resolved));
+            }
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! Scenes that are accepted: the values they give, how layers combine, and that a resolved scene reads back alike.
+
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+
+use plateau_core::material::Material;
+use plateau_core::observe::Map;
+use plateau_core::parameters::{DebrisPool, Integrator};
+use plateau_core::state::Base;
+use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
+use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, SampleEvery, Scene, Workers};
+use plateau_io::scene::{self, memory_estimate};
+
+fn good(name: &str) -> PathBuf {
+    Path::new("tests/scenes/good").join(name)
+}
+
+fn load(name: &str, sets: &[&str]) -> Scene {
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+    scene::load(&good(name), &sets).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A file named by a scene of the folder `good`.
+fn input(name: &str) -> PathBuf {
+    std::path::absolute(good(name)).unwrap()
+}
+
+const NO_PREPARATION: Preparation =
+    Preparation { level: Level::None, fill_missing: false, pixel: None, cutoff: None, repeat: false, scale: 1.0 };
+
+#[test]
+fn the_example_of_the_format_gives_its_values() {
+    // Expected: the text of full.toml, in SI units.
+    let scene = load("full.toml", &[]);
+    assert_eq!(scene.title, "Cermet-coated disc, baseline");
+    let parameters = &scene.parameters;
+    assert_eq!(
+        (parameters.mesh.rows(), parameters.mesh.disc_columns(), parameters.mesh.pin_columns()),
+        (80, 2764, 161)
+    );
+    assert_eq!(parameters.mesh.mean_radius(), 0.5 * (0.02 + 0.024));
+    assert_eq!(parameters.normal_force, 47.0);
+    assert_eq!(parameters.angular_velocity, 850.0 * TAU / 60.0);
+    // A revolution takes 60/850 s: 3000 s are 42500 revolutions of 2764 steps.
+    assert_eq!(parameters.steps, 42_500 * 2764);
+    assert_eq!(parameters.foundation_height, 50e-6);
+    assert_eq!(parameters.load_tolerance, 1e-9);
+    let disc = Material { youngs_modulus: 1e11, poisson_ratio: 0.27, specific_wear_rate: 0.0 };
+    assert_eq!((parameters.materials.disc_primary, parameters.materials.disc_secondary), (disc, disc));
+    assert_eq!(parameters.materials.pin_resin.youngs_modulus, 1e5);
+    assert_eq!(parameters.materials.wear_height, 5e-6);
+    let plateaus = parameters.plateaus;
+    assert_eq!((plateaus.captured_fraction, plateaus.pad_share), (0.06, 0.5));
+    assert_eq!((plateaus.debris_pool, plateaus.formation, plateaus.destruction), (DebrisPool::Contact, true, true));
+    assert_eq!((parameters.time_acceleration, parameters.integrator), (1.0, Integrator::Explicit));
+
+    let preparation =
+        Preparation { level: Level::Plane, pixel: Some(50e-6), cutoff: Some(3e-6), repeat: true, ..NO_PREPARATION };
+    let source = HeightSource::File { path: input("cermet.sdf"), dataset: None };
+    assert_eq!(scene.disc_surface, HeightRecipe { source, mirror: false, preparation });
+    let synthesis = HeightSynthesis { seed: 3, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
+    let source = HeightSource::Synthetic(synthesis);
+    assert_eq!(scene.pin_surface, HeightRecipe { source, mirror: false, preparation: NO_PREPARATION });
+    assert_eq!(scene.resin_recess, 8e-6);
+    let fibres = FibreSynthesis { seed: 2, fibre_fraction: 0.3, fibre_length: 400e-6, fibre_width: 100e-6 };
+    assert_eq!(scene.pin_base, BaseSource::Synthetic(fibres));
+    assert_eq!(scene.seeds, [("pin.base.synthetic.seed".to_owned(), 2), ("pin.surface.synthetic.seed".to_owned(), 3)]);
+
+    assert_eq!(scene.workers, Workers::Count(1));
+    assert_eq!(scene.output.file, Path::new("baseline.h5"));
+    assert_eq!(scene.output.sample_every, SampleEvery::Time(1.0));
+    assert_eq!(scene.output.maps_at, [0.0, 500.0, 3000.0]);
+    assert_eq!(scene.output.maps, Map::ALL);
+    assert_eq!(scene.files, [good("full.toml")]);
+    assert_eq!(scene.warnings, [""; 0]);
+}
+
+#[test]
+fn what_is_absent_gets_the_default_of_the_format() {
+    let scene = load("minimal.toml", &[]);
+    assert_eq!(scene.title, "minimal");
+    let parameters = &scene.parameters;
+    // Sliding speed is at the mean radius, 22 mm.
+    assert_eq!(parameters.angular_velocity, 2.0 / (0.5 * (0.02 + 0.024)));
+    assert_eq!((parameters.steps, parameters.load_tolerance), (1000, 1e-9));
+    let plateaus = parameters.plateaus;
+    assert_eq!((plateaus.pad_share, plateaus.debris_pool), (0.5, DebrisPool::Contact));
+    assert!(plateaus.formation && plateaus.destruction);
+    assert_eq!((parameters.time_acceleration, parameters.integrator), (1.0, Integrator::Explicit));
+    assert_eq!(parameters.materials.pin_secondary, parameters.materials.pin_primary);
+    assert_eq!(parameters.materials.pin_secondary.specific_wear_rate, 5e-14);
+    let flat = HeightRecipe { source: HeightSource::Flat, mirror: false, preparation: NO_PREPARATION };
+    assert_eq!((&scene.disc_surface, &scene.pin_surface), (&flat, &flat));
+    assert_eq!((scene.resin_recess, scene.pin_base_mirror), (0.0, false));
+    assert_eq!(scene.pin_base, BaseSource::Uniform(Base::Primary));
+    assert_eq!(scene.workers, Workers::Count(1));
+    assert_eq!(scene.output.file, Path::new("minimal.h5"));
+    assert_eq!(scene.output.sample_every, SampleEvery::Steps(276));
+    assert_eq!((scene.output.maps_at.as_slice(), scene.output.maps.as_slice()), (&[][..], &Map::ALL[..]));
+    // State and surfaces of 8·276 and 8·16 cells, two maps' worth of everything under way: the sum is in memory.rs.
+    assert_eq!(memory_estimate(&scene), 2208 * 16 + 128 * 33 + 8 * 16 + 2 * (2208 * 17 + 128 * 25));
+}
+
+#[test]
+fn the_scenes_of_the_reference_vectors_give_their_values() {
+    for (name, [rows, disc_columns, pin_columns], force, steps) in
+        [("flat", [6, 40, 10], 2.0, 120), ("rough", [16, 240, 48], 30.0, 700), ("track", [12, 150, 30], 12.0, 450)]
+    {
+        let scene = load(&format!("vector-{name}.toml"), &[]);
+        let parameters = &scene.parameters;
+        let mesh = &parameters.mesh;
+        assert_eq!([mesh.rows(), mesh.disc_columns(), mesh.pin_columns()], [rows, disc_columns, pin_columns]);
+        assert_eq!((parameters.normal_force, parameters.steps), (force, steps));
+        assert_eq!(parameters.load_tolerance, 1e-12);
+        let file = |dataset: &str| (input("init.h5"), Some(dataset.to_owned()));
+        let (path, dataset) = file("/disc/height");
+        assert_eq!(scene.disc_surface.source, HeightSource::File { path, dataset });
+        let (path, dataset) = file("/pin/base");
+        assert_eq!(scene.pin_base, BaseSource::File { path, dataset });
+        assert_eq!(scene.output.sample_every, SampleEvery::Steps(1));
+    }
+    let track = load("vector-track.toml", &[]).parameters;
+    assert_eq!((track.plateaus.debris_pool, track.integrator), (DebrisPool::Track, Integrator::Exponential));
+    assert_eq!(track.time_acceleration, 10.0);
+    let secondary = Material { youngs_modulus: 5e9, poisson_ratio: 0.33, specific_wear_rate: 2e-14 };
+    assert_eq!(track.materials.disc_secondary, secondary);
+    assert_eq!((track.materials.wear_height, track.materials.pin_resin.poisson_ratio), (2e-6, 0.45));
+}
+
+#[test]
+fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() {
+    let scene = load("extending.toml", &[]);
+    assert_eq!(scene.title, "measured");
+    assert_eq!(scene.files, ["extending.toml", "parts/measured.toml", "parts/../minimal.toml"].map(good));
+    assert_eq!(scene.parameters.angular_velocity, 850.0 * TAU / 60.0);
+    // 0.5 s at ten revolutions in one: 0.5 · 850/60 · 276/10 = 195.5 steps.
+    assert_eq!(scene.parameters.steps, 196);
+    // Key by key like the primary plateau, but for what is given.
+    let materials = &scene.parameters.materials;
+    assert_eq!(materials.pin_secondary, Material { poisson_ratio: 0.3, ..materials.pin_primary });
+    // Files are relative to the scene that names them.
+    assert_eq!(
+        scene.disc_surface,
+        HeightRecipe {
+            source: HeightSource::File { path: input("parts/../surfaces/cermet.sdf"), dataset: None },
+            mirror: true,
+            preparation: Preparation { level: Level::Mean, fill_missing: true, repeat: true, ..NO_PREPARATION },
+        }
+    );
+    assert_eq!(scene.pin_surface.source, HeightSource::File { path: input("pin.npy"), dataset: None });
+    let fibres = FibreSynthesis { seed: 0, fibre_fraction: 0.3, fibre_length: 4e-4, fibre_width: 1e-4 };
+    assert_eq!((scene.pin_base, scene.pin_base_mirror), (BaseSource::Synthetic(fibres), true));
+    assert_eq!(scene.workers, Workers::Auto);
+    assert_eq!(scene.output.sample_every, SampleEvery::Time(1.0));
+    assert_eq!(scene.output.maps, [Map::DiscHeight, Map::Pressure]);
+    assert_eq!(scene.output.maps_at, [0.0, 0.5]);
+    assert_eq!(scene.warnings.len(), 2, "{:?}", scene.warnings);
+    assert!(scene.warnings[0].starts_with("tests/scenes/good/parts/measured.toml:27:20: output.checkpoint_every: "));
+    assert!(scene.warnings[1].starts_with("tests/scenes/good/extending.toml:17:11: output.maps_at: "));
+    assert!(scene.warnings[1].ends_with("no maps at 3600 s"));
+}
+
+#[test]
+fn set_overrides_the_scene() {
+    let scene = load(
+        "extending.toml",
+        &[
+            "mesh.rows = 4",
+            "mesh.rows=5",
+            "operation.steps=7",
+            "operation.normal_force=30 N",
+            "contact.foundation_height=\"60 um\"",
+            "disc.surface.file=other.sdf",
+            "disc.surface.dataset=/height",
+            "pin.base.uniform=none",
+            "pin.surface.synthetic={ seed = 18446744073709551615, rms_height = \"1 um\", correlation_length = \"2 um\" }",
+            "output.maps=[]",
+            "output.sample_every_steps=3",
+        ],
+    );
+    let parameters = &scene.parameters;
+    assert_eq!((parameters.mesh.rows(), parameters.steps), (5, 7));
+    assert_eq!((parameters.normal_force, parameters.foundation_height), (30.0, 6e-5));
+    let dataset = Some("/height".to_owned());
+    assert_eq!(scene.disc_surface.source, HeightSource::File { path: input("other.sdf"), dataset });
+    assert_eq!(scene.pin_base, BaseSource::Uniform(Base::None));
+    assert_eq!(scene.seeds, [("pin.surface.synthetic.seed".to_owned(), u64::MAX)]);
+    assert_eq!((scene.output.maps.len(), scene.output.sample_every), (0, SampleEvery::Steps(3)));
+    // A key of a table leaves the others of it.
+    let scene = load("full.toml", &["pin.surface.synthetic.seed=9", "disc.surface.flat=true"]);
+    let synthesis = HeightSynthesis { seed: 9, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
+    assert_eq!(scene.pin_surface.source, HeightSource::Synthetic(synthesis));
+    assert_eq!(scene.disc_surface.source, HeightSource::Flat);
+}
+
+#[test]
+fn a_duration_of_whole_steps_is_not_rounded_up() {
+    // One revolution in 1 s and 100 columns: a step lasts 0.01 s, which no double is.
+    let steps = |duration: &str| {
+        let duration = format!("operation.duration={duration}");
+        let sets = ["mesh.disc_columns=100", "operation.rotational_speed=60 rpm", &duration];
+        load("minimal.toml", &sets).parameters.steps
+    };
+    assert_eq!(steps("0.29 s"), 29);
+    assert_eq!(steps("0.57 s"), 57);
+    assert_eq!(steps("0.571 s"), 58);
+    assert_eq!(steps("1e-15 s"), 1);
+}
+
+#[test]
+fn a_resolved_scene_reads_back_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, sets) in [
+        ("full.toml", &[][..]),
+        ("minimal.toml", &[]),
+        ("minimal.toml", &["operation.sliding_speed=0.1 km/h", "contact.load_tolerance=1e-13", "output.maps=[]"]),
+        ("minimal.toml", &["title='quoted \" and \\ µ'", "disc.prepare.scale=-0.1", "pin.prepare.cutoff=0.3 um"]),
+        ("extending.toml", &["operation.rotational_speed=123.456 rpm", "numerics.workers=3"]),
+        ("vector-flat.toml", &[]),
+        ("vector-rough.toml", &[]),
+        ("vector-track.toml", &["operation.duration=0.1 min"]),
+    ] {
+        let scene = load(name, sets);
+        let path = folder.path().join("resolved.toml");
+        std::fs::write(&path, &scene.resolved).unwrap();
+        let again = scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{}", scene.resolved));
+        let content = |scene: Scene| {
+            (
+                (scene.title, scene.parameters, scene.disc_surface, scene.pin_surface, scene.resin_recess),
+                (scene.pin_base, scene.pin_base_mirror, scene.workers, scene.output, scene.seeds, scene.resolved),
+            )
+        };
+        assert_eq!(again.files, [path]);
+        assert_eq!(content(again), content(scene));
+    }
+}
+
+#[test]
+fn a_resolved_scene_says_everything_in_the_order_of_the_format() {
+    let resolved = load("extending.toml", &[]).resolved;
+    let folder = std::path::absolute("tests/scenes/good").unwrap();
+    insta::assert_snapshot!("resolved", resolved.replace(folder.to_str().unwrap(), "[folder]"));
+}
