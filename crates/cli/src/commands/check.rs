@@ -179,10 +179,6 @@ impl Check {
             ("memory", number::bytes(self.memory)),
             ("estimated time", format!("{} (from a short trial)", number::duration(self.estimated_time))),
         ];
-        let list = |reasoned: &[Reasoned]| {
-            let rows: Vec<_> = reasoned.iter().map(|entry| (entry.part.as_str(), entry.reason.clone())).collect();
-            rows
-        };
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
         text.push_str("Surfaces\n");
         for line in &self.surfaces {
@@ -193,11 +189,16 @@ impl Check {
             text,
             "\n{}\n{}\n{}",
             table("Run", &rows),
-            table("Needed", &list(&self.needed)),
-            table("Left out", &list(&self.left_out))
+            table("Needed", &reasons(&self.needed)),
+            table("Left out", &reasons(&self.left_out))
         );
         text
     }
+}
+
+/// Rows of a table.
+fn reasons(parts: &[Reasoned]) -> Vec<(&str, String)> {
+    parts.iter().map(|part| (part.part.as_str(), part.reason.clone())).collect()
 }
 
 /// Whether the explicit rule of a scene deserves a warning.

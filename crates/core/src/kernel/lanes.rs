@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 use crate::state::Base;
 
 /// Cells that are worked on side by side; fixed, so that results do not depend on the machine.
-pub const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 
 /// `count` rounded up to whole groups of lanes.
 pub fn padded(count: usize) -> usize {

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::{Mesh, MeshError};
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
 
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
-use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, SampleEvery, Scene, Workers};
+use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
 use super::settings::Settings;
 use super::{later, memory, resolved};
 
