@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use crate::kernel::{Load, count_touching, face_column, load_of_column, padded};
+use crate::field::{Field, Rows, zero_rows};
+use crate::kernel::{Load, count_touching, face_column, load_of_column};
 use crate::mesh::Mesh;
 use crate::pair::Table;
 use crate::state::{Disc, Pin};
@@ -32,17 +33,17 @@ pub enum ContactError {
 #[derive(Debug, Clone)]
 pub struct Contact {
     /// g = z_p − z_d of every pin cell, m.
-    gap: Vec<f64>,
+    gap: Field<f64>,
     /// k A of every pin cell, N/m.
-    stiffness: Vec<f64>,
+    stiffness: Field<f64>,
     /// δ, m; none before the first step.
     displacement: Option<f64>,
     /// Σ k A u, N.
     load: f64,
     /// |Σ k A u − F_N| / F_N.
     residual: f64,
-    /// Cells in contact by row, padded.
-    touching: Vec<f64>,
+    /// Cells in contact by row.
+    touching: Rows,
     /// Load evaluations of the last balance.
     iterations: u32,
 }
@@ -50,14 +51,14 @@ pub struct Contact {
 impl Contact {
     /// Contact of a pin that has not touched yet.
     pub fn new(mesh: &Mesh) -> Self {
-        let cells = mesh.pin_cells();
+        let zero = Field::new(mesh, &vec![0.0; mesh.pin_cells()], 0.0);
         Self {
-            gap: vec![0.0; cells],
-            stiffness: vec![0.0; cells],
+            gap: zero.clone(),
+            stiffness: zero,
             displacement: None,
             load: 0.0,
             residual: 0.0,
-            touching: vec![0.0; padded(mesh.rows())],
+            touching: zero_rows(mesh.rows()),
             iterations: 0,
         }
     }
@@ -67,11 +68,14 @@ impl Contact {
     /// `distinct` tells whether build-up has a stiffness of its own.
     pub fn face(&mut self, mesh: &Mesh, stiffness: &Table, distinct: bool, disc: &Disc, pin: &Pin, turned: u64) {
         let face = if distinct { face_column::<true> } else { face_column::<false> };
-        let columns = self.gap.chunks_exact_mut(mesh.rows()).zip(self.stiffness.chunks_exact_mut(mesh.rows()));
-        for (column, (gap, carried)) in columns.enumerate() {
-            let cells = mesh.column(mesh.disc_column(column, turned));
-            let under = (&disc.height[cells.clone()], &disc.substrate[cells]);
-            face(pin.view(mesh.column(column)), under, stiffness, gap, carried);
+        for column in 0..mesh.pin_columns() {
+            face(
+                pin.view(column),
+                disc.view(mesh.disc_column(column, turned)),
+                stiffness,
+                self.gap.column_mut(column),
+                self.stiffness.column_mut(column),
+            );
         }
     }
 
@@ -87,7 +91,7 @@ impl Contact {
         let mut before = f64::NAN;
         self.iterations = 0;
         loop {
-            let Load { load, slope } = self.load_at(displacement, mesh.rows());
+            let Load { load, slope } = self.load_at(displacement, mesh);
             self.iterations += 1;
             let residual = ((load - normal_force) / normal_force).abs();
             if !residual.is_finite() {
@@ -102,18 +106,18 @@ impl Contact {
             (before, displacement) = (displacement, next);
         }
         self.displacement = Some(displacement);
-        self.touching.fill(0.0);
-        for gap in self.gap.chunks_exact(mesh.rows()) {
-            count_touching(displacement, gap, &mut self.touching);
+        self.touching.as_flattened_mut().fill(0.0);
+        for column in 0..mesh.pin_columns() {
+            count_touching(displacement, self.gap.column(column), &mut self.touching);
         }
         Ok(())
     }
 
     /// Σ k A u and its slope at a displacement, added up column by column.
-    fn load_at(&self, displacement: f64, rows: usize) -> Load {
+    fn load_at(&self, displacement: f64, mesh: &Mesh) -> Load {
         let mut total = Load::default();
-        for (gap, stiffness) in self.gap.chunks_exact(rows).zip(self.stiffness.chunks_exact(rows)) {
-            let column = load_of_column(displacement, gap, stiffness);
+        for column in 0..mesh.pin_columns() {
+            let column = load_of_column(displacement, self.gap.column(column), self.stiffness.column(column));
             total.load += column.load;
             total.slope += column.slope;
         }
@@ -123,8 +127,8 @@ impl Contact {
     /// The displacement at which the first cell would carry the load alone: never below the solution, and in contact.
     fn upper_bound(&self, normal_force: f64) -> f64 {
         self.gap
-            .iter()
-            .zip(&self.stiffness)
+            .cells()
+            .zip(self.stiffness.cells())
             .map(|(gap, stiffness)| gap + normal_force / stiffness)
             .fold(f64::INFINITY, f64::min)
     }
@@ -134,14 +138,14 @@ impl Contact {
         self.displacement.unwrap_or(0.0)
     }
 
-    /// Cells in contact by row; rows beyond the mesh's, which fill a group of lanes, have none.
-    pub fn touching(&self) -> &[f64] {
+    /// Cells in contact by row.
+    pub fn touching(&self) -> &Rows {
         &self.touching
     }
 
     /// Contact area Σ A over cells in contact, m².
     pub fn area(&self, mesh: &Mesh) -> f64 {
-        self.touching.iter().zip(mesh.area()).map(|(count, area)| count * area).sum()
+        self.touching.as_flattened().iter().zip(mesh.area()).map(|(count, area)| count * area).sum()
     }
 
     /// Σ p A, N.
@@ -162,7 +166,7 @@ impl Contact {
     /// p = k u of every pin cell in the last step, Pa; all 0 before the first.
     pub fn pressures<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = f64> + 'a {
         let displacement = self.displacement.unwrap_or(f64::NEG_INFINITY);
-        let cells = self.gap.iter().zip(&self.stiffness).zip(mesh.area().iter().cycle());
+        let cells = self.gap.cells().zip(self.stiffness.cells()).zip(mesh.area().iter().cycle());
         cells.map(move |((gap, stiffness), area)| {
             let overlap = displacement - gap;
             if overlap > 0.0 { stiffness / area * overlap } else { 0.0 }

@@ -1,31 +1,31 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4.4 and 4.5).
 
-use crate::kernel::padded;
+use crate::field::{Rows, zero_rows};
 use crate::mesh::Mesh;
 use crate::parameters::{DebrisPool, PlateauRules};
 use crate::sum::RunningSum;
 
-/// Heights taken off and put on in one step, summed along each row, m; rows are padded to whole groups of lanes.
+/// Heights taken off and put on in one step, summed along each row, m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transfer {
     /// Worn off plateaus of the pin.
-    pub worn_pin: Vec<f64>,
+    pub worn_pin: Rows,
     /// Worn off resin.
-    pub worn_resin: Vec<f64>,
+    pub worn_resin: Rows,
     /// Worn off the disc.
-    pub worn_disc: Vec<f64>,
+    pub worn_disc: Rows,
     /// Build-up of unsupported plateaus.
-    pub returned: Vec<f64>,
+    pub returned: Rows,
     /// Compacted on the pin.
-    pub deposited_pin: Vec<f64>,
+    pub deposited_pin: Rows,
     /// Compacted on the disc.
-    pub deposited_disc: Vec<f64>,
+    pub deposited_disc: Rows,
 }
 
 impl Transfer {
     /// Nothing moved yet.
     pub fn new(rows: usize) -> Self {
-        let zero = vec![0.0; padded(rows)];
+        let zero = zero_rows(rows);
         Self {
             worn_pin: zero.clone(),
             worn_resin: zero.clone(),
@@ -46,7 +46,7 @@ impl Transfer {
             &mut self.deposited_pin,
             &mut self.deposited_disc,
         ] {
-            heights.fill(0.0);
+            heights.as_flattened_mut().fill(0.0);
         }
     }
 }
@@ -79,8 +79,8 @@ pub struct Debris {
     pools: Vec<RunningSum>,
     /// Rows of the mesh.
     rows: usize,
-    /// s = M/S of every row, m, padded; all 0 without formation.
-    share: Vec<f64>,
+    /// s = M/S of every row, m; all 0 without formation.
+    share: Rows,
     totals: Totals,
 }
 
@@ -96,7 +96,7 @@ impl Debris {
             formation: rules.formation,
             pools: vec![RunningSum::default(); pools],
             rows: mesh.rows(),
-            share: vec![0.0; padded(mesh.rows())],
+            share: zero_rows(mesh.rows()),
             totals: Totals::default(),
         }
     }
@@ -107,14 +107,18 @@ impl Debris {
     }
 
     /// Spreads each pool evenly over its cells that do not touch: s = M/S; `touching` are the cells in contact by row.
-    pub fn spread(&mut self, mesh: &Mesh, touching: &[f64]) {
+    pub fn spread(&mut self, mesh: &Mesh, touching: &Rows) {
         if !self.formation {
             return;
         }
         let rows = self.rows_per_pool();
-        let shares = self.share[..self.rows].chunks_mut(rows);
-        for (((pool, share), touching), area) in
-            self.pools.iter().zip(shares).zip(touching[..self.rows].chunks(rows)).zip(mesh.area().chunks(rows))
+        let shares = self.share.as_flattened_mut()[..self.rows].chunks_mut(rows);
+        for (((pool, share), touching), area) in self
+            .pools
+            .iter()
+            .zip(shares)
+            .zip(touching.as_flattened()[..self.rows].chunks(rows))
+            .zip(mesh.area().chunks(rows))
         {
             let open: f64 =
                 touching.iter().zip(area).map(|(count, area)| (mesh.pin_columns() as f64 - count) * area).sum();
@@ -124,8 +128,8 @@ impl Debris {
         }
     }
 
-    /// s of every row, m, padded: the height of debris that is at hand for each cell that does not touch.
-    pub fn share(&self) -> &[f64] {
+    /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
+    pub fn share(&self) -> &Rows {
         &self.share
     }
 
@@ -134,7 +138,8 @@ impl Debris {
         let rows = self.rows_per_pool();
         for (index, pool) in self.pools.iter_mut().enumerate() {
             let span = index * rows..(index + 1) * rows;
-            let volume = |heights: &[f64]| -> f64 {
+            let volume = |heights: &Rows| -> f64 {
+                let heights = heights.as_flattened();
                 heights[span.clone()].iter().zip(&mesh.area()[span.clone()]).map(|(height, area)| height * area).sum()
             };
             let worn_pin = volume(&transfer.worn_pin);

@@ -32,6 +32,7 @@
 
 pub mod contact;
 pub mod debris;
+pub mod field;
 pub mod filling;
 pub mod history;
 pub mod kernel;

@@ -1,6 +1,6 @@
 //! Coefficients of a pair of cells by status and row: stiffness (model 4.1) and wear per overlap (model 4.2).
 
-use crate::kernel::padded;
+use crate::field::{Rows, zero_rows};
 use crate::material::{Materials, Status};
 use crate::parameters::{Integrator, Parameters};
 
@@ -28,8 +28,8 @@ impl Pair {
     }
 }
 
-/// One coefficient by [`Pair::index`] and row; rows are padded to whole groups of lanes with zeros.
-pub type Table = [Vec<f64>; Pair::COUNT];
+/// One coefficient by [`Pair::index`] and row.
+pub type Table = [Rows; Pair::COUNT];
 
 /// The coefficients of every pair in every row.
 ///
@@ -53,7 +53,7 @@ impl Coefficients {
     /// Tabulates the coefficients.
     pub fn new(parameters: &Parameters) -> Self {
         let Parameters { mesh, materials, integrator, .. } = parameters;
-        let table = || std::array::from_fn(|_| vec![0.0; padded(mesh.rows())]);
+        let table = || std::array::from_fn(|_| zero_rows(mesh.rows()));
         let mut tables = Self { stiffness: table(), pin: table(), disc: table(), fibre: table(), coating: table() };
         for (pin, disc_secondary) in Pair::all() {
             let pair = Pair::new(pin, disc_secondary).index();
@@ -66,12 +66,12 @@ impl Coefficients {
                 let below = |substrate: f64, own: f64, other: f64| {
                     if own == 0.0 { 0.0 } else { factor(substrate, other) / factor(own, other) }
                 };
-                tables.stiffness[pair][row] = stiffness * area;
-                tables.pin[pair][row] = factor(wear_rate_pin, wear_rate_disc);
-                tables.disc[pair][row] = factor(wear_rate_disc, wear_rate_pin);
-                tables.fibre[pair][row] =
+                tables.stiffness[pair].as_flattened_mut()[row] = stiffness * area;
+                tables.pin[pair].as_flattened_mut()[row] = factor(wear_rate_pin, wear_rate_disc);
+                tables.disc[pair].as_flattened_mut()[row] = factor(wear_rate_disc, wear_rate_pin);
+                tables.fibre[pair].as_flattened_mut()[row] =
                     below(materials.pin_primary.specific_wear_rate, wear_rate_pin, wear_rate_disc);
-                tables.coating[pair][row] =
+                tables.coating[pair].as_flattened_mut()[row] =
                     below(materials.disc_primary.specific_wear_rate, wear_rate_disc, wear_rate_pin);
             }
         }

@@ -50,8 +50,8 @@ impl Simulation {
     fn pin_coverage(&self) -> [f64; 3] {
         let mesh = &self.parameters.mesh;
         let mut coverage = [0.0; 3];
-        for (cell, area) in (0..mesh.pin_cells()).zip(mesh.area().iter().cycle()) {
-            coverage[self.pin.status(cell) as usize] += area;
+        for (status, area) in self.pin.statuses().zip(mesh.area().iter().cycle()) {
+            coverage[status as usize] += area;
         }
         coverage.map(|area| area / mesh.pin_area())
     }
@@ -59,16 +59,12 @@ impl Simulation {
     /// The maps asked for, as they are now.
     pub fn snapshot(&self, maps: &[Map]) -> Snapshot {
         let values = |map| match map {
-            Map::DiscHeight => MapValues::Float(self.disc.height.clone()),
-            Map::DiscSubstrate => MapValues::Float(self.disc.substrate.clone()),
-            Map::DiscStatus => {
-                MapValues::Status((0..self.disc.height.len()).map(|cell| self.disc.status(cell) as u8).collect())
-            }
-            Map::PinHeight => MapValues::Float(self.pin.height.clone()),
-            Map::PinSubstrate => MapValues::Float(self.pin.substrate.clone()),
-            Map::PinStatus => {
-                MapValues::Status((0..self.pin.height.len()).map(|cell| self.pin.status(cell) as u8).collect())
-            }
+            Map::DiscHeight => MapValues::Float(self.disc.height.to_vec()),
+            Map::DiscSubstrate => MapValues::Float(self.disc.substrate.to_vec()),
+            Map::DiscStatus => MapValues::Status(self.disc.statuses().map(|status| status as u8).collect()),
+            Map::PinHeight => MapValues::Float(self.pin.height.to_vec()),
+            Map::PinSubstrate => MapValues::Float(self.pin.substrate.to_vec()),
+            Map::PinStatus => MapValues::Status(self.pin.statuses().map(|status| status as u8).collect()),
             Map::Pressure => MapValues::Float(self.contact.pressures(&self.parameters.mesh).collect()),
         };
         Snapshot { time: self.time(), maps: maps.iter().map(|map| (*map, values(*map))).collect() }

@@ -76,7 +76,7 @@ impl Simulation {
                 return Err(SimulationError::Height { surface, count });
             }
         }
-        let disc = Disc::new(surfaces.disc_height);
+        let disc = Disc::new(mesh, &surfaces.disc_height);
         let needs = Needs::of(&parameters);
         Ok(Self {
             coefficients: Coefficients::new(&parameters),
@@ -88,7 +88,7 @@ impl Simulation {
             filling: Filling::new(mesh, &disc),
             transfer: Transfer::new(mesh.rows()),
             disc,
-            pin: Pin::new(surfaces.pin_height, surfaces.pin_base),
+            pin: Pin::new(mesh, &surfaces.pin_height, &surfaces.pin_base),
             step: 0,
             first_step: 0,
             parameters,
@@ -134,28 +134,26 @@ impl Simulation {
     /// Wear, destruction and formation in every column of the pin and the disc column under it (model 4.2 to 4.4).
     fn update_columns(&mut self, turned: u64) {
         let Parameters { mesh, plateaus, materials, .. } = &self.parameters;
-        let rows = mesh.rows();
-        for column in 0..mesh.pin_columns() {
-            let cells = mesh.column(column);
-            let (height, height_ahead) = self.pin.height[cells.start..].split_at_mut(rows);
-            let (substrate, substrate_ahead) = self.pin.substrate[cells.start..].split_at_mut(rows);
-            let (base, base_ahead) = self.pin.base[cells.start..].split_at(rows);
-            let ahead = (column + 1 < mesh.pin_columns()).then(|| PinView {
-                height: &height_ahead[..rows],
-                substrate: &substrate_ahead[..rows],
-                base: &base_ahead[..rows],
-            });
-            let under = mesh.column(mesh.disc_column(column, turned));
+        let last = mesh.pin_columns() - 1;
+        for column in 0..=last {
+            let (height, height_ahead) = self.pin.height.column_and_next(column);
+            let (substrate, substrate_ahead) = self.pin.substrate.column_and_next(column);
+            let base_ahead = (column < last).then(|| self.pin.base.column(column + 1));
+            let ahead = height_ahead.zip(substrate_ahead).zip(base_ahead);
             let outlook = Outlook {
                 displacement: self.contact.displacement(),
                 share: self.debris.share(),
                 pad_share: plateaus.pad_share,
                 wear_height: materials.wear_height,
-                ahead,
+                ahead: ahead.map(|((height, substrate), base)| PinView { height, substrate, base }),
             };
+            let under = mesh.disc_column(column, turned);
             (self.update)(
-                PinColumn { height, substrate, base },
-                DiscColumn { height: &mut self.disc.height[under.clone()], substrate: &mut self.disc.substrate[under] },
+                PinColumn { height, substrate, base: self.pin.base.column(column) },
+                DiscColumn {
+                    height: self.disc.height.column_mut(under),
+                    substrate: self.disc.substrate.column_mut(under),
+                },
                 &outlook,
                 &self.coefficients,
                 &mut self.transfer,

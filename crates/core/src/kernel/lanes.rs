@@ -5,20 +5,18 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 use crate::state::Base;
 
 /// Cells that are worked on side by side; fixed, so that results do not depend on the machine.
-pub(super) const LANES: usize = 8;
-
-/// `count` rounded up to whole groups of lanes.
-pub fn padded(count: usize) -> usize {
-    count.next_multiple_of(LANES)
-}
+pub const LANES: usize = 8;
 
 /// [`LANES`] numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lanes(pub [f64; LANES]);
 
-/// [`LANES`] yes-or-no answers.
+/// [`LANES`] yes-or-no answers: all bits set or none, as vector comparisons give them.
 #[derive(Debug, Clone, Copy)]
-pub struct Mask(pub [bool; LANES]);
+pub struct Mask([u64; LANES]);
+
+const YES: u64 = u64::MAX;
+const NO: u64 = 0;
 
 impl Lanes {
     /// The same number in every lane.
@@ -27,38 +25,9 @@ impl Lanes {
         Self([value; LANES])
     }
 
-    /// The numbers at the start of a slice; where it is shorter, `rest`.
-    #[inline(always)]
-    pub fn load(numbers: &[f64], rest: f64) -> Self {
-        match numbers.first_chunk() {
-            Some(lanes) => Self(*lanes),
-            None => {
-                let mut lanes = [rest; LANES];
-                lanes[..numbers.len()].copy_from_slice(numbers);
-                Self(lanes)
-            }
-        }
-    }
-
-    /// Puts the numbers at the start of a slice; those beyond its end are dropped.
-    #[inline(always)]
-    pub fn store(self, numbers: &mut [f64]) {
-        match numbers.first_chunk_mut() {
-            Some(lanes) => *lanes = self.0,
-            None => {
-                let count = numbers.len();
-                numbers.copy_from_slice(&self.0[..count]);
-            }
-        }
-    }
-
     #[inline(always)]
     fn zip(self, other: Self, operation: impl Fn(f64, f64) -> f64) -> Self {
-        let mut lanes = self.0;
-        for lane in 0..LANES {
-            lanes[lane] = operation(lanes[lane], other.0[lane]);
-        }
-        Self(lanes)
+        Self(std::array::from_fn(|lane| operation(self.0[lane], other.0[lane])))
     }
 
     /// The larger of two numbers in every lane; neither is NaN.
@@ -76,17 +45,13 @@ impl Lanes {
     /// Where this is larger than the other.
     #[inline(always)]
     pub fn exceeds(self, other: Self) -> Mask {
-        let mut mask = [false; LANES];
-        for lane in 0..LANES {
-            mask[lane] = self.0[lane] > other.0[lane];
-        }
-        Mask(mask)
+        Mask(std::array::from_fn(|lane| if self.0[lane] > other.0[lane] { YES } else { NO }))
     }
 
-    /// Adds the numbers to those at the start of a slice, which holds at least as many.
+    /// Adds the numbers to sums.
     #[inline(always)]
-    pub fn add_to(self, sums: &mut [f64]) {
-        (Self::load(sums, 0.0) + self).store(sums);
+    pub fn add_to(self, sums: &mut [f64; LANES]) {
+        *sums = (Self(*sums) + self).0;
     }
 
     /// The first number.
@@ -146,33 +111,24 @@ impl Mask {
     /// The same answer in every lane.
     #[inline(always)]
     pub fn splat(answer: bool) -> Self {
-        Self([answer; LANES])
+        Self([if answer { YES } else { NO }; LANES])
     }
 
     /// The first answer.
     #[cfg(test)]
     pub fn first(self) -> bool {
-        self.0[0]
+        self.0[0] == YES
     }
 
-    /// Where the base is resin; beyond the end of the bases it is not.
+    /// Where the base is resin.
     #[inline(always)]
-    pub fn resin(bases: &[Base]) -> Self {
-        let mut padded = [Base::Primary; LANES];
-        match bases.first_chunk::<LANES>() {
-            Some(bases) => padded = *bases,
-            None => padded[..bases.len()].copy_from_slice(bases),
-        }
-        Self(padded.map(|base| base == Base::None))
+    pub fn resin(bases: &[Base; LANES]) -> Self {
+        Self(bases.map(|base| if base == Base::None { YES } else { NO }))
     }
 
     #[inline(always)]
-    fn zip(self, other: Self, operation: impl Fn(bool, bool) -> bool) -> Self {
-        let mut lanes = self.0;
-        for lane in 0..LANES {
-            lanes[lane] = operation(lanes[lane], other.0[lane]);
-        }
-        Self(lanes)
+    fn zip(self, other: Self, operation: impl Fn(u64, u64) -> u64) -> Self {
+        Self(std::array::from_fn(|lane| operation(self.0[lane], other.0[lane])))
     }
 
     /// Both.
@@ -203,10 +159,8 @@ impl Mask {
     /// `yes` where this holds, else `no`.
     #[inline(always)]
     pub fn select(self, yes: Lanes, no: Lanes) -> Lanes {
-        let mut lanes = no.0;
-        for lane in 0..LANES {
-            lanes[lane] = if self.0[lane] { yes.0[lane] } else { no.0[lane] };
-        }
-        Lanes(lanes)
+        Lanes(std::array::from_fn(|lane| {
+            f64::from_bits((self.0[lane] & yes.0[lane].to_bits()) | (!self.0[lane] & no.0[lane].to_bits()))
+        }))
     }
 }

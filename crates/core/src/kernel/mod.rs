@@ -6,7 +6,7 @@ mod lanes;
 mod load;
 mod update;
 
-pub use cells::{DiscColumn, PinColumn, PinView};
-pub use lanes::{Lanes, Mask, padded};
+pub use cells::{DiscColumn, DiscView, PinColumn, PinView};
+pub use lanes::{LANES, Lanes, Mask};
 pub use load::{Load, count_touching, face_column, load_of_column};
 pub use update::{Outlook, Update, update};

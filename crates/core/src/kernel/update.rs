@@ -1,19 +1,19 @@
 //! Wear, destruction and formation in one column of pairs, in one pass (model 4.2 to 4.4).
 
-use super::cells::{Cells, DiscColumn, PinColumn, PinView};
-use super::lanes::{LANES, Lanes, Mask};
+use super::cells::{Cells, DiscColumn, DiscView, PinColumn, PinView};
+use super::lanes::{Lanes, Mask};
 use crate::debris::Transfer;
+use crate::field::Rows;
 use crate::pair::Coefficients;
-use crate::plateau;
-use crate::wear;
+use crate::{plateau, wear};
 
 /// What a column must know of the step and of its neighbour.
 #[derive(Debug, Clone, Copy)]
 pub struct Outlook<'a> {
     /// δ, m.
     pub displacement: f64,
-    /// s of every row, m; padded.
-    pub share: &'a [f64],
+    /// s of every row, m.
+    pub share: &'a Rows,
     /// β.
     pub pad_share: f64,
     /// h_m, m.
@@ -48,61 +48,56 @@ fn update_column<const DISTINCT: bool, const DISC_WEARS: bool, const FORMS: bool
 ) {
     let zero = Lanes::splat(0.0);
     let displacement = Lanes::splat(outlook.displacement);
-    for row in (0..pin.height.len()).step_by(LANES) {
-        let view = PinView { height: pin.height, substrate: pin.substrate, base: pin.base };
-        let cells = Cells::load(view, (disc.height, disc.substrate), row);
+    for group in 0..pin.height.len() {
+        let cells = Cells::load(
+            PinView { height: pin.height, substrate: pin.substrate, base: pin.base },
+            DiscView { height: disc.height, substrate: disc.substrate },
+            group,
+        );
         let overlap = displacement - (cells.pin_height - cells.disc_height);
         let touches = overlap.exceeds(zero);
         let overlap = overlap.max(zero);
 
         // 4.2 Resin loses its wear height at once, all else wears by its factor times the overlap.
         let resin_loss = touches.and(cells.resin()).select(Lanes::splat(outlook.wear_height), zero);
-        let raw = overlap * cells.pick::<DISTINCT>(&coefficients.pin, row);
-        let below = cells.on_resin.select(zero, cells.pick::<DISTINCT>(&coefficients.fibre, row));
+        let raw = overlap * cells.pick::<DISTINCT>(&coefficients.pin, group);
+        let below = cells.on_resin.select(zero, cells.pick::<DISTINCT>(&coefficients.fibre, group));
         let worn = wear::pin::<FORMS>(cells.pin_height + resin_loss, cells.pin_substrate, raw, below);
-        worn.loss.add_to(&mut transfer.worn_pin[row..]);
-        resin_loss.add_to(&mut transfer.worn_resin[row..]);
+        worn.loss.add_to(&mut transfer.worn_pin[group]);
+        resin_loss.add_to(&mut transfer.worn_resin[group]);
         let (mut pin_height, pin_substrate) = (worn.height, worn.substrate);
 
         let mut disc_height = cells.disc_height;
         if DISC_WEARS {
-            let raw = overlap * cells.pick::<DISTINCT>(&coefficients.disc, row);
-            let below = cells.pick::<DISTINCT>(&coefficients.coating, row);
+            let raw = overlap * cells.pick::<DISTINCT>(&coefficients.disc, group);
+            let below = cells.pick::<DISTINCT>(&coefficients.coating, group);
             let worn = wear::disc::<FORMS>(disc_height, cells.disc_substrate, raw, below);
-            worn.loss.add_to(&mut transfer.worn_disc[row..]);
+            worn.loss.add_to(&mut transfer.worn_disc[group]);
             disc_height = worn.height;
-            worn.substrate.store(&mut disc.substrate[row..]);
+            disc.substrate[group] = worn.substrate.0;
         }
 
         // 4.3(b) and 4.4
         if FORMS {
-            let supported = outlook.ahead.map_or(Mask::splat(false), |ahead| plateaus(ahead, row));
+            let supported = outlook.ahead.map_or(Mask::splat(false), |ahead| ahead.plateaus(group));
             if DESTROYS {
                 let falls = plateau::falls(pin_height, pin_substrate, cells.on_resin, supported);
-                falls.select(pin_substrate - pin_height, zero).add_to(&mut transfer.returned[row..]);
+                falls.select(pin_substrate - pin_height, zero).add_to(&mut transfer.returned[group]);
                 pin_height = falls.select(pin_substrate, pin_height);
             }
             let clearance = touches.select(zero, pin_height - disc_height - displacement);
-            let share = Lanes::load(&outlook.share[row..], 0.0);
+            let share = Lanes(outlook.share[group]);
             let deposit = plateau::form(clearance, share, supported, Lanes::splat(outlook.pad_share));
             pin_height = pin_height - deposit.pin;
-            disc_height = disc_height + deposit.disc;
-            deposit.pin.add_to(&mut transfer.deposited_pin[row..]);
-            deposit.disc.add_to(&mut transfer.deposited_disc[row..]);
+            disc_height += deposit.disc;
+            deposit.pin.add_to(&mut transfer.deposited_pin[group]);
+            deposit.disc.add_to(&mut transfer.deposited_disc[group]);
         }
 
-        pin_height.store(&mut pin.height[row..]);
-        pin_substrate.store(&mut pin.substrate[row..]);
+        pin.height[group] = pin_height.0;
+        pin.substrate[group] = pin_substrate.0;
         if DISC_WEARS || FORMS {
-            disc_height.store(&mut disc.height[row..]);
+            disc.height[group] = disc_height.0;
         }
     }
-}
-
-/// Which cells of a pin column are plateaus.
-#[inline(always)]
-fn plateaus(pin: PinView, row: usize) -> Mask {
-    let height = Lanes::load(&pin.height[row..], 0.0);
-    let substrate = Lanes::load(&pin.substrate[row..], 0.0);
-    Mask::resin(&pin.base[row..]).not().or(substrate.exceeds(height))
 }
