@@ -19,6 +19,7 @@ fn header(rows: usize, disc_columns: usize, pin_columns: usize, maps: &[Map]) ->
         pin_base: (0..mesh.pin_cells()).map(|cell| if cell % 3 == 0 { Base::Primary } else { Base::None }).collect(),
         mesh,
         maps: maps.to_vec(),
+        expected_samples: 1000,
         scene: "version = 1\n".into(),
         program: "plateau 0.1.0".into(),
         source_revision: "0123abc".into(),
@@ -251,6 +252,15 @@ fn a_directory_that_cannot_be_used_is_named() {
 }
 
 #[test]
+fn a_name_that_hdf5_does_not_take_is_refused() {
+    use std::os::unix::ffi::OsStrExt;
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join(std::ffi::OsStr::from_bytes(b"run\xff.h5"));
+    assert_eq!(RunWriter::create(&path, false, &small()).unwrap_err(), RunFileError::NotUtf8 { path });
+    assert_eq!(entries(directory.path()), [""; 0]);
+}
+
+#[test]
 fn maps_that_do_not_fit_are_refused_and_the_run_goes_on() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.h5");
@@ -474,4 +484,20 @@ fn child_fills_the_disk() {
         .unwrap();
     println!("{error}");
     assert_eq!(writer.finish(&End::Finished).unwrap_err(), error);
+}
+
+/// For the scripts in tests/python: `RUN_FILE=run.h5 cargo test … -- --ignored --exact writes_a_run_for_the_readers`.
+#[test]
+#[ignore = "writes the file named by RUN_FILE, for three seconds"]
+fn writes_a_run_for_the_readers() {
+    let header = header(40, 600, 80, &Map::ALL);
+    let mut writer = RunWriter::create(&run_file(), false, &header).unwrap();
+    for step in 1..=300 {
+        if step % 100 == 1 {
+            writer.snapshot(snapshot(&header, (step / 100) as f64)).unwrap();
+        }
+        writer.sample(sample(step)).unwrap();
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    println!("{:?}", writer.finish(&End::Finished).unwrap());
 }

@@ -7,6 +7,14 @@
 //! `File(path, swmr=True)`). The length of `/time` tells how many samples are complete: every series is written and
 //! flushed before the times are. `/map_time` tells the same of the maps.
 //!
+//! `state` is `running` until the run has ended. It stays so when the program was killed or when the disk was full; such
+//! a file is read like one that is still written.
+//!
+//! What formats.md leaves open about the root attributes: `seeds` is a JSON object, key path in the scene → seed;
+//! `inputs` a JSON array of objects with `path` and `sha256`; `workers` the worker count; `instruction_set`, `host`,
+//! `start_time` and `end_time` (ISO 8601, UTC) are texts; `wall_time` is in seconds; `error` says why a run is `failed`;
+//! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.
+//!
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands.
 mod dimension;
 mod end;

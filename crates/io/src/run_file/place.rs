@@ -21,9 +21,6 @@ impl Place {
     pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
 
-        if path.to_str().is_none() {
-            return Err(RunFileError::NotUtf8 { path: path.into() });
-        }
         let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else {
             return Err(RunFileError::NotAFile { path: path.into() });
         };
@@ -44,6 +41,9 @@ impl Place {
                 .ok()
                 .filter(|target| target.is_file())
                 .ok_or_else(|| RunFileError::NotAFile { path: path.into() })?;
+        }
+        if resolved.to_str().is_none() {
+            return Err(RunFileError::NotUtf8 { path: path.into() });
         }
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let temporary = resolved.with_file_name(format!(".plateau-{}-{number}.tmp", std::process::id()));

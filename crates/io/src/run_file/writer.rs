@@ -11,14 +11,16 @@ use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 use super::store::Store;
 use super::{End, Header, RunFileError};
 
-/// Samples in the queue, at most: some 100 kB.
-const QUEUED_SAMPLES: usize = 1024;
+/// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
+const QUEUED_SAMPLES: usize = 16 * 1024;
 /// Snapshots in the queue, at most; with the one that is being written two are under way.
 const QUEUED_SNAPSHOTS: usize = 1;
-/// Samples written at once, at most: some MB. A multiple of the chunks of the series, so that full batches fill chunks.
-const BATCH: usize = 8192;
+/// Samples written at once, at most: 2 MB.
+const BATCH: usize = 8 * 1024;
 /// How long a sample waits for others before it is written.
 const LATENCY: Duration = Duration::from_millis(500);
+/// How long samples gather in the queue before they are taken out, at least.
+const PAUSE: Duration = Duration::from_millis(2);
 
 /// Writes a run file from a thread of its own.
 ///
@@ -202,6 +204,9 @@ fn append_all(
                     due = channel::after(LATENCY);
                 }
                 batch.push(sample);
+                // Not to be woken by every sample of a run that sends many makes sending one cheap.
+                thread::sleep(PAUSE);
+                batch.extend(samples.try_iter().take(BATCH - batch.len()));
             }
             recv(snapshots) -> snapshot => {
                 let Ok(snapshot) = snapshot else { break };
@@ -213,7 +218,7 @@ fn append_all(
                 due = channel::never();
             }
         }
-        if batch.len() >= BATCH {
+        if batch.len() == BATCH {
             store.append_samples(&batch)?;
             batch.clear();
             due = channel::never();

@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""Checks a finished run file against formats.md with h5py, netCDF4 and xarray.
+
+    check_run_file.py RUN.h5 [--maps disc_height,pressure,...]
+
+Names, units and dimensions are written down here once more, from the text of the format and not from the program, so
+that a change of the program shows. Without --maps all seven maps are expected.
+"""
+
+import argparse
+import datetime
+import json
+import re
+import sys
+import warnings
+
+import h5py
+import netCDF4
+import numpy as np
+import xarray
+
+COORDINATES = {
+    "radius": "m",
+    "disc_angle": "rad",
+    "pin_angle": "rad",
+    "time": "s",
+    "map_time": "s",
+}
+SERIES = {
+    "displacement": "m",
+    "contact_area": "m2",
+    "contact_area_mean": "m2",
+    "contact_area_integral": "m2 s",
+    "sliding_distance": "m",
+    "contact_ratio": "1",
+    "mean_pressure": "Pa",
+    "max_pressure": "Pa",
+    "worn_pin": "m3",
+    "worn_resin": "m3",
+    "worn_disc": "m3",
+    "pool": "m3",
+    "emitted": "m3",
+    "deposited_pin": "m3",
+    "deposited_disc": "m3",
+    "returned": "m3",
+    "pin_primary": "1",
+    "pin_secondary": "1",
+    "pin_none": "1",
+    "disc_secondary": "1",
+    "filled_fraction": "1",
+    "load_residual": "1",
+    "balance_residual": "1",
+}
+ON_DISC = ("map_time", "disc_angle", "radius")
+ON_PIN = ("map_time", "pin_angle", "radius")
+# Name in a scene: (path, unit, dimensions); a status has no unit of its own.
+MAPS = {
+    "disc_height": ("disc/height", "m", ON_DISC),
+    "disc_substrate": ("disc/substrate", "m", ON_DISC),
+    "disc_status": ("disc/status", "1", ON_DISC),
+    "pin_height": ("pin/height", "m", ON_PIN),
+    "pin_substrate": ("pin/substrate", "m", ON_PIN),
+    "pin_status": ("pin/status", "1", ON_PIN),
+    "pressure": ("pin/pressure", "Pa", ON_PIN),
+}
+STATUSES = {"none": 0, "primary": 1, "secondary": 2}
+ENUMERATIONS = {"disc/status", "pin/status", "pin/base"}
+UNLIMITED = {"time", "map_time"}
+TEXTS = (
+    "title program source_revision scene conventions Conventions references inputs seeds host instruction_set "
+    "start_time end_time state"
+).split()
+
+checked = 0
+
+
+def check(condition, message):
+    """Stops with the message unless the condition holds."""
+    global checked
+    checked += 1
+    if not condition:
+        sys.exit(f"FAILED: {message}")
+
+
+def same(found, expected, what):
+    """Stops unless two values are equal."""
+    check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
+
+
+def expected_datasets(maps):
+    """Path: (unit, dimensions) of every dataset of a file with these maps."""
+    datasets = {name: (unit, (name,)) for name, unit in COORDINATES.items() if maps or name != "map_time"}
+    datasets |= {f"series/{name}": (unit, ("time",)) for name, unit in SERIES.items()}
+    datasets |= {path: (unit, dimensions) for path, unit, dimensions in (MAPS[name] for name in maps)}
+    datasets["pin/base"] = ("1", ("pin_angle", "radius"))
+    return datasets
+
+
+def check_h5py(file, datasets):
+    """Shapes, types, filters, attributes and dimension scales, as plain h5py sees them."""
+    found = {}
+    file.visititems(lambda name, item: found.update({name: item}) if isinstance(item, h5py.Dataset) else None)
+    same(sorted(found), sorted(datasets), "datasets")
+    for path, (unit, dimensions) in datasets.items():
+        dataset = found[path]
+        same(dataset.attrs["units"], unit, f"units of {path}")
+        check(len(dataset.attrs["long_name"]) > 3, f"{path} has no long_name")
+        same(dataset.shape, tuple(file[name].shape[0] for name in dimensions), f"shape of {path}")
+        limits = tuple(None if name in UNLIMITED else file[name].shape[0] for name in dimensions)
+        same(dataset.maxshape, limits, f"largest shape of {path}")
+        if path in ENUMERATIONS:
+            same(h5py.check_enum_dtype(dataset.dtype), STATUSES, f"enumeration of {path}")
+            same(dataset.dtype.itemsize, 1, f"bytes of a status of {path}")
+            check(np.isin(dataset[...], list(STATUSES.values())).all(), f"{path} has values that are no status")
+            same(list(dataset.attrs["flag_values"]), list(STATUSES.values()), f"flag_values of {path}")
+            same(dataset.attrs["flag_values"].dtype.itemsize, 1, f"type of flag_values of {path}")
+            same(dataset.attrs["flag_meanings"], " ".join(STATUSES), f"flag_meanings of {path}")
+        else:
+            same(dataset.dtype, np.dtype("<f8"), f"type of {path}")
+            check(np.isfinite(dataset[...]).all(), f"{path} has values that are not finite")
+        check(dataset.chunks is not None, f"{path} is not chunked")
+        properties = dataset.id.get_create_plist()
+        filters = [properties.get_filter(i)[0] for i in range(properties.get_nfilters())]
+        same(filters, [h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_DEFLATE], f"filters of {path}")
+        if path in COORDINATES:
+            check(h5py.h5ds.is_scale(dataset.id), f"{path} is no dimension scale")
+            same(h5py.h5ds.get_scale_name(dataset.id).decode(), path, f"name of the scale {path}")
+        else:
+            for axis, name in enumerate(dimensions):
+                same(dataset.dims[axis].keys(), [name], f"scales of axis {axis} of {path}")
+                same(dataset.dims[axis][0].name, f"/{name}", f"scale of axis {axis} of {path}")
+    for name in filter(file.__contains__, COORDINATES):
+        users = [(file[reference].name, axis) for reference, axis in file[name].attrs.get("REFERENCE_LIST", ())]
+        expected = [
+            (f"/{path}", axis)
+            for path, (_, dimensions) in datasets.items()
+            for axis, dimension in enumerate(dimensions)
+            if dimension == name and path != name
+        ]
+        same(sorted(users), sorted(expected), f"users of the scale {name}")
+
+
+def check_coordinates(file):
+    """Cell centres are equally spaced; the ring closes; times grow."""
+    angle = file["disc_angle"][...]
+    step = 2 * np.pi / angle.size
+    for name in ("disc_angle", "pin_angle"):
+        values = file[name][...]
+        check(np.allclose(values, (np.arange(values.size) + 0.5) * step, rtol=1e-14, atol=0), f"{name} off the centres")
+    radius = file["radius"][...]
+    check((radius > 0).all() and np.allclose(np.diff(radius, 2), 0, atol=1e-12 * radius[-1]), "radius not equally spaced")
+    for name in filter(file.__contains__, UNLIMITED):
+        check((np.diff(file[name][...]) > 0).all(), f"{name} does not grow")
+
+
+def check_attributes(attributes):
+    """Root attributes, their types and the texts with a form of their own."""
+    for name in TEXTS:
+        check(isinstance(attributes.get(name), str), f"attribute {name} is {attributes.get(name)!r}, expected a text")
+    same(int(attributes["format_version"]), 1, "format_version")
+    check(np.issubdtype(np.asarray(attributes["format_version"]).dtype, np.integer), "format_version is no integer")
+    same(attributes["conventions"], "CF-1.11", "conventions")
+    same(attributes["Conventions"], "CF-1.11", "Conventions")
+    check(re.fullmatch(r"plateau \d+\.\d+\.\d+.*", attributes["program"]), f"program {attributes['program']!r}")
+    check("Tribology in Industry 41" in attributes["references"], "references do not name the paper")
+    check(attributes["state"] in ("finished", "interrupted", "failed"), f"state {attributes['state']!r}")
+    same("error" in attributes, attributes["state"] == "failed", "attribute error in a failed run only")
+    check(int(attributes["workers"]) >= 1, "workers")
+    start, end = (datetime.datetime.fromisoformat(attributes[name]) for name in ("start_time", "end_time"))
+    same(start.utcoffset(), datetime.timedelta(0), "offset of start_time from UTC")
+    wall = float(attributes["wall_time"])
+    check(abs((end - start).total_seconds() - wall) < 1, f"wall_time {wall} s, but {end - start} from start to end")
+    for file in json.loads(attributes["inputs"]):
+        check(re.fullmatch("[0-9a-f]{64}", file["sha256"]) and file["path"], f"input {file}")
+    check(all(isinstance(seed, int) for seed in json.loads(attributes["seeds"]).values()), "seeds")
+    check("normal_force" in attributes["scene"] or "version" in attributes["scene"], "scene is no scene")
+
+
+def check_netcdf4(path, datasets, reference):
+    """Dimensions belong to the root and are found from the groups; statuses are of one named enumeration."""
+    with netCDF4.Dataset(path) as file:
+        same(set(file.dimensions), {path for path in datasets if path in COORDINATES}, "netCDF4 dimensions")
+        for name, dimension in file.dimensions.items():
+            same(dimension.isunlimited(), name in UNLIMITED, f"netCDF4: {name} unlimited")
+        same({name: dict(kind.enum_dict) for name, kind in file.enumtypes.items()}, {"status": STATUSES}, "enumtypes")
+        for name, (unit, dimensions) in datasets.items():
+            variable = file[name]
+            same(variable.dimensions, dimensions, f"netCDF4: dimensions of {name}")
+            same(variable.units, unit, f"netCDF4: units of {name}")
+            if name in ENUMERATIONS:
+                same(variable.datatype.enum_dict, STATUSES, f"netCDF4: type of {name}")
+            check(np.array_equal(variable[...], reference[name][...]), f"netCDF4: values of {name}")
+        same(file.getncattr("title"), reference.attrs["title"], "netCDF4: title")
+        same(file.getncattr("scene"), reference.attrs["scene"], "netCDF4: scene")
+
+
+def check_xarray(path, datasets, reference):
+    """A tree whose groups inherit the coordinates of the root."""
+    with xarray.open_datatree(path, engine="h5netcdf") as tree:
+        for name, (unit, dimensions) in datasets.items():
+            group, _, variable = name.rpartition("/")
+            array = tree[group][variable] if group else tree[variable]
+            same(array.dims, dimensions, f"xarray: dimensions of {name}")
+            same(array.attrs.get("units"), unit, f"xarray: units of {name}")
+            check(np.array_equal(array.values, reference[name][...]), f"xarray: values of {name}")
+            for dimension in dimensions:
+                same(array.coords[dimension].attrs["units"], COORDINATES[dimension], f"xarray: {dimension} of {name}")
+        middle = float(reference["time"][reference["time"].size // 2])
+        selected = tree["series"]["contact_area"].sel(time=middle, method="nearest")
+        same(float(selected.time), middle, "xarray: selection by time")
+        same(tree.attrs["title"], reference.attrs["title"], "xarray: title")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file")
+    parser.add_argument("--maps", default=",".join(MAPS), help="maps that the scene asks for, separated by commas")
+    arguments = parser.parse_args()
+    maps = [name for name in arguments.maps.split(",") if name]
+    unknown = set(maps) - set(MAPS)
+    if unknown:
+        parser.error(f"unknown maps {sorted(unknown)}, expected any of {list(MAPS)}")
+    datasets = expected_datasets(maps)
+    warnings.simplefilter("error")
+
+    with h5py.File(arguments.file, "r") as file:
+        check(file["time"].size > 0, "no samples")
+        check_attributes(dict(file.attrs))
+        check_h5py(file, datasets)
+        check_coordinates(file)
+        print(f"h5py {h5py.__version__}: attributes, {len(datasets)} datasets, {file['time'].size} samples")
+        check_netcdf4(arguments.file, datasets, file)
+        print(f"netCDF4 {netCDF4.__version__}: dimensions, enumeration, units, values of {len(datasets)} variables")
+        check_xarray(arguments.file, datasets, file)
+        print(f"xarray {xarray.__version__}: tree, coordinates, units, values of {len(datasets)} variables")
+    print(f"ok: {checked} checks of {arguments.file}")
+
+
+if __name__ == "__main__":
+    main()
