@@ -2,8 +2,7 @@
 
 use thiserror::Error;
 
-use crate::field::{Field, Rows, zero_rows};
-use crate::kernel::{Load, count_touching, face_column, load_of_column};
+use crate::kernel::{InstructionSet, add_load, face_column};
 use crate::mesh::Mesh;
 use crate::pair::Table;
 use crate::state::{Disc, Pin};
@@ -32,33 +31,40 @@ pub enum ContactError {
 /// The contact of one step: how far every pair is apart, how stiff it is, and the displacement that carries the load.
 #[derive(Debug, Clone)]
 pub struct Contact {
+    instructions: InstructionSet,
     /// g = z_p − z_d of every pin cell, m.
-    gap: Field<f64>,
+    gap: Vec<f64>,
     /// k A of every pin cell, N/m.
-    stiffness: Field<f64>,
+    stiffness: Vec<f64>,
     /// δ, m; none before the first step.
     displacement: Option<f64>,
     /// Σ k A u, N.
     load: f64,
     /// |Σ k A u − F_N| / F_N.
     residual: f64,
-    /// Cells in contact by row.
-    touching: Rows,
+    /// Σ k A u of every row at the last displacement tried, N.
+    row_load: Vec<f64>,
+    /// Σ k A over the cells in contact of every row there, N/m.
+    row_slope: Vec<f64>,
+    /// Cells in contact of every row there.
+    touching: Vec<f64>,
     /// Load evaluations of the last balance.
     iterations: u32,
 }
 
 impl Contact {
     /// Contact of a pin that has not touched yet.
-    pub fn new(mesh: &Mesh) -> Self {
-        let zero = Field::new(mesh, &vec![0.0; mesh.pin_cells()], 0.0);
+    pub fn new(mesh: &Mesh, instructions: InstructionSet) -> Self {
         Self {
-            gap: zero.clone(),
-            stiffness: zero,
+            instructions,
+            gap: vec![0.0; mesh.pin_cells()],
+            stiffness: vec![0.0; mesh.pin_cells()],
             displacement: None,
             load: 0.0,
             residual: 0.0,
-            touching: zero_rows(mesh.rows()),
+            row_load: vec![0.0; mesh.rows()],
+            row_slope: vec![0.0; mesh.rows()],
+            touching: vec![0.0; mesh.rows()],
             iterations: 0,
         }
     }
@@ -68,14 +74,10 @@ impl Contact {
     /// `distinct` tells whether build-up has a stiffness of its own.
     pub fn face(&mut self, mesh: &Mesh, stiffness: &Table, distinct: bool, disc: &Disc, pin: &Pin, turned: u64) {
         let face = if distinct { face_column::<true> } else { face_column::<false> };
-        for column in 0..mesh.pin_columns() {
-            face(
-                pin.view(column),
-                disc.view(mesh.disc_column(column, turned)),
-                stiffness,
-                self.gap.column_mut(column),
-                self.stiffness.column_mut(column),
-            );
+        let columns = self.gap.chunks_exact_mut(mesh.rows()).zip(self.stiffness.chunks_exact_mut(mesh.rows()));
+        for (column, (gap, carried)) in columns.enumerate() {
+            let under = disc.view(mesh.column(mesh.disc_column(column, turned)));
+            face(self.instructions, pin.view(mesh.column(column)), under, stiffness, gap, carried);
         }
     }
 
@@ -91,7 +93,7 @@ impl Contact {
         let mut before = f64::NAN;
         self.iterations = 0;
         loop {
-            let Load { load, slope } = self.load_at(displacement, mesh);
+            let (load, slope) = self.load_at(displacement, mesh);
             self.iterations += 1;
             let residual = ((load - normal_force) / normal_force).abs();
             if !residual.is_finite() {
@@ -106,29 +108,26 @@ impl Contact {
             (before, displacement) = (displacement, next);
         }
         self.displacement = Some(displacement);
-        self.touching.as_flattened_mut().fill(0.0);
-        for column in 0..mesh.pin_columns() {
-            count_touching(displacement, self.gap.column(column), &mut self.touching);
-        }
         Ok(())
     }
 
-    /// Σ k A u and its slope at a displacement, added up column by column.
-    fn load_at(&self, displacement: f64, mesh: &Mesh) -> Load {
-        let mut total = Load::default();
-        for column in 0..mesh.pin_columns() {
-            let column = load_of_column(displacement, self.gap.column(column), self.stiffness.column(column));
-            total.load += column.load;
-            total.slope += column.slope;
+    /// Σ k A u and its slope at a displacement: summed along the rows, then over the rows.
+    fn load_at(&mut self, displacement: f64, mesh: &Mesh) -> (f64, f64) {
+        let Self { instructions, gap, stiffness, row_load, row_slope, touching, .. } = self;
+        row_load.fill(0.0);
+        row_slope.fill(0.0);
+        touching.fill(0.0);
+        for (gap, stiffness) in gap.chunks_exact(mesh.rows()).zip(stiffness.chunks_exact(mesh.rows())) {
+            add_load(*instructions, displacement, gap, stiffness, row_load, row_slope, touching);
         }
-        total
+        (row_load.iter().sum(), row_slope.iter().sum())
     }
 
     /// The displacement at which the first cell would carry the load alone: never below the solution, and in contact.
     fn upper_bound(&self, normal_force: f64) -> f64 {
         self.gap
-            .cells()
-            .zip(self.stiffness.cells())
+            .iter()
+            .zip(&self.stiffness)
             .map(|(gap, stiffness)| gap + normal_force / stiffness)
             .fold(f64::INFINITY, f64::min)
     }
@@ -139,13 +138,13 @@ impl Contact {
     }
 
     /// Cells in contact by row.
-    pub fn touching(&self) -> &Rows {
+    pub fn touching(&self) -> &[f64] {
         &self.touching
     }
 
     /// Contact area Σ A over cells in contact, m².
     pub fn area(&self, mesh: &Mesh) -> f64 {
-        self.touching.as_flattened().iter().zip(mesh.area()).map(|(count, area)| count * area).sum()
+        self.touching.iter().zip(mesh.area()).map(|(count, area)| count * area).sum()
     }
 
     /// Σ p A, N.
@@ -166,7 +165,7 @@ impl Contact {
     /// p = k u of every pin cell in the last step, Pa; all 0 before the first.
     pub fn pressures<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = f64> + 'a {
         let displacement = self.displacement.unwrap_or(f64::NEG_INFINITY);
-        let cells = self.gap.cells().zip(self.stiffness.cells()).zip(mesh.area().iter().cycle());
+        let cells = self.gap.iter().zip(&self.stiffness).zip(mesh.area().iter().cycle());
         cells.map(move |((gap, stiffness), area)| {
             let overlap = displacement - gap;
             if overlap > 0.0 { stiffness / area * overlap } else { 0.0 }

@@ -1,6 +1,5 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4.4 and 4.5).
 
-use crate::field::{Rows, zero_rows};
 use crate::mesh::Mesh;
 use crate::parameters::{DebrisPool, PlateauRules};
 use crate::sum::RunningSum;
@@ -9,23 +8,23 @@ use crate::sum::RunningSum;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transfer {
     /// Worn off plateaus of the pin.
-    pub worn_pin: Rows,
+    pub worn_pin: Vec<f64>,
     /// Worn off resin.
-    pub worn_resin: Rows,
+    pub worn_resin: Vec<f64>,
     /// Worn off the disc.
-    pub worn_disc: Rows,
+    pub worn_disc: Vec<f64>,
     /// Build-up of unsupported plateaus.
-    pub returned: Rows,
+    pub returned: Vec<f64>,
     /// Compacted on the pin.
-    pub deposited_pin: Rows,
+    pub deposited_pin: Vec<f64>,
     /// Compacted on the disc.
-    pub deposited_disc: Rows,
+    pub deposited_disc: Vec<f64>,
 }
 
 impl Transfer {
     /// Nothing moved yet.
     pub fn new(rows: usize) -> Self {
-        let zero = zero_rows(rows);
+        let zero = vec![0.0; rows];
         Self {
             worn_pin: zero.clone(),
             worn_resin: zero.clone(),
@@ -46,7 +45,7 @@ impl Transfer {
             &mut self.deposited_pin,
             &mut self.deposited_disc,
         ] {
-            heights.as_flattened_mut().fill(0.0);
+            heights.fill(0.0);
         }
     }
 }
@@ -77,10 +76,8 @@ pub struct Debris {
     formation: bool,
     /// M, m³: one pool, or one per row.
     pools: Vec<RunningSum>,
-    /// Rows of the mesh.
-    rows: usize,
     /// s = M/S of every row, m; all 0 without formation.
-    share: Rows,
+    share: Vec<f64>,
     totals: Totals,
 }
 
@@ -95,30 +92,25 @@ impl Debris {
             captured_fraction: rules.captured_fraction,
             formation: rules.formation,
             pools: vec![RunningSum::default(); pools],
-            rows: mesh.rows(),
-            share: zero_rows(mesh.rows()),
+            share: vec![0.0; mesh.rows()],
             totals: Totals::default(),
         }
     }
 
     /// Rows that share each pool.
     fn rows_per_pool(&self) -> usize {
-        self.rows / self.pools.len()
+        self.share.len() / self.pools.len()
     }
 
     /// Spreads each pool evenly over its cells that do not touch: s = M/S; `touching` are the cells in contact by row.
-    pub fn spread(&mut self, mesh: &Mesh, touching: &Rows) {
+    pub fn spread(&mut self, mesh: &Mesh, touching: &[f64]) {
         if !self.formation {
             return;
         }
         let rows = self.rows_per_pool();
-        let shares = self.share.as_flattened_mut()[..self.rows].chunks_mut(rows);
-        for (((pool, share), touching), area) in self
-            .pools
-            .iter()
-            .zip(shares)
-            .zip(touching.as_flattened()[..self.rows].chunks(rows))
-            .zip(mesh.area().chunks(rows))
+        let shares = self.share.chunks_mut(rows);
+        for (((pool, share), touching), area) in
+            self.pools.iter().zip(shares).zip(touching.chunks(rows)).zip(mesh.area().chunks(rows))
         {
             let open: f64 =
                 touching.iter().zip(area).map(|(count, area)| (mesh.pin_columns() as f64 - count) * area).sum();
@@ -129,7 +121,7 @@ impl Debris {
     }
 
     /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
-    pub fn share(&self) -> &Rows {
+    pub fn share(&self) -> &[f64] {
         &self.share
     }
 
@@ -138,8 +130,7 @@ impl Debris {
         let rows = self.rows_per_pool();
         for (index, pool) in self.pools.iter_mut().enumerate() {
             let span = index * rows..(index + 1) * rows;
-            let volume = |heights: &Rows| -> f64 {
-                let heights = heights.as_flattened();
+            let volume = |heights: &[f64]| -> f64 {
                 heights[span.clone()].iter().zip(&mesh.area()[span.clone()]).map(|(height, area)| height * area).sum()
             };
             let worn_pin = volume(&transfer.worn_pin);

@@ -22,7 +22,7 @@ impl Filling {
     /// Measures the initial disc.
     pub fn new(mesh: &Mesh, disc: &Disc) -> Self {
         let mut filling = Self {
-            reference: disc.height.cells().fold(f64::NEG_INFINITY, f64::max),
+            reference: disc.height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             initial_volume: 0.0,
             open_volume: vec![0.0; mesh.disc_columns()],
             secondary_area: vec![0.0; mesh.disc_columns()],
@@ -51,7 +51,8 @@ impl Filling {
     }
 
     fn measure(&mut self, mesh: &Mesh, disc: &Disc, column: usize) {
-        let cells = disc.height.cells_of(column).iter().zip(disc.substrate.cells_of(column));
+        let column_cells = mesh.column(column);
+        let cells = disc.height[column_cells.clone()].iter().zip(&disc.substrate[column_cells]);
         let (mut open, mut secondary) = (0.0, 0.0);
         for ((height, substrate), area) in cells.zip(mesh.area()) {
             open += (self.reference - height).max(0.0) * area;

@@ -32,7 +32,6 @@
 
 pub mod contact;
 pub mod debris;
-pub mod field;
 pub mod filling;
 pub mod history;
 pub mod kernel;

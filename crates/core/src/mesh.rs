@@ -1,6 +1,7 @@
 //! The cylindrical ring mesh of disc and pin (model section 1; paper 2.1, Table 2).
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use thiserror::Error;
 
@@ -113,6 +114,11 @@ impl Mesh {
     /// Cells of the disc ring.
     pub fn disc_cells(&self) -> usize {
         self.rows * self.disc_columns
+    }
+
+    /// The cells of a column, of pin or disc.
+    pub fn column(&self, column: usize) -> Range<usize> {
+        column * self.rows..(column + 1) * self.rows
     }
 
     /// Δr, m.

@@ -1,6 +1,5 @@
 //! Coefficients of a pair of cells by status and row: stiffness (model 4.1) and wear per overlap (model 4.2).
 
-use crate::field::{Rows, zero_rows};
 use crate::material::{Materials, Status};
 use crate::parameters::{Integrator, Parameters};
 
@@ -29,7 +28,14 @@ impl Pair {
 }
 
 /// One coefficient by [`Pair::index`] and row.
-pub type Table = [Rows; Pair::COUNT];
+pub type Table = [Vec<f64>; Pair::COUNT];
+
+/// The first `rows` rows of every entry of a table, so that a loop over them needs no bounds checks.
+#[inline(always)]
+pub fn first_rows(table: &Table, rows: usize) -> [&[f64]; Pair::COUNT] {
+    let [a, b, c, d, e, f] = table;
+    [&a[..rows], &b[..rows], &c[..rows], &d[..rows], &e[..rows], &f[..rows]]
+}
 
 /// The coefficients of every pair in every row.
 ///
@@ -53,7 +59,7 @@ impl Coefficients {
     /// Tabulates the coefficients.
     pub fn new(parameters: &Parameters) -> Self {
         let Parameters { mesh, materials, integrator, .. } = parameters;
-        let table = || std::array::from_fn(|_| zero_rows(mesh.rows()));
+        let table = || std::array::from_fn(|_| vec![0.0; mesh.rows()]);
         let mut tables = Self { stiffness: table(), pin: table(), disc: table(), fibre: table(), coating: table() };
         for (pin, disc_secondary) in Pair::all() {
             let pair = Pair::new(pin, disc_secondary).index();
@@ -66,16 +72,54 @@ impl Coefficients {
                 let below = |substrate: f64, own: f64, other: f64| {
                     if own == 0.0 { 0.0 } else { factor(substrate, other) / factor(own, other) }
                 };
-                tables.stiffness[pair].as_flattened_mut()[row] = stiffness * area;
-                tables.pin[pair].as_flattened_mut()[row] = factor(wear_rate_pin, wear_rate_disc);
-                tables.disc[pair].as_flattened_mut()[row] = factor(wear_rate_disc, wear_rate_pin);
-                tables.fibre[pair].as_flattened_mut()[row] =
+                tables.stiffness[pair][row] = stiffness * area;
+                tables.pin[pair][row] = factor(wear_rate_pin, wear_rate_disc);
+                tables.disc[pair][row] = factor(wear_rate_disc, wear_rate_pin);
+                tables.fibre[pair][row] =
                     below(materials.pin_primary.specific_wear_rate, wear_rate_pin, wear_rate_disc);
-                tables.coating[pair].as_flattened_mut()[row] =
+                tables.coating[pair][row] =
                     below(materials.disc_primary.specific_wear_rate, wear_rate_disc, wear_rate_pin);
             }
         }
         tables
+    }
+}
+
+/// A pair of cells at the start of a step, as the loops over cells see it.
+#[derive(Debug, Clone, Copy)]
+pub struct PairCell {
+    /// The pin's base is resin.
+    pub on_resin: bool,
+    /// The pin is secondary.
+    pub pin_secondary: bool,
+    /// The disc is secondary.
+    pub disc_secondary: bool,
+}
+
+impl PairCell {
+    /// Resin without build-up.
+    #[inline(always)]
+    pub fn is_resin(self) -> bool {
+        self.on_resin & !self.pin_secondary
+    }
+
+    /// The pair's entry in a table, without branches.
+    ///
+    /// Where build-up has the properties of what it lies on (`DISTINCT` is false), two of the six entries serve all.
+    #[inline(always)]
+    pub fn pick<const DISTINCT: bool>(self, table: &[&[f64]; Pair::COUNT], row: usize) -> f64 {
+        // All entries are read before any is chosen: a read that depends on a condition is no vector code.
+        let entries: [f64; Pair::COUNT] =
+            std::array::from_fn(|pair| if DISTINCT || pair % 2 == 0 { table[pair][row] } else { 0.0 });
+        let select = |condition, yes, no| if condition { yes } else { no };
+        if !DISTINCT {
+            return select(self.is_resin(), entries[0], entries[2]);
+        }
+        let on_coating = select(self.on_resin, entries[0], entries[2]);
+        let on_debris = select(self.on_resin, entries[1], entries[3]);
+        let bare = select(self.disc_secondary, on_debris, on_coating);
+        let secondary = select(self.disc_secondary, entries[5], entries[4]);
+        select(self.pin_secondary, secondary, bare)
     }
 }
 

@@ -1,30 +1,28 @@
 //! Destruction and formation of secondary plateaus (model 4.3 and 4.4; paper 2.4, Figs. 2 to 4).
 
-use crate::kernel::{Lanes, Mask};
-
-/// Rule 4.3(b): plateaus of debris on resin that nothing supports in the sliding direction fall apart.
+/// Rule 4.3(b): a plateau of debris on resin that nothing supports in the sliding direction falls apart.
 #[inline(always)]
-pub fn falls(height: Lanes, substrate: Lanes, on_resin: Mask, supported: Mask) -> Mask {
-    substrate.exceeds(height).and(on_resin).and_not(supported)
+pub fn falls(height: f64, substrate: f64, on_resin: bool, supported: bool) -> bool {
+    (height < substrate) & on_resin & !supported
 }
 
-/// Heights of debris compacted in one step, m.
-#[derive(Debug, Clone, Copy)]
+/// Heights of debris compacted at a cell in one step, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deposit {
     /// On the pin.
-    pub pin: Lanes,
+    pub pin: f64,
     /// On the disc.
-    pub disc: Lanes,
+    pub disc: f64,
 }
 
-/// Rule 4.4: debris fills the clearance γ (m) of open cells, wholly or as far as the share s (m) reaches.
+/// Rule 4.4: debris fills the clearance γ (m) of an open cell, wholly or as far as the share s (m) reaches.
 ///
 /// Against a plateau ahead (`supported`) the pin takes the fraction `pad_share` = β of it; else all goes to the disc.
 #[inline(always)]
-pub fn form(clearance: Lanes, share: Lanes, supported: Mask, pad_share: Lanes) -> Deposit {
-    let zero = Lanes::splat(0.0);
-    let filled = clearance.max(zero).min(share);
-    let pin = supported.select(pad_share * filled, zero);
+pub fn form(clearance: f64, share: f64, supported: bool, pad_share: f64) -> Deposit {
+    let clearance = if clearance > 0.0 { clearance } else { 0.0 };
+    let filled = if clearance < share { clearance } else { share };
+    let pin = if supported { pad_share * filled } else { 0.0 };
     Deposit { pin, disc: filled - pin }
 }
 
@@ -34,26 +32,17 @@ mod tests {
 
     #[test]
     fn only_unsupported_debris_on_resin_falls() {
-        for (on_resin, supported, height, expected) in
-            [(true, false, 1.0, true), (true, true, 1.0, false), (false, false, 1.0, false), (true, false, 3.0, false)]
-        {
-            let falls = falls(Lanes::splat(height), Lanes::splat(3.0), Mask::splat(on_resin), Mask::splat(supported));
-            assert_eq!(falls.first(), expected);
-        }
+        assert!(falls(1.0, 3.0, true, false));
+        assert!(!falls(1.0, 3.0, true, true));
+        assert!(!falls(1.0, 3.0, false, false));
+        assert!(!falls(3.0, 3.0, true, false));
     }
 
     #[test]
     fn a_clearance_is_filled_wholly_or_in_part() {
-        for (clearance, share, supported, pin, disc) in [
-            (2.0, 8.0, true, 0.5, 1.5),
-            (2.0, 0.5, true, 0.125, 0.375),
-            (2.0, 0.5, false, 0.0, 0.5),
-            (0.0, 0.5, true, 0.0, 0.0),
-            (-1.0, 0.5, true, 0.0, 0.0),
-        ] {
-            let deposit =
-                form(Lanes::splat(clearance), Lanes::splat(share), Mask::splat(supported), Lanes::splat(0.25));
-            assert_eq!((deposit.pin.first(), deposit.disc.first()), (pin, disc));
-        }
+        assert_eq!(form(2.0, 8.0, true, 0.25), Deposit { pin: 0.5, disc: 1.5 });
+        assert_eq!(form(2.0, 0.5, true, 0.25), Deposit { pin: 0.125, disc: 0.375 });
+        assert_eq!(form(2.0, 0.5, false, 0.25), Deposit { pin: 0.0, disc: 0.5 });
+        assert_eq!(form(-1.0, 0.5, true, 0.25), Deposit { pin: 0.0, disc: 0.0 });
     }
 }

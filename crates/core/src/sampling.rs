@@ -59,11 +59,11 @@ impl Simulation {
     /// The maps asked for, as they are now.
     pub fn snapshot(&self, maps: &[Map]) -> Snapshot {
         let values = |map| match map {
-            Map::DiscHeight => MapValues::Float(self.disc.height.to_vec()),
-            Map::DiscSubstrate => MapValues::Float(self.disc.substrate.to_vec()),
+            Map::DiscHeight => MapValues::Float(self.disc.height.clone()),
+            Map::DiscSubstrate => MapValues::Float(self.disc.substrate.clone()),
             Map::DiscStatus => MapValues::Status(self.disc.statuses().map(|status| status as u8).collect()),
-            Map::PinHeight => MapValues::Float(self.pin.height.to_vec()),
-            Map::PinSubstrate => MapValues::Float(self.pin.substrate.to_vec()),
+            Map::PinHeight => MapValues::Float(self.pin.height.clone()),
+            Map::PinSubstrate => MapValues::Float(self.pin.substrate.clone()),
             Map::PinStatus => MapValues::Status(self.pin.statuses().map(|status| status as u8).collect()),
             Map::Pressure => MapValues::Float(self.contact.pressures(&self.parameters.mesh).collect()),
         };

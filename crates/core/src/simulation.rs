@@ -6,11 +6,11 @@ use crate::contact::{Contact, ContactError};
 use crate::debris::{Debris, Transfer};
 use crate::filling::Filling;
 use crate::history::History;
-use crate::kernel::{DiscColumn, Outlook, PinColumn, PinView, Update, update};
+use crate::kernel::{DiscColumn, InstructionSet, Outlook, PinColumn, PinView, Update, update};
 use crate::pair::Coefficients;
 use crate::parameters::Parameters;
 use crate::parts::Needs;
-use crate::state::{Disc, InitialSurfaces, Pin};
+use crate::state::{Base, Disc, InitialSurfaces, Pin};
 
 /// Why a simulation cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -47,6 +47,7 @@ pub struct Simulation {
     pub(crate) parameters: Parameters,
     coefficients: Coefficients,
     needs: Needs,
+    instructions: InstructionSet,
     update: Update,
     pub(crate) disc: Disc,
     pub(crate) pin: Pin,
@@ -55,6 +56,8 @@ pub struct Simulation {
     pub(crate) history: History,
     pub(crate) filling: Filling,
     transfer: Transfer,
+    /// A column of resin: what the last column of the pin has before it.
+    nothing_ahead: Pin,
     pub(crate) step: u64,
     /// Columns by which the disc was turned before the first step.
     pub(crate) first_step: u64,
@@ -76,19 +79,22 @@ impl Simulation {
                 return Err(SimulationError::Height { surface, count });
             }
         }
-        let disc = Disc::new(mesh, &surfaces.disc_height);
+        let disc = Disc::new(surfaces.disc_height);
         let needs = Needs::of(&parameters);
+        let instructions = InstructionSet::best();
         Ok(Self {
             coefficients: Coefficients::new(&parameters),
             update: update(needs.distinct, needs.disc_wears, needs.forms, needs.destroys),
             needs,
-            contact: Contact::new(mesh),
+            instructions,
+            contact: Contact::new(mesh, instructions),
             debris: Debris::new(mesh, &parameters.plateaus),
             history: History::new(mesh.disc_columns()),
             filling: Filling::new(mesh, &disc),
             transfer: Transfer::new(mesh.rows()),
+            nothing_ahead: Pin::new(vec![0.0; mesh.rows()], vec![Base::None; mesh.rows()]),
             disc,
-            pin: Pin::new(mesh, &surfaces.pin_height, &surfaces.pin_base),
+            pin: Pin::new(surfaces.pin_height, surfaces.pin_base),
             step: 0,
             first_step: 0,
             parameters,
@@ -134,31 +140,50 @@ impl Simulation {
     /// Wear, destruction and formation in every column of the pin and the disc column under it (model 4.2 to 4.4).
     fn update_columns(&mut self, turned: u64) {
         let Parameters { mesh, plateaus, materials, .. } = &self.parameters;
-        let last = mesh.pin_columns() - 1;
+        let (rows, last) = (mesh.rows(), mesh.pin_columns() - 1);
         for column in 0..=last {
-            let (height, height_ahead) = self.pin.height.column_and_next(column);
-            let (substrate, substrate_ahead) = self.pin.substrate.column_and_next(column);
-            let base_ahead = (column < last).then(|| self.pin.base.column(column + 1));
-            let ahead = height_ahead.zip(substrate_ahead).zip(base_ahead);
+            let cells = mesh.column(column);
+            let (height, height_after) = self.pin.height[cells.start..].split_at_mut(rows);
+            let (substrate, substrate_after) = self.pin.substrate[cells.start..].split_at_mut(rows);
+            let ahead = if column < last {
+                let base = &self.pin.base[mesh.column(column + 1)];
+                PinView { height: &height_after[..rows], substrate: &substrate_after[..rows], base }
+            } else {
+                self.nothing_ahead.view(0..rows)
+            };
             let outlook = Outlook {
                 displacement: self.contact.displacement(),
                 share: self.debris.share(),
                 pad_share: plateaus.pad_share,
                 wear_height: materials.wear_height,
-                ahead: ahead.map(|((height, substrate), base)| PinView { height, substrate, base }),
+                ahead,
             };
-            let under = mesh.disc_column(column, turned);
+            let under = mesh.column(mesh.disc_column(column, turned));
             (self.update)(
-                PinColumn { height, substrate, base: self.pin.base.column(column) },
-                DiscColumn {
-                    height: self.disc.height.column_mut(under),
-                    substrate: self.disc.substrate.column_mut(under),
-                },
+                self.instructions,
+                PinColumn { height, substrate, base: &self.pin.base[cells] },
+                DiscColumn { height: &mut self.disc.height[under.clone()], substrate: &mut self.disc.substrate[under] },
                 &outlook,
                 &self.coefficients,
                 &mut self.transfer,
             );
         }
+    }
+
+    /// Uses another instruction set than the widest that the processor has; the results are the same.
+    ///
+    /// # Panics
+    /// When the processor does not have it.
+    pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
+        assert!(instructions.is_available(), "this processor has no {}", instructions.name());
+        self.instructions = instructions;
+        self.contact = Contact::new(&self.parameters.mesh, instructions);
+        self
+    }
+
+    /// The instruction set of the kernels.
+    pub fn instructions(&self) -> InstructionSet {
+        self.instructions
     }
 
     /// What the simulation was told.

@@ -1,6 +1,7 @@
 //! Heights of disc and pin, and the status that follows from them (model section 2).
 
-use crate::field::Field;
+use std::ops::Range;
+
 use crate::kernel::{DiscView, PinView};
 use crate::material::Status;
 use crate::mesh::Mesh;
@@ -15,70 +16,75 @@ pub enum Base {
     Primary = 1,
 }
 
-/// A height that nothing reaches: fills the last group of every pin column.
-const OUT_OF_REACH: f64 = f64::MAX / 4.0;
+impl Base {
+    /// Whether the base is resin.
+    #[inline(always)]
+    pub fn is_resin(self) -> bool {
+        self == Self::None
+    }
+}
 
-/// Disc ring.
+/// Disc ring: one value per cell, column by column (see [`Mesh`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disc {
     /// z_d, m, positive toward the pin.
-    pub height: Field<f64>,
+    pub height: Vec<f64>,
     /// b_d ≤ z_d, m: top of what is not compacted debris.
-    pub substrate: Field<f64>,
+    pub substrate: Vec<f64>,
 }
 
 impl Disc {
     /// Disc before the first step: no build-up anywhere.
-    pub fn new(mesh: &Mesh, height: &[f64]) -> Self {
-        let height = Field::new(mesh, height, 0.0);
+    pub fn new(height: Vec<f64>) -> Self {
         Self { substrate: height.clone(), height }
     }
 
-    /// One column of it.
-    #[inline]
-    pub fn view(&self, column: usize) -> DiscView<'_> {
-        DiscView { height: self.height.column(column), substrate: self.substrate.column(column) }
+    /// Some cells of it.
+    pub fn view(&self, cells: Range<usize>) -> DiscView<'_> {
+        DiscView { height: &self.height[cells.clone()], substrate: &self.substrate[cells] }
     }
 
     /// Status of every cell, column by column: secondary where the surface stands above the substrate.
     pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
-        let cells = self.height.cells().zip(self.substrate.cells());
+        let cells = self.height.iter().zip(&self.substrate);
         cells.map(|(height, substrate)| if height > substrate { Status::Secondary } else { Status::Primary })
     }
 }
 
-/// Pin.
+/// Pin: one value per cell, column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pin {
     /// z_p, m, on the disc's axis: wear raises it, away from the disc.
-    pub height: Field<f64>,
+    pub height: Vec<f64>,
     /// b_p ≥ z_p, m: surface of what is not compacted debris.
-    pub substrate: Field<f64>,
+    pub substrate: Vec<f64>,
     /// Resin or fibre.
-    pub base: Field<Base>,
+    pub base: Vec<Base>,
 }
 
 impl Pin {
     /// Pin before the first step: no build-up anywhere.
-    pub fn new(mesh: &Mesh, height: &[f64], base: &[Base]) -> Self {
-        let height = Field::new(mesh, height, OUT_OF_REACH);
-        Self { substrate: height.clone(), height, base: Field::new(mesh, base, Base::Primary) }
+    ///
+    /// # Panics
+    /// When the two fields differ in length.
+    pub fn new(height: Vec<f64>, base: Vec<Base>) -> Self {
+        assert_eq!(height.len(), base.len(), "heights and bases of the pin");
+        Self { substrate: height.clone(), height, base }
     }
 
-    /// One column of it.
-    #[inline]
-    pub fn view(&self, column: usize) -> PinView<'_> {
+    /// Some cells of it.
+    pub fn view(&self, cells: Range<usize>) -> PinView<'_> {
         PinView {
-            height: self.height.column(column),
-            substrate: self.substrate.column(column),
-            base: self.base.column(column),
+            height: &self.height[cells.clone()],
+            substrate: &self.substrate[cells.clone()],
+            base: &self.base[cells],
         }
     }
 
     /// Status of every cell, column by column: secondary where debris stands out of the substrate toward the disc,
     /// else its base.
     pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
-        let cells = self.height.cells().zip(self.substrate.cells()).zip(self.base.cells());
+        let cells = self.height.iter().zip(&self.substrate).zip(&self.base);
         cells.map(|((height, substrate), base)| match base {
             _ if height < substrate => Status::Secondary,
             Base::None => Status::None,

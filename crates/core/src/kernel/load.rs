@@ -1,57 +1,78 @@
 //! Gap and stiffness of the pairs of a column, and the load that they carry (model 4.1).
 
-use super::cells::{Cells, DiscView, PinView};
-use super::lanes::{LANES, Lanes};
-use crate::field::Rows;
-use crate::pair::Table;
+use super::columns::{DiscView, PinView};
+use super::instructions::kernel;
+use crate::pair::{PairCell, Table, first_rows};
 
-/// Load and its slope at one displacement.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Load {
-    /// Σ k A u, N.
-    pub load: f64,
-    /// Σ k A over cells in contact, N/m.
-    pub slope: f64,
+kernel! {
+    /// Writes gap g = z_p − z_d and stiffness k A of every pair of a column.
+    ///
+    /// `DISTINCT` tells whether build-up has properties of its own.
+    pub fn face_column<const DISTINCT>(
+        pin: PinView,
+        disc: DiscView,
+        table: &Table,
+        gap: &mut [f64],
+        stiffness: &mut [f64],
+    ) = face_rows
 }
 
-/// Writes gap g = z_p − z_d and stiffness k A of every pair of a column.
-///
-/// `DISTINCT` tells whether build-up has properties of its own.
-pub fn face_column<const DISTINCT: bool>(
+#[inline(always)]
+fn face_rows<const DISTINCT: bool>(
     pin: PinView,
     disc: DiscView,
     table: &Table,
-    gap: &mut [[f64; LANES]],
-    stiffness: &mut [[f64; LANES]],
+    gap: &mut [f64],
+    stiffness: &mut [f64],
 ) {
-    for (group, (gap, stiffness)) in gap.iter_mut().zip(stiffness).enumerate() {
-        let cells = Cells::load(pin, disc, group);
-        *gap = (cells.pin_height - cells.disc_height).0;
-        *stiffness = cells.pick::<DISTINCT>(table, group).0;
+    let rows = gap.len();
+    let stiffness = &mut stiffness[..rows];
+    let (pin_height, pin_substrate, base) = (&pin.height[..rows], &pin.substrate[..rows], &pin.base[..rows]);
+    let (disc_height, disc_substrate) = (&disc.height[..rows], &disc.substrate[..rows]);
+    let table = first_rows(table, rows);
+    for row in 0..rows {
+        let pair = PairCell {
+            on_resin: base[row].is_resin(),
+            pin_secondary: pin_height[row] < pin_substrate[row],
+            disc_secondary: disc_height[row] > disc_substrate[row],
+        };
+        gap[row] = pin_height[row] - disc_height[row];
+        stiffness[row] = pair.pick::<DISTINCT>(&table, row);
     }
 }
 
-/// Load and slope of one column at a displacement.
-#[inline]
-pub fn load_of_column(displacement: f64, gap: &[[f64; LANES]], stiffness: &[[f64; LANES]]) -> Load {
-    let displacement = Lanes::splat(displacement);
-    let zero = Lanes::splat(0.0);
-    let (mut load, mut slope) = (zero, zero);
-    for (gap, stiffness) in gap.iter().zip(stiffness) {
-        let overlap = displacement - Lanes(*gap);
-        let carried = overlap.exceeds(zero).select(Lanes(*stiffness), zero);
-        load += carried * overlap;
-        slope += carried;
-    }
-    Load { load: load.sum(), slope: slope.sum() }
+kernel! {
+    /// Adds what every cell of a column carries at a displacement to the sums of its row: load Σ k A u, slope Σ k A and
+    /// number of cells in contact.
+    pub fn add_load(
+        displacement: f64,
+        gap: &[f64],
+        stiffness: &[f64],
+        load: &mut [f64],
+        slope: &mut [f64],
+        touching: &mut [f64],
+    ) = add_rows
 }
 
-/// Adds 1 to the count of every row whose pair touches.
-#[inline]
-pub fn count_touching(displacement: f64, gap: &[[f64; LANES]], touching: &mut Rows) {
-    let displacement = Lanes::splat(displacement);
-    for (gap, count) in gap.iter().zip(touching) {
-        let touches = displacement.exceeds(Lanes(*gap));
-        touches.select(Lanes::splat(1.0), Lanes::splat(0.0)).add_to(count);
+// Every slice is an argument of its own, so that the compiler knows that none overlaps another.
+#[inline(always)]
+fn add_rows(
+    displacement: f64,
+    gap: &[f64],
+    stiffness: &[f64],
+    load: &mut [f64],
+    slope: &mut [f64],
+    touching: &mut [f64],
+) {
+    let rows = gap.len();
+    let (stiffness, load, slope) = (&stiffness[..rows], &mut load[..rows], &mut slope[..rows]);
+    let touching = &mut touching[..rows];
+    for row in 0..rows {
+        let overlap = displacement - gap[row];
+        let touches = if overlap > 0.0 { 1.0 } else { 0.0 };
+        let carried = stiffness[row] * touches;
+        load[row] += carried * overlap;
+        slope[row] += carried;
+        touching[row] += touches;
     }
 }
