@@ -158,7 +158,7 @@ fn hdf5_heights_come_through_bit_for_bit_and_base_as_it_is() {
     let pin: Vec<f64> = heights(PIN_COLUMNS, ROWS).iter().map(|z| f64::from(*z as f32)).collect();
     assert_eq!(loaded.surfaces.pin_height, pin);
     for (cell, base) in loaded.surfaces.pin_base.iter().enumerate() {
-        let fibre = (cell / ROWS + cell % ROWS) % 3 == 0;
+        let fibre = (cell / ROWS + cell % ROWS).is_multiple_of(3);
         assert_eq!(*base, if fibre { Base::Primary } else { Base::None });
     }
     assert_eq!(loaded.inputs.len(), 1, "one file, read three times");
