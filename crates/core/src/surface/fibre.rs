@@ -241,6 +241,7 @@ mod tests {
 
     #[test]
     fn the_area_fraction_is_met_to_half_a_fibre() {
+        // A fibre's area, and what counting cells may add to it: a cell along its perimeter of 0.92 mm.
         let mesh = mesh();
         let fibre = (300e-6 * 100e-6 + PI * 2.5e-9 + 9.2e-4 * 1e-5) / mesh.pin_area();
         for target in [0.001, 0.1, 0.3, 0.7, 0.99] {

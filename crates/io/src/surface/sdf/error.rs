@@ -95,10 +95,10 @@ pub enum SdfError {
         /// What can be.
         expected: &'static str,
     },
-    /// More or fewer heights than promised.
+    /// Fewer heights than promised.
     #[error("{at}: the data end after {found} heights, expected NumPoints x NumProfiles = {points} x {profiles}")]
     Count {
-        /// Where the data end or the first height too many stands.
+        /// Where the data end.
         at: Position,
         /// Heights found.
         found: usize,

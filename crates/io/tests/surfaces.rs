@@ -1,0 +1,383 @@
+//! The surfaces of a scene, from recipes and files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use hdf5::types::VarLenUnicode;
+use ndarray::{Array2, Array3};
+use plateau_core::material::{Material, Materials};
+use plateau_core::mesh::Mesh;
+use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::state::Base;
+use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
+use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, SampleEvery, Scene, Workers};
+use plateau_io::surface::{Loaded, load};
+
+const ROWS: usize = 4;
+const DISC_COLUMNS: usize = 60;
+const PIN_COLUMNS: usize = 6;
+
+/// Flat on flat, all fibre.
+fn scene() -> Scene {
+    let material = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: 5e-14 };
+    let flat = HeightRecipe { source: HeightSource::Flat, mirror: false, preparation: Preparation::default() };
+    Scene {
+        title: "test".to_owned(),
+        path: PathBuf::from("test.toml"),
+        parameters: Parameters {
+            mesh: Mesh::new(ROWS, DISC_COLUMNS, PIN_COLUMNS, 20e-3, 24e-3).unwrap(),
+            normal_force: 47.0,
+            angular_velocity: 90.0,
+            steps: 1,
+            foundation_height: 5e-5,
+            load_tolerance: 1e-9,
+            materials: Materials {
+                disc_primary: material,
+                disc_secondary: material,
+                pin_primary: material,
+                pin_secondary: material,
+                pin_resin: material,
+                wear_height: 5e-6,
+            },
+            plateaus: PlateauRules {
+                captured_fraction: 0.06,
+                pad_share: 0.5,
+                debris_pool: DebrisPool::Contact,
+                formation: true,
+                destruction: true,
+            },
+            time_acceleration: 1.0,
+            integrator: Integrator::Explicit,
+        },
+        disc_surface: flat.clone(),
+        pin_surface: flat,
+        resin_recess: 0.0,
+        pin_base: BaseSource::Uniform(Base::Primary),
+        workers: Workers::Count(1),
+        output: OutputRecipe {
+            file: PathBuf::from("test.h5"),
+            sample_every: SampleEvery::Steps(1),
+            maps_at: Vec::new(),
+            maps: Vec::new(),
+        },
+        seeds: Vec::new(),
+        resolved: String::new(),
+        files: Vec::new(),
+        warnings: Vec::new(),
+    }
+}
+
+fn file(path: &Path, dataset: Option<&str>) -> HeightSource {
+    HeightSource::File { path: path.to_owned(), dataset: dataset.map(str::to_owned) }
+}
+
+fn afm() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/surfaces/afm_256x256.sdf")
+}
+
+fn sample(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/surfaces").join(name)
+}
+
+fn message(scene: &Scene) -> String {
+    load(scene).unwrap_err().to_string()
+}
+
+/// Heights that are all different.
+fn heights(columns: usize, rows: usize) -> Array2<f64> {
+    Array2::from_shape_fn((columns, rows), |(column, row)| 1e-6 * ((column * 37 + row * 11) as f64).sin())
+}
+
+/// A file with everything the tests ask for.
+fn hdf5_file(folder: &Path) -> PathBuf {
+    let path = folder.join("surfaces.h5");
+    let file = hdf5::File::create(&path).unwrap();
+    let disc = file.create_group("disc").unwrap();
+    let pin = file.create_group("pin").unwrap();
+    disc.new_dataset_builder().with_data(&heights(DISC_COLUMNS, ROWS)).create("height").unwrap();
+    pin.new_dataset_builder().with_data(&heights(PIN_COLUMNS, ROWS).mapv(|z| z as f32)).create("height").unwrap();
+    let base = Array2::from_shape_fn((PIN_COLUMNS, ROWS), |(column, row)| u8::from((column + row) % 3 == 0));
+    pin.new_dataset_builder().with_data(&base).create("base").unwrap();
+    let mut wrong = base.mapv(i32::from);
+    wrong[(4, 2)] = -7;
+    pin.new_dataset_builder().with_data(&wrong).create("wrong").unwrap();
+    let mut holed = heights(DISC_COLUMNS, ROWS);
+    holed[(3, 1)] = f64::NAN;
+    holed[(9, 0)] = f64::NAN;
+    disc.new_dataset_builder().with_data(&holed).create("holed").unwrap();
+    holed[(9, 0)] = f64::INFINITY;
+    disc.new_dataset_builder().with_data(&holed).create("infinite").unwrap();
+    file.new_dataset_builder().with_data(&Array3::<f64>::zeros((2, 3, 4))).create("cube").unwrap();
+    file.new_dataset_builder().with_data(&Array2::<i32>::zeros((ROWS, PIN_COLUMNS))).create("turned").unwrap();
+    file.new_dataset::<VarLenUnicode>().create("text").unwrap();
+    file.new_dataset::<f64>().chunk((1, 1 << 10)).shape((1 << 30, 1 << 30)).create("promise").unwrap();
+    file.close().unwrap();
+    path
+}
+
+#[test]
+fn flat_and_uniform() {
+    let loaded = load(&scene()).unwrap();
+    assert!(loaded.surfaces.fits(&scene().parameters.mesh));
+    assert!(loaded.surfaces.disc_height.iter().chain(&loaded.surfaces.pin_height).all(|height| *height == 0.0));
+    assert!(loaded.surfaces.pin_base.iter().all(|base| *base == Base::Primary));
+    assert!(loaded.inputs.is_empty());
+}
+
+#[test]
+fn synthetic_sources_and_the_resin_recess() {
+    let mut scene = scene();
+    let synthesis = HeightSynthesis { seed: 1, rms_height: 3e-6, correlation_length: 5e-3, patch: None };
+    scene.disc_surface.source = HeightSource::Synthetic(synthesis);
+    scene.pin_surface.source = HeightSource::Synthetic(HeightSynthesis { rms_height: 5e-7, ..synthesis });
+    scene.pin_base =
+        BaseSource::Synthetic(FibreSynthesis { seed: 2, fibre_fraction: 0.5, fibre_length: 4e-3, fibre_width: 2e-3 });
+    let plain = load(&scene).unwrap().surfaces;
+    scene.resin_recess = 8e-6;
+    let Loaded { surfaces, report, .. } = load(&scene).unwrap();
+    assert_eq!((&surfaces.disc_height, &surfaces.pin_base), (&plain.disc_height, &plain.pin_base));
+    assert!(surfaces.pin_base.contains(&Base::None) && surfaces.pin_base.contains(&Base::Primary));
+    for ((height, before), base) in surfaces.pin_height.iter().zip(&plain.pin_height).zip(&surfaces.pin_base) {
+        assert_eq!(*height, if *base == Base::None { before + 8e-6 } else { *before });
+    }
+    assert!(report.iter().any(|line| line == "pin.surface: resin set back by 8 um"), "{report:?}");
+    assert!(report.iter().any(|line| line.starts_with("pin.base: fibre fraction 0.")), "{report:?}");
+}
+
+#[test]
+fn hdf5_heights_come_through_bit_for_bit_and_base_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = hdf5_file(folder.path());
+    let mut scene = scene();
+    scene.disc_surface.source = file(&path, Some("/disc/height"));
+    scene.disc_surface.preparation.repeat = true;
+    scene.pin_surface.source = file(&path, Some("pin/height"));
+    scene.pin_base = BaseSource::File { path: path.clone(), dataset: Some("/pin/base".to_owned()) };
+    let loaded = load(&scene).unwrap();
+    assert_eq!(loaded.surfaces.disc_height, heights(DISC_COLUMNS, ROWS).into_raw_vec_and_offset().0);
+    let pin: Vec<f64> = heights(PIN_COLUMNS, ROWS).iter().map(|z| f64::from(*z as f32)).collect();
+    assert_eq!(loaded.surfaces.pin_height, pin);
+    for (cell, base) in loaded.surfaces.pin_base.iter().enumerate() {
+        let fibre = (cell / ROWS + cell % ROWS).is_multiple_of(3);
+        assert_eq!(*base, if fibre { Base::Primary } else { Base::None });
+    }
+    assert_eq!(loaded.inputs.len(), 1, "one file, read three times");
+    // "base" and "wrong" both have the type and shape of a fibre map, so one must be named.
+    scene.pin_base = BaseSource::File { path: path.clone(), dataset: None };
+    let found = message(&scene);
+    assert!(
+        found.contains("has 2 datasets with integers and shape (pin_columns, rows) = (6, 4), expected one"),
+        "{found}"
+    );
+    assert!(found.contains("/pin/base (uint8, shape (6, 4))"), "{found}");
+}
+
+#[test]
+fn the_only_suitable_dataset_needs_no_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("one.h5");
+    let out = hdf5::File::create(&path).unwrap();
+    let group = out.create_group("a").unwrap().create_group("b").unwrap();
+    group.new_dataset_builder().with_data(&heights(DISC_COLUMNS, ROWS)).create("z").unwrap();
+    let base = Array2::from_elem((PIN_COLUMNS, ROWS), true);
+    group.new_dataset_builder().with_data(&base).create("fibre").unwrap();
+    // A link to a group above must not send the search round and round.
+    out.link_hard("/a", "/a/b/again").unwrap();
+    out.close().unwrap();
+    let mut scene = scene();
+    scene.disc_surface.source = file(&path, None);
+    scene.pin_base = BaseSource::File { path: path.clone(), dataset: None };
+    let surfaces = load(&scene).unwrap().surfaces;
+    assert_eq!(surfaces.disc_height, heights(DISC_COLUMNS, ROWS).into_raw_vec_and_offset().0);
+    assert_eq!(surfaces.pin_base, vec![Base::Primary; PIN_COLUMNS * ROWS]);
+}
+
+#[test]
+fn a_base_may_be_an_enumeration_as_in_run_files() {
+    #[derive(hdf5::H5Type, Clone, Copy)]
+    #[repr(u8)]
+    #[allow(dead_code)]
+    enum Status {
+        None = 0,
+        Primary = 1,
+        Secondary = 2,
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let out = hdf5::File::create(&path).unwrap();
+    let base = Array2::from_shape_fn(
+        (PIN_COLUMNS, ROWS),
+        |(column, _)| {
+            if column < 2 { Status::Primary } else { Status::None }
+        },
+    );
+    out.new_dataset_builder().with_data(&base).create("base").unwrap();
+    out.close().unwrap();
+    let mut scene = scene();
+    scene.pin_base = BaseSource::File { path, dataset: Some("base".to_owned()) };
+    let found = load(&scene).unwrap().surfaces.pin_base;
+    assert_eq!(found[..2 * ROWS], [Base::Primary; 2 * ROWS]);
+    assert_eq!(found[2 * ROWS..], [Base::None; 4 * ROWS]);
+}
+
+#[test]
+fn unsuitable_hdf5_content_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = hdf5_file(folder.path());
+    let disc = |dataset: &str, preparation: Preparation| {
+        let mut scene = scene();
+        scene.disc_surface.source = file(&path, Some(dataset));
+        scene.disc_surface.preparation = preparation;
+        message(&scene)
+    };
+    let nothing = Preparation::default();
+    for (dataset, expected) in [
+        ("/disc/heigth", "has no dataset \"/disc/heigth\"; it has /cube (float64, shape (2, 3, 4)), /disc/height"),
+        ("/disc", "has no dataset \"/disc\"; it has /cube"),
+        ("cube", "dataset /cube has float64, shape (2, 3, 4), expected floating-point numbers and 2 dimensions"),
+        ("pin/base", "dataset /pin/base has uint8, shape (6, 4), expected floating-point numbers"),
+        ("text", "dataset /text has "),
+        (
+            "pin/height",
+            "dataset /pin/height has shape (6, 4), expected (60, 4) for the whole body; as a patch it needs",
+        ),
+        ("promise", "dataset /promise has shape (1073741824, 1073741824), which is more than the 268435456 points"),
+        ("disc/infinite", "1 of 240 heights in dataset /disc/infinite are infinite"),
+    ] {
+        let found = disc(dataset, nothing);
+        let start = format!("disc.surface: {}: {expected}", path.display());
+        assert!(found.starts_with(&start), "{found}\nexpected {start}");
+    }
+    assert_eq!(
+        disc("disc/holed", nothing),
+        "disc.prepare: 2 of 240 points are missing; fill = \"level\" gives them the mean of the levelled surface"
+    );
+    let mut filled = scene();
+    filled.disc_surface.source = file(&path, Some("disc/holed"));
+    filled.disc_surface.preparation.fill_missing = true;
+    assert!(load(&filled).unwrap().surfaces.disc_height.iter().all(|height| height.is_finite()));
+
+    let base = |dataset: &str| {
+        let mut scene = scene();
+        scene.pin_base = BaseSource::File { path: path.clone(), dataset: Some(dataset.to_owned()) };
+        message(&scene)
+    };
+    let found = base("pin/wrong");
+    assert!(
+        found.ends_with("dataset /pin/wrong has -7 at (column 4, row 2), expected 0 = none or 1 = primary"),
+        "{found}"
+    );
+    for dataset in ["turned", "pin/height", "cube"] {
+        let found = base(dataset);
+        assert!(found.contains("expected integers and shape (pin_columns, rows) = (6, 4)"), "{found}");
+    }
+}
+
+#[test]
+fn damaged_hdf5_files_are_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let content = fs::read(hdf5_file(folder.path())).unwrap();
+    let path = folder.path().join("damaged.h5");
+    let mut scene = scene();
+    scene.disc_surface.source = file(&path, Some("/disc/height"));
+    for length in [8, 9, 40, 96, 512, content.len() / 2, content.len() - 1] {
+        fs::write(&path, &content[..length]).unwrap();
+        let found = message(&scene);
+        assert!(found.contains("damaged.h5: cannot be read as HDF5: "), "{length} bytes: {found}");
+        assert!(!found.contains('\n'), "{found}");
+    }
+}
+
+#[test]
+fn a_measured_patch_on_disc_and_pin() {
+    let mut scene = scene();
+    let preparation = Preparation {
+        level: Level::Plane,
+        pixel: Some(50e-6),
+        cutoff: Some(1e-8),
+        repeat: true,
+        scale: 300.0,
+        ..Preparation::default()
+    };
+    scene.disc_surface = HeightRecipe { source: file(&afm(), None), mirror: false, preparation };
+    scene.pin_surface = scene.disc_surface.clone();
+    let Loaded { surfaces, inputs, report } = load(&scene).unwrap();
+    // The heights are levelled, so their mean is 0 and the cut at 10 nm becomes a highest height of 3 um.
+    let highest = surfaces.disc_height.iter().copied().fold(f64::MIN, f64::max);
+    assert!(highest <= 3e-6 * (1.0 + 1e-9) && highest > 1e-6, "{highest}");
+    // sha256sum of the file.
+    let digest = "d6e9309c26f3fc1b8f5f398a1f3f46264b4fb77e89e6e9632cbb65b25d06052e".to_owned();
+    assert_eq!(inputs, [(afm(), digest)]);
+    // The pin lies on the first columns; its z grows away from the disc, and the cut took the peaks.
+    for (pin, disc) in surfaces.pin_height.iter().zip(&surfaces.disc_height) {
+        assert!((pin + disc).abs() < 1e-18, "{pin} {disc}");
+    }
+    for expected in [
+        "afm_256x256.sdf, 256 x 256 points, 1.953 nm pitch",
+        "disc.prepare: levelled by the least-squares plane",
+        "disc.prepare: pixel pitch taken as 50 um",
+        "disc.prepare: cut at 10 nm above the mean: ",
+        "disc.prepare: patch of 12.8 mm by 12.8 mm repeated 10.80 times round the ring, mirrored at the seams",
+        "disc.prepare: heights times 300",
+        "pin.surface: negated, for the pin's z grows away from the disc",
+    ] {
+        assert!(report.iter().any(|line| line.contains(expected)), "{expected} not in {report:#?}");
+    }
+    // A patch as small as the file says does not cover the track.
+    scene.disc_surface.preparation.pixel = None;
+    let found = message(&scene);
+    assert!(found.starts_with("disc.prepare: the patch is 500 nm wide in r, the track 4 mm: a pixel of at"), "{found}");
+}
+
+#[test]
+fn files_that_are_not_read_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, content: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, content).unwrap();
+        path
+    };
+    let error = |path: &Path| {
+        let mut scene = scene();
+        scene.disc_surface.source = file(path, None);
+        let found = message(&scene);
+        let start = format!("disc.surface: {}: ", path.display());
+        found.strip_prefix(&start).unwrap_or_else(|| panic!("{found}")).to_owned()
+    };
+    let advice = "convert it to SDF ISO-1.0 (ASCII or binary) or HDF5";
+    for (path, expected) in [
+        (folder.path().join("absent.sdf"), "cannot be read: No such file or directory".to_owned()),
+        (folder.path().to_owned(), "is not a regular file".to_owned()),
+        (PathBuf::from("/dev/null"), "is not a regular file".to_owned()),
+        (write("empty.sdf", b""), format!("is no surface file that is known (it is empty); {advice}")),
+        (
+            write("a.sdf", b"\x89PNG\r\n\x1a\n\0\0"),
+            format!("is no surface file that is known (it starts with \"\\x89PNG\\r\\n\\x1a\\n\"); {advice}"),
+        ),
+        (
+            write("a.x3p", b"PK\x03\x04"),
+            format!("is an X3P file (zip archive), which this version does not read; {advice}"),
+        ),
+        (write("a.csv", b"1,2\n3,4\n"), format!("is a text file, which this version does not read; {advice}")),
+        (write("a.npy", b"\x93NUMPY\x01\0"), "is a NumPy array file (.npy), which this version".to_owned()),
+        (sample("iso2_surface_int8_binary.sdf"), "is an SDF ISO-2.0 file, which this version".to_owned()),
+        (sample("iso2_surface_int8_ascii.sdf"), "is an SDF ISO-2.0 file, which this version".to_owned()),
+        (sample("bcr1_surface_uint16_binary.sdf"), "is an SDF BCR-1.0 file, which this version".to_owned()),
+        (sample("bcr1_surface_uint16_ascii.sdf"), "is an SDF BCR-1.0 file, which this version".to_owned()),
+    ] {
+        let found = error(&path);
+        assert!(found.starts_with(&expected), "{found}\nexpected {expected}");
+    }
+    let mut scene = scene();
+    scene.disc_surface.source = file(&afm(), Some("/disc/height"));
+    assert!(
+        message(&scene)
+            .ends_with("is an SDF ISO-1.0 file (binary), which has no datasets: leave out dataset = \"/disc/height\"")
+    );
+    scene.disc_surface.source = HeightSource::Flat;
+    scene.pin_base = BaseSource::File { path: afm(), dataset: None };
+    assert!(
+        message(&scene)
+            .ends_with("is an SDF ISO-1.0 file (binary), expected an HDF5 file with integers 0 = none and 1 = primary")
+    );
+}
