@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use plateau_core::kernel::InstructionSet;
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
@@ -33,13 +34,13 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         eprintln!("plateau: warning: this version runs each scene on one worker; the result is the same");
     }
     let loaded = surface::load(&scene).map_err(Failure::input)?;
-    let header = header(&scene, &loaded)?;
+    let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
+    let header = header(&scene, &loaded, schedule.samples())?;
     let mut simulation = Simulation::new(scene.parameters.clone(), loaded.surfaces).map_err(Failure::input)?;
     let writer = RunWriter::create(&path, arguments.force, &header).map_err(create_failure)?;
 
     let start = Instant::now();
     let mut recorder = Recorder { writer, progress: Progress::new(scene.parameters.steps), last: Sample::default() };
-    let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
     let result = drive(&mut simulation, &schedule, &scene.output.maps, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
@@ -57,7 +58,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 }
 
 /// The part of the run file that is known before the first step.
-fn header(scene: &Scene, loaded: &Loaded) -> Result<Header, Failure> {
+fn header(scene: &Scene, loaded: &Loaded, expected_samples: u64) -> Result<Header, Failure> {
     let mut inputs = InputFile::read_all(&scene.files)
         .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
     inputs.extend(
@@ -71,12 +72,13 @@ fn header(scene: &Scene, loaded: &Loaded) -> Result<Header, Failure> {
         mesh: scene.parameters.mesh.clone(),
         pin_base: loaded.surfaces.pin_base.clone(),
         maps: scene.output.maps.clone(),
+        expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),
         source_revision: version::REVISION.into(),
         host: machine::host(),
         workers: 1,
-        instruction_set: std::env::consts::ARCH.into(),
+        instruction_set: InstructionSet::best().name().into(),
         seeds: scene.seeds.clone(),
         inputs,
     })
