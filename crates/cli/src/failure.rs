@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 
+use crate::message;
+
 /// Why a command failed, with the exit status that tells whose fault it is.
 #[derive(Debug)]
 pub enum Failure {
@@ -31,7 +33,7 @@ impl Failure {
             Self::Input(message) => (message, 2),
             Self::Run(message) => (message, 1),
         };
-        eprintln!("plateau: {message}");
+        message::error(message);
         ExitCode::from(status)
     }
 }

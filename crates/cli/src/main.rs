@@ -5,6 +5,7 @@ mod commands;
 mod drive;
 mod failure;
 mod machine;
+mod message;
 mod number;
 mod progress;
 mod table;

@@ -15,6 +15,7 @@ use super::load_scene;
 use crate::arguments::RunArguments;
 use crate::drive::{Outcome, Sink, drive};
 use crate::failure::Failure;
+use crate::message;
 use crate::number;
 use crate::progress::Progress;
 use crate::table::{print, table};
@@ -30,7 +31,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         return Err(Failure::input(RunFileError::Exists { path }));
     }
     if let Workers::Count(2..) = scene.workers {
-        eprintln!("plateau: warning: this version runs each scene on one worker; the result is the same");
+        message::warning("this version runs each scene on one worker; the result is the same");
     }
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let header = header(&scene, &loaded)?;
