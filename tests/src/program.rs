@@ -110,20 +110,23 @@ impl WorkingDirectory {
         path
     }
 
-    /// Every file below the directory, those with a leading dot too, with its content; directories have none.
+    /// Every file below the directory, those with a leading dot too, with its content; the content of a link is its
+    /// target, and directories have none.
     pub fn content(&self) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
         let mut content = BTreeMap::new();
         let mut directories = vec![self.directory.path().to_path_buf()];
         while let Some(directory) = directories.pop() {
             for entry in fs::read_dir(directory).expect("a directory") {
                 let path = entry.expect("an entry").path();
-                if path.is_dir() {
+                let bytes = if let Ok(target) = fs::read_link(&path) {
+                    Some(target.into_os_string().into_encoded_bytes())
+                } else if path.is_dir() {
                     directories.push(path.clone());
-                    content.insert(path, None);
+                    None
                 } else {
-                    let bytes = fs::read(&path).expect("a file");
-                    content.insert(path, Some(bytes));
-                }
+                    Some(fs::read(&path).expect("a file"))
+                };
+                content.insert(path, bytes);
             }
         }
         content
