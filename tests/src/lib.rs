@@ -1,3 +1,5 @@
 //! Helpers shared by the end-to-end tests.
 
+pub mod program;
+pub mod run_file;
 pub mod scenes;

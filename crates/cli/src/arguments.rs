@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -35,11 +36,19 @@ pub struct SceneArguments {
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub sets: Vec<String>,
     /// Threads that share the ring: a number or "auto"; overrides the scene
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = workers)]
     pub workers: Option<String>,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
+}
+
+/// A value of `--workers`, which is checked here so that the message names what was typed.
+fn workers(text: &str) -> Result<String, &'static str> {
+    match text.parse::<NonZeroU64>() {
+        Err(_) if text != "auto" => Err("expected an integer, at least 1, or \"auto\""),
+        _ => Ok(text.to_owned()),
+    }
 }
 
 /// Arguments of `plateau run`.

@@ -3,6 +3,10 @@
 use std::fmt;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
+
+use crate::message;
+
 /// Why a command failed, with the exit status that tells whose fault it is.
 #[derive(Debug)]
 pub enum Failure {
@@ -29,7 +33,18 @@ impl Failure {
             Self::Input(message) => (message, 2),
             Self::Run(message) => (message, 1),
         };
-        eprintln!("plateau: {message}");
+        message::error(message);
         ExitCode::from(status)
     }
+}
+
+/// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.
+pub fn answer(answer: &clap::Error) -> ExitCode {
+    if !answer.use_stderr() || answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // Nobody is left to tell when help cannot be written.
+        let _ = answer.print();
+        return ExitCode::from(answer.exit_code() as u8);
+    }
+    let message = answer.to_string();
+    Failure::input(message.trim_start_matches("error: ").trim_end()).report()
 }

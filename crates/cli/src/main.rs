@@ -5,6 +5,7 @@ mod commands;
 mod drive;
 mod failure;
 mod machine;
+mod message;
 mod number;
 mod progress;
 mod table;
@@ -15,7 +16,11 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    match commands::perform(arguments::Arguments::parse()) {
+    let arguments = match arguments::Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(answer) => return failure::answer(&answer),
+    };
+    match commands::perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }

@@ -14,6 +14,7 @@ use serde::Serialize;
 use super::load_scene;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
+use crate::message;
 use crate::number;
 use crate::table::{print, table};
 
@@ -32,13 +33,13 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let seconds_per_step = trial(simulation)?;
     let check = Check::new(&scene, loaded.report, &parts, seconds_per_step);
     if check.warns_of_stiffness {
-        eprintln!("plateau: warning: {}", stiffness_warning(check.stiffness_number));
+        message::warning(stiffness_warning(check.stiffness_number));
     }
     if scene.output.file.exists() {
-        eprintln!(
-            "plateau: warning: {} exists; `plateau run` needs --force to replace it, or -o FILE",
+        message::warning(format_args!(
+            "{} exists; `plateau run` needs --force to replace it, or -o FILE",
             scene.output.file.display()
-        );
+        ));
     }
     if arguments.scene.json {
         let text = serde_json::to_string_pretty(&check).map_err(Failure::run)?;

@@ -7,6 +7,7 @@ use plateau_io::scene::{self, recipe::Scene};
 
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
+use crate::message;
 
 /// Does what the command line asks for.
 pub fn perform(arguments: Arguments) -> Result<(), Failure> {
@@ -22,7 +23,7 @@ fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
     sets.extend(arguments.workers.iter().map(|workers| format!("numerics.workers={workers}")));
     let scene = scene::load(&arguments.scene, &sets).map_err(Failure::input)?;
     for warning in &scene.warnings {
-        eprintln!("plateau: warning: {warning}");
+        message::warning(warning);
     }
     Ok(scene)
 }

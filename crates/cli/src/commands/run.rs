@@ -16,6 +16,7 @@ use super::load_scene;
 use crate::arguments::RunArguments;
 use crate::drive::{Outcome, Sink, drive};
 use crate::failure::Failure;
+use crate::message;
 use crate::number;
 use crate::progress::Progress;
 use crate::table::{print, table};
@@ -31,9 +32,10 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
         return Err(Failure::input(RunFileError::Exists { path }));
     }
     if let Workers::Count(2..) = scene.workers {
-        eprintln!("plateau: warning: this version runs each scene on one worker; the result is the same");
+        message::warning("this version runs each scene on one worker; the result is the same");
     }
     let loaded = surface::load(&scene).map_err(Failure::input)?;
+    refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
     let header = header(&scene, &loaded, schedule.samples())?;
     let mut simulation = Simulation::new(scene.parameters.clone(), loaded.surfaces).map_err(Failure::input)?;
@@ -55,6 +57,19 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let report = writer.finish(&End::Finished).map_err(Failure::run)?;
     let summary = Summary::new(&scene, &path, &last, outcome, report, start.elapsed().as_secs_f64());
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
+}
+
+/// Refuses an output that is a file which the run reads: not even `--force` is meant like that.
+fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Result<(), Failure> {
+    let Ok(existing) = output.canonicalize() else { return Ok(()) };
+    let mut inputs = scene.files.iter().chain(loaded.inputs.iter().map(|(path, _)| path));
+    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == existing)) {
+        let output = output.display();
+        return Err(Failure::input(format_args!(
+            "the output file {output} is an input of this run and is not replaced; write elsewhere with -o FILE"
+        )));
+    }
+    Ok(())
 }
 
 /// The part of the run file that is known before the first step.

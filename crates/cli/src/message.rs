@@ -1,0 +1,19 @@
+//! Messages on standard error.
+
+use std::fmt;
+use std::io::{self, Write as _};
+
+/// Says why the program cannot do what was asked.
+pub fn error(message: impl fmt::Display) {
+    say(format_args!("plateau: {message}"));
+}
+
+/// Says what deserves attention though the program goes on.
+pub fn warning(message: impl fmt::Display) {
+    say(format_args!("plateau: warning: {message}"));
+}
+
+/// Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.
+fn say(line: fmt::Arguments<'_>) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}

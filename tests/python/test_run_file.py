@@ -1,0 +1,85 @@
+"""Run files of the program, as h5py, netCDF4 and xarray see them: finished, and while they are written."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENES = HERE.parent.parent / "data" / "scenes"
+PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(HERE.parent.parent / "plateau"))
+
+
+def command(scene, output, *changes):
+    sets = [argument for change in changes for argument in ("--set", change)]
+    return [PROGRAM, "run", str(SCENES / scene), "-o", str(output), *sets]
+
+
+class RunFile(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "run.h5"
+
+    def script(self, name, *arguments):
+        done = subprocess.run(
+            [sys.executable, str(HERE / name), str(self.path), *arguments], capture_output=True, text=True, timeout=300
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def wait_for_samples(self, count):
+        """Returns once a reader sees so many samples."""
+        for _ in range(600):
+            time.sleep(0.1)
+            if self.path.exists():
+                with h5py.File(self.path, swmr=True) as file:
+                    if len(file["time"]) >= count:
+                        return
+        self.fail(f"no {count} samples within a minute")
+
+    def test_a_run_is_as_the_format_says(self):
+        subprocess.run(command("quick.toml", self.path), check=True, capture_output=True, timeout=300)
+        self.script("check_run_file.py")
+
+    def test_only_the_maps_asked_for_are_there(self):
+        changes = ['output.maps=["pressure"]', 'operation.duration="1 s"']
+        subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)
+        self.script("check_run_file.py", "--maps", "pressure")
+
+    def test_a_reader_follows_a_run(self):
+        # Long enough for several batches, whatever the machine; the follower ends with the run.
+        changes = ["operation.steps=400000", 'output.sample_every="0.05 s"']
+        run = subprocess.Popen(command("quick.toml", self.path, *changes), stdout=subprocess.DEVNULL)
+        try:
+            self.script("follow_run.py", "--samples", "10")
+            self.assertEqual(run.wait(timeout=300), 0)
+        finally:
+            run.kill()
+            run.wait()
+        with h5py.File(self.path) as file:
+            self.assertEqual(file.attrs["state"], "finished")
+
+    def test_a_killed_run_can_be_read(self):
+        changes = ["operation.steps=100000000", 'output.sample_every="0.05 s"']
+        run = subprocess.Popen(command("quick.toml", self.path, *changes), stdout=subprocess.DEVNULL)
+        try:
+            self.wait_for_samples(100)
+        finally:
+            run.kill()
+            run.wait()
+        with h5py.File(self.path, swmr=True) as file:
+            samples = len(file["time"])
+            self.assertGreaterEqual(samples, 100)
+            for name, series in file["series"].items():
+                self.assertTrue(np.isfinite(series[:samples]).all(), name)
+            self.assertEqual(file.attrs["state"], "running")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,218 @@
+//! The built program, run as its users run it.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{Read, Seek};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+/// No command of these tests takes nearly as long; one that does hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
+/// Time between two looks at what is waited for.
+const LOOK: Duration = Duration::from_millis(2);
+
+/// The program under test: the one that `PLATEAU_PROGRAM` names, or the one that cargo built in the same profile.
+///
+/// # Panics
+/// When it is not built.
+pub fn program() -> PathBuf {
+    if let Some(named) = std::env::var_os("PLATEAU_PROGRAM") {
+        return named.into();
+    }
+    // Tests are in target/PROFILE/deps, the program in target/PROFILE.
+    let tests = std::env::current_exe().expect("the path of this test");
+    let program = tests.ancestors().nth(2).unwrap_or(&tests).join("plateau");
+    let advice = "build it with `cargo build --release -p plateau` and test with --release, or set PLATEAU_PROGRAM";
+    assert!(program.is_file(), "the program {} is not built: {advice}", program.display());
+    program
+}
+
+/// The root of the repository.
+pub fn repository() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+/// Path of a scene in `data/scenes`.
+pub fn scene(name: &str) -> String {
+    repository().join("data/scenes").join(name).display().to_string()
+}
+
+/// Path of a file of a test vector.
+pub fn vector(name: &str, file: &str) -> String {
+    repository().join("tests/vectors").join(name).join(file).display().to_string()
+}
+
+/// `quick.toml` with pieces of its text replaced, each of which must be there once.
+///
+/// # Panics
+/// When a piece is not there, or more than once.
+pub fn quick_scene_with(edits: &[(&str, &str)]) -> String {
+    let mut text = fs::read_to_string(scene("quick.toml")).expect("quick.toml");
+    for (old, new) in edits {
+        assert_eq!(text.matches(old).count(), 1, "{old:?} in quick.toml");
+        text = text.replace(old, new);
+    }
+    text
+}
+
+/// What a command said and how it ended.
+#[derive(Debug)]
+pub struct Outcome {
+    /// Exit status; none if a signal ended it.
+    pub status: Option<i32>,
+    /// Standard output.
+    pub stdout: String,
+    /// Standard error.
+    pub stderr: String,
+}
+
+impl Outcome {
+    /// A success without a word on standard error; gives standard output.
+    ///
+    /// # Panics
+    /// When it is no such success.
+    pub fn quiet_success(self) -> String {
+        assert_eq!((self.status, self.stderr.as_str()), (Some(0), ""), "standard output: {}", self.stdout);
+        self.stdout
+    }
+}
+
+/// A working directory of its own for the program; it is removed in the end.
+#[derive(Debug)]
+pub struct WorkingDirectory {
+    directory: TempDir,
+}
+
+impl WorkingDirectory {
+    /// An empty directory.
+    ///
+    /// # Panics
+    /// When the system gives none; so do the other functions when the system refuses what they need.
+    #[expect(clippy::new_without_default, reason = "it makes a directory")]
+    pub fn new() -> Self {
+        Self { directory: tempfile::tempdir().expect("a temporary directory") }
+    }
+
+    /// Absolute path of a name in the directory.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.directory.path().join(name)
+    }
+
+    /// Writes a file, and the directories that it needs.
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().expect("a directory")).expect("a directory for the file");
+        fs::write(&path, content).expect("the file");
+        path
+    }
+
+    /// Every file below the directory, those with a leading dot too, with its content; the content of a link is its
+    /// target, and directories have none.
+    pub fn content(&self) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
+        let mut content = BTreeMap::new();
+        let mut directories = vec![self.directory.path().to_path_buf()];
+        while let Some(directory) = directories.pop() {
+            for entry in fs::read_dir(directory).expect("a directory") {
+                let path = entry.expect("an entry").path();
+                let bytes = if let Ok(target) = fs::read_link(&path) {
+                    Some(target.into_os_string().into_encoded_bytes())
+                } else if path.is_dir() {
+                    directories.push(path.clone());
+                    None
+                } else {
+                    Some(fs::read(&path).expect("a file"))
+                };
+                content.insert(path, bytes);
+            }
+        }
+        content
+    }
+
+    /// Names in the directory, those with a leading dot too, in order.
+    pub fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.directory.path()).expect("the directory");
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// A text with the path of this directory left out.
+    pub fn without_path(&self, text: &str) -> String {
+        text.replace(&self.directory.path().display().to_string(), "[directory]")
+    }
+
+    /// The program, to be run here.
+    pub fn command<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Command {
+        let mut command = Command::new(program());
+        command.current_dir(self.directory.path()).args(arguments);
+        command
+    }
+
+    /// The program, to be run here by a shell that first obeys `order`.
+    pub fn command_after<A: AsRef<OsStr>>(&self, order: &str, arguments: impl IntoIterator<Item = A>) -> Command {
+        let mut command = Command::new("sh");
+        command.current_dir(self.directory.path());
+        command.arg("-c").arg(format!("{order}; exec \"$0\" \"$@\"")).arg(program()).args(arguments);
+        command
+    }
+
+    /// Runs the program here.
+    pub fn plateau<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Outcome {
+        run(self.command(arguments))
+    }
+}
+
+/// Runs a command to its end; standard output and standard error are no terminal.
+///
+/// # Panics
+/// When it does not end.
+pub fn run(mut command: Command) -> Outcome {
+    // Files and not pipes: nobody has to read them while the command runs.
+    let mut output = [tempfile::tempfile().expect("a temporary file"), tempfile::tempfile().expect("another one")];
+    let [stdout, stderr] = output.each_ref().map(|file| file.try_clone().expect("a second handle"));
+    let mut child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn().expect("the command");
+    let mut status = None;
+    let ended = wait_until(|| {
+        status = child.try_wait().expect("the state of the command");
+        status.is_some()
+    });
+    if !ended {
+        kill(child);
+        panic!("{command:?} did not end within {PATIENCE:?}");
+    }
+    let [stdout, stderr] = output.each_mut().map(read_all);
+    Outcome { status: status.and_then(|status| status.code()), stdout, stderr }
+}
+
+/// Kills a process (SIGKILL: it gets no chance to tidy up) and waits for its end.
+///
+/// # Panics
+/// When it has ended by itself.
+pub fn kill(mut child: Child) {
+    child.kill().expect("a process that runs");
+    child.wait().expect("its end");
+}
+
+/// Waits until something holds; whether it did in time.
+pub fn wait_until(mut holds: impl FnMut() -> bool) -> bool {
+    let start = Instant::now();
+    while !holds() {
+        if start.elapsed() > PATIENCE {
+            return false;
+        }
+        std::thread::sleep(LOOK);
+    }
+    true
+}
+
+fn read_all(file: &mut File) -> String {
+    let mut bytes = Vec::new();
+    file.rewind().expect("the start of the output");
+    file.read_to_end(&mut bytes).expect("the output");
+    String::from_utf8(bytes).expect("output in UTF-8")
+}

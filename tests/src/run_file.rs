@@ -1,0 +1,131 @@
+//! Run files as a reader sees them.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use hdf5::file::OpenMode;
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::{Dataset, Group, H5Type};
+
+/// A status as formats.md numbers and names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, H5Type)]
+#[repr(u8)]
+#[allow(non_camel_case_types)]
+pub enum StoredStatus {
+    /// Resin.
+    none = 0,
+    /// Fibre, or coating.
+    primary = 1,
+    /// Build-up.
+    secondary = 2,
+}
+
+/// Shape and values of a dataset, bit for bit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Content {
+    /// Shape.
+    pub shape: Vec<usize>,
+    /// The bits of every value.
+    pub bits: Vec<u64>,
+}
+
+/// An HDF5 file that is read. Whatever cannot be read ends the test.
+#[derive(Debug)]
+pub struct RunFile {
+    file: hdf5::File,
+}
+
+impl RunFile {
+    /// Opens a file that nobody writes.
+    ///
+    /// # Panics
+    /// When it cannot be opened.
+    pub fn open(path: impl AsRef<Path>) -> Self {
+        let path = path.as_ref();
+        let file = hdf5::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        Self { file }
+    }
+
+    /// Opens a file that is being written, or was when its writer was killed.
+    ///
+    /// # Errors
+    /// Those of the HDF5 library.
+    pub fn follow(path: impl AsRef<Path>) -> hdf5::Result<Self> {
+        let mut options = hdf5::File::with_options();
+        let file = options.with_fapl(|list| list.file_locking(false)).open_as(path, OpenMode::ReadSWMR)?;
+        Ok(Self { file })
+    }
+
+    /// Whether there is an object of that path.
+    pub fn has(&self, path: &str) -> bool {
+        self.file.link_exists(path)
+    }
+
+    /// Shape of a dataset.
+    pub fn shape(&self, dataset: &str) -> Vec<usize> {
+        self.dataset(dataset).shape()
+    }
+
+    /// All values of a dataset.
+    ///
+    /// # Panics
+    /// When there is no such dataset, or it holds no floating-point numbers; so do the functions below.
+    pub fn floats(&self, dataset: &str) -> Vec<f64> {
+        self.dataset(dataset).read_raw().unwrap_or_else(|error| panic!("{dataset}: {error}"))
+    }
+
+    /// All statuses of a dataset.
+    pub fn statuses(&self, dataset: &str) -> Vec<StoredStatus> {
+        self.dataset(dataset).read_raw().unwrap_or_else(|error| panic!("{dataset}: {error}"))
+    }
+
+    /// The map of one moment, counted from 0.
+    pub fn map(&self, dataset: &str, moment: usize) -> Vec<f64> {
+        let cells = self.shape(dataset)[1..].iter().product::<usize>();
+        self.floats(dataset)[moment * cells..][..cells].to_vec()
+    }
+
+    /// The map of the last moment.
+    pub fn last_map(&self, dataset: &str) -> Vec<f64> {
+        self.map(dataset, self.shape(dataset)[0] - 1)
+    }
+
+    /// A number among the attributes of the root.
+    pub fn number(&self, attribute: &str) -> f64 {
+        let read = self.file.attr(attribute).and_then(|attribute| attribute.read_scalar());
+        read.unwrap_or_else(|error| panic!("{attribute}: {error}"))
+    }
+
+    /// A text among the attributes of the root.
+    pub fn text(&self, attribute: &str) -> String {
+        let read = self.file.attr(attribute).and_then(|attribute| attribute.read_scalar::<VarLenUnicode>());
+        read.unwrap_or_else(|error| panic!("{attribute}: {error}")).to_string()
+    }
+
+    /// Every dataset of the file by its path.
+    pub fn content(&self) -> BTreeMap<String, Content> {
+        let mut content = BTreeMap::new();
+        let mut groups: Vec<Group> = vec![self.file.as_group().expect("the root")];
+        while let Some(group) = groups.pop() {
+            groups.extend(group.groups().expect("groups"));
+            for dataset in group.datasets().expect("datasets") {
+                let path = dataset.name();
+                let is_status = matches!(
+                    dataset.dtype().and_then(|dtype| dtype.to_descriptor()).expect("a known type"),
+                    TypeDescriptor::Enum(_)
+                );
+                let bits = if is_status {
+                    self.statuses(&path).into_iter().map(|status| status as u64).collect()
+                } else {
+                    self.floats(&path).into_iter().map(f64::to_bits).collect()
+                };
+                content.insert(path, Content { shape: dataset.shape(), bits });
+            }
+        }
+        content
+    }
+
+    fn dataset(&self, path: &str) -> Dataset {
+        self.file.dataset(path).unwrap_or_else(|error| panic!("{path}: {error}"))
+    }
+}

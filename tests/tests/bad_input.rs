@@ -1,0 +1,323 @@
+//! Bad input, through the program: exit status 2, one clear message, nothing written or damaged.
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+
+use hdf5::H5Type;
+use ndarray::{Array2, ArrayView2};
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run};
+
+/// One wrong input: what is put into the working directory, and what the program is asked then.
+struct Case {
+    name: &'static str,
+    prepare: Box<dyn Fn(&WorkingDirectory)>,
+    arguments: Vec<&'static str>,
+}
+
+fn case(name: &'static str, arguments: &[&'static str], prepare: impl Fn(&WorkingDirectory) + 'static) -> Case {
+    Case { name, prepare: Box::new(prepare), arguments: arguments.to_vec() }
+}
+
+/// `quick.toml` with one piece of its text replaced.
+fn edited(name: &'static str, old: &'static str, new: &'static str) -> Case {
+    case(name, &["run", "scene.toml"], move |directory| {
+        directory.write("scene.toml", quick_scene_with(&[(old, new)]));
+    })
+}
+
+const DISC: &str = "synthetic = { seed = 1, rms_height = \"3 um\", correlation_length = \"200 um\" }";
+const PIN_BASE: &str =
+    "synthetic = { seed = 2, fibre_fraction = 0.3, fibre_length = \"600 um\", fibre_width = \"200 um\" }";
+
+/// `quick.toml` with the disc's heights from a file that `make` puts there.
+fn disc_file(name: &'static str, source: &'static str, make: impl Fn(&WorkingDirectory) + 'static) -> Case {
+    surface_file(name, DISC, source, make)
+}
+
+fn surface_file(
+    name: &'static str,
+    old: &'static str,
+    source: &'static str,
+    make: impl Fn(&WorkingDirectory) + 'static,
+) -> Case {
+    case(name, &["run", "scene.toml"], move |directory| {
+        directory.write("scene.toml", quick_scene_with(&[(old, source)]));
+        make(directory);
+    })
+}
+
+/// Writes a dataset `/heights` of this shape (columns, rows) into `surface.h5`.
+fn heights<T: H5Type + Clone>(directory: &WorkingDirectory, shape: (usize, usize), values: impl Fn(usize) -> T) {
+    let values = Array2::from_shape_fn(shape, |(column, row)| values(column * shape.1 + row));
+    let file = hdf5::File::create(directory.path("surface.h5")).unwrap();
+    file.new_dataset_builder().with_data(ArrayView2::from(&values)).create("heights").unwrap();
+    file.close().unwrap();
+}
+
+/// Heights in `/heights` for the whole ring of `quick.toml`.
+fn ring(directory: &WorkingDirectory, height: impl Fn(usize) -> f64) {
+    heights(directory, (690, 20), height);
+}
+
+/// An SDF file (ISO 25178-71) of 60 by 24 points 50 µm apart, as ASCII, with its first points not measured.
+fn sdf(missing: usize) -> String {
+    let points =
+        (0..60 * 24).map(|point| if point < missing { "BAD".into() } else { (point * 7919 % 3000).to_string() });
+    format!(
+        "aISO-1.0\nManufacID = Plateau\nCreateDate = 010120260000\nModDate = 010120260000\nNumPoints = 60\n\
+         NumProfiles = 24\nXscale = 5e-5\nYscale = 5e-5\nZscale = 1e-9\nZresolution = 1e-9\nCompression = 0\n\
+         DataType = 6\nCheckType = 0\n*\n{}\n*\n",
+        points.collect::<Vec<_>>().join("\n")
+    )
+}
+
+const SDF_SOURCE: &str = "file = \"surface.sdf\"";
+const H5_SOURCE: &str = "file = \"surface.h5\"";
+
+fn command_lines() -> Vec<Case> {
+    let quick = |directory: &WorkingDirectory| drop(directory.write("scene.toml", quick_scene_with(&[])));
+    vec![
+        case("unknown command", &["simulate"], |_| ()),
+        case("no scene", &["run"], |_| ()),
+        case("unknown option", &["run", "scene.toml", "--fast"], quick),
+        case("option without its value", &["run", "scene.toml", "--set"], quick),
+        case("two scenes", &["run", "scene.toml", "scene.toml"], quick),
+        case("set of no key", &["run", "scene.toml", "--set", "20 N"], quick),
+        case("set of an unknown key", &["run", "scene.toml", "--set", "mesh.row=3"], quick),
+        case("no workers", &["run", "scene.toml", "--workers", "0"], quick),
+        case("workers that are no number", &["run", "scene.toml", "--workers", "many"], quick),
+    ]
+}
+
+fn scenes() -> Vec<Case> {
+    let mut cases = vec![
+        case("scene is missing", &["run", "scene.toml"], |_| ()),
+        case("scene is a directory", &["run", "scene.toml"], |directory| {
+            fs::create_dir(directory.path("scene.toml")).unwrap();
+        }),
+        case("extends in a circle", &["run", "scene.toml"], |directory| {
+            directory.write("scene.toml", "version = 1\nextends = \"other.toml\"\n");
+            directory.write("other.toml", "version = 1\nextends = \"scene.toml\"\n");
+        }),
+        case("extends what is missing", &["run", "scene.toml"], |directory| {
+            directory.write("scene.toml", "version = 1\nextends = \"other.toml\"\n");
+        }),
+    ];
+    let edits = [
+        ("no TOML", "[mesh]", "[mesh"),
+        ("key is missing", "normal_force = \"5 N\"\n", ""),
+        ("key is unknown", "rows = 20", "row = 20"),
+        ("wrong type", "rows = 20", "rows = \"twenty\""),
+        ("number without unit", "normal_force = \"5 N\"", "normal_force = 5"),
+        ("unknown unit", "normal_force = \"5 N\"", "normal_force = \"5 lbf\""),
+        ("wrong dimension", "normal_force = \"5 N\"", "normal_force = \"47 mm\""),
+        ("not a number", "normal_force = \"5 N\"", "normal_force = \"nan N\""),
+        ("infinite", "normal_force = \"5 N\"", "normal_force = \"inf N\""),
+        ("negative", "normal_force = \"5 N\"", "normal_force = \"-5 N\""),
+        ("fraction above 1", "captured_fraction = 0.06", "captured_fraction = 1.06"),
+        ("fraction is not a number", "captured_fraction = 0.06", "captured_fraction = nan"),
+        ("time runs backwards", "time_acceleration = 20", "time_acceleration = -20"),
+        ("pin wider than the ring", "pin_columns = 40", "pin_columns = 691"),
+        ("zero rows", "rows = 20", "rows = 0"),
+        ("more cells than memory", "disc_columns = 690", "disc_columns = 1000000000000"),
+        ("two sources", DISC, "flat = true\nfile = \"surface.h5\""),
+        ("no source", DISC, ""),
+        ("version of the future", "version = 1", "version = 2"),
+        ("map is unknown", "maps_at = [\"0 s\"]", "maps = [\"disc_heights\"]"),
+    ];
+    cases.extend(edits.map(|(name, old, new)| edited(name, old, new)));
+    cases
+}
+
+fn surfaces() -> Vec<Case> {
+    vec![
+        disc_file("surface is missing", H5_SOURCE, |_| ()),
+        disc_file("surface is a directory", H5_SOURCE, |directory| {
+            fs::create_dir(directory.path("surface.h5")).unwrap();
+        }),
+        disc_file("dataset is missing", "file = \"surface.h5\"\ndataset = \"/disc/height\"", |directory| {
+            ring(directory, |_| 0.0);
+        }),
+        disc_file("dataset of another shape", H5_SOURCE, |directory| heights(directory, (20, 690), |_| 0.0)),
+        disc_file("dataset of another type", "file = \"surface.h5\"\ndataset = \"heights\"", |directory| {
+            heights(directory, (690, 20), |_| 0_i32);
+        }),
+        disc_file("points are missing in HDF5", H5_SOURCE, |directory| {
+            ring(directory, |point| if point % 1000 == 0 { f64::NAN } else { 1e-6 });
+        }),
+        disc_file("infinite heights", H5_SOURCE, |directory| {
+            ring(directory, |point| if point == 5 { f64::INFINITY } else { 1e-6 });
+        }),
+        disc_file("truncated HDF5", H5_SOURCE, |directory| {
+            ring(directory, |_| 0.0);
+            let bytes = fs::read(directory.path("surface.h5")).unwrap();
+            directory.write("surface.h5", &bytes[..bytes.len() / 2]);
+        }),
+        surface_file("fibre map of another shape", PIN_BASE, H5_SOURCE, |directory| {
+            heights(directory, (20, 40), |_| 1_u8);
+        }),
+        surface_file("fibre map of heights", PIN_BASE, "file = \"surface.h5\"\ndataset = \"heights\"", |directory| {
+            heights(directory, (40, 20), |_| 1.0);
+        }),
+        surface_file("fibre map with a 2", PIN_BASE, H5_SOURCE, |directory| {
+            heights(directory, (40, 20), |cell| if cell == 25 { 2_u8 } else { 1 });
+        }),
+        disc_file("points are missing in SDF", SDF_SOURCE, |directory| drop(directory.write("surface.sdf", sdf(17)))),
+        disc_file("truncated SDF", SDF_SOURCE, |directory| {
+            let text = sdf(0);
+            directory.write("surface.sdf", &text[..text.len() / 2]);
+        }),
+        disc_file("SDF that ends in its header", SDF_SOURCE, |directory| {
+            directory.write("surface.sdf", &sdf(0)[..100]);
+        }),
+        disc_file("no SDF", SDF_SOURCE, |directory| drop(directory.write("surface.sdf", "\x00\x01\x02 no surface"))),
+        disc_file("empty file", SDF_SOURCE, |directory| drop(directory.write("surface.sdf", ""))),
+        disc_file("dataset of an SDF", "file = \"surface.sdf\"\ndataset = \"/height\"", |directory| {
+            directory.write("surface.sdf", sdf(0));
+        }),
+    ]
+}
+
+fn outputs() -> Vec<Case> {
+    let quick = |directory: &WorkingDirectory| drop(directory.write("scene.toml", quick_scene_with(&[])));
+    let run_into = |output: &'static str| ["run", "scene.toml", "-o", output];
+    vec![
+        case("output directory is missing", &run_into("results/run.h5"), quick),
+        case("output directory is a file", &run_into("scene.toml/run.h5"), quick),
+        // Not even the superuser makes files there.
+        case("output directory takes no files", &run_into("/proc/run.h5"), quick),
+        case("output exists", &run_into("run.h5"), move |directory| {
+            quick(directory);
+            directory.write("run.h5", "precious");
+        }),
+        case("output of the scene exists", &["run", "scene.toml"], move |directory| {
+            quick(directory);
+            directory.write("quick.h5", "precious");
+        }),
+        case("output is a directory", &["run", "scene.toml", "-o", ".", "--force"], quick),
+        case("output is a link to nothing", &run_into("run.h5"), move |directory| {
+            quick(directory);
+            symlink("nowhere.h5", directory.path("run.h5")).unwrap();
+        }),
+        case("output is the scene", &["run", "scene.toml", "-o", "./scene.toml", "--force"], quick),
+        case("output is a surface", &["run", "scene.toml", "-o", "surface.h5", "--force"], |directory| {
+            directory.write("scene.toml", quick_scene_with(&[(DISC, H5_SOURCE)]));
+            ring(directory, |_| 0.0);
+        }),
+        case("bad scene with --force", &["run", "scene.toml", "-o", "run.h5", "--force"], |directory| {
+            directory.write("scene.toml", quick_scene_with(&[("rows = 20", "rows = 0")]));
+            directory.write("run.h5", "precious");
+        }),
+        case("bad surface with --force", &["run", "scene.toml", "-o", "run.h5", "--force"], |directory| {
+            directory.write("scene.toml", quick_scene_with(&[(DISC, H5_SOURCE)]));
+            directory.write("run.h5", "precious");
+        }),
+    ]
+}
+
+/// The message of a wrong input, after checking that it is all that the program left.
+fn refusal(directory: &WorkingDirectory, name: &str, outcome: &Outcome) -> String {
+    let Outcome { status, stdout, stderr } = outcome;
+    assert_eq!(*status, Some(2), "{name}: {stdout}{stderr}");
+    assert_eq!(stdout, "", "{name}");
+    let message = stderr.strip_prefix("plateau: ").unwrap_or_else(|| panic!("{name}: {stderr}"));
+    assert!(!stderr.contains("\nplateau: "), "{name}, more than one message: {stderr}");
+    for noise in ["panicked", "RUST_BACKTRACE", "HDF5-DIAG", "warning"] {
+        assert!(!stderr.contains(noise), "{name}: {stderr}");
+    }
+    directory.without_path(message)
+}
+
+/// Runs the cases and gives their messages for a snapshot.
+fn messages(cases: Vec<Case>) -> String {
+    let mut messages = Vec::new();
+    for Case { name, prepare, arguments } in cases {
+        let directory = WorkingDirectory::new();
+        prepare(&directory);
+        let before = directory.content();
+        let message = refusal(&directory, name, &directory.plateau(&arguments));
+        assert!(directory.content() == before, "{name}: the program changed {:?}", directory.names());
+        if arguments == ["run", "scene.toml"] && !message.contains("--force") {
+            let checked = refusal(&directory, name, &directory.plateau(["check", "scene.toml"]));
+            assert_eq!(checked, message, "{name}: `plateau check` says something else");
+        }
+        messages.push(format!("# {name}: plateau {}\n{message}", arguments.join(" ")));
+    }
+    let text = without(&messages.join("\n"), "of memory and ", " are available", "[memory]");
+    without(&text, "cannot be read as HDF5: ", "\n", "[what the HDF5 library says]")
+}
+
+/// The text with what stands between `start` and `end` replaced: it differs between machines.
+fn without(text: &str, start: &str, end: &str, replacement: &str) -> String {
+    let Some((before, after)) = text.split_once(start) else { return text.to_owned() };
+    let length = after.find(end).unwrap_or(after.len());
+    format!("{before}{start}{replacement}{}", &after[length..])
+}
+
+#[test]
+fn wrong_command_lines_are_refused() {
+    insta::assert_snapshot!("command_lines", messages(command_lines()));
+}
+
+#[test]
+fn bad_scenes_are_refused() {
+    insta::assert_snapshot!("scenes", messages(scenes()));
+}
+
+#[test]
+fn bad_surfaces_are_refused() {
+    insta::assert_snapshot!("surfaces", messages(surfaces()));
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_refused() {
+    insta::assert_snapshot!("outputs", messages(outputs()));
+}
+
+#[test]
+fn missing_points_are_counted_and_the_advice_helps() {
+    let directory = WorkingDirectory::new();
+    directory.write("surface.sdf", sdf(17));
+    let source = (DISC, SDF_SOURCE);
+    let prepared = |keys: &str| quick_scene_with(&[source, ("cutoff = \"3 um\"", keys)]);
+    directory.write("scene.toml", prepared("repeat = true"));
+    let message = refusal(&directory, "missing points", &directory.plateau(["check", "scene.toml"]));
+    assert!(message.contains("17") && message.contains("fill = \"level\""), "{message}");
+    directory.write("scene.toml", prepared("repeat = true\nfill = \"level\""));
+    directory.plateau(["check", "scene.toml"]).quiet_success();
+    // The file of these tests is a good one where nothing is taken from it.
+    directory.write("surface.sdf", sdf(0));
+    directory.write("scene.toml", prepared("repeat = true"));
+    directory.plateau(["check", "scene.toml"]).quiet_success();
+}
+
+#[test]
+fn a_read_only_directory_is_named() {
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&[]));
+    directory.write("results/old.h5", "precious");
+    let results = directory.path("results");
+    fs::set_permissions(&results, fs::Permissions::from_mode(0o555)).unwrap();
+    if fs::write(results.join("probe"), "").is_ok() {
+        println!("skipped: this user may write into read-only directories");
+        return;
+    }
+    let outcome = directory.plateau(["run", "scene.toml", "-o", "results/run.h5"]);
+    let message = refusal(&directory, "read-only directory", &outcome);
+    assert!(message.contains("cannot make a file in results: Permission denied"), "{message}");
+    let content = directory.content();
+    fs::set_permissions(&results, fs::Permissions::from_mode(0o755)).unwrap();
+    assert_eq!(content.len(), 3, "{:?}", content.keys());
+}
+
+#[test]
+fn the_exit_status_does_not_depend_on_standard_error() {
+    let directory = WorkingDirectory::new();
+    let outcome = run(directory.command_after("exec 2>/dev/full", ["run", "scene.toml"]));
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
+    // Results that cannot be told are a failure.
+    directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "steps = 3")]));
+    let outcome = run(directory.command_after("exec >/dev/full", ["check", "scene.toml"]));
+    assert_eq!(outcome.status, Some(1));
+    assert!(outcome.stderr.contains("cannot write to standard output: "), "{}", outcome.stderr);
+}

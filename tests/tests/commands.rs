@@ -1,0 +1,185 @@
+//! The commands `run` and `check` as formats.md describes them.
+
+use std::fs;
+
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, scene, vector};
+use plateau_tests::run_file::RunFile;
+use serde_json::Value;
+
+/// A directory with `scene.toml`: a few steps of `quick.toml`, with a sample of each.
+fn short() -> WorkingDirectory {
+    let edits = [("duration = \"60 s\"", "steps = 20"), ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&edits));
+    directory
+}
+
+#[test]
+fn a_run_tells_its_results_and_nothing_else() {
+    let directory = short();
+    let summary = directory.plateau(["run", "scene.toml"]).quiet_success();
+    for line in ["Quick look", "simulated time", "wall time", "contact area", "disc filled", "residuals", "quick.h5"] {
+        assert!(summary.contains(line), "{line} is not in {summary}");
+    }
+    assert!(!summary.contains('\u{1b}'), "colours for no terminal: {summary:?}");
+    // The file of the scene, in the working directory.
+    assert_eq!(directory.names(), ["quick.h5", "scene.toml"]);
+    let run = RunFile::open(directory.path("quick.h5"));
+    assert_eq!((run.text("state"), run.text("title")), ("finished".into(), "Quick look".into()));
+    assert_eq!(run.number("format_version"), 1.0);
+    assert_eq!(run.shape("/time"), [20]);
+}
+
+#[test]
+fn force_replaces_a_run() {
+    let directory = short();
+    directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
+    let first = RunFile::open(directory.path("run.h5")).content();
+    let again = ["run", "scene.toml", "-o", "run.h5", "--set", "operation.steps=30"];
+    let refused = directory.plateau(again);
+    assert_eq!(refused.status, Some(2), "{}", refused.stderr);
+    assert!(RunFile::open(directory.path("run.h5")).content() == first);
+    directory.plateau(again.iter().chain(&["--force"])).quiet_success();
+    assert_eq!(RunFile::open(directory.path("run.h5")).shape("/time"), [30]);
+    assert_eq!(directory.names(), ["run.h5", "scene.toml"]);
+}
+
+#[test]
+fn outputs_are_found_from_the_working_directory_and_surfaces_from_the_scene() {
+    let directory = WorkingDirectory::new();
+    for file in ["scene.toml", "init.h5"] {
+        directory.write(&format!("scenes/{file}"), fs::read(vector("flat", file)).unwrap());
+    }
+    directory.write("scenes/derived/scene.toml", "version = 1\nextends = \"../scene.toml\"\n");
+    fs::create_dir(directory.path("results")).unwrap();
+    directory.plateau(["run", "scenes/scene.toml", "-o", "results/one.h5"]).quiet_success();
+    directory.plateau(["run", "scenes/derived/scene.toml", "--set", "output.file=results/two.h5"]).quiet_success();
+    directory.plateau(["run", "scenes/scene.toml"]).quiet_success();
+    let content = |name| RunFile::open(directory.path(name)).content();
+    assert!(content("results/one.h5") == content("results/two.h5") && content("results/one.h5") == content("run.h5"));
+    assert_eq!(directory.names(), ["results", "run.h5", "scenes"]);
+    assert_eq!(fs::read_dir(directory.path("scenes")).unwrap().count(), 3);
+
+    // An input that --set names is found from the scene that is run, too; the dataset stays the one named before.
+    fs::rename(directory.path("scenes/init.h5"), directory.path("scenes/moved.h5")).unwrap();
+    let sets = ["disc.surface.file=../moved.h5", "pin.surface.file=../moved.h5", "pin.base.file=../moved.h5"];
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    let moved = ["run", "scenes/derived/scene.toml", "-o", "moved.h5"].into_iter().chain(sets);
+    directory.plateau(moved).quiet_success();
+    assert!(content("moved.h5") == content("run.h5"));
+}
+
+#[test]
+fn set_overrides_the_scene_and_o_overrides_set() {
+    let directory = short();
+    let sets = ["operation.normal_force=20 N", "operation.normal_force=0.03 kN", "output.file=set.h5", "title=Other"];
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    directory.plateau(["run", "scene.toml", "-o", "run.h5"].into_iter().chain(sets)).quiet_success();
+    assert_eq!(directory.names(), ["run.h5", "scene.toml"]);
+    let run = RunFile::open(directory.path("run.h5"));
+    assert_eq!(run.text("title"), "Other");
+    assert!(run.text("scene").contains("normal_force = \"30 N\""), "{}", run.text("scene"));
+    // The load that is carried, within load_tolerance.
+    for (pressure, area) in run.floats("/series/mean_pressure").iter().zip(run.floats("/series/contact_area")) {
+        assert!((pressure * area / 30.0 - 1.0).abs() < 2e-9, "{pressure} Pa on {area} m²");
+    }
+}
+
+#[test]
+fn the_scene_in_a_run_file_gives_the_run_again() {
+    let directory = short();
+    directory.plateau(["run", "scene.toml", "-o", "one.h5", "--set", "operation.normal_force=7 N"]).quiet_success();
+    let one = RunFile::open(directory.path("one.h5"));
+    directory.write("again.toml", one.text("scene"));
+    directory.plateau(["run", "again.toml", "-o", "two.h5"]).quiet_success();
+    let two = RunFile::open(directory.path("two.h5"));
+    assert!(one.content() == two.content());
+    assert_eq!(one.text("scene"), two.text("scene"));
+}
+
+#[test]
+fn json_is_one_document() {
+    let directory = short();
+    let run = directory.plateau(["run", "scene.toml", "-o", "run.h5", "--json"]).quiet_success();
+    let run: Value = serde_json::from_str(&run).unwrap();
+    assert_eq!(run["steps"], 20);
+    assert_eq!(run["file"], "run.h5");
+    let file = RunFile::open(directory.path("run.h5"));
+    for name in ["contact_area", "max_pressure", "filled_fraction", "emitted"] {
+        let (told, written) = (run[name].as_f64().unwrap(), *file.floats(&format!("/series/{name}")).last().unwrap());
+        // The reader of JSON may miss the last digit.
+        assert!((told / written - 1.0).abs() < 1e-15, "{name}: {told} and {written}");
+    }
+    assert_eq!(run["file_size"], fs::metadata(directory.path("run.h5")).unwrap().len());
+    let check: Value =
+        serde_json::from_str(&directory.plateau(["check", "scene.toml", "--json"]).quiet_success()).unwrap();
+    assert_eq!((&check["steps"], &check["rows"], &check["samples"]), (&20.into(), &20.into(), &20.into()));
+    assert_eq!(directory.names(), ["run.h5", "scene.toml"], "a check writes nothing");
+}
+
+#[test]
+fn a_check_tells_what_a_run_takes() {
+    let (directory, scene) = (WorkingDirectory::new(), scene("cermet.toml"));
+    let text = directory.plateau(["check", &scene]).quiet_success();
+    // Δt = 60 s/(850 · 2764); 3000 s / (100 Δt) = 1 174 700 steps; Π = κ k m r Δθ by hand:
+    // 5e-14 · 1.0679e9/50e-6 · 100 · 23.975e-3 · 2π/2764 = 5.82e-3.
+    for words in ["1 174 700", "12 880 pin cells", "memory", "estimated time", "Π = 0.00582", "rms_height = \"3 um\""]
+    {
+        assert!(text.contains(words), "{words} is not in {text}");
+    }
+    let (_, parts) = text.split_once("\nNeeded\n").expect("what is needed");
+    let (needed, left_out) = parts.split_once("\nLeft out\n").expect("what is left out");
+    for part in ["wear of the resin", "formation of plateaus", "map disc_height"] {
+        assert!(needed.contains(part) && !left_out.contains(part), "{part}");
+    }
+    for part in ["wear of the disc", "exponential wear", "one debris pool per track"] {
+        assert!(left_out.contains(part) && !needed.contains(part), "{part}");
+    }
+    let sets = ["plateaus.formation=false", "plateaus.debris_pool=track", "output.maps=[\"pressure\"]"];
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    let text = directory.plateau(["check", &scene].into_iter().chain(sets)).quiet_success();
+    let (needed, left_out) = text.split_once("\nLeft out\n").expect("what is left out");
+    assert!(needed.contains("one debris pool per track") && needed.contains("map pressure"), "{text}");
+    assert!(left_out.contains("formation of plateaus") && left_out.contains("map disc_height"), "{text}");
+    assert!(directory.names().is_empty());
+}
+
+#[test]
+fn a_check_warns_of_large_stiffness_numbers_of_the_explicit_rule() {
+    let directory = WorkingDirectory::new();
+    let check = |acceleration: &str, integrator: &str| -> (f64, String) {
+        let sets = [format!("numerics.time_acceleration={acceleration}"), format!("numerics.integrator={integrator}")];
+        let [one, two] = &sets;
+        let Outcome { status, stdout, stderr } =
+            directory.plateau(["check", &scene("quick.toml"), "--json", "--set", one, "--set", two]);
+        assert_eq!(status, Some(0), "{stderr}");
+        let report: Value = serde_json::from_str(&stdout).unwrap();
+        (report["stiffness_number"].as_f64().unwrap(), stderr)
+    };
+    // Π = κ k m r Δθ at the outermost row.
+    let stiffness = 1.0 / ((1.0 - 0.27 * 0.27) * (1.0 / 1e9 + 1.0 / 1e11) * 50e-6);
+    let one = 5e-14 * stiffness * 20.975e-3 * std::f64::consts::TAU / 690.0;
+    for (acceleration, warns) in [("480", false), ("500", true), ("5000", true)] {
+        let (number, stderr) = check(acceleration, "explicit");
+        let expected = one * acceleration.parse::<f64>().unwrap();
+        assert!((number / expected - 1.0).abs() < 1e-12, "{number}, expected {expected}");
+        assert_eq!(expected > 0.1, warns);
+        assert_eq!(stderr.contains("stiffness number"), warns, "Π = {number}: {stderr}");
+        assert_eq!(stderr.lines().count(), usize::from(warns), "{stderr}");
+        assert_eq!(check(acceleration, "exponential"), (number, String::new()));
+    }
+}
+
+#[test]
+fn warnings_do_not_stop_a_run() {
+    let directory = short();
+    let outcome = directory.plateau(["run", "scene.toml", "--set", "output.maps_at=[\"0 s\", \"70 s\"]"]);
+    assert_eq!(outcome.status, Some(0));
+    assert!(outcome.stderr.starts_with("plateau: warning: "), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("70 s"), "{}", outcome.stderr);
+    assert_eq!(RunFile::open(directory.path("quick.h5")).shape("/map_time"), [2]);
+    // A check tells beforehand that the output is there.
+    let outcome = directory.plateau(["check", "scene.toml"]);
+    assert_eq!(outcome.status, Some(0));
+    assert!(outcome.stderr.contains("quick.h5 exists"), "{}", outcome.stderr);
+}

@@ -1,0 +1,64 @@
+//! The example in the help of every command works as it stands.
+
+use std::os::unix::fs::symlink;
+
+use plateau_tests::program::{WorkingDirectory, program, repository, run};
+use plateau_tests::run_file::RunFile;
+
+/// Commands that the program's own help lists.
+fn commands() -> Vec<String> {
+    let help = WorkingDirectory::new().plateau(["--help"]).quiet_success();
+    let (_, list) = help.split_once("Commands:\n").expect("a list of commands");
+    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
+    names.filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
+/// The lines of a help text below "Example:" or "Examples:".
+fn examples(help: &str) -> Vec<&str> {
+    let mut lines = help.lines().skip_while(|line| !line.starts_with("Example"));
+    lines.next();
+    lines.map_while(|line| line.strip_prefix("  ")).collect()
+}
+
+/// Runs an example as a shell does, in a directory that looks like the repository to it.
+fn runs(directory: &WorkingDirectory, example: &str) {
+    let arguments = example.strip_prefix("plateau ").unwrap_or_else(|| panic!("{example:?} does not run plateau"));
+    let mut shell = std::process::Command::new("sh");
+    shell.current_dir(directory.path(".")).arg("-c").arg(format!("\"$0\" {arguments}")).arg(program());
+    let outcome = run(shell);
+    assert_eq!(outcome.status, Some(0), "{example}: {}", outcome.stderr);
+    assert_eq!(outcome.stderr, "", "{example}");
+    assert!(outcome.stdout.lines().count() > 5, "{example}: {}", outcome.stdout);
+}
+
+#[test]
+fn the_example_of_every_command_works() {
+    let commands = commands();
+    assert!(commands.iter().any(|name| name == "run") && commands.iter().any(|name| name == "check"), "{commands:?}");
+    for command in commands {
+        let help = WorkingDirectory::new().plateau([&command, "--help"]).quiet_success();
+        let examples = examples(&help);
+        assert!(!examples.is_empty(), "no example in {command} --help: {help}");
+        for example in examples {
+            let directory = WorkingDirectory::new();
+            symlink(repository().join("data"), directory.path("data")).unwrap();
+            runs(&directory, example);
+            if command == "run" {
+                let written = directory.names().into_iter().find(|name| name != "data").expect("a run file");
+                assert!(example.contains(&written), "{example} wrote {written}");
+                assert_eq!(RunFile::open(directory.path(&written)).text("state"), "finished");
+            }
+        }
+    }
+}
+
+#[test]
+fn help_and_version_go_to_standard_output() {
+    let directory = WorkingDirectory::new();
+    assert!(directory.plateau(["--help"]).quiet_success().contains("Usage: plateau"));
+    assert!(directory.plateau(["--version"]).quiet_success().starts_with("plateau "));
+    // Without a command there is nothing to do, which is an error, but one for which help is the answer.
+    let outcome = directory.plateau([""; 0]);
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
+    assert!(outcome.stderr.contains("Usage: plateau"), "{}", outcome.stderr);
+}

@@ -1,0 +1,95 @@
+//! A run that is killed, or that finds the disc full, leaves a file that does not look finished and that can be read.
+
+use std::fs;
+use std::process::Stdio;
+
+use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, run, scene, wait_until};
+use plateau_tests::run_file::RunFile;
+
+#[test]
+fn a_killed_run_is_still_running_to_its_readers() {
+    let directory = WorkingDirectory::new();
+    let (scene, file) = (scene("cermet.toml"), directory.path("run.h5"));
+    let mut command = directory.command(["run", &scene, "-o", "run.h5"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let samples = || RunFile::follow(&file).map_or(0, |run| run.shape("/time")[0]);
+    let sampled = wait_until(|| samples() >= 2);
+    kill(child);
+    assert!(sampled, "no samples were written");
+
+    let run = RunFile::follow(&file).unwrap();
+    assert_eq!(run.text("state"), "running");
+    let times = run.floats("/time");
+    assert!(times.len() >= 2 && times.is_sorted(), "{times:?}");
+    assert!(run.floats("/series/displacement").len() >= times.len());
+    assert_eq!(run.floats("/map_time")[0], 0.0);
+    drop(run);
+
+    // The next run does not touch it unless told to.
+    let left = directory.content();
+    assert_eq!(directory.names(), ["run.h5"]);
+    let short = ["run", &scene, "-o", "run.h5", "--set", "operation.duration=0.5 s", "--set", "output.maps_at=[]"];
+    let refused = directory.plateau(short);
+    assert_eq!(refused.status, Some(2));
+    assert!(refused.stderr.contains("--force"), "{}", refused.stderr);
+    assert!(directory.content() == left, "the refused run changed the file");
+    directory.plateau(short.iter().chain(&["--force"])).quiet_success();
+    assert_eq!(RunFile::open(&file).text("state"), "finished");
+    assert_eq!(directory.names(), ["run.h5"]);
+}
+
+/// Bytes of the blocks of `ulimit -f` in this system's sh.
+fn block() -> u64 {
+    // POSIX says 512; some shells count in kibibytes.
+    let directory = WorkingDirectory::new();
+    let mut shell = std::process::Command::new("sh");
+    shell.current_dir(directory.path(".")).args(["-c", "ulimit -f 1; trap '' XFSZ; head -c 4096 /dev/zero > block"]);
+    run(shell);
+    let block = fs::metadata(directory.path("block")).unwrap().len();
+    assert!(block == 512 || block == 1024, "{block}");
+    block
+}
+
+#[test]
+fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
+    let edits = [("duration = \"60 s\"", "steps = 300"), ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&edits));
+    directory.plateau(["run", "scene.toml", "-o", "whole.h5"]).quiet_success();
+    let (whole, block) = (fs::metadata(directory.path("whole.h5")).unwrap().len(), block());
+
+    // From a single block to some room beyond the whole file: the file is cut in every phase of its writing.
+    let room = 256 * 1024;
+    let limits = (0..=24).map(|part| ((whole + room) * part / 24 / block).max(1));
+    let (mut failed, mut finished) = (0, 0);
+    for limit in limits {
+        let arguments = ["run", "scene.toml", "-o", "run.h5"];
+        let outcome = run(directory.command_after(&format!("ulimit -f {limit}"), arguments));
+        let file = directory.path("run.h5");
+        let what = format!("{} of {whole} bytes: {}", limit * block, outcome.stderr);
+        match outcome.status {
+            Some(0) => {
+                finished += 1;
+                assert_eq!(RunFile::open(&file).text("state"), "finished", "{what}");
+            }
+            Some(1) => {
+                failed += 1;
+                assert_eq!(outcome.stdout, "", "{what}");
+                assert!(outcome.stderr.starts_with("plateau: writing "), "{what}");
+                assert!(outcome.stderr.contains("File too large"), "{what}");
+                assert_eq!(outcome.stderr.lines().count(), 1, "{what}");
+                if file.exists() {
+                    let run = RunFile::follow(&file).unwrap_or_else(|error| panic!("{what}: {error}"));
+                    assert_eq!(run.text("state"), "running", "{what}");
+                    assert!(run.floats("/time").is_sorted(), "{what}");
+                }
+            }
+            other => panic!("{other:?} with {what}"),
+        }
+        let expected: &[&str] = if file.exists() { &["run.h5"] } else { &[] };
+        let names: Vec<_> = directory.names().into_iter().filter(|n| n != "scene.toml" && n != "whole.h5").collect();
+        assert_eq!(names, expected, "{what}");
+        let _ = fs::remove_file(file);
+    }
+    assert!(failed >= 10 && finished >= 1, "{failed} failed, {finished} finished");
+}

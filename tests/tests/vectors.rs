@@ -1,0 +1,176 @@
+//! The test vectors of an independent implementation (tests/vectors), through the whole program: scene in, run file out.
+
+use std::fmt;
+
+use plateau_tests::program::{WorkingDirectory, vector};
+use plateau_tests::run_file::RunFile;
+
+/// Accepted deviation of heights, m.
+const HEIGHT: f64 = 1e-12;
+/// Accepted relative deviation of everything else.
+const RELATIVE: f64 = 1e-9;
+
+/// The largest deviation of one quantity.
+#[derive(Debug)]
+struct Deviation {
+    quantity: String,
+    /// Where it is: a step, or a cell.
+    place: String,
+    found: f64,
+    expected: f64,
+    size: f64,
+    accepted: f64,
+}
+
+impl Deviation {
+    /// The largest of `size(found, expected)`; `place` names an index.
+    fn largest(
+        quantity: &str,
+        [found, expected]: [&[f64]; 2],
+        size: impl Fn(f64, f64) -> f64,
+        accepted: f64,
+        place: impl Fn(usize) -> String,
+    ) -> Self {
+        assert_eq!(found.len(), expected.len(), "number of values of {quantity}");
+        let sizes = found.iter().zip(expected).map(|(found, expected)| size(*found, *expected));
+        // In the total order NaN is larger than every number.
+        let (index, size) = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).expect("values");
+        let (found, expected) = (found[index], expected[index]);
+        Self { quantity: quantity.to_owned(), place: place(index), found, expected, size, accepted }
+    }
+
+    fn is_accepted(&self) -> bool {
+        self.size <= self.accepted
+    }
+}
+
+impl fmt::Display for Deviation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { quantity, place, found, expected, size, accepted } = self;
+        write!(f, "{quantity}, {place}: {found:e}, expected {expected:e}: deviation {size:.1e}, accepted {accepted:e}")
+    }
+}
+
+/// |found − expected| / scale; 0 where both are equal, even to 0.
+fn relative(found: f64, expected: f64, scale: f64) -> f64 {
+    if found == expected { 0.0 } else { ((found - expected) / scale).abs() }
+}
+
+fn largest_value(values: &[f64]) -> f64 {
+    values.iter().copied().map(f64::abs).fold(0.0, f64::max)
+}
+
+/// Deviations of maps after the last step.
+fn map_deviations(run: &RunFile, expected: &RunFile) -> Vec<Deviation> {
+    ["/disc/height", "/pin/height", "/pin/pressure"]
+        .map(|map| {
+            let rows = expected.shape(map)[1];
+            assert_eq!(run.shape(map)[1..], expected.shape(map), "shape of {map}");
+            let (found, expected) = (run.last_map(map), expected.floats(map));
+            let cell = |index| format!("column {}, row {}", index / rows, index % rows);
+            if map == "/pin/pressure" {
+                let scale = largest_value(&expected);
+                Deviation::largest(map, [&found, &expected], |a, b| relative(a, b, scale), RELATIVE, cell)
+            } else {
+                Deviation::largest(map, [&found, &expected], |a, b| (a - b).abs(), HEIGHT, cell)
+            }
+        })
+        .into()
+}
+
+/// Deviations of what is recorded in every step.
+fn series_deviations(run: &RunFile, expected: &RunFile) -> Vec<Deviation> {
+    let load = |run: &RunFile| -> Vec<f64> {
+        let pressure = run.floats("/series/mean_pressure");
+        pressure.iter().zip(run.floats("/series/contact_area")).map(|(pressure, area)| pressure * area).collect()
+    };
+    ["time", "displacement", "contact_area", "load", "max_pressure", "pool"]
+        .map(|name| {
+            let path = format!("/series/{name}");
+            let found = match name {
+                "time" => run.floats("/time"),
+                "load" => load(run),
+                _ => run.floats(&path),
+            };
+            let expected = expected.floats(&path);
+            let largest = largest_value(&expected);
+            let size = |a, b: f64| relative(a, b, if name == "pool" { largest } else { b });
+            Deviation::largest(&path, [&found, &expected], size, RELATIVE, |index| format!("step {}", index + 1))
+        })
+        .into()
+}
+
+/// Deviations of the volumes moved since the start.
+fn volume_deviations(run: &RunFile, expected: &RunFile) -> Vec<Deviation> {
+    let last = |name| *run.floats(&format!("/series/{name}")).last().expect("a sample");
+    [
+        ("worn_pin", "worn_pin"),
+        ("worn_resin", "worn_resin"),
+        ("worn_disc", "worn_disc"),
+        ("returned", "destroyed"),
+        ("emitted", "emitted"),
+        ("deposited_pin", "deposited_pin"),
+        ("deposited_disc", "deposited_disc"),
+    ]
+    .map(|(name, attribute)| {
+        let pair = [&[last(name)][..], &[expected.number(attribute)][..]];
+        Deviation::largest(name, pair, |a, b| relative(a, b, b), RELATIVE, |_| "end".into())
+    })
+    .into()
+}
+
+/// Runs a vector's scene with changes and gives the quantities that deviate more than is accepted.
+fn refused(name: &str, sets: &[&str]) -> Vec<Deviation> {
+    let directory = WorkingDirectory::new();
+    let scene = vector(name, "scene.toml");
+    let mut arguments = vec!["run", &scene, "-o", "run.h5"];
+    arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    directory.plateau(arguments).quiet_success();
+    let (run, expected) = (RunFile::open(directory.path("run.h5")), RunFile::open(vector(name, "expected.h5")));
+    assert_eq!(run.text("state"), "finished");
+    let mut deviations = map_deviations(&run, &expected);
+    deviations.extend(series_deviations(&run, &expected));
+    deviations.extend(volume_deviations(&run, &expected));
+    assert_eq!(deviations.len(), 16);
+    deviations.retain(|deviation| !deviation.is_accepted());
+    deviations
+}
+
+#[test]
+fn every_vector_is_reproduced() {
+    for name in ["flat", "rough", "track"] {
+        let refused: Vec<_> = refused(name, &[]).iter().map(Deviation::to_string).collect();
+        assert!(refused.is_empty(), "{name}:\n{}", refused.join("\n"));
+    }
+}
+
+#[test]
+fn a_captured_fraction_that_is_wrong_by_a_millionth_is_noticed() {
+    for (name, set) in [
+        ("flat", "plateaus.captured_fraction=0.3000003"),
+        ("rough", "plateaus.captured_fraction=0.25000025"),
+        ("track", "plateaus.captured_fraction=0.6000006"),
+    ] {
+        let refused: Vec<_> = refused(name, &[set]).into_iter().map(|deviation| deviation.quantity).collect();
+        assert!(refused.iter().any(|quantity| quantity == "emitted"), "{name}: {refused:?}");
+        assert!(refused.iter().any(|quantity| quantity == "/series/pool"), "{name}: {refused:?}");
+    }
+}
+
+#[test]
+fn a_single_value_that_is_wrong_is_noticed_and_named() {
+    let expected = [0.0, 1e-6, 3e-6];
+    for wrong in [1e-6 + 2e-12, f64::NAN] {
+        let found = [0.0, wrong, 3e-6];
+        let size = |a: f64, b: f64| (a - b).abs();
+        let deviation =
+            Deviation::largest("height", [&found, &expected], size, HEIGHT, |index| format!("cell {index}"));
+        assert!(!deviation.is_accepted(), "{deviation}");
+        assert_eq!(deviation.place, "cell 1");
+        let right = Deviation::largest("height", [&expected, &expected], size, HEIGHT, |index| index.to_string());
+        assert!(right.is_accepted(), "{right}");
+    }
+    // A quantity that is 0 must be 0, and what differs from 0 is infinitely wrong.
+    assert_eq!(relative(0.0, 0.0, 0.0), 0.0);
+    assert_eq!(relative(1e-300, 0.0, 0.0), f64::INFINITY);
+}
