@@ -5,7 +5,7 @@ use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
 use plateau_core::simulation::Simulation;
 use plateau_core::state::InitialSurfaces;
-use plateau_tests::scenes::{random_surfaces, wear_only};
+use plateau_tests::scenes::{primary_stiffness, random_surfaces, wear_only};
 use proptest::prelude::*;
 
 /// Any scene of the model on a small mesh.
@@ -49,7 +49,7 @@ fn rotated(mesh: &Mesh, field: &[f64], columns: usize) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn a_rotated_disc_gives_the_same_bits((parameters, seed) in scenes(), columns in 0..50_usize) {
@@ -75,10 +75,14 @@ proptest! {
     fn the_state_stays_within_its_bounds((parameters, seed) in scenes()) {
         let mesh = &parameters.mesh;
         let mut simulation = start(&parameters, random_surfaces(mesh, seed));
+        // Heights within 1e-4 m and δ are rounded by half a unit in the last place each, which the whole pin at its
+        // largest stiffness makes a load of; below that share of the load no displacement comes nearer.
+        let rounding = 2.0 * f64::EPSILON * 1e-4 * primary_stiffness(&parameters) * mesh.pin_area()
+            / parameters.normal_force;
         for _ in 0..3 * mesh.disc_columns() {
             simulation.advance().unwrap();
             let sample = simulation.sample();
-            prop_assert!(sample.load_residual <= parameters.load_tolerance);
+            prop_assert!(sample.load_residual <= parameters.load_tolerance.max(rounding), "{:e}", sample.load_residual);
             prop_assert!(sample.balance_residual.abs() <= 1e-12, "balance {:e}", sample.balance_residual);
             prop_assert!((sample.pin_none + sample.pin_primary + sample.pin_secondary - 1.0).abs() < 1e-13);
             prop_assert!((0.0..=1.0 + 1e-13).contains(&sample.disc_secondary));

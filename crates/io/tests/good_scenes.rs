@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use plateau_core::material::Material;
 use plateau_core::observe::Map;
 use plateau_core::parameters::{DebrisPool, Integrator};
+use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
-use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, SampleEvery, Scene, Workers};
+use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene, Workers};
 use plateau_io::scene::{self, memory_estimate};
 
 fn good(name: &str) -> PathBuf {

@@ -8,9 +8,10 @@ use ndarray::{Array2, Array3};
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
-use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, SampleEvery, Scene, Workers};
+use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
 use plateau_io::surface::{Loaded, load};
 
 const ROWS: usize = 4;
@@ -53,6 +54,7 @@ fn scene() -> Scene {
         pin_surface: flat,
         resin_recess: 0.0,
         pin_base: BaseSource::Uniform(Base::Primary),
+        pin_base_mirror: false,
         workers: Workers::Count(1),
         output: OutputRecipe {
             file: PathBuf::from("test.h5"),
