@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use plateau_core::simulation::Simulation;
 
+use crate::number;
+
 /// Time between two looks at the bar.
 const INTERVAL: Duration = Duration::from_millis(200);
 
@@ -19,7 +21,7 @@ impl Progress {
     /// A bar for this many steps.
     pub fn new(steps: u64) -> Self {
         let bar = ProgressBar::new(steps);
-        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {per_sec}  {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }
         Self { bar, looked: Instant::now() }
@@ -32,13 +34,14 @@ impl Progress {
         }
         self.looked = Instant::now();
         let parameters = simulation.parameters();
-        self.bar.set_position(simulation.steps_done());
         self.bar.set_message(format!(
-            "{:.1} of {:.1} s  contact {:.3} mm²",
+            "{:.1} of {:.1} s  {} steps/s  contact {:.3} mm²",
             simulation.time(),
             parameters.time_at(parameters.steps),
+            number::grouped(self.bar.per_sec() as u64),
             simulation.contact().area(&parameters.mesh) * 1e6
         ));
+        self.bar.set_position(simulation.steps_done());
     }
 
     /// Takes the bar away.

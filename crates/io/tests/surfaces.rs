@@ -252,7 +252,10 @@ fn unsuitable_hdf5_content_is_named() {
     }
     assert_eq!(
         disc("disc/holed", nothing),
-        "disc.prepare: 2 of 240 points are missing; fill = \"level\" gives them the mean of the levelled surface"
+        format!(
+            "disc.prepare: {}: 2 of 240 points are missing; fill = \"level\" gives them the mean of the levelled surface",
+            path.display()
+        )
     );
     let mut filled = scene();
     filled.disc_surface.source = file(&path, Some("disc/holed"));
@@ -328,7 +331,11 @@ fn a_measured_patch_on_disc_and_pin() {
     // A patch as small as the file says does not cover the track.
     scene.disc_surface.preparation.pixel = None;
     let found = message(&scene);
-    assert!(found.starts_with("disc.prepare: the patch is 500 nm wide in r, the track 4 mm: a pixel of at"), "{found}");
+    assert!(
+        found.starts_with("disc.prepare: ")
+            && found.contains(".sdf: the patch is 500 nm wide in r, the track 4 mm: a pixel of at"),
+        "{found}"
+    );
 }
 
 #[test]

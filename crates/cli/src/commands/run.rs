@@ -102,7 +102,7 @@ fn header(scene: &Scene, loaded: &Loaded, expected_samples: u64) -> Result<Heade
 /// Whose fault it is that a run file cannot be made.
 fn create_failure(error: RunFileError) -> Failure {
     match error {
-        RunFileError::Write { .. } => Failure::run(error),
+        RunFileError::SetUp { .. } | RunFileError::Write { .. } => Failure::run(error),
         _ => Failure::input(error),
     }
 }

@@ -6,8 +6,8 @@ use thiserror::Error;
 
 /// Why a run file cannot be made or written.
 ///
-/// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::Write`] mean that an input is
-/// wrong and that nothing was touched; a [`RunFileError::Write`] means that the run failed.
+/// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::SetUp`] and
+/// [`RunFileError::Write`] mean that an input is wrong and that nothing was touched; these two mean that the run failed.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RunFileError {
     /// There is something at the output path and it was not asked to be replaced.
@@ -62,6 +62,14 @@ pub enum RunFileError {
     Map {
         /// The map.
         name: &'static str,
+    },
+    /// The file could not be set up; there is none.
+    #[error("setting up the run file {} failed: {reason}; nothing is left of it: free space or write elsewhere", path.display())]
+    SetUp {
+        /// The run file.
+        path: PathBuf,
+        /// What the HDF5 library or the system said.
+        reason: String,
     },
     /// Writing failed; what was written before can be read (h5py: `swmr=True`).
     #[error(

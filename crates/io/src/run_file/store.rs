@@ -58,7 +58,10 @@ impl Store {
             file.flush()?;
             Ok((file, datasets))
         };
-        let (file, datasets) = set_up().map_err(failed(path))?;
+        let (file, datasets) = set_up().map_err(|error: hdf5::Error| RunFileError::SetUp {
+            path: path.into(),
+            reason: reason(&error.to_string()),
+        })?;
         let path = place.publish()?;
         Ok(Self { identity: identity(&path), path, started, file, datasets })
     }

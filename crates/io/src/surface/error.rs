@@ -40,10 +40,12 @@ pub enum SurfaceError {
         reason: FibreError,
     },
     /// Heights cannot be prepared.
-    #[error("{key}: {reason}")]
+    #[error("{key}: {source_name}: {reason}")]
     Preparation {
         /// Table of the scene.
         key: &'static str,
+        /// The file they come from, or what else they are.
+        source_name: String,
         /// What is wrong with heights or preparation.
         reason: PreparationError,
     },

@@ -51,6 +51,15 @@ struct Loader<'a> {
     report: Vec<String>,
 }
 
+/// What heights are called in an error of their preparation.
+fn source_name(source: &HeightSource) -> String {
+    match source {
+        HeightSource::File { path, .. } => path.display().to_string(),
+        HeightSource::Synthetic(_) => "synthetic heights".into(),
+        HeightSource::Flat => "flat".into(),
+    }
+}
+
 /// Heights of a file before their preparation.
 struct FileHeights {
     raw: RawHeights,
@@ -91,10 +100,9 @@ impl Loader<'_> {
                 (read.raw, read.instrument && body == Body::Pin)
             }
         };
-        let prepared = recipe
-            .preparation
-            .apply(raw, recipe.mirror, body, self.mesh)
-            .map_err(|reason| SurfaceError::Preparation { key: prepare, reason })?;
+        let prepared = recipe.preparation.apply(raw, recipe.mirror, body, self.mesh).map_err(|reason| {
+            SurfaceError::Preparation { key: prepare, source_name: source_name(&recipe.source), reason }
+        })?;
         self.report.extend(prepared.report.iter().map(|step| format!("{prepare}: {step}")));
         let mut heights = prepared.heights;
         if negate {
