@@ -1,7 +1,7 @@
 //! A run that is killed, or that finds the disc full, leaves a file that does not look finished and that can be read.
 
 use std::fs;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, run, scene, wait_until};
 use plateau_tests::run_file::RunFile;
@@ -75,7 +75,8 @@ fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
             Some(1) => {
                 failed += 1;
                 assert_eq!(outcome.stdout, "", "{what}");
-                assert!(outcome.stderr.starts_with("plateau: writing "), "{what}");
+                let stage = if file.exists() { "plateau: writing " } else { "plateau: setting up " };
+                assert!(outcome.stderr.starts_with(stage), "{what}");
                 assert!(outcome.stderr.contains("File too large"), "{what}");
                 assert_eq!(outcome.stderr.lines().count(), 1, "{what}");
                 if file.exists() {
@@ -92,4 +93,29 @@ fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
         let _ = fs::remove_file(file);
     }
     assert!(failed >= 10 && finished >= 1, "{failed} failed, {finished} finished");
+}
+
+#[test]
+fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
+    for (signal, status) in [("INT", 130), ("TERM", 143)] {
+        let directory = WorkingDirectory::new();
+        let edits =
+            [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 100")];
+        directory.write("scene.toml", quick_scene_with(&edits));
+        let mut command = directory.command(["run", "scene.toml", "-o", "run.h5"]);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        let file = directory.path("run.h5");
+        let sampled = wait_until(|| RunFile::follow(&file).is_ok_and(|run| run.shape("/time")[0] >= 2));
+        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+        let outcome = child.wait_with_output().unwrap();
+        assert!(sampled && sent.success());
+        let message = String::from_utf8_lossy(&outcome.stderr);
+        assert_eq!(outcome.status.code(), Some(status), "{message}");
+
+        let run = RunFile::open(&file);
+        assert_eq!(run.text("state"), "interrupted");
+        let samples = run.shape("/time")[0];
+        assert_eq!(run.shape("/series/contact_area")[0], samples);
+        assert!(message.ends_with(&format!("run.h5 holds {samples} samples\n")), "{message}");
+    }
 }

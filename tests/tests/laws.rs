@@ -1,5 +1,6 @@
 //! Laws of the model over random small scenes.
 
+use plateau_core::kernel::InstructionSet;
 use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
@@ -69,6 +70,21 @@ proptest! {
         prop_assert_eq!(still.pin(), turned.pin());
         prop_assert_eq!(&rotated(mesh, &still.disc().height, columns), &turned.disc().height);
         prop_assert_eq!(&rotated(mesh, &still.disc().substrate, columns), &turned.disc().substrate);
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits((parameters, seed) in scenes()) {
+        let surfaces = random_surfaces(&parameters.mesh, seed);
+        let run = |instructions| {
+            let mut simulation = start(&parameters, surfaces.clone()).with_instructions(instructions);
+            (0..parameters.mesh.disc_columns()).for_each(|_| simulation.advance().unwrap());
+            let sample = simulation.sample();
+            (simulation.pin().clone(), simulation.disc().clone(), sample)
+        };
+        let plain = run(InstructionSet::Baseline);
+        for instructions in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            prop_assert_eq!(&run(instructions), &plain, "{}", instructions.name());
+        }
     }
 
     #[test]

@@ -25,7 +25,12 @@ pub trait Sink {
     fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), Self::Error>;
 
     /// Called every few steps.
-    fn look(&mut self, _simulation: &Simulation) {}
+    ///
+    /// # Errors
+    /// When the run is to end here.
+    fn look(&mut self, _simulation: &Simulation) -> Result<(), Self::Error> {
+        Ok(())
+    }
 }
 
 /// The worst load balance of a run.
@@ -62,7 +67,7 @@ pub fn drive<S: Sink>(
                 outcome.load_residual = outcome.load_residual.max(simulation.contact().residual());
                 evaluations += u64::from(simulation.contact().iterations());
             }
-            sink.look(simulation);
+            sink.look(simulation)?;
         }
         if sampled {
             sink.sample(simulation.sample())?;

@@ -14,6 +14,13 @@ pub enum Failure {
     Input(String),
     /// The run failed: exit status 1.
     Run(String),
+    /// A signal stopped the run: exit status 128 and the signal's number, as shells have it.
+    Stopped {
+        /// The signal.
+        signal: u8,
+        /// What is left of the run.
+        message: String,
+    },
 }
 
 impl Failure {
@@ -32,6 +39,7 @@ impl Failure {
         let (message, status) = match self {
             Self::Input(message) => (message, 2),
             Self::Run(message) => (message, 1),
+            Self::Stopped { signal, message } => (message, 128_u8.saturating_add(signal)),
         };
         message::error(message);
         ExitCode::from(status)

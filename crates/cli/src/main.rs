@@ -4,10 +4,12 @@ mod arguments;
 mod commands;
 mod drive;
 mod failure;
+mod interrupt;
 mod machine;
 mod message;
 mod number;
 mod progress;
+mod stability;
 mod table;
 mod version;
 

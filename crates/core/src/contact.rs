@@ -15,14 +15,25 @@ const MOST_ITERATIONS: u32 = 200;
 pub enum ContactError {
     /// Heights or stiffness left the range of floating-point numbers.
     #[error(
-        "the load balance has no finite solution (displacement {displacement} m carries {load} N of {normal_force} N): \
-         heights, stiffness or load are out of the range of floating-point numbers"
+        "the load balance has no finite solution (displacement {displacement:e} m carries {load:e} N of \
+         {normal_force:e} N): heights, stiffness or load are out of the range of floating-point numbers"
     )]
     NotFinite {
         /// δ reached, m.
         displacement: f64,
         /// Σ k A u there, N.
         load: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
+    /// The overlap that carries the load is less than the rounding of the heights.
+    #[error(
+        "nothing carries the load of {normal_force:e} N: at gaps of {displacement:e} m the overlap that would is lost in \
+         rounding; check the unit and the scale of the heights"
+    )]
+    NotCarried {
+        /// δ reached, m.
+        displacement: f64,
         /// F_N, N.
         normal_force: f64,
     },
@@ -102,6 +113,9 @@ impl Contact {
             let next =
                 if slope > 0.0 { displacement + (normal_force - load) / slope } else { self.upper_bound(normal_force) };
             if residual <= tolerance || next == displacement || next == before || self.iterations == MOST_ITERATIONS {
+                if slope == 0.0 {
+                    return Err(ContactError::NotCarried { displacement, normal_force });
+                }
                 (self.load, self.residual) = (load, residual);
                 break;
             }

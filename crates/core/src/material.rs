@@ -12,13 +12,6 @@ pub enum Status {
     Secondary = 2,
 }
 
-impl Status {
-    /// Whether the cell is a plateau: primary or secondary.
-    pub fn is_plateau(self) -> bool {
-        self != Self::None
-    }
-}
-
 /// Properties of one (body, status).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {

@@ -84,7 +84,7 @@ impl Simulation {
         let instructions = InstructionSet::best();
         Ok(Self {
             coefficients: Coefficients::new(&parameters),
-            update: update(needs.distinct, needs.disc_wears, needs.forms, needs.destroys),
+            update: update(needs),
             needs,
             instructions,
             contact: Contact::new(mesh, instructions),

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use plateau_core::parameters::{Integrator, Parameters};
 use plateau_core::parts::{Part, parts};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::Simulation;
@@ -16,13 +15,11 @@ use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::message;
 use crate::number;
+use crate::stability;
 use crate::table::{print, table};
 
 /// How long the trial that the estimated time rests on may take.
 const TRIAL: Duration = Duration::from_millis(300);
-
-/// Π above which the explicit rule is worth a warning.
-const LARGE_STIFFNESS_NUMBER: f64 = 0.1;
 
 /// Checks a scene.
 pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -32,9 +29,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let simulation = Simulation::new(scene.parameters.clone(), loaded.surfaces).map_err(Failure::input)?;
     let seconds_per_step = trial(simulation)?;
     let check = Check::new(&scene, loaded.report, &parts, seconds_per_step);
-    if check.warns_of_stiffness {
-        message::warning(stiffness_warning(check.stiffness_number));
-    }
+    stability::warn(&scene.parameters);
     if scene.output.file.exists() {
         message::warning(format_args!(
             "{} exists; `plateau run` needs --force to replace it, or -o FILE",
@@ -61,14 +56,6 @@ fn trial(mut simulation: Simulation) -> Result<f64, Failure> {
         simulation.advance().map_err(Failure::run)?;
     }
     Ok(start.elapsed().as_secs_f64() / (simulation.steps_done() - before) as f64)
-}
-
-fn stiffness_warning(number: f64) -> String {
-    format!(
-        "the stiffness number is {number:.3}: above {LARGE_STIFFNESS_NUMBER} the explicit rule errs, above 1 it \
-         overshoots, above 2 it is unstable; lower numerics.time_acceleration or set numerics.integrator = \
-         \"exponential\""
-    )
 }
 
 /// What `plateau check` reports.
@@ -137,7 +124,7 @@ impl Check {
             memory: memory_estimate(scene),
             estimated_time: seconds_per_step * parameters.steps as f64,
             stiffness_number,
-            warns_of_stiffness: warns_of_stiffness(parameters, stiffness_number),
+            warns_of_stiffness: stability::is_doubtful(parameters),
             needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
             left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
         }
@@ -200,9 +187,4 @@ impl Check {
 /// Rows of a table.
 fn reasons(parts: &[Reasoned]) -> Vec<(&str, String)> {
     parts.iter().map(|part| (part.part.as_str(), part.reason.clone())).collect()
-}
-
-/// Whether the explicit rule of a scene deserves a warning.
-fn warns_of_stiffness(parameters: &Parameters, stiffness_number: f64) -> bool {
-    parameters.integrator == Integrator::Explicit && stiffness_number > LARGE_STIFFNESS_NUMBER
 }

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use plateau_core::kernel::InstructionSet;
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_core::state::Base;
 use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, WriterReport, report_file_size_limit};
 use plateau_io::scene::recipe::{Scene, Workers};
 use plateau_io::surface::{self, Loaded};
@@ -16,9 +16,11 @@ use super::load_scene;
 use crate::arguments::RunArguments;
 use crate::drive::{Outcome, Sink, drive};
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::message;
 use crate::number;
 use crate::progress::Progress;
+use crate::stability;
 use crate::table::{print, table};
 use crate::{machine, version};
 
@@ -28,26 +30,45 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let _ = report_file_size_limit();
     let scene = load_scene(&arguments.scene)?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
-    if !arguments.force && path.symlink_metadata().is_ok() {
-        return Err(Failure::input(RunFileError::Exists { path }));
+    match path.metadata() {
+        Ok(there) if !there.is_file() => return Err(Failure::input(RunFileError::NotAFile { path })),
+        _ if !arguments.force && path.symlink_metadata().is_ok() => {
+            return Err(Failure::input(RunFileError::Exists { path }));
+        }
+        _ => {}
     }
     if let Workers::Count(2..) = scene.workers {
         message::warning("this version runs each scene on one worker; the result is the same");
     }
+    stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
-    let header = header(&scene, &loaded, schedule.samples())?;
-    let mut simulation = Simulation::new(scene.parameters.clone(), loaded.surfaces).map_err(Failure::input)?;
+    let Loaded { surfaces, inputs, .. } = loaded;
+    let pin_base = surfaces.pin_base.clone();
+    let mut simulation = Simulation::new(scene.parameters.clone(), surfaces).map_err(Failure::input)?;
+    let header = Header {
+        expected_samples: schedule.samples(),
+        instruction_set: simulation.instructions().name().into(),
+        ..header(&scene, pin_base, &inputs)?
+    };
+    let interrupt = Interrupt::listen().map_err(Failure::run)?;
     let writer = RunWriter::create(&path, arguments.force, &header).map_err(create_failure)?;
 
     let start = Instant::now();
-    let mut recorder = Recorder { writer, progress: Progress::new(scene.parameters.steps), last: Sample::default() };
+    let progress = Progress::new(scene.parameters.steps);
+    let mut recorder = Recorder { writer, progress, interrupt, last: Sample::default() };
     let result = drive(&mut simulation, &schedule, &scene.output.maps, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
     let outcome = match result {
         Ok(outcome) => outcome,
+        Err(RunFailure::Stopped(signal)) => {
+            let report = writer.finish(&End::Interrupted).map_err(Failure::run)?;
+            let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
+            let message = format!("stopped by signal {signal} after {steps} steps; {file} holds {samples} samples");
+            return Err(Failure::Stopped { signal, message });
+        }
         Err(failure) => {
             // The first error is the one to report; a writer that failed has nothing more to say.
             let _ = writer.finish(&End::Failed(failure.to_string()));
@@ -56,6 +77,12 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     };
     let report = writer.finish(&End::Finished).map_err(Failure::run)?;
     let summary = Summary::new(&scene, &path, &last, outcome, report, start.elapsed().as_secs_f64());
+    if summary.load_residual > summary.load_tolerance {
+        message::warning(format_args!(
+            "the load balance reached {:.1e}, not {:.1e}: rounding of the heights allows no better",
+            summary.load_residual, summary.load_tolerance
+        ));
+    }
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
 }
 
@@ -72,28 +99,27 @@ fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Re
     Ok(())
 }
 
-/// The part of the run file that is known before the first step.
-fn header(scene: &Scene, loaded: &Loaded, expected_samples: u64) -> Result<Header, Failure> {
+/// The part of the run file that scene and surfaces decide; not yet what depends on the simulation.
+fn header(scene: &Scene, pin_base: Vec<Base>, surface_files: &[(PathBuf, String)]) -> Result<Header, Failure> {
     let mut inputs = InputFile::read_all(&scene.files)
         .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
     inputs.extend(
-        loaded
-            .inputs
+        surface_files
             .iter()
             .map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }),
     );
     Ok(Header {
         title: scene.title.clone(),
         mesh: scene.parameters.mesh.clone(),
-        pin_base: loaded.surfaces.pin_base.clone(),
+        pin_base,
         maps: scene.output.maps.clone(),
-        expected_samples,
+        expected_samples: 0,
         scene: scene.resolved.clone(),
         program: version::program(),
         source_revision: version::REVISION.into(),
         host: machine::host(),
         workers: 1,
-        instruction_set: InstructionSet::best().name().into(),
+        instruction_set: String::new(),
         seeds: scene.seeds.clone(),
         inputs,
     })
@@ -112,6 +138,8 @@ fn create_failure(error: RunFileError) -> Failure {
 enum RunFailure {
     Simulation(SimulationError),
     RunFile(RunFileError),
+    /// This signal asked the run to stop.
+    Stopped(u8),
 }
 
 impl From<SimulationError> for RunFailure {
@@ -125,6 +153,7 @@ impl std::fmt::Display for RunFailure {
         match self {
             Self::Simulation(error) => error.fmt(f),
             Self::RunFile(error) => error.fmt(f),
+            Self::Stopped(signal) => write!(f, "stopped by signal {signal}"),
         }
     }
 }
@@ -133,6 +162,7 @@ impl std::fmt::Display for RunFailure {
 struct Recorder {
     writer: RunWriter,
     progress: Progress,
+    interrupt: Interrupt,
     last: Sample,
 }
 
@@ -148,8 +178,9 @@ impl Sink for Recorder {
         self.writer.snapshot(snapshot).map_err(RunFailure::RunFile)
     }
 
-    fn look(&mut self, simulation: &Simulation) {
+    fn look(&mut self, simulation: &Simulation) -> Result<(), RunFailure> {
         self.progress.show(simulation);
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(RunFailure::Stopped(signal)))
     }
 }
 
@@ -215,7 +246,8 @@ impl Summary {
     }
 
     fn to_text(&self) -> String {
-        let percent = |fraction: f64| format!("{:.2} %", 100.0 * fraction);
+        // Adding 0 makes a negative zero a plain one.
+        let percent = |fraction: f64| format!("{:.2} %", (1e4 * fraction).round() / 1e2 + 0.0);
         let square_millimetres = |area: f64| format!("{:.4} mm²", area * 1e6);
         let cubic_millimetres = |volume: f64| format!("{} mm³", number::short(volume * 1e9));
         let megapascal = |pressure: f64| format!("{:.3} MPa", pressure * 1e-6);
@@ -245,7 +277,7 @@ impl Summary {
             ),
             ("disc filled", percent(self.filled_fraction)),
             (
-                "secondary plateaus",
+                "with any build-up",
                 format!("{} of the disc, {} of the pin", percent(self.disc_secondary), percent(self.pin_secondary)),
             ),
             (
@@ -257,15 +289,6 @@ impl Summary {
                 format!("load {:.1e} at most, debris balance {:.1e}", self.load_residual, self.balance_residual),
             ),
         ];
-        if self.load_residual > self.load_tolerance {
-            rows.push((
-                "note",
-                format!(
-                    "the load balance reached {:.1e}, not {:.1e}: rounding allows no better",
-                    self.load_residual, self.load_tolerance
-                ),
-            ));
-        }
         if let Some(bytes) = self.peak_memory {
             rows.push(("peak memory", number::bytes(bytes)));
         }

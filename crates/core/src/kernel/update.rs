@@ -4,6 +4,7 @@ use super::columns::{DiscColumn, PinColumn, PinView};
 use super::instructions::{InstructionSet, kernel};
 use crate::debris::Transfer;
 use crate::pair::{Coefficients, PairCell, first_rows};
+use crate::parts::Needs;
 use crate::state::Base;
 use crate::{plateau, wear};
 
@@ -26,10 +27,8 @@ pub struct Outlook<'a> {
 pub type Update = fn(InstructionSet, PinColumn, DiscColumn, &Outlook, &Coefficients, &mut Transfer);
 
 /// The pass that does what a scene needs and nothing else; chosen once per run.
-///
-/// `distinct`: build-up has properties of its own. `disc_wears`, `forms`, `destroys`: the disc wears, plateaus form,
-/// unsupported plateaus fall.
-pub fn update(distinct: bool, disc_wears: bool, forms: bool, destroys: bool) -> Update {
+pub fn update(needs: Needs) -> Update {
+    let Needs { distinct, disc_wears, forms, destroys } = needs;
     macro_rules! choose {
         ([$($chosen:literal),*]) => { update_column::<$($chosen),*> };
         ([$($chosen:literal),*] $flag:ident $($rest:ident)*) => {

@@ -73,7 +73,8 @@ pub enum RunFileError {
     },
     /// Writing failed; what was written before can be read (h5py: `swmr=True`).
     #[error(
-        "writing {} failed: {reason}; what was written before can still be read; free space or write elsewhere",
+        "writing {} failed: {reason}; samples that were complete can still be read (h5py: swmr=True); \
+         free space or write elsewhere",
         path.display()
     )]
     Write {

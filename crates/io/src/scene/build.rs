@@ -263,9 +263,15 @@ fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Ve
     let (kept, beyond): (Vec<_>, Vec<_>) = times.into_iter().partition(|time| *time <= end * (1.0 + 1e-9));
     if !beyond.is_empty() {
         let beyond: Vec<_> = beyond.iter().map(|time| format!("{time} s")).collect();
-        let message = format!("the run ends at {end} s: no maps at {}", beyond.join(", "));
+        // In words for people: the last digits of a time that is a sum of steps say nothing.
+        let message = format!("the run ends at {} s: no maps at {}", rounded(end), beyond.join(", "));
         warnings.push(Problem::new(&origin, key, message).to_string());
     }
     settings.insert(key, Setting::Numbers(kept.clone()), &origin);
     kept
+}
+
+/// A number to nine significant digits.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.8e}").parse().unwrap_or(number)
 }
