@@ -10,6 +10,7 @@ mod message;
 mod number;
 mod progress;
 mod stability;
+mod summary;
 mod table;
 mod version;
 
