@@ -162,9 +162,9 @@ impl Check {
                     number::short(self.step_time * self.steps as f64)
                 ),
             ),
-            ("output", format!("{} samples, maps at {} times", number::grouped(self.samples), self.maps)),
+            ("output", format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps)),
             ("stiffness number", stiffness),
-            ("memory", number::bytes(self.memory)),
+            ("memory for cells and maps", number::bytes(self.memory)),
             ("estimated time", format!("{} (from a short trial)", number::duration(self.estimated_time))),
         ];
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
