@@ -36,7 +36,7 @@ pub struct SceneArguments {
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub sets: Vec<String>,
     /// Threads that share the ring: a number or "auto"; overrides the scene
-    #[arg(long, value_name = "N", value_parser = workers)]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
     pub workers: Option<String>,
     /// Print one JSON document instead of text
     #[arg(long)]

@@ -236,14 +236,22 @@ fn a_damaged_binary_header_is_an_error_that_says_where() {
     };
     let real = |value: f64| value.to_le_bytes();
     for (offset, bytes, message) in [
-        (7, b"1".to_vec(), "is no SDF ISO-1.0 file: starts with \"bISO-1.1\", expected \"aISO-1.0\" or \"bISO-1.0\""),
+        (
+            7,
+            b"1".to_vec(),
+            "this is no SDF ISO-1.0 file: starts with \"bISO-1.1\", expected \"aISO-1.0\" or \"bISO-1.0\"",
+        ),
         (42, vec![0, 0], "byte 42: NumPoints is 0, expected at least 1"),
         (44, vec![0, 0], "byte 44: NumProfiles is 0, expected at least 1"),
-        (44, vec![33, 0], "is truncated: ends at byte 6225, expected 6417 bytes for 48 x 33 heights of 4 bytes"),
+        (
+            44,
+            vec![33, 0],
+            "the file is truncated: ends at byte 6225, expected 6417 bytes for 48 x 33 heights of 4 bytes",
+        ),
         (
             42,
             vec![255; 4],
-            "is truncated: ends at byte 6225, expected 17179344981 bytes for 65535 x 65535 heights of 4 bytes",
+            "the file is truncated: ends at byte 6225, expected 17179344981 bytes for 65535 x 65535 heights of 4 bytes",
         ),
         (46, real(f64::NAN).to_vec(), "byte 46: Xscale is NaN, expected a positive, finite number"),
         (54, real(f64::INFINITY).to_vec(), "byte 54: Yscale is inf, expected a positive, finite number"),
@@ -251,7 +259,7 @@ fn a_damaged_binary_header_is_an_error_that_says_where() {
         (62, real(-1.0).to_vec(), "byte 62: Zscale is -1, expected a positive, finite number"),
         (78, vec![1], "byte 78: Compression is 1, expected 0: compressed data are not read"),
         (79, vec![1], "byte 79: DataType is 1, expected 3 (binary32), 4 (int8), 5 (int16), 6 (int32) or 7 (binary64)"),
-        (79, vec![7], "is truncated: ends at byte 6225, expected 12369 bytes for 48 x 32 heights of 8 bytes"),
+        (79, vec![7], "the file is truncated: ends at byte 6225, expected 12369 bytes for 48 x 32 heights of 8 bytes"),
         (80, vec![1], "byte 80: CheckType is 1, expected 0: data with check sums are not read"),
         (62, real(1e302).to_vec(), "byte 81: found the height \"inf\", expected a finite number times Zscale"),
     ] {
@@ -264,13 +272,13 @@ fn a_damaged_text_is_an_error_that_says_where() {
     let content = String::from_utf8(fs::read(sample("iso1_surface_ascii.sdf")).unwrap()).unwrap();
     let first = content.lines().nth(14).unwrap();
     for (from, to, message) in [
-        ("aISO-1.0", "aISO-1.00", "is no SDF ISO-1.0 file: starts with \"aISO-1.00\", expected"),
+        ("aISO-1.0", "aISO-1.00", "this is no SDF ISO-1.0 file: starts with \"aISO-1.00\", expected"),
         ("NumPoints = 48", "NumPoints = 48.5", "line 5: NumPoints is \"48.5\", expected a whole number"),
         ("NumPoints = 48", "NumPoints = -1", "line 5: NumPoints is -1, expected at least 1"),
         ("NumPoints = 48", "NumPoints: 48", "line 5: found \"NumPoints: 48\", expected a header field"),
         ("NumPoints = 48", "NumPoints = 47", "line 46: more heights than NumPoints x NumProfiles = 47 x 32"),
         ("NumPoints = 48", "NumPoints = 49", "line 47: the data end after 1536 heights, expected NumPoints x"),
-        ("NumPoints = 48", "NumPoints = 4000000000000", "is truncated: ends at byte"),
+        ("NumPoints = 48", "NumPoints = 4000000000000", "the file is truncated: ends at byte"),
         ("NumProfiles = 32", "NumPoints = 32", "line 6: the field NumPoints stands twice"),
         ("Zscale = 1.00000000000000e-010\r\n", "", "line 13: the header ends without the field Zscale"),
         ("Zscale = 1.00000000000000e-010", "Zscale = -0", "line 9: Zscale is -0, expected a positive, finite number"),

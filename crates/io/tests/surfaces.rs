@@ -234,8 +234,11 @@ fn unsuitable_hdf5_content_is_named() {
     };
     let nothing = Preparation::default();
     for (dataset, expected) in [
-        ("/disc/heigth", "has no dataset \"/disc/heigth\"; it has /cube (float64, shape (2, 3, 4)), /disc/height"),
-        ("/disc", "has no dataset \"/disc\"; it has /cube"),
+        (
+            "/disc/heigth",
+            "the file has no dataset \"/disc/heigth\"; it has /cube (float64, shape (2, 3, 4)), /disc/height",
+        ),
+        ("/disc", "the file has no dataset \"/disc\"; it has /cube"),
         ("cube", "dataset /cube has float64, shape (2, 3, 4), expected floating-point numbers and 2 dimensions"),
         ("pin/base", "dataset /pin/base has uint8, shape (6, 4), expected floating-point numbers"),
         ("text", "dataset /text has "),
@@ -356,23 +359,23 @@ fn files_that_are_not_read_are_named() {
     let advice = "convert it to SDF ISO-1.0 (ASCII or binary) or HDF5";
     for (path, expected) in [
         (folder.path().join("absent.sdf"), "cannot be read: No such file or directory".to_owned()),
-        (folder.path().to_owned(), "is not a regular file".to_owned()),
-        (PathBuf::from("/dev/null"), "is not a regular file".to_owned()),
-        (write("empty.sdf", b""), format!("is no surface file that is known (it is empty); {advice}")),
+        (folder.path().to_owned(), "this is not a regular file".to_owned()),
+        (PathBuf::from("/dev/null"), "this is not a regular file".to_owned()),
+        (write("empty.sdf", b""), format!("this is no surface file that is known (it is empty); {advice}")),
         (
             write("a.sdf", b"\x89PNG\r\n\x1a\n\0\0"),
-            format!("is no surface file that is known (it starts with \"\\x89PNG\\r\\n\\x1a\\n\"); {advice}"),
+            format!("this is no surface file that is known (it starts with \"\\x89PNG\\r\\n\\x1a\\n\"); {advice}"),
         ),
         (
             write("a.x3p", b"PK\x03\x04"),
-            format!("is an X3P file (zip archive), which this version does not read; {advice}"),
+            format!("this is an X3P file (zip archive), which this version does not read; {advice}"),
         ),
-        (write("a.csv", b"1,2\n3,4\n"), format!("is a text file, which this version does not read; {advice}")),
-        (write("a.npy", b"\x93NUMPY\x01\0"), "is a NumPy array file (.npy), which this version".to_owned()),
-        (sample("iso2_surface_int8_binary.sdf"), "is an SDF ISO-2.0 file, which this version".to_owned()),
-        (sample("iso2_surface_int8_ascii.sdf"), "is an SDF ISO-2.0 file, which this version".to_owned()),
-        (sample("bcr1_surface_uint16_binary.sdf"), "is an SDF BCR-1.0 file, which this version".to_owned()),
-        (sample("bcr1_surface_uint16_ascii.sdf"), "is an SDF BCR-1.0 file, which this version".to_owned()),
+        (write("a.csv", b"1,2\n3,4\n"), format!("this is a text file, which this version does not read; {advice}")),
+        (write("a.npy", b"\x93NUMPY\x01\0"), "this is a NumPy array file (.npy), which this version".to_owned()),
+        (sample("iso2_surface_int8_binary.sdf"), "this is an SDF ISO-2.0 file, which this version".to_owned()),
+        (sample("iso2_surface_int8_ascii.sdf"), "this is an SDF ISO-2.0 file, which this version".to_owned()),
+        (sample("bcr1_surface_uint16_binary.sdf"), "this is an SDF BCR-1.0 file, which this version".to_owned()),
+        (sample("bcr1_surface_uint16_ascii.sdf"), "this is an SDF BCR-1.0 file, which this version".to_owned()),
     ] {
         let found = error(&path);
         assert!(found.starts_with(&expected), "{found}\nexpected {expected}");

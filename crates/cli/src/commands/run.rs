@@ -29,7 +29,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let _ = report_file_size_limit();
     let scene = load_scene(&arguments.scene)?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
+    let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
     match path.metadata() {
+        _ if names_a_folder => return Err(Failure::input(RunFileError::NotAFile { path })),
         Ok(there) if !there.is_file() => return Err(Failure::input(RunFileError::NotAFile { path })),
         _ if !arguments.force && path.symlink_metadata().is_ok() => {
             return Err(Failure::input(RunFileError::Exists { path }));

@@ -17,7 +17,7 @@ pub enum RunFileError {
         path: PathBuf,
     },
     /// What is at the output path is a directory, a device or the like.
-    #[error("the output {} is no regular file and is not replaced; write elsewhere with -o FILE", path.display())]
+    #[error("the output {} is a folder or another thing that is no regular file, and is not replaced; name a file with -o FILE", path.display())]
     NotAFile {
         /// The output path.
         path: PathBuf,

@@ -58,22 +58,22 @@ pub enum FileError {
     #[error("cannot be read: {0}")]
     System(#[from] io::Error),
     /// A folder, a device or the like.
-    #[error("is not a regular file")]
+    #[error("this is not a regular file")]
     NotAFile,
     /// Nobody knows what it is.
-    #[error("is no surface file that is known ({found}); {READABLE}")]
+    #[error("this is no surface file that is known ({found}); {READABLE}")]
     Unknown {
         /// What the file starts with.
         found: String,
     },
     /// It is known what it is, but this version does not read it.
-    #[error("is {0}, which this version does not read; {READABLE}")]
+    #[error("this is {0}, which this version does not read; {READABLE}")]
     NotReadable(Format),
     /// A fibre map in a format of heights.
-    #[error("is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
+    #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
     /// `dataset` was given for a file that has none.
-    #[error("is {format}, which has no datasets: leave out dataset = \"{dataset}\"")]
+    #[error("this is {format}, which has no datasets: leave out dataset = \"{dataset}\"")]
     NoDatasets {
         /// The format.
         format: Format,

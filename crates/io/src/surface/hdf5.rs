@@ -14,7 +14,7 @@ pub enum Hdf5Error {
     #[error("cannot be read as HDF5: {0}")]
     Library(#[from] hdf5::Error),
     /// The dataset is not there.
-    #[error("has no dataset \"{dataset}\"; {present}")]
+    #[error("the file has no dataset \"{dataset}\"; {present}")]
     Missing {
         /// The dataset asked for.
         dataset: String,
@@ -22,7 +22,7 @@ pub enum Hdf5Error {
         present: String,
     },
     /// No dataset was named and the file does not leave one choice.
-    #[error("has {found} datasets with {wanted}, expected one: name it with dataset = \"...\"; {present}")]
+    #[error("the file has {found} datasets with {wanted}, expected one: name it with dataset = \"...\"; {present}")]
     Ambiguous {
         /// How many could be meant.
         found: usize,

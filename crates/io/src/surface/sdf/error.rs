@@ -26,13 +26,13 @@ impl fmt::Display for Position {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SdfError {
     /// It does not start as SDF ISO-1.0 does.
-    #[error("is no SDF ISO-1.0 file: starts with \"{found}\", expected \"aISO-1.0\" or \"bISO-1.0\"")]
+    #[error("this is no SDF ISO-1.0 file: starts with \"{found}\", expected \"aISO-1.0\" or \"bISO-1.0\"")]
     Magic {
         /// First bytes.
         found: String,
     },
     /// It ends too early.
-    #[error("is truncated: ends at byte {found}, expected {needed} bytes for {what}")]
+    #[error("the file is truncated: ends at byte {found}, expected {needed} bytes for {what}")]
     Truncated {
         /// Bytes that are there.
         found: usize,
@@ -42,7 +42,7 @@ pub enum SdfError {
         what: String,
     },
     /// A record of an ASCII file does not end.
-    #[error("is truncated: the {record} ends at {at} without the line \"*\" that closes it")]
+    #[error("the file is truncated: the {record} ends at {at} without the line \"*\" that closes it")]
     Unclosed {
         /// Header or data.
         record: &'static str,
