@@ -81,8 +81,8 @@ proptest! {
             let sample = simulation.sample();
             (simulation.pin().clone(), simulation.disc().clone(), sample)
         };
-        let plain = run(InstructionSet::Baseline);
-        for instructions in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+        let plain = run(InstructionSet::BASELINE);
+        for instructions in InstructionSet::available() {
             prop_assert_eq!(&run(instructions), &plain, "{}", instructions.name());
         }
     }

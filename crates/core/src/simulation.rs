@@ -171,11 +171,7 @@ impl Simulation {
     }
 
     /// Uses another instruction set than the widest that the processor has; the results are the same.
-    ///
-    /// # Panics
-    /// When the processor does not have it.
     pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
-        assert!(instructions.is_available(), "this processor has no {}", instructions.name());
         self.instructions = instructions;
         self.contact = Contact::new(&self.parameters.mesh, instructions);
         self

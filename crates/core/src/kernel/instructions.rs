@@ -3,9 +3,13 @@
 //! Every kernel is one body, compiled several times for wider vectors. A wider vector holds more cells and rounds none
 //! differently, so the results are the same to the bit.
 
-/// An instruction set that the kernels are compiled for.
+/// An instruction set that the kernels are compiled for and that this processor has; there is no value for another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InstructionSet {
+pub struct InstructionSet(Width);
+
+/// How much a kernel may ask of the processor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Width {
     /// What every processor of this architecture has.
     Baseline,
     /// x86-64 with AVX2.
@@ -14,17 +18,8 @@ pub enum InstructionSet {
     Avx512,
 }
 
-impl InstructionSet {
-    /// Every instruction set, the plainest first.
-    pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
-
-    /// The widest that this processor has.
-    pub fn best() -> Self {
-        Self::ALL.into_iter().rev().find(|set| set.is_available()).unwrap_or(Self::Baseline)
-    }
-
-    /// Whether this processor has it.
-    pub fn is_available(self) -> bool {
+impl Width {
+    fn is_available(self) -> bool {
         match self {
             Self::Baseline => true,
             #[cfg(target_arch = "x86_64")]
@@ -40,21 +35,38 @@ impl InstructionSet {
             _ => false,
         }
     }
+}
+
+impl InstructionSet {
+    /// What every processor of this architecture has.
+    pub const BASELINE: Self = Self(Width::Baseline);
+
+    /// Those that this processor has, the plainest first.
+    pub fn available() -> impl DoubleEndedIterator<Item = Self> {
+        [Width::Baseline, Width::Avx2, Width::Avx512].into_iter().filter(|width| width.is_available()).map(Self)
+    }
+
+    /// The widest that this processor has.
+    pub fn best() -> Self {
+        Self::available().next_back().unwrap_or(Self::BASELINE)
+    }
 
     /// Name, as in a run file.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Baseline => std::env::consts::ARCH,
-            Self::Avx2 => "avx2",
-            Self::Avx512 => "avx512",
+        match self.0 {
+            Width::Baseline => std::env::consts::ARCH,
+            Width::Avx2 => "avx2",
+            Width::Avx512 => "avx512",
         }
+    }
+
+    #[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "there is only one width"))]
+    pub(super) fn width(self) -> Width {
+        self.0
     }
 }
 
 /// Defines a kernel: `$name` runs the body `$body` compiled for an instruction set.
-///
-/// # Panics
-/// The function made panics when the processor does not have the instruction set.
 macro_rules! kernel {
     (
         $(#[$attribute:meta])*
@@ -73,19 +85,18 @@ macro_rules! kernel {
                 fn avx512$(<$(const $flag: bool),*>)?($($argument: $kind),*) {
                     $body$(::<$($flag),*>)?($($argument),*)
                 }
-                match set {
-                    $crate::kernel::InstructionSet::Baseline => {}
+                match set.width() {
+                    $crate::kernel::instructions::Width::Baseline => {}
                     #[allow(unsafe_code, reason = "a call of code for another instruction set")]
-                    $crate::kernel::InstructionSet::Avx2 => {
-                        assert!(set.is_available());
-                        // SAFETY: the processor has AVX2, as just asserted; the function asks for nothing else.
+                    $crate::kernel::instructions::Width::Avx2 => {
+                        // SAFETY: there is an instruction set of this width only where the processor has AVX2, and the
+                        // function asks for nothing else.
                         return unsafe { avx2$(::<$($flag),*>)?($($argument),*) };
                     }
                     #[allow(unsafe_code, reason = "a call of code for another instruction set")]
-                    $crate::kernel::InstructionSet::Avx512 => {
-                        assert!(set.is_available());
-                        // SAFETY: the processor has these parts of AVX-512, as just asserted; the function asks for
-                        // nothing else.
+                    $crate::kernel::instructions::Width::Avx512 => {
+                        // SAFETY: there is an instruction set of this width only where the processor has these parts
+                        // of AVX-512, and the function asks for nothing else.
                         return unsafe { avx512$(::<$($flag),*>)?($($argument),*) };
                     }
                 }
