@@ -6,8 +6,7 @@ use std::time::Instant;
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
-use plateau_core::state::Base;
-use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, report_file_size_limit};
+use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::{Scene, Workers};
 use plateau_io::surface::{self, Loaded};
 
@@ -29,15 +28,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let _ = report_file_size_limit();
     let scene = load_scene(&arguments.scene)?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
-    let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
-    match path.metadata() {
-        _ if names_a_folder => return Err(Failure::input(RunFileError::NotAFile { path })),
-        Ok(there) if !there.is_file() => return Err(Failure::input(RunFileError::NotAFile { path })),
-        _ if !arguments.force && path.symlink_metadata().is_ok() => {
-            return Err(Failure::input(RunFileError::Exists { path }));
-        }
-        _ => {}
-    }
+    check_place(&path, arguments.force).map_err(Failure::input)?;
     if let Workers::Count(2..) = scene.workers {
         message::warning("this version runs each scene on one worker; the result is the same");
     }
@@ -46,13 +37,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
     let Loaded { surfaces, inputs, .. } = loaded;
-    let pin_base = surfaces.pin_base.clone();
     let mut simulation = Simulation::new(scene.parameters.clone(), surfaces).map_err(Failure::input)?;
-    let header = Header {
-        expected_samples: schedule.samples(),
-        instruction_set: simulation.instructions().name().into(),
-        ..header(&scene, pin_base, &inputs)?
-    };
+    let header = header(&scene, &simulation, &inputs, schedule.samples())?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     let writer = RunWriter::create(&path, arguments.force, &header).map_err(create_failure)?;
 
@@ -95,8 +81,13 @@ fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Re
     Ok(())
 }
 
-/// The part of the run file that scene and surfaces decide; not yet what depends on the simulation.
-fn header(scene: &Scene, pin_base: Vec<Base>, surface_files: &[(PathBuf, String)]) -> Result<Header, Failure> {
+/// The part of the run file that is known before the first step.
+fn header(
+    scene: &Scene,
+    simulation: &Simulation,
+    surface_files: &[(PathBuf, String)],
+    expected_samples: u64,
+) -> Result<Header, Failure> {
     let mut inputs = InputFile::read_all(&scene.files)
         .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
     inputs.extend(
@@ -107,15 +98,15 @@ fn header(scene: &Scene, pin_base: Vec<Base>, surface_files: &[(PathBuf, String)
     Ok(Header {
         title: scene.title.clone(),
         mesh: scene.parameters.mesh.clone(),
-        pin_base,
+        pin_base: simulation.pin().base.clone(),
         maps: scene.output.maps.clone(),
-        expected_samples: 0,
+        expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),
         source_revision: version::REVISION.into(),
         host: machine::host(),
         workers: 1,
-        instruction_set: String::new(),
+        instruction_set: simulation.instructions().name().into(),
         seeds: scene.seeds.clone(),
         inputs,
     })

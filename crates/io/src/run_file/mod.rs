@@ -32,4 +32,5 @@ pub use end::End;
 pub use error::RunFileError;
 pub use header::{Header, InputFile};
 pub use limit::report_file_size_limit;
+pub use place::check_place;
 pub use writer::{RunWriter, WriterReport};

@@ -21,34 +21,11 @@ impl Place {
     pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
 
-        let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else {
-            return Err(RunFileError::NotAFile { path: path.into() });
-        };
-        let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
-        if !parent.is_dir() {
-            return Err(RunFileError::NoDirectory { path: path.into(), directory: parent.into() });
-        }
-        // Absolute, so that a change of the working directory does no harm.
-        let refused =
-            |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
-        let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
-        if fs::symlink_metadata(&resolved).is_ok() {
-            if !overwrite {
-                return Err(RunFileError::Exists { path: path.into() });
-            }
-            // What is replaced is the file that a symbolic link points to, not the link.
-            resolved = fs::canonicalize(&resolved)
-                .ok()
-                .filter(|target| target.is_file())
-                .ok_or_else(|| RunFileError::NotAFile { path: path.into() })?;
-        }
-        if resolved.to_str().is_none() {
-            return Err(RunFileError::NotUtf8 { path: path.into() });
-        }
+        let resolved = resolve(path, overwrite)?;
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
         let temporary = resolved.with_file_name(format!(".plateau-{}-{number}.tmp", std::process::id()));
         let place = Self { path: resolved, temporary, overwrite };
-        fs::write(&place.temporary, start).map_err(refused)?;
+        fs::write(&place.temporary, start).map_err(refused_in(&place.path))?;
         Ok(place)
     }
 
@@ -72,11 +49,48 @@ impl Place {
                 Ok(()) => Ok(()),
             }
         };
-        published.map(|()| self.path.clone()).map_err(|error| RunFileError::Directory {
-            directory: self.path.parent().unwrap_or(&self.path).into(),
-            reason: error.to_string(),
-        })
+        published.map(|()| self.path.clone()).map_err(refused_in(&self.path))
     }
+}
+
+/// Says whether a run file may be written at `path`, before any work is done for it; touches nothing.
+///
+/// # Errors
+/// As [`RunWriter::create`](super::RunWriter::create) for a path that cannot be written.
+pub fn check_place(path: &Path, overwrite: bool) -> Result<(), RunFileError> {
+    resolve(path, overwrite).map(|_| ())
+}
+
+/// The file that is meant by an output path: absolute, so that a change of the working directory does no harm, and
+/// where a symbolic link is to be replaced, the file that it points to.
+fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
+    let not_a_file = || RunFileError::NotAFile { path: path.into() };
+    let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else { return Err(not_a_file()) };
+    let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
+    if names_a_folder || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+        return Err(not_a_file());
+    }
+    let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+    if !parent.is_dir() {
+        return Err(RunFileError::NoDirectory { path: path.into(), directory: parent.into() });
+    }
+    let refused = |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
+    let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
+    if fs::symlink_metadata(&resolved).is_ok() {
+        if !overwrite {
+            return Err(RunFileError::Exists { path: path.into() });
+        }
+        resolved = fs::canonicalize(&resolved).map_err(|_| not_a_file())?;
+    }
+    if resolved.to_str().is_none() {
+        return Err(RunFileError::NotUtf8 { path: path.into() });
+    }
+    Ok(resolved)
+}
+
+/// An error of the directory in which `path` is.
+fn refused_in(path: &Path) -> impl Fn(io::Error) -> RunFileError + '_ {
+    move |error| RunFileError::Directory { directory: path.parent().unwrap_or(path).into(), reason: error.to_string() }
 }
 
 impl Drop for Place {
