@@ -7,6 +7,7 @@
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
 
+mod digest;
 pub mod run_file;
 pub mod scene;
 pub mod surface;

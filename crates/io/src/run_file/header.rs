@@ -1,6 +1,5 @@
 //! What a run file says about its run before the first step.
 
-use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,9 +7,9 @@ use plateau_core::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_core::state::Base;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
 
 use super::RunFileError;
+use crate::digest::sha256;
 
 /// What is fixed before the first step of a run: its mesh, the maps it records, and where it comes from.
 #[derive(Debug, Clone)]
@@ -66,13 +65,7 @@ impl InputFile {
     /// # Errors
     /// What the system says when the file cannot be read.
     pub fn read(path: &Path) -> io::Result<Self> {
-        let mut hasher = Sha256::new();
-        io::copy(&mut std::fs::File::open(path)?, &mut hasher)?;
-        let mut sha256 = String::with_capacity(64);
-        for byte in hasher.finalize() {
-            let _ = write!(sha256, "{byte:02x}");
-        }
-        Ok(Self { path: path.to_string_lossy().into_owned(), sha256 })
+        Ok(Self { path: path.to_string_lossy().into_owned(), sha256: sha256(path)? })
     }
 
     /// Digests every file of a list, each file once.
