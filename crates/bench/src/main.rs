@@ -31,22 +31,17 @@ struct Report {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/cermet.toml");
-    let scene = scene::load(&path, &[])?;
+    let scene = scene::load(&path, &std::env::args().skip(2).collect::<Vec<_>>())?;
     let mesh = &scene.parameters.mesh;
     let cells = mesh.pin_cells();
     let mesh_text = format!("{} x {} pin on {} columns", mesh.rows(), mesh.pin_columns(), mesh.disc_columns());
-    let mut simulation = Simulation::new(scene.parameters.clone(), surface::load(&scene)?.surfaces)?;
-    for _ in 0..WARM_UP {
-        simulation.advance()?;
-    }
+    let mut simulation = Simulation::with_execution(scene.parameters.clone(), surface::load(&scene)?.surfaces, plateau_core::simulation::Execution { workers: std::env::args().nth(1).map_or(1, |a| a.parse().unwrap()), ..Default::default() })?;
+    simulation.advance_to(WARM_UP)?;
     let mut times = Vec::with_capacity(REPEATS);
-    let mut evaluations = 0;
+    let extra = simulation.course().extra_readings;
     for _ in 0..REPEATS {
         let start = Instant::now();
-        for _ in 0..STEPS {
-            simulation.advance()?;
-            evaluations += simulation.contact().iterations();
-        }
+        simulation.advance_to(simulation.steps_done() + u64::from(STEPS))?;
         times.push(start.elapsed().as_secs_f64() * 1e6 / f64::from(STEPS));
     }
     times.sort_by(f64::total_cmp);
@@ -59,13 +54,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "cermet.toml, time_acceleration {}, load_tolerance {:e}, float64, {}, one worker",
             scene.parameters.time_acceleration,
             scene.parameters.load_tolerance,
-            simulation.instructions().name()
+            simulation.execution().instructions.name()
         ),
         microseconds_per_step_min: times[0],
         microseconds_per_step_median: times[REPEATS / 2],
         microseconds_per_step_max: times[REPEATS - 1],
         nanoseconds_per_cell_median: times[REPEATS / 2] * 1e3 / cells as f64,
-        load_evaluations_per_step: f64::from(evaluations) / (f64::from(STEPS) * REPEATS as f64),
+        load_evaluations_per_step: (simulation.course().extra_readings - extra) as f64 / (f64::from(STEPS) * REPEATS as f64),
     };
     println!("{}", serde_json::to_string_pretty(&report)?);
     Ok(())

@@ -4,6 +4,7 @@ use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use plateau_core::kernel::InstructionSet;
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
@@ -62,6 +63,26 @@ pub struct RunArguments {
     /// Replace the run file if it exists
     #[arg(long)]
     pub force: bool,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
+}
+
+/// How a run is carried out, which does not show in its results.
+#[derive(Debug, Args)]
+pub struct ExecutionArguments {
+    /// Instruction set of the kernels, for tests; the widest that the processor has unless given
+    #[arg(long, value_name = "NAME", value_parser = instruction_set)]
+    pub isa: Option<InstructionSet>,
+    /// Keep each worker on a core of its own
+    #[arg(long)]
+    pub pin: bool,
+}
+
+/// A value of `--isa`.
+fn instruction_set(text: &str) -> Result<InstructionSet, String> {
+    let available = || InstructionSet::available().map(InstructionSet::name);
+    let found = InstructionSet::available().find(|instructions| instructions.name() == text);
+    found.ok_or_else(|| format!("this processor has {}", available().collect::<Vec<_>>().join(", ")))
 }
 
 /// Arguments of `plateau check`.

@@ -1,11 +1,13 @@
 //! Drives a simulation from its first step to its last and hands out samples and maps on the way.
 
+use std::time::{Duration, Instant};
+
 use plateau_core::observe::{Map, Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
 
-/// Steps between two looks at the clock.
-const STEPS_PER_LOOK: u64 = 64;
+/// Time between two looks at progress and signals.
+const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 /// Takes what a simulation reports.
 pub trait Sink {
@@ -33,15 +35,6 @@ pub trait Sink {
     }
 }
 
-/// The worst load balance of a run.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Outcome {
-    /// Largest load residual of any step.
-    pub load_residual: f64,
-    /// Load evaluations per step, mean.
-    pub evaluations: f64,
-}
-
 /// Runs all steps; samples and maps go to `sink`.
 ///
 /// # Errors
@@ -51,31 +44,31 @@ pub fn drive<S: Sink>(
     schedule: &Schedule,
     maps: &[Map],
     sink: &mut S,
-) -> Result<Outcome, S::Error> {
+) -> Result<(), S::Error> {
     let last = simulation.parameters().steps;
-    let mut outcome = Outcome::default();
-    let mut evaluations = 0;
+    let mut steps_per_look = 1;
     if schedule.has_maps(0) && !maps.is_empty() {
-        sink.snapshot(simulation.snapshot(maps))?;
+        sink.snapshot(simulation.snapshot(maps)?)?;
     }
     while simulation.steps_done() < last {
         let event = schedule.next_event(simulation.steps_done());
         let sampled = schedule.next_sample(simulation.steps_done()) == event;
         while simulation.steps_done() < event {
-            for _ in 0..STEPS_PER_LOOK.min(event - simulation.steps_done()) {
-                simulation.advance()?;
-                outcome.load_residual = outcome.load_residual.max(simulation.contact().residual());
-                evaluations += u64::from(simulation.contact().iterations());
-            }
+            let looked = Instant::now();
+            simulation.advance_to(event.min(simulation.steps_done() + steps_per_look))?;
             sink.look(simulation)?;
+            if looked.elapsed() > LOOK_EVERY {
+                steps_per_look = (steps_per_look / 2).max(1);
+            } else if looked.elapsed() < LOOK_EVERY / 2 {
+                steps_per_look = steps_per_look.saturating_mul(2);
+            }
         }
         if sampled {
-            sink.sample(simulation.sample())?;
+            sink.sample(simulation.sample()?)?;
         }
         if schedule.has_maps(event) && !maps.is_empty() {
-            sink.snapshot(simulation.snapshot(maps))?;
+            sink.snapshot(simulation.snapshot(maps)?)?;
         }
     }
-    outcome.evaluations = evaluations as f64 / last as f64;
-    Ok(outcome)
+    Ok(())
 }

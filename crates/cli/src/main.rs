@@ -3,6 +3,7 @@
 mod arguments;
 mod commands;
 mod drive;
+mod execution;
 mod failure;
 mod interrupt;
 mod machine;

@@ -13,6 +13,11 @@ pub fn warning(message: impl fmt::Display) {
     say(format_args!("plateau: warning: {message}"));
 }
 
+/// Says what is worth knowing.
+pub fn note(message: impl fmt::Display) {
+    say(format_args!("plateau: {message}"));
+}
+
 /// Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.
 fn say(line: fmt::Arguments<'_>) {
     let _ = writeln!(io::stderr().lock(), "{line}");

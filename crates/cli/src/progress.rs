@@ -39,7 +39,7 @@ impl Progress {
             simulation.time(),
             parameters.time_at(parameters.steps),
             number::grouped(self.bar.per_sec() as u64),
-            simulation.contact().area(&parameters.mesh) * 1e6
+            simulation.course().contact_area * 1e6
         ));
         self.bar.set_position(simulation.steps_done());
     }

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use plateau_core::observe::Sample;
+use plateau_core::simulation::Course;
 use plateau_io::run_file::WriterReport;
 use plateau_io::scene::recipe::Scene;
 use serde::Serialize;
 
-use crate::drive::Outcome;
 use crate::failure::Failure;
 use crate::machine;
 use crate::message;
@@ -48,7 +48,7 @@ impl Summary {
         scene: &Scene,
         file: &Path,
         last: &Sample,
-        outcome: Outcome,
+        course: Course,
         report: WriterReport,
         wall_time: f64,
     ) -> Self {
@@ -60,7 +60,7 @@ impl Summary {
             time: last.time,
             wall_time,
             steps_per_second: last.step as f64 / wall_time,
-            load_evaluations_per_step: outcome.evaluations,
+            load_evaluations_per_step: 1.0 + course.extra_readings as f64 / course.steps as f64,
             writer_wait: report.waited.as_secs_f64(),
             peak_memory: machine::peak_memory(),
             contact_area: last.contact_area,
@@ -73,7 +73,7 @@ impl Summary {
             pin_secondary: last.pin_secondary,
             worn: last.worn_pin + last.worn_resin + last.worn_disc,
             emitted: last.emitted,
-            load_residual: outcome.load_residual,
+            load_residual: course.largest_load_residual,
             load_tolerance: scene.parameters.load_tolerance,
             balance_residual: last.balance_residual,
         }

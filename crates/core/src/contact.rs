@@ -1,14 +1,16 @@
 //! Load balance of the rigid pin on a Winkler foundation (model 4.1; paper 2.2, Eqs. 2 to 5).
+//!
+//! The load is convex and piecewise linear in the displacement. So a [`Reading`] of the pairs against a bracket of
+//! displacements, sums for the pairs that touch at its lower end and a list of the few that begin to touch within it,
+//! holds all that is needed to solve the balance exactly where the solution lies within the bracket; where it does not,
+//! the reading tells where to read next.
 
 use thiserror::Error;
 
-use crate::kernel::{InstructionSet, add_load, face_column};
+use crate::exact::dot;
+use crate::kernel::{Bracket, NearPair, Reading, told_apart};
 use crate::mesh::Mesh;
-use crate::pair::Table;
-use crate::state::{Disc, Pin};
-
-/// Newton's method ends after finitely many iterations; this bound only keeps rounding from going round in circles.
-const MOST_ITERATIONS: u32 = 200;
+use crate::pair::{Pair, Table};
 
 /// Why no displacement carries the load.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -39,111 +41,162 @@ pub enum ContactError {
     },
 }
 
-/// The contact of one step: how far every pair is apart, how stiff it is, and the displacement that carries the load.
-#[derive(Debug, Clone)]
+/// What a reading says about the balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// The balance is solved.
+    Solved,
+    /// The solution lies elsewhere, probably between these two displacements, m.
+    Between(f64, f64),
+    /// Nothing touches within the bracket.
+    Apart,
+}
+
+/// The contact of one step: the displacement that carries the load, and what touches there.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    instructions: InstructionSet,
-    /// g = z_p − z_d of every pin cell, m.
-    gap: Vec<f64>,
-    /// k A of every pin cell, N/m.
-    stiffness: Vec<f64>,
+    /// k A by pair and row, N/m.
+    stiffness: Table,
+    /// Pairs that are told apart.
+    pairs: &'static [usize],
     /// δ, m; none before the first step.
     displacement: Option<f64>,
     /// Σ k A u, N.
     load: f64,
+    /// Σ k A over cells in contact, N/m.
+    slope: f64,
     /// |Σ k A u − F_N| / F_N.
     residual: f64,
-    /// Σ k A u of every row at the last displacement tried, N.
-    row_load: Vec<f64>,
-    /// Σ k A over the cells in contact of every row there, N/m.
-    row_slope: Vec<f64>,
-    /// Cells in contact of every row there.
-    touching: Vec<f64>,
-    /// Load evaluations of the last balance.
-    iterations: u32,
+    /// Σ u of every pair and row, m.
+    overlap: Table,
+    /// Cells in contact of every pair and row.
+    touching: Table,
+    /// Cells in contact of every row.
+    touching_rows: Vec<f64>,
 }
 
 impl Contact {
-    /// Contact of a pin that has not touched yet.
-    pub fn new(mesh: &Mesh, instructions: InstructionSet) -> Self {
+    /// Contact of a pin that has not touched yet; `stiffness` is k A.
+    pub fn new(mesh: &Mesh, stiffness: &Table, distinct: bool) -> Self {
+        let rows = || std::array::from_fn::<_, { Pair::COUNT }, _>(|_| vec![0.0; mesh.rows()]);
         Self {
-            instructions,
-            gap: vec![0.0; mesh.pin_cells()],
-            stiffness: vec![0.0; mesh.pin_cells()],
+            stiffness: stiffness.clone(),
+            pairs: told_apart(distinct),
             displacement: None,
             load: 0.0,
+            slope: 0.0,
             residual: 0.0,
-            row_load: vec![0.0; mesh.rows()],
-            row_slope: vec![0.0; mesh.rows()],
-            touching: vec![0.0; mesh.rows()],
-            iterations: 0,
+            overlap: rows(),
+            touching: rows(),
+            touching_rows: vec![0.0; mesh.rows()],
         }
     }
 
-    /// Faces every pin cell with the disc cell under it after `turned` columns: gap and stiffness of each pair.
-    ///
-    /// `distinct` tells whether build-up has a stiffness of its own.
-    pub fn face(&mut self, mesh: &Mesh, stiffness: &Table, distinct: bool, disc: &Disc, pin: &Pin, turned: u64) {
-        let face = if distinct { face_column::<true> } else { face_column::<false> };
-        let columns = self.gap.chunks_exact_mut(mesh.rows()).zip(self.stiffness.chunks_exact_mut(mesh.rows()));
-        for (column, (gap, carried)) in columns.enumerate() {
-            let under = disc.view(mesh.column(mesh.disc_column(column, turned)));
-            face(self.instructions, pin.view(mesh.column(column)), under, stiffness, gap, carried);
-        }
-    }
-
-    /// Finds δ with Σ k A (δ − g)₊ = F_N, starting from the last step's.
-    ///
-    /// The load is convex and piecewise linear in δ: after one iteration Newton's method comes from above and never
-    /// overshoots.
+    /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket of a reading.
     ///
     /// # Errors
-    /// [`ContactError`] when the numbers leave the finite range.
-    pub fn balance(&mut self, mesh: &Mesh, normal_force: f64, tolerance: f64) -> Result<(), ContactError> {
-        let mut displacement = self.displacement.unwrap_or_else(|| self.upper_bound(normal_force));
-        let mut before = f64::NAN;
-        self.iterations = 0;
-        loop {
-            let (load, slope) = self.load_at(displacement, mesh);
-            self.iterations += 1;
-            let residual = ((load - normal_force) / normal_force).abs();
-            if !residual.is_finite() {
-                return Err(ContactError::NotFinite { displacement, load, normal_force });
-            }
-            let next =
-                if slope > 0.0 { displacement + (normal_force - load) / slope } else { self.upper_bound(normal_force) };
-            if residual <= tolerance || next == displacement || next == before || self.iterations == MOST_ITERATIONS {
-                if slope == 0.0 {
-                    return Err(ContactError::NotCarried { displacement, normal_force });
-                }
-                (self.load, self.residual) = (load, residual);
+    /// [`ContactError`] when the numbers leave the finite range or rounding leaves no overlap.
+    pub fn balance(
+        &mut self,
+        reading: &mut Reading,
+        bracket: &Bracket,
+        normal_force: f64,
+    ) -> Result<Verdict, ContactError> {
+        self.take_sums(reading, bracket);
+        let by_stiffness = |rows: &Table| self.pairs.iter().map(|pair| dot(&rows[*pair], &self.stiffness[*pair])).sum();
+        let (low_load, low_slope): (f64, f64) = (by_stiffness(&self.overlap), by_stiffness(&self.touching));
+        let low = bracket.low;
+        if !(low_load.is_finite() && low.is_finite()) {
+            return Err(ContactError::NotFinite { displacement: low, load: low_load, normal_force });
+        }
+        if low_load > normal_force {
+            // Newton's method from above: it does not overshoot.
+            let next = low - (low_load - normal_force) / low_slope;
+            let (step, tiny) = (low - next, rounding(low, next));
+            return Ok(Verdict::Between(next - (0.25 * step).max(tiny), next + (step / 1024.0).max(tiny)));
+        }
+        // In an order that does not depend on who read what.
+        reading.near.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then((a.row, a.pair).cmp(&(b.row, b.pair))));
+        let (mut at, mut load, mut slope) = (low, low_load, low_slope);
+        let solution = |at: f64, load: f64, slope: f64| at + (normal_force - load) / slope;
+        for pair in &reading.near {
+            if slope > 0.0 && solution(at, load, slope) <= pair.gap {
                 break;
             }
-            (before, displacement) = (displacement, next);
+            load += slope * (pair.gap - at);
+            slope += self.stiffness_of(pair);
+            at = pair.gap;
         }
+        if slope == 0.0 {
+            return Ok(Verdict::Apart);
+        }
+        let displacement = solution(at, load, slope);
+        if displacement - low < bracket.width {
+            self.settle(displacement, &reading.near, low, (low_load, low_slope), normal_force)?;
+            return Ok(Verdict::Solved);
+        }
+        if !displacement.is_finite() {
+            return Err(ContactError::NotFinite { displacement, load, normal_force });
+        }
+        // Newton's method from below: the solution is not above.
+        let high = low + bracket.width;
+        let step = displacement - high;
+        Ok(Verdict::Between(high, displacement + (step / 1024.0).max(rounding(high, displacement))))
+    }
+
+    /// Sums over the cells that touch at the lower end of the bracket, in metres.
+    fn take_sums(&mut self, reading: &Reading, bracket: &Bracket) {
+        let (quantum, anchor) = (bracket.quantum.value(), bracket.quantum.anchor_bits());
+        for pair in self.pairs {
+            let counts = reading.touching[*pair].0.iter().flat_map(|chunk| chunk.0);
+            let sums = reading.overlap[*pair].0.iter().flat_map(|chunk| chunk.0);
+            let rows = self.touching[*pair].iter_mut().zip(&mut self.overlap[*pair]);
+            for ((touching, overlap), (count, sum)) in rows.zip(counts.zip(sums)) {
+                *touching = count as f64;
+                *overlap = sum.wrapping_sub(count.wrapping_mul(anchor)) as f64 * quantum;
+            }
+        }
+    }
+
+    fn stiffness_of(&self, pair: &NearPair) -> f64 {
+        self.stiffness[usize::from(pair.pair)][pair.row as usize]
+    }
+
+    /// Takes the sums from the lower end of the bracket to the displacement.
+    fn settle(
+        &mut self,
+        displacement: f64,
+        near: &[NearPair],
+        low: f64,
+        (low_load, low_slope): (f64, f64),
+        normal_force: f64,
+    ) -> Result<(), ContactError> {
+        let above = displacement - low;
+        for pair in self.pairs {
+            for (overlap, touching) in self.overlap[*pair].iter_mut().zip(&self.touching[*pair]) {
+                *overlap += touching * above;
+            }
+        }
+        (self.load, self.slope) = (low_load + low_slope * above, low_slope);
+        for pair in near.iter().take_while(|pair| pair.gap < displacement) {
+            let (index, row) = (usize::from(pair.pair), pair.row as usize);
+            let overlap = displacement - pair.gap;
+            self.touching[index][row] += 1.0;
+            self.overlap[index][row] += overlap;
+            self.load += self.stiffness_of(pair) * overlap;
+            self.slope += self.stiffness_of(pair);
+        }
+        let (first, others) = self.pairs.split_first().unwrap_or((&0, &[]));
+        self.touching_rows.copy_from_slice(&self.touching[*first]);
+        for pair in others {
+            self.touching_rows.iter_mut().zip(&self.touching[*pair]).for_each(|(sum, touching)| *sum += touching);
+        }
+        if self.slope == 0.0 {
+            return Err(ContactError::NotCarried { displacement, normal_force });
+        }
+        self.residual = ((self.load - normal_force) / normal_force).abs();
         self.displacement = Some(displacement);
         Ok(())
-    }
-
-    /// Σ k A u and its slope at a displacement: summed along the rows, then over the rows.
-    fn load_at(&mut self, displacement: f64, mesh: &Mesh) -> (f64, f64) {
-        let Self { instructions, gap, stiffness, row_load, row_slope, touching, .. } = self;
-        row_load.fill(0.0);
-        row_slope.fill(0.0);
-        touching.fill(0.0);
-        for (gap, stiffness) in gap.chunks_exact(mesh.rows()).zip(stiffness.chunks_exact(mesh.rows())) {
-            add_load(*instructions, displacement, gap, stiffness, row_load, row_slope, touching);
-        }
-        (row_load.iter().sum(), row_slope.iter().sum())
-    }
-
-    /// The displacement at which the first cell would carry the load alone: never below the solution, and in contact.
-    fn upper_bound(&self, normal_force: f64) -> f64 {
-        self.gap
-            .iter()
-            .zip(&self.stiffness)
-            .map(|(gap, stiffness)| gap + normal_force / stiffness)
-            .fold(f64::INFINITY, f64::min)
     }
 
     /// δ, m; 0 before the first step.
@@ -153,12 +206,27 @@ impl Contact {
 
     /// Cells in contact by row.
     pub fn touching(&self) -> &[f64] {
+        &self.touching_rows
+    }
+
+    /// Pairs that are told apart, by [`Pair::index`].
+    pub fn pairs(&self) -> &'static [usize] {
+        self.pairs
+    }
+
+    /// Cells in contact of each pair, by row.
+    pub fn touching_by_pair(&self) -> &Table {
         &self.touching
+    }
+
+    /// Σ u over the cells in contact of each pair by row, m.
+    pub fn overlap_by_pair(&self) -> &Table {
+        &self.overlap
     }
 
     /// Contact area Σ A over cells in contact, m².
     pub fn area(&self, mesh: &Mesh) -> f64 {
-        self.touching.iter().zip(mesh.area()).map(|(count, area)| count * area).sum()
+        dot(&self.touching_rows, mesh.area())
     }
 
     /// Σ p A, N.
@@ -166,23 +234,18 @@ impl Contact {
         self.load
     }
 
+    /// Mean overlap of the cells in contact, each counted by its stiffness, m.
+    pub fn mean_overlap(&self) -> f64 {
+        if self.slope > 0.0 { self.load / self.slope } else { 0.0 }
+    }
+
     /// |Σ k A u − F_N| / F_N of the last balance.
     pub fn residual(&self) -> f64 {
         self.residual
     }
+}
 
-    /// Load evaluations that the last balance took.
-    pub fn iterations(&self) -> u32 {
-        self.iterations
-    }
-
-    /// p = k u of every pin cell in the last step, Pa; all 0 before the first.
-    pub fn pressures<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = f64> + 'a {
-        let displacement = self.displacement.unwrap_or(f64::NEG_INFINITY);
-        let cells = self.gap.iter().zip(&self.stiffness).zip(mesh.area().iter().cycle());
-        cells.map(move |((gap, stiffness), area)| {
-            let overlap = displacement - gap;
-            if overlap > 0.0 { stiffness / area * overlap } else { 0.0 }
-        })
-    }
+/// A distance that rounding does not lose between displacements of this size, m.
+fn rounding(a: f64, b: f64) -> f64 {
+    16.0 * f64::EPSILON * (a.abs() + b.abs()) + f64::MIN_POSITIVE
 }

@@ -1,54 +1,15 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4.4 and 4.5).
 
-use crate::mesh::Mesh;
-use crate::parameters::{DebrisPool, PlateauRules};
+use std::ops::Range;
+
+use crate::contact::Contact;
+use crate::exact::{Exact, Quantum, RowIntegers, dot};
+use crate::kernel::{Chunk, LANES, Moved};
+use crate::pair::{Coefficients, Table};
+use crate::parameters::{DebrisPool, Parameters};
+use crate::parts::Needs;
+use crate::strips::strips;
 use crate::sum::RunningSum;
-
-/// Heights taken off and put on in one step, summed along each row, m.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Transfer {
-    /// Worn off plateaus of the pin.
-    pub worn_pin: Vec<f64>,
-    /// Worn off resin.
-    pub worn_resin: Vec<f64>,
-    /// Worn off the disc.
-    pub worn_disc: Vec<f64>,
-    /// Build-up of unsupported plateaus.
-    pub returned: Vec<f64>,
-    /// Compacted on the pin.
-    pub deposited_pin: Vec<f64>,
-    /// Compacted on the disc.
-    pub deposited_disc: Vec<f64>,
-}
-
-impl Transfer {
-    /// Nothing moved yet.
-    pub fn new(rows: usize) -> Self {
-        let zero = vec![0.0; rows];
-        Self {
-            worn_pin: zero.clone(),
-            worn_resin: zero.clone(),
-            worn_disc: zero.clone(),
-            returned: zero.clone(),
-            deposited_pin: zero.clone(),
-            deposited_disc: zero,
-        }
-    }
-
-    /// Starts a new step.
-    pub fn clear(&mut self) {
-        for heights in [
-            &mut self.worn_pin,
-            &mut self.worn_resin,
-            &mut self.worn_disc,
-            &mut self.returned,
-            &mut self.deposited_pin,
-            &mut self.deposited_disc,
-        ] {
-            heights.fill(0.0);
-        }
-    }
-}
 
 /// Volumes moved since t = 0, m³.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -73,74 +34,142 @@ pub struct Totals {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Debris {
     captured_fraction: f64,
-    formation: bool,
+    needs: Needs,
+    /// h_m, m.
+    wear_height: f64,
+    /// Columns of the pin.
+    columns: f64,
+    /// A of every row, m².
+    area: Vec<f64>,
+    /// Raw volume that plateaus of the pin lose per overlap, by pair and row, m².
+    pin_loss: Table,
+    /// The same of the disc.
+    disc_loss: Table,
+    /// Power of two that is above any loss per overlap.
+    loss_exponent: i32,
     /// M, m³: one pool, or one per row.
     pools: Vec<RunningSum>,
     /// s = M/S of every row, m; all 0 without formation.
-    share: Vec<f64>,
+    share: Vec<Chunk>,
+    /// Of which the deposits of the step are counted as multiples.
+    deposits: Quantum,
+    /// Room for a value of every row.
+    rows: Vec<f64>,
     totals: Totals,
 }
 
 impl Debris {
     /// Empty pools.
-    pub fn new(mesh: &Mesh, rules: &PlateauRules) -> Self {
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients) -> Self {
+        let Parameters { mesh, plateaus: rules, .. } = parameters;
         let pools = match rules.debris_pool {
             DebrisPool::Contact => 1,
             DebrisPool::Track => mesh.rows(),
         };
+        let by_area = |table: &Table| {
+            table.each_ref().map(|rows| rows.iter().zip(mesh.area()).map(|(loss, area)| loss * area).collect())
+        };
+        let losses = coefficients.pin.iter().chain(&coefficients.disc).flatten();
+        let largest_loss = losses.copied().fold(0.0, f64::max);
         Self {
             captured_fraction: rules.captured_fraction,
-            formation: rules.formation,
+            needs: Needs::of(parameters),
+            wear_height: parameters.materials.wear_height,
+            columns: mesh.pin_columns() as f64,
+            area: mesh.area().to_vec(),
+            pin_loss: by_area(&coefficients.pin),
+            disc_loss: by_area(&coefficients.disc),
+            loss_exponent: if largest_loss > 0.0 { libm::ilogb(largest_loss) + 1 } else { 0 },
             pools: vec![RunningSum::default(); pools],
-            share: vec![0.0; mesh.rows()],
+            share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
+            deposits: Quantum::of(0.0),
+            rows: vec![0.0; mesh.rows()],
             totals: Totals::default(),
         }
     }
 
-    /// Rows that share each pool.
-    fn rows_per_pool(&self) -> usize {
-        self.share.len() / self.pools.len()
+    /// The rows that share each pool.
+    fn rows_of(&self, pool: usize) -> Range<usize> {
+        let rows = self.area.len() / self.pools.len();
+        pool * rows..(pool + 1) * rows
     }
 
     /// Spreads each pool evenly over its cells that do not touch: s = M/S; `touching` are the cells in contact by row.
-    pub fn spread(&mut self, mesh: &Mesh, touching: &[f64]) {
-        if !self.formation {
+    pub fn spread(&mut self, touching: &[f64]) {
+        if !self.needs.forms {
             return;
         }
-        let rows = self.rows_per_pool();
-        let shares = self.share.chunks_mut(rows);
-        for (((pool, share), touching), area) in
-            self.pools.iter().zip(shares).zip(touching.chunks(rows)).zip(mesh.area().chunks(rows))
-        {
-            let open: f64 =
-                touching.iter().zip(area).map(|(count, area)| (mesh.pin_columns() as f64 - count) * area).sum();
+        self.rows.iter_mut().zip(touching).for_each(|(open, touching)| *open = self.columns - touching);
+        let mut largest = 0.0_f64;
+        for (index, pool) in self.pools.iter().enumerate() {
+            let rows = self.rows_of(index);
+            let open = dot(&self.rows[rows.clone()], &self.area[rows.clone()]);
             // Rounding may leave a trace of debt in an emptied pool; it is not spread, and the next step settles it.
-            let spread = if open > 0.0 { (pool.value() / open).max(0.0) } else { 0.0 };
-            share.fill(spread);
+            let share = if open > 0.0 { (pool.value() / open).max(0.0) } else { 0.0 };
+            match self.pools.len() {
+                1 => self.share.fill(Chunk([share; LANES])),
+                _ => self.share[index / LANES].0[index % LANES] = share,
+            }
+            largest = largest.max(share);
         }
+        self.deposits = Quantum::of(largest);
     }
 
     /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
-    pub fn share(&self) -> &[f64] {
+    pub fn share(&self) -> &[Chunk] {
         &self.share
     }
 
+    /// Of which this step's deposits are counted as multiples.
+    pub fn deposits(&self) -> Quantum {
+        self.deposits
+    }
+
+    /// Of which losses are counted as multiples where overlaps are multiples of `overlaps`.
+    pub fn losses(&self, overlaps: Quantum) -> Quantum {
+        overlaps.coarser(self.loss_exponent)
+    }
+
     /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool.
-    pub fn settle(&mut self, mesh: &Mesh, transfer: &Transfer) {
-        let rows = self.rows_per_pool();
-        for (index, pool) in self.pools.iter_mut().enumerate() {
-            let span = index * rows..(index + 1) * rows;
-            let volume = |heights: &[f64]| -> f64 {
-                heights[span.clone()].iter().zip(&mesh.area()[span.clone()]).map(|(height, area)| height * area).sum()
+    ///
+    /// What a pair in contact loses is proportional to its overlap, and resin loses its wear height; so the worn volume
+    /// follows from the contact, less what cells were spared whose build-up was worn through.
+    pub fn settle(&mut self, contact: &Contact, moved: &Moved, losses: Quantum) {
+        for pool in 0..self.pools.len() {
+            let rows = self.rows_of(pool);
+            let volume = |heights: &[f64]| dot(&heights[rows.clone()], &self.area[rows.clone()]);
+            let worn = |loss: &Table| -> f64 {
+                let overlap = contact.overlap_by_pair();
+                contact.pairs().iter().map(|pair| dot(&overlap[*pair][rows.clone()], &loss[*pair][rows.clone()])).sum()
             };
-            let worn_pin = volume(&transfer.worn_pin);
-            let worn_resin = volume(&transfer.worn_resin);
-            let worn_disc = volume(&transfer.worn_disc);
-            let returned = volume(&transfer.returned);
-            let deposited_pin = volume(&transfer.deposited_pin);
-            let deposited_disc = volume(&transfer.deposited_disc);
+            let [resin, resin_on_debris] = [&contact.touching_by_pair()[0], &contact.touching_by_pair()[1]];
+
+            let mut worn_pin = worn(&self.pin_loss);
+            let worn_resin = self.wear_height * (volume(resin) + volume(resin_on_debris));
+            let mut worn_disc = if self.needs.disc_wears { worn(&self.disc_loss) } else { 0.0 };
+            let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
+            let mut counted = |counts: &RowIntegers, quantum: Quantum| {
+                counts.heights(quantum, &mut self.rows);
+                dot(&self.rows[rows.clone()], &self.area[rows.clone()])
+            };
+            if self.needs.forms {
+                deposited_pin = counted(&moved.deposited_pin, self.deposits);
+                deposited_disc = counted(&moved.deposited_disc, self.deposits);
+            }
+            if self.needs.distinct {
+                worn_pin -= counted(&moved.spared_pin, losses);
+                if self.needs.disc_wears {
+                    worn_disc -= counted(&moved.spared_disc, losses);
+                }
+            }
+            if moved.seldom.happened {
+                let exact = |heights: &[Exact]| volume(&heights.iter().map(|height| height.value()).collect::<Vec<_>>());
+                worn_pin -= exact(&moved.seldom.spared);
+                returned = exact(&moved.seldom.returned);
+            }
 
             let worn = worn_pin + worn_resin + worn_disc;
+            let pool = &mut self.pools[pool];
             pool.add(self.captured_fraction * worn);
             pool.add(returned);
             pool.add(-(deposited_pin + deposited_disc));

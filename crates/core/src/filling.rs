@@ -1,77 +1,107 @@
 //! How far the lowlands of the disc are filled, and how much of it is covered (model section 5).
 
+use crate::exact::Exact;
 use crate::mesh::Mesh;
-use crate::state::Disc;
+use crate::state::InitialSurfaces;
+use crate::strips::DiscSector;
 
-/// Filling and coverage of every disc column, kept up to date for the columns that passed under the pin.
+/// Filling and coverage of a worker's disc columns, kept up to date for the columns that passed under the pin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filling {
-    /// z_ref, m: highest initial disc height.
+    /// z_ref, m: highest initial height of the whole disc.
     reference: f64,
-    /// V(0), m³.
+    /// V(0) of the whole disc, m³.
     initial_volume: f64,
-    /// Σ A (z_ref − z_d)₊ of every column, m³.
-    open_volume: Vec<f64>,
-    /// Σ A over the secondary cells of every column, m².
-    secondary_area: Vec<f64>,
-    /// Step up to which the columns are up to date.
+    /// Open volume and secondary area of every own column.
+    columns: Vec<(Exact, Exact)>,
+    /// Σ A (z_ref − z_d)₊ over the own columns, m³.
+    open_volume: Exact,
+    /// Σ A over the own secondary cells, m².
+    secondary_area: Exact,
+    /// Steps up to which the columns are up to date.
     up_to: u64,
 }
 
 impl Filling {
-    /// Measures the initial disc.
-    pub fn new(mesh: &Mesh, disc: &Disc) -> Self {
+    /// Measures the initial disc and the own sectors of it.
+    pub fn new<'a>(mesh: &Mesh, surfaces: &InitialSurfaces, sectors: impl Iterator<Item = &'a DiscSector>) -> Self {
+        let reference = surfaces.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut initial_volume = Exact::default();
+        for heights in surfaces.disc_height.chunks_exact(mesh.rows()) {
+            initial_volume.add(Exact::of(open_volume(reference, heights.iter().copied(), mesh)));
+        }
         let mut filling = Self {
-            reference: disc.height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            initial_volume: 0.0,
-            open_volume: vec![0.0; mesh.disc_columns()],
-            secondary_area: vec![0.0; mesh.disc_columns()],
+            reference,
+            initial_volume: initial_volume.value(),
+            columns: vec![(Exact::default(), Exact::default()); mesh.disc_columns()],
+            open_volume: Exact::default(),
+            secondary_area: Exact::default(),
             up_to: 0,
         };
-        for column in 0..mesh.disc_columns() {
-            filling.measure(mesh, disc, column);
+        for sector in sectors {
+            (0..sector.columns).for_each(|column| filling.measure(mesh, sector, column));
         }
-        filling.initial_volume = filling.open_volume.iter().sum();
         filling
     }
 
-    /// Measures the columns that the pin touched since the last call; `turned` counts the columns turned so far.
-    pub fn update(&mut self, mesh: &Mesh, disc: &Disc, turned: u64) {
-        let steps = turned - self.up_to;
-        if steps == 0 {
+    /// Measures the own columns that the pin touched since the last call, after `steps` steps; in the last of them pin
+    /// column 0 lay over the disc column `first`.
+    pub fn update<'a>(
+        &mut self,
+        mesh: &Mesh,
+        sectors: impl Iterator<Item = &'a DiscSector>,
+        first: usize,
+        steps: u64,
+    ) {
+        let new = steps - self.up_to;
+        if new == 0 {
             return;
         }
-        // In step n the pin lies over columns −n .. pin_columns − n, so over `steps` steps a span that much longer.
-        let span = (mesh.pin_columns() as u64 - 1).saturating_add(steps).min(mesh.disc_columns() as u64) as usize;
-        let first = mesh.disc_column(0, turned - 1);
-        for offset in 0..span {
-            self.measure(mesh, disc, (first + offset) % mesh.disc_columns());
+        self.up_to = steps;
+        // In step n the pin lies over columns −n .. pin_columns − n, so over `new` steps a span that much longer.
+        let span = (mesh.pin_columns() as u64 - 1).saturating_add(new).min(mesh.disc_columns() as u64) as usize;
+        for sector in sectors {
+            for column in 0..sector.columns {
+                let behind = (sector.first + column + mesh.disc_columns() - first) % mesh.disc_columns();
+                if behind < span {
+                    self.measure(mesh, sector, column);
+                }
+            }
         }
-        self.up_to = turned;
     }
 
-    fn measure(&mut self, mesh: &Mesh, disc: &Disc, column: usize) {
-        let column_cells = mesh.column(column);
-        let cells = disc.height[column_cells.clone()].iter().zip(&disc.substrate[column_cells]);
-        let (mut open, mut secondary) = (0.0, 0.0);
-        for ((height, substrate), area) in cells.zip(mesh.area()) {
-            open += (self.reference - height).max(0.0) * area;
-            secondary += if height > substrate { *area } else { 0.0 };
-        }
-        self.open_volume[column] = open;
-        self.secondary_area[column] = secondary;
+    fn measure(&mut self, mesh: &Mesh, sector: &DiscSector, column: usize) {
+        let open = open_volume(self.reference, sector.height.column(column), mesh);
+        let cells = sector.height.column(column).zip(sector.substrate_column(column)).zip(mesh.area());
+        let secondary = cells.filter(|((height, substrate), _)| height > substrate).map(|(_, area)| area).sum();
+        let measured = (Exact::of(open), Exact::of(secondary));
+        let before = std::mem::replace(&mut self.columns[sector.first + column], measured);
+        self.open_volume.add(measured.0);
+        self.open_volume.subtract(before.0);
+        self.secondary_area.add(measured.1);
+        self.secondary_area.subtract(before.1);
     }
 
-    /// 1 − V(t)/V(0); 0 when nothing was open at the start.
-    pub fn filled_fraction(&self) -> f64 {
+    /// Σ A (z_ref − z_d)₊ over the own columns, m³.
+    pub fn open_volume(&self) -> Exact {
+        self.open_volume
+    }
+
+    /// Σ A over the own secondary cells, m².
+    pub fn secondary_area(&self) -> Exact {
+        self.secondary_area
+    }
+
+    /// 1 − V(t)/V(0) with V(t) the open volume of the whole disc; 0 when nothing was open at the start.
+    pub fn filled_fraction(&self, open_volume: Exact) -> f64 {
         if self.initial_volume == 0.0 {
             return 0.0;
         }
-        1.0 - self.open_volume.iter().sum::<f64>() / self.initial_volume
+        1.0 - open_volume.value() / self.initial_volume
     }
+}
 
-    /// Area fraction of the whole ring that is secondary plateau.
-    pub fn secondary_fraction(&self, mesh: &Mesh) -> f64 {
-        self.secondary_area.iter().sum::<f64>() / mesh.disc_area()
-    }
+/// Σ A (z_ref − z_d)₊ of a column, m³.
+fn open_volume(reference: f64, heights: impl Iterator<Item = f64>, mesh: &Mesh) -> f64 {
+    heights.zip(mesh.area()).map(|(height, area)| (reference - height).max(0.0) * area).sum()
 }

@@ -30,9 +30,13 @@
 //! an approximation. The explicit wear rule overshoots when the stiffness number Π = κ k m r Δθ exceeds 1 and is
 //! unstable above 2 ([`parameters::Parameters::stiffness_number`]); the exponential rule never is.
 
+pub mod comm;
 pub mod contact;
+mod crew;
 pub mod debris;
+pub mod exact;
 pub mod filling;
+pub mod forecast;
 pub mod history;
 pub mod kernel;
 pub mod material;
@@ -42,10 +46,12 @@ pub mod pair;
 pub mod parameters;
 pub mod parts;
 pub mod plateau;
-mod sampling;
 pub mod schedule;
+pub mod sector;
 pub mod simulation;
 pub mod state;
+pub mod strips;
 pub mod sum;
 pub mod surface;
 pub mod wear;
+mod worker;

@@ -30,13 +30,6 @@ impl Pair {
 /// One coefficient by [`Pair::index`] and row.
 pub type Table = [Vec<f64>; Pair::COUNT];
 
-/// The first `rows` rows of every entry of a table, so that a loop over them needs no bounds checks.
-#[inline(always)]
-pub fn first_rows(table: &Table, rows: usize) -> [&[f64]; Pair::COUNT] {
-    let [a, b, c, d, e, f] = table;
-    [&a[..rows], &b[..rows], &c[..rows], &d[..rows], &e[..rows], &f[..rows]]
-}
-
 /// The coefficients of every pair in every row.
 ///
 /// Whatever the integrator, the loss of a pair in contact is proportional to its overlap u; so the integrator shapes
@@ -83,43 +76,12 @@ impl Coefficients {
         }
         tables
     }
-}
 
-/// A pair of cells at the start of a step, as the loops over cells see it.
-#[derive(Debug, Clone, Copy)]
-pub struct PairCell {
-    /// The pin's base is resin.
-    pub on_resin: bool,
-    /// The pin is secondary.
-    pub pin_secondary: bool,
-    /// The disc is secondary.
-    pub disc_secondary: bool,
-}
-
-impl PairCell {
-    /// Resin without build-up.
-    #[inline(always)]
-    pub fn is_resin(self) -> bool {
-        self.on_resin & !self.pin_secondary
-    }
-
-    /// The pair's entry in a table, without branches.
-    ///
-    /// Where build-up has the properties of what it lies on (`DISTINCT` is false), two of the six entries serve all.
-    #[inline(always)]
-    pub fn pick<const DISTINCT: bool>(self, table: &[&[f64]; Pair::COUNT], row: usize) -> f64 {
-        // All entries are read before any is chosen: a read that depends on a condition is no vector code.
-        let entries: [f64; Pair::COUNT] =
-            std::array::from_fn(|pair| if DISTINCT || pair % 2 == 0 { table[pair][row] } else { 0.0 });
-        let select = |condition, yes, no| if condition { yes } else { no };
-        if !DISTINCT {
-            return select(self.is_resin(), entries[0], entries[2]);
-        }
-        let on_coating = select(self.on_resin, entries[0], entries[2]);
-        let on_debris = select(self.on_resin, entries[1], entries[3]);
-        let bare = select(self.disc_secondary, on_debris, on_coating);
-        let secondary = select(self.disc_secondary, entries[5], entries[4]);
-        select(self.pin_secondary, secondary, bare)
+    /// k A of the softest pair with a plateau of the pin, N/m.
+    pub fn least_plateau_stiffness(&self) -> f64 {
+        let plateaus = Pair::all().filter(|(pin, _)| *pin != Status::None);
+        let rows = plateaus.flat_map(|(pin, disc)| &self.stiffness[Pair::new(pin, disc).index()]);
+        rows.copied().fold(f64::INFINITY, f64::min)
     }
 }
 

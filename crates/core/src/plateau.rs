@@ -1,48 +1,54 @@
-//! Destruction and formation of secondary plateaus (model 4.3 and 4.4; paper 2.4, Figs. 2 to 4).
+//! Destruction and formation of secondary plateaus (model 4.3 and 4.4; paper 2.4, Figs. 2 to 4), eight cells at a time.
+
+use crate::kernel::lanes::Lanes;
 
 /// Rule 4.3(b): a plateau of debris on resin that nothing supports in the sliding direction falls apart.
 #[inline(always)]
-pub fn falls(height: f64, substrate: f64, on_resin: bool, supported: bool) -> bool {
-    (height < substrate) & on_resin & !supported
+pub(crate) fn falls<L: Lanes>(secondary_on_resin: L::Mask, supported: L::Mask) -> L::Mask {
+    secondary_on_resin & !supported
 }
 
-/// Heights of debris compacted at a cell in one step, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deposit {
-    /// On the pin.
-    pub pin: f64,
-    /// On the disc.
-    pub disc: f64,
-}
-
-/// Rule 4.4: debris fills the clearance γ (m) of an open cell, wholly or as far as the share s (m) reaches.
-///
-/// Against a plateau ahead (`supported`) the pin takes the fraction `pad_share` = β of it; else all goes to the disc.
+/// Rule 4.4: height of debris (m) that fills the clearance γ ≥ 0 (m) of an open cell, wholly or as far as the share s
+/// (m) reaches.
 #[inline(always)]
-pub fn form(clearance: f64, share: f64, supported: bool, pad_share: f64) -> Deposit {
-    let clearance = if clearance > 0.0 { clearance } else { 0.0 };
-    let filled = if clearance < share { clearance } else { share };
-    let pin = if supported { pad_share * filled } else { 0.0 };
-    Deposit { pin, disc: filled - pin }
+pub(crate) fn fill<L: Lanes>(clearance: L, share: L) -> L {
+    clearance.lesser(share)
+}
+
+/// Rule 4.4: the pin's part of what is filled, the fraction `pad_share` = β against a plateau ahead, else nothing.
+#[inline(always)]
+pub(crate) fn on_pin<L: Lanes>(filled: L, supported: L::Mask, pad_share: L) -> L {
+    (filled * pad_share).only(supported)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::lanes::{Chunk, Mask, Portable};
+
+    fn lanes(values: [f64; 8]) -> Portable {
+        Portable::load(&Chunk(values))
+    }
+
+    fn values(lanes: Portable) -> [f64; 8] {
+        let mut chunk = Chunk([0.0; 8]);
+        lanes.store(&mut chunk);
+        chunk.0
+    }
 
     #[test]
     fn only_unsupported_debris_on_resin_falls() {
-        assert!(falls(1.0, 3.0, true, false));
-        assert!(!falls(1.0, 3.0, true, true));
-        assert!(!falls(1.0, 3.0, false, false));
-        assert!(!falls(3.0, 3.0, true, false));
+        let of = <Portable as Lanes>::Mask::of_byte;
+        assert_eq!(falls::<Portable>(of(0b0011), of(0b0101)).byte(), 0b0010);
     }
 
     #[test]
     fn a_clearance_is_filled_wholly_or_in_part() {
-        assert_eq!(form(2.0, 8.0, true, 0.25), Deposit { pin: 0.5, disc: 1.5 });
-        assert_eq!(form(2.0, 0.5, true, 0.25), Deposit { pin: 0.125, disc: 0.375 });
-        assert_eq!(form(2.0, 0.5, false, 0.25), Deposit { pin: 0.0, disc: 0.5 });
-        assert_eq!(form(-1.0, 0.5, true, 0.25), Deposit { pin: 0.0, disc: 0.0 });
+        let clearance = lanes([2.0, 2.0, 2.0, 0.0, 0.25, 0.0, 0.0, 0.0]);
+        let share = lanes([8.0, 0.5, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0]);
+        let filled = fill(clearance, share);
+        assert_eq!(values(filled), [2.0, 0.5, 0.5, 0.0, 0.25, 0.0, 0.0, 0.0]);
+        let supported = <Portable as Lanes>::Mask::of_byte(0b0011);
+        assert_eq!(values(on_pin(filled, supported, lanes([0.25; 8]))), [0.5, 0.125, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     }
 }

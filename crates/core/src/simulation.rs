@@ -1,16 +1,22 @@
-//! One step of the model, and the state it advances (model section 4).
+//! A pin on a disc, from its first step to its last (model section 4).
+
+use std::sync::Arc;
 
 use thiserror::Error;
 
-use crate::contact::{Contact, ContactError};
-use crate::debris::{Debris, Transfer};
-use crate::filling::Filling;
-use crate::history::History;
-use crate::kernel::{DiscColumn, InstructionSet, Outlook, PinColumn, PinView, Update, update};
-use crate::pair::Coefficients;
+use crate::comm::CommError;
+use crate::comm::single::Single;
+use crate::comm::threads::Threads;
+use crate::contact::ContactError;
+use crate::crew::Crew;
+use crate::kernel::InstructionSet;
+use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::parameters::Parameters;
-use crate::parts::Needs;
+use crate::sector::Partition;
 use crate::state::{Base, Disc, InitialSurfaces, Pin};
+use crate::strips::PinStrips;
+pub use crate::worker::Course;
+use crate::worker::Worker;
 
 /// Why a simulation cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -39,36 +45,95 @@ pub enum SimulationError {
         /// What went wrong.
         source: ContactError,
     },
+    /// A worker failed.
+    #[error(transparent)]
+    Worker(#[from] CommError),
+    /// The system gives no more threads.
+    #[error("cannot start {workers} worker threads: {message}; ask for fewer workers")]
+    Threads {
+        /// How many were asked for.
+        workers: usize,
+        /// What the system says.
+        message: String,
+    },
+}
+
+/// How a simulation is carried out. Nothing of it shows in the results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Execution {
+    /// Worker threads that share the ring, at least 1.
+    pub workers: usize,
+    /// Instruction set of the kernels.
+    pub instructions: InstructionSet,
+    /// Whether each worker stays on a core of its own.
+    pub pin: bool,
+}
+
+impl Default for Execution {
+    fn default() -> Self {
+        Self { workers: 1, instructions: InstructionSet::best(), pin: false }
+    }
 }
 
 /// A pin on a disc, and everything that happened to them so far.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Simulation {
-    pub(crate) parameters: Parameters,
-    coefficients: Coefficients,
-    needs: Needs,
-    instructions: InstructionSet,
-    update: Update,
-    pub(crate) disc: Disc,
-    pub(crate) pin: Pin,
-    pub(crate) contact: Contact,
-    pub(crate) debris: Debris,
-    pub(crate) history: History,
-    pub(crate) filling: Filling,
-    transfer: Transfer,
-    /// A column of resin: what the last column of the pin has before it.
-    nothing_ahead: Pin,
-    pub(crate) step: u64,
-    /// Columns by which the disc was turned before the first step.
-    pub(crate) first_step: u64,
+    parameters: Arc<Parameters>,
+    pin_base: Vec<Base>,
+    execution: Execution,
+    team: Team,
+}
+
+/// Who does the work.
+#[derive(Debug)]
+enum Team {
+    /// This thread.
+    Alone(Box<Worker<Single>>),
+    /// Threads of their own.
+    Crew(Crew),
+}
+
+/// Gives the same call to whoever does the work.
+macro_rules! team {
+    ($simulation:expr, $worker:ident => $call:expr) => {
+        match &mut $simulation.team {
+            Team::Alone($worker) => $call,
+            Team::Crew($worker) => $call,
+        }
+    };
 }
 
 impl Simulation {
-    /// The state at t = 0: no build-up, no debris.
+    /// The state at t = 0, no build-up and no debris, on one worker.
     ///
     /// # Errors
     /// [`SimulationError`] when the surfaces do not fit the mesh or hold a height that is not finite.
     pub fn new(parameters: Parameters, surfaces: InitialSurfaces) -> Result<Self, SimulationError> {
+        Self::with_execution(parameters, surfaces, Execution::default())
+    }
+
+    /// The same, carried out in a certain way.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`Simulation::new`], and when there are no more threads to be had.
+    pub fn with_execution(
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+    ) -> Result<Self, SimulationError> {
+        Self::with_disc_turned(parameters, surfaces, execution, 0)
+    }
+
+    /// The same with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`Simulation::with_execution`].
+    pub fn with_disc_turned(
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        mut execution: Execution,
+        columns: u64,
+    ) -> Result<Self, SimulationError> {
         let mesh = &parameters.mesh;
         if !surfaces.fits(mesh) {
             return Err(SimulationError::Size { disc: mesh.disc_cells(), pin: mesh.pin_cells() });
@@ -79,107 +144,88 @@ impl Simulation {
                 return Err(SimulationError::Height { surface, count });
             }
         }
-        let disc = Disc::new(surfaces.disc_height);
-        let needs = Needs::of(&parameters);
-        let instructions = InstructionSet::best();
-        Ok(Self {
-            coefficients: Coefficients::new(&parameters),
-            update: update(needs),
-            needs,
-            instructions,
-            contact: Contact::new(mesh, instructions),
-            debris: Debris::new(mesh, &parameters.plateaus),
-            history: History::new(mesh.disc_columns()),
-            filling: Filling::new(mesh, &disc),
-            transfer: Transfer::new(mesh.rows()),
-            nothing_ahead: Pin::new(vec![0.0; mesh.rows()], vec![Base::None; mesh.rows()]),
-            disc,
-            pin: Pin::new(surfaces.pin_height, surfaces.pin_base),
-            step: 0,
-            first_step: 0,
-            parameters,
-        })
+        // A sector has at least two columns.
+        execution.workers = execution.workers.clamp(1, (mesh.disc_columns() / 2).max(1));
+        let partition = Arc::new(Partition::new(mesh, execution.workers));
+        let parameters = Arc::new(parameters);
+        let instructions = execution.instructions;
+        let team = if execution.workers == 1 {
+            let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, Single);
+            Team::Alone(Box::new(worker))
+        } else {
+            let halo_words = PinStrips::crossing_words(&parameters.mesh);
+            let ends = Threads::connect(execution.workers, partition.sectors(), halo_words);
+            let worker = |end: Threads| {
+                let alarm = end.alarm();
+                let partition = partition.clone();
+                (Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, end), alarm)
+            };
+            let crew = Crew::start(ends.into_iter().map(worker).collect(), execution.pin);
+            Team::Crew(crew.map_err(|error| SimulationError::Threads {
+                workers: execution.workers,
+                message: error.to_string(),
+            })?)
+        };
+        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, team })
     }
 
-    /// Starts with the disc turned by `columns` columns: step n faces the columns that step n + `columns` would face.
-    pub fn with_disc_turned(mut self, columns: u64) -> Self {
-        self.first_step = columns;
-        self
-    }
-
-    /// One step:
-    ///
-    /// | model | what happens | where |
-    /// |---|---|---|
-    /// | 4.1 | every pin cell faces the disc cell under it | [`Contact::face`] |
-    /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
-    /// | 4.4 | debris at hand for each open cell | [`Debris::spread`] |
-    /// | 4.2 to 4.4 | wear, destruction and formation in every cell | [`crate::wear`], [`crate::plateau`] |
-    /// | 4.5 | debris balance | [`Debris::settle`] |
-    /// | 4.6 | the disc turns by one column | |
+    /// One step: see the table in [`crate`].
     ///
     /// # Errors
-    /// [`SimulationError::Contact`] when the load balance leaves the finite numbers; the state is then that before the
-    /// step.
+    /// [`SimulationError::Contact`] when no displacement carries the load, [`SimulationError::Worker`] when a worker
+    /// failed.
     pub fn advance(&mut self) -> Result<(), SimulationError> {
-        let Parameters { mesh, normal_force, load_tolerance, .. } = &self.parameters;
-        let turned = self.first_step + self.step;
-        self.contact.face(mesh, &self.coefficients.stiffness, self.needs.distinct, &self.disc, &self.pin, turned);
-        self.contact
-            .balance(mesh, *normal_force, *load_tolerance)
-            .map_err(|source| SimulationError::Contact { step: self.step + 1, source })?;
-        self.debris.spread(mesh, self.contact.touching());
-        self.transfer.clear();
-        self.update_columns(turned);
-        self.debris.settle(&self.parameters.mesh, &self.transfer);
-        self.history.record(self.contact.area(&self.parameters.mesh), self.parameters.step_time());
-        self.step += 1;
-        Ok(())
+        self.advance_to(self.steps_done() + 1)
     }
 
-    /// Wear, destruction and formation in every column of the pin and the disc column under it (model 4.2 to 4.4).
-    fn update_columns(&mut self, turned: u64) {
-        let Parameters { mesh, plateaus, materials, .. } = &self.parameters;
-        let (rows, last) = (mesh.rows(), mesh.pin_columns() - 1);
-        for column in 0..=last {
-            let cells = mesh.column(column);
-            let (height, height_after) = self.pin.height[cells.start..].split_at_mut(rows);
-            let (substrate, substrate_after) = self.pin.substrate[cells.start..].split_at_mut(rows);
-            let ahead = if column < last {
-                let base = &self.pin.base[mesh.column(column + 1)];
-                PinView { height: &height_after[..rows], substrate: &substrate_after[..rows], base }
-            } else {
-                self.nothing_ahead.view(0..rows)
-            };
-            let outlook = Outlook {
-                displacement: self.contact.displacement(),
-                share: self.debris.share(),
-                pad_share: plateaus.pad_share,
-                wear_height: materials.wear_height,
-                ahead,
-            };
-            let under = mesh.column(mesh.disc_column(column, turned));
-            (self.update)(
-                self.instructions,
-                PinColumn { height, substrate, base: &self.pin.base[cells] },
-                DiscColumn { height: &mut self.disc.height[under.clone()], substrate: &mut self.disc.substrate[under] },
-                &outlook,
-                &self.coefficients,
-                &mut self.transfer,
-            );
-        }
+    /// Takes steps until `step` of them are done.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
+        team!(self, team => team.advance_to(step))
     }
 
-    /// Uses another instruction set than the widest that the processor has; the results are the same.
-    pub fn with_instructions(mut self, instructions: InstructionSet) -> Self {
-        self.instructions = instructions;
-        self.contact = Contact::new(&self.parameters.mesh, instructions);
-        self
+    /// The reported quantities after the last step.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        team!(self, team => team.sample())
     }
 
-    /// The instruction set of the kernels.
-    pub fn instructions(&self) -> InstructionSet {
-        self.instructions
+    /// The maps asked for, as they are now.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        team!(self, team => team.snapshot(maps))
+    }
+
+    /// The disc as it is now.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn disc(&mut self) -> Result<Disc, SimulationError> {
+        let [height, substrate] = self.heights([Map::DiscHeight, Map::DiscSubstrate])?;
+        Ok(Disc { height, substrate })
+    }
+
+    /// The pin as it is now.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn pin(&mut self) -> Result<Pin, SimulationError> {
+        let [height, substrate] = self.heights([Map::PinHeight, Map::PinSubstrate])?;
+        Ok(Pin { height, substrate, base: self.pin_base.clone() })
+    }
+
+    fn heights(&mut self, maps: [Map; 2]) -> Result<[Vec<f64>; 2], SimulationError> {
+        let mut fields = self.snapshot(&maps)?.maps.into_iter().map(|(_, values)| match values {
+            MapValues::Float(heights) => heights,
+            MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),
+        });
+        Ok(std::array::from_fn(|_| fields.next().unwrap_or_default()))
     }
 
     /// What the simulation was told.
@@ -187,28 +233,31 @@ impl Simulation {
         &self.parameters
     }
 
-    /// The disc as it is now.
-    pub fn disc(&self) -> &Disc {
-        &self.disc
+    /// Base of every pin cell, column by column.
+    pub fn pin_base(&self) -> &[Base] {
+        &self.pin_base
     }
 
-    /// The pin as it is now.
-    pub fn pin(&self) -> &Pin {
-        &self.pin
+    /// How it is carried out.
+    pub fn execution(&self) -> Execution {
+        self.execution
     }
 
-    /// The contact of the last step.
-    pub fn contact(&self) -> &Contact {
-        &self.contact
-    }
-
-    /// Debris account.
-    pub fn debris(&self) -> &Debris {
-        &self.debris
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        match &self.team {
+            Team::Alone(worker) => worker.course(),
+            Team::Crew(crew) => crew.course(),
+        }
     }
 
     /// Steps done.
     pub fn steps_done(&self) -> u64 {
-        self.step
+        self.course().steps
+    }
+
+    /// t, s.
+    pub fn time(&self) -> f64 {
+        self.parameters.time_at(self.steps_done())
     }
 }

@@ -1,8 +1,5 @@
 //! Heights of disc and pin, and the status that follows from them (model section 2).
 
-use std::ops::Range;
-
-use crate::kernel::{DiscView, PinView};
 use crate::material::Status;
 use crate::mesh::Mesh;
 
@@ -39,15 +36,10 @@ impl Disc {
         Self { substrate: height.clone(), height }
     }
 
-    /// Some cells of it.
-    pub fn view(&self, cells: Range<usize>) -> DiscView<'_> {
-        DiscView { height: &self.height[cells.clone()], substrate: &self.substrate[cells] }
-    }
-
     /// Status of every cell, column by column: secondary where the surface stands above the substrate.
     pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
         let cells = self.height.iter().zip(&self.substrate);
-        cells.map(|(height, substrate)| if height > substrate { Status::Secondary } else { Status::Primary })
+        cells.map(|(height, substrate)| disc_status(*height, *substrate))
     }
 }
 
@@ -72,24 +64,25 @@ impl Pin {
         Self { substrate: height.clone(), height, base }
     }
 
-    /// Some cells of it.
-    pub fn view(&self, cells: Range<usize>) -> PinView<'_> {
-        PinView {
-            height: &self.height[cells.clone()],
-            substrate: &self.substrate[cells.clone()],
-            base: &self.base[cells],
-        }
-    }
-
     /// Status of every cell, column by column: secondary where debris stands out of the substrate toward the disc,
     /// else its base.
     pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
         let cells = self.height.iter().zip(&self.substrate).zip(&self.base);
-        cells.map(|((height, substrate), base)| match base {
-            _ if height < substrate => Status::Secondary,
-            Base::None => Status::None,
-            Base::Primary => Status::Primary,
-        })
+        cells.map(|((height, substrate), base)| pin_status(*height, *substrate, base.is_resin()))
+    }
+}
+
+/// Status of a disc cell: secondary where the surface stands above the substrate.
+pub fn disc_status(height: f64, substrate: f64) -> Status {
+    if height > substrate { Status::Secondary } else { Status::Primary }
+}
+
+/// Status of a pin cell: secondary where debris stands out of the substrate toward the disc, else its base.
+pub fn pin_status(height: f64, substrate: f64, is_resin: bool) -> Status {
+    match is_resin {
+        _ if height < substrate => Status::Secondary,
+        true => Status::None,
+        false => Status::Primary,
     }
 }
 

@@ -7,15 +7,15 @@ use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, check_place, report_file_size_limit};
-use plateau_io::scene::recipe::{Scene, Workers};
+use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
 use super::load_scene;
 use crate::arguments::RunArguments;
 use crate::drive::{Sink, drive};
+use crate::execution::decide;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::message;
 use crate::progress::Progress;
 use crate::stability;
 use crate::summary::Summary;
@@ -29,15 +29,14 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
     check_place(&path, arguments.force).map_err(Failure::input)?;
-    if let Workers::Count(2..) = scene.workers {
-        message::warning("this version runs each scene on one worker; the result is the same");
-    }
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
     let Loaded { surfaces, inputs, .. } = loaded;
-    let mut simulation = Simulation::new(scene.parameters.clone(), surfaces).map_err(Failure::input)?;
+    let execution = decide(scene.workers, &arguments.execution, &scene.parameters, &surfaces).map_err(Failure::run)?;
+    let mut simulation =
+        Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
     let header = header(&scene, &simulation, &inputs, schedule.samples())?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     let writer = RunWriter::create(&path, arguments.force, &header).map_err(create_failure)?;
@@ -48,8 +47,8 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let result = drive(&mut simulation, &schedule, &scene.output.maps, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
-    let outcome = match result {
-        Ok(outcome) => outcome,
+    match result {
+        Ok(()) => {}
         Err(RunFailure::Stopped(signal)) => {
             let report = writer.finish(&End::Interrupted).map_err(Failure::run)?;
             let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
@@ -61,9 +60,9 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
             let _ = writer.finish(&End::Failed(failure.to_string()));
             return Err(Failure::run(failure));
         }
-    };
+    }
     let report = writer.finish(&End::Finished).map_err(Failure::run)?;
-    let summary = Summary::new(&scene, &path, &last, outcome, report, start.elapsed().as_secs_f64());
+    let summary = Summary::new(&scene, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
     summary.warn();
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
 }
@@ -98,15 +97,15 @@ fn header(
     Ok(Header {
         title: scene.title.clone(),
         mesh: scene.parameters.mesh.clone(),
-        pin_base: simulation.pin().base.clone(),
+        pin_base: simulation.pin_base().to_vec(),
         maps: scene.output.maps.clone(),
         expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),
         source_revision: version::REVISION.into(),
         host: machine::host(),
-        workers: 1,
-        instruction_set: simulation.instructions().name().into(),
+        workers: simulation.execution().workers,
+        instruction_set: simulation.execution().instructions.name().into(),
         seeds: scene.seeds.clone(),
         inputs,
     })

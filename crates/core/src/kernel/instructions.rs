@@ -10,18 +10,35 @@ pub struct InstructionSet(Width);
 /// How much a kernel may ask of the processor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Width {
-    /// What every processor of this architecture has.
-    Baseline,
+    /// What the compiler makes of arrays, on any architecture.
+    Portable,
+    /// What every x86-64 processor has.
+    #[cfg(target_arch = "x86_64")]
+    Sse2,
     /// x86-64 with AVX2.
+    #[cfg(target_arch = "x86_64")]
     Avx2,
     /// x86-64 with AVX-512 F, VL, DQ and BW.
+    #[cfg(target_arch = "x86_64")]
     Avx512,
 }
 
 impl Width {
+    const ALL: &[Self] = &[
+        Self::Portable,
+        #[cfg(target_arch = "x86_64")]
+        Self::Sse2,
+        #[cfg(target_arch = "x86_64")]
+        Self::Avx2,
+        #[cfg(target_arch = "x86_64")]
+        Self::Avx512,
+    ];
+
     fn is_available(self) -> bool {
         match self {
-            Self::Baseline => true,
+            Self::Portable => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Sse2 => true,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => is_x86_feature_detected!("avx2"),
             #[cfg(target_arch = "x86_64")]
@@ -31,36 +48,37 @@ impl Width {
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512bw")
             }
-            #[cfg(not(target_arch = "x86_64"))]
-            _ => false,
         }
     }
 }
 
 impl InstructionSet {
-    /// What every processor of this architecture has.
-    pub const BASELINE: Self = Self(Width::Baseline);
+    /// What any processor has.
+    pub const PORTABLE: Self = Self(Width::Portable);
 
     /// Those that this processor has, the plainest first.
     pub fn available() -> impl DoubleEndedIterator<Item = Self> {
-        [Width::Baseline, Width::Avx2, Width::Avx512].into_iter().filter(|width| width.is_available()).map(Self)
+        Width::ALL.iter().copied().filter(|width| width.is_available()).map(Self)
     }
 
     /// The widest that this processor has.
     pub fn best() -> Self {
-        Self::available().next_back().unwrap_or(Self::BASELINE)
+        Self::available().next_back().unwrap_or(Self::PORTABLE)
     }
 
-    /// Name, as in a run file.
+    /// Name, as on the command line and in a run file.
     pub fn name(self) -> &'static str {
         match self.0 {
-            Width::Baseline => std::env::consts::ARCH,
+            Width::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Width::Sse2 => "sse2",
+            #[cfg(target_arch = "x86_64")]
             Width::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
             Width::Avx512 => "avx512",
         }
     }
 
-    #[cfg_attr(not(target_arch = "x86_64"), expect(dead_code, reason = "there is only one width"))]
     pub(super) fn width(self) -> Width {
         self.0
     }
@@ -70,38 +88,42 @@ impl InstructionSet {
 macro_rules! kernel {
     (
         $(#[$attribute:meta])*
-        pub fn $name:ident$(<$(const $flag:ident),*>)?($($argument:ident: $kind:ty),* $(,)?) = $body:ident
+        pub fn $name:ident<$(const $flag:ident),*>($($argument:ident: $kind:ty),* $(,)?) = $body:ident
     ) => {
         $(#[$attribute])*
-        #[inline]
-        pub fn $name$(<$(const $flag: bool),*>)?(set: $crate::kernel::InstructionSet, $($argument: $kind),*) {
+        #[allow(clippy::too_many_arguments, reason = "the body's own")]
+        pub fn $name<$(const $flag: bool),*>(set: $crate::kernel::InstructionSet, $($argument: $kind),*) {
             #[cfg(target_arch = "x86_64")]
-            {
-                #[target_feature(enable = "avx2")]
-                fn avx2$(<$(const $flag: bool),*>)?($($argument: $kind),*) {
-                    $body$(::<$($flag),*>)?($($argument),*)
-                }
-                #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
-                fn avx512$(<$(const $flag: bool),*>)?($($argument: $kind),*) {
-                    $body$(::<$($flag),*>)?($($argument),*)
-                }
-                match set.width() {
-                    $crate::kernel::instructions::Width::Baseline => {}
-                    #[allow(unsafe_code, reason = "a call of code for another instruction set")]
-                    $crate::kernel::instructions::Width::Avx2 => {
-                        // SAFETY: there is an instruction set of this width only where the processor has AVX2, and the
-                        // function asks for nothing else.
-                        return unsafe { avx2$(::<$($flag),*>)?($($argument),*) };
-                    }
-                    #[allow(unsafe_code, reason = "a call of code for another instruction set")]
-                    $crate::kernel::instructions::Width::Avx512 => {
-                        // SAFETY: there is an instruction set of this width only where the processor has these parts
-                        // of AVX-512, and the function asks for nothing else.
-                        return unsafe { avx512$(::<$($flag),*>)?($($argument),*) };
-                    }
-                }
+            #[target_feature(enable = "avx2")]
+            #[allow(clippy::too_many_arguments, reason = "the body's own")]
+            fn avx2<$(const $flag: bool),*>($($argument: $kind),*) {
+                $body::<$crate::kernel::lanes::Avx2, $($flag),*>($($argument),*)
             }
-            $body$(::<$($flag),*>)?($($argument),*)
+            #[cfg(target_arch = "x86_64")]
+            #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw")]
+            #[allow(clippy::too_many_arguments, reason = "the body's own")]
+            fn avx512<$(const $flag: bool),*>($($argument: $kind),*) {
+                $body::<$crate::kernel::lanes::Avx512, $($flag),*>($($argument),*)
+            }
+            match set.width() {
+                $crate::kernel::instructions::Width::Portable => {
+                    $body::<$crate::kernel::lanes::Portable, $($flag),*>($($argument),*)
+                }
+                #[cfg(target_arch = "x86_64")]
+                $crate::kernel::instructions::Width::Sse2 => {
+                    $body::<$crate::kernel::lanes::Sse2, $($flag),*>($($argument),*)
+                }
+                #[cfg(target_arch = "x86_64")]
+                #[allow(unsafe_code, reason = "a call of code for another instruction set")]
+                // SAFETY: there is an instruction set of this width only where the processor has AVX2, and the function
+                // asks for nothing else.
+                $crate::kernel::instructions::Width::Avx2 => unsafe { avx2::<$($flag),*>($($argument),*) },
+                #[cfg(target_arch = "x86_64")]
+                #[allow(unsafe_code, reason = "a call of code for another instruction set")]
+                // SAFETY: there is an instruction set of this width only where the processor has these parts of
+                // AVX-512, and the function asks for nothing else.
+                $crate::kernel::instructions::Width::Avx512 => unsafe { avx512::<$($flag),*>($($argument),*) },
+            }
         }
     };
 }

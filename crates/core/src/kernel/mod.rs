@@ -1,15 +1,19 @@
 //! The loops over cells.
 //!
-//! Each works on one column at a time, row by row, without branches, so that the compiler makes vector code of it; and
-//! what is summed is summed row by row in the order of the columns, so that the sums are the same on every machine.
-//! Each is compiled for several instruction sets, of which the widest that the processor has is chosen at start.
+//! Each is written once, for eight cells at a time, and compiled for several instruction sets, of which the widest that
+//! the processor has is chosen at start. What they sum up does not depend on the order of the cells.
 
-mod columns;
 mod instructions;
-mod load;
-mod update;
+pub(crate) mod lanes;
+mod moved;
+mod pairs;
+mod read;
+mod reading;
+mod sweep;
 
-pub use columns::{DiscColumn, DiscView, PinColumn, PinView};
 pub use instructions::InstructionSet;
-pub use load::{add_load, face_column};
-pub use update::{Outlook, Update, update};
+pub use lanes::{Chunk, IntegerChunk, LANES};
+pub use moved::{Moved, Seldom};
+pub use read::{Span, read};
+pub use reading::{Bracket, NearPair, Reading, told_apart};
+pub use sweep::{Conditions, Rules, Sweep, sweep};

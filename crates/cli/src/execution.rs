@@ -1,0 +1,92 @@
+//! How a run is carried out: workers, instruction set, cores. None of it shows in the results.
+
+use std::time::{Duration, Instant};
+
+use plateau_core::kernel::InstructionSet;
+use plateau_core::parameters::Parameters;
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::state::InitialSurfaces;
+use plateau_io::scene::recipe::Workers;
+
+use crate::arguments::ExecutionArguments;
+use crate::message;
+
+/// How long each number of workers is tried.
+const TRIAL: Duration = Duration::from_millis(25);
+
+/// Steps before a trial's clock starts: threads start and caches fill.
+const WARM_UP_STEPS: u64 = 200;
+
+/// Decides how a scene is carried out, and says what is worth knowing about it.
+///
+/// # Errors
+/// [`SimulationError`] when a trial fails.
+pub fn decide(
+    workers: Workers,
+    arguments: &ExecutionArguments,
+    parameters: &Parameters,
+    surfaces: &InitialSurfaces,
+) -> Result<Execution, SimulationError> {
+    let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
+    let execution = Execution { workers: 1, instructions, pin: arguments.pin };
+    let cores = cores();
+    match workers {
+        Workers::Auto => fastest(execution, cores, parameters, surfaces),
+        Workers::Count(workers) => {
+            if workers > cores {
+                message::warning(format_args!(
+                    "{workers} workers on {cores} cores wait for each other at every step; {cores} or fewer are faster"
+                ));
+            }
+            Ok(Execution { workers, ..execution })
+        }
+    }
+}
+
+/// Cores that this process may use.
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Tries 1, 2, 4, … workers, and as many as there are cores, on the first steps of the run.
+fn fastest(
+    execution: Execution,
+    cores: usize,
+    parameters: &Parameters,
+    surfaces: &InitialSurfaces,
+) -> Result<Execution, SimulationError> {
+    let mut candidates: Vec<usize> = (0..).map(|power| 1 << power).take_while(|workers| *workers < cores).collect();
+    candidates.push(cores);
+    let mut trials = Vec::new();
+    for workers in candidates {
+        let execution = Execution { workers, ..execution };
+        trials.push((time_per_step(execution, parameters, surfaces)?, workers));
+    }
+    let (_, workers) = trials.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 1));
+    let times: Vec<String> =
+        trials.iter().map(|(time, workers)| format!("{workers}: {:.1} µs a step", time * 1e6)).collect();
+    message::note(format_args!("workers = \"auto\" runs on {workers} of {cores} cores ({})", times.join(", ")));
+    Ok(Execution { workers, ..execution })
+}
+
+/// Wall time of a step, s.
+fn time_per_step(
+    execution: Execution,
+    parameters: &Parameters,
+    surfaces: &InitialSurfaces,
+) -> Result<f64, SimulationError> {
+    let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution)?;
+    simulation.advance_to(1)?;
+    // A mesh on which a step takes long needs no warming up.
+    let first = Instant::now();
+    simulation.advance_to(2)?;
+    let warm_up = if first.elapsed() * (WARM_UP_STEPS as u32) < TRIAL { WARM_UP_STEPS } else { 2 };
+    simulation.advance_to(2 + warm_up)?;
+    let (start, mut steps, mut batch) = (Instant::now(), 0, 1);
+    while start.elapsed() < TRIAL {
+        simulation.advance_to(2 + warm_up + steps + batch)?;
+        steps += batch;
+        batch *= 2;
+    }
+    Ok(start.elapsed().as_secs_f64() / steps as f64)
+}

@@ -1,0 +1,258 @@
+//! Workers that are threads of one process and share memory.
+//!
+//! Messages are words in memory that all threads see; a counter tells when one is complete. Nothing is locked, and a
+//! worker that waits spins briefly, then gives way to others, then sleeps.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use crossbeam::utils::CachePadded;
+
+use super::{CommError, Communicator};
+
+/// Looks at a counter before giving way, where every worker has a core of its own.
+const SPINS: u32 = 4000;
+/// Times of giving way before sleeping.
+const YIELDS: u32 = 2000;
+/// How long a worker sleeps between two looks.
+const NAP: Duration = Duration::from_micros(200);
+/// Words of a message that are gathered at a time.
+const WORDS_AT_A_TIME: usize = 4096;
+
+/// A message and how many were written in its place so far.
+#[derive(Debug)]
+struct Place {
+    written: CachePadded<AtomicU64>,
+    words: Box<[AtomicU64]>,
+}
+
+impl Place {
+    fn new(words: usize) -> Self {
+        Self { written: CachePadded::new(AtomicU64::new(0)), words: (0..words).map(|_| AtomicU64::new(0)).collect() }
+    }
+
+    /// Writes words from the beginning on.
+    fn write(&self, words: impl Iterator<Item = u64>) {
+        self.words.iter().zip(words).for_each(|(place, word)| place.store(word, Ordering::Relaxed));
+        // Who reads this count sees the words that were written before.
+        self.written.store(self.written.load(Ordering::Relaxed) + 1, Ordering::Release);
+    }
+
+    fn read(&self) -> impl Iterator<Item = u64> + '_ {
+        self.words.iter().map(|place| place.load(Ordering::Relaxed))
+    }
+}
+
+/// What the threads share.
+#[derive(Debug)]
+struct Shared {
+    /// Two places for each worker's part of a gathering: while the slowest still reads one, the fastest writes the next.
+    gathered: Vec<[Place; 2]>,
+    /// A place for the column that crosses each boundary.
+    halos: Vec<Place>,
+    failed: AtomicBool,
+    failure: Mutex<Option<CommError>>,
+    spins: u32,
+}
+
+/// One thread's end.
+#[derive(Debug)]
+pub struct Threads {
+    rank: usize,
+    shared: Arc<Shared>,
+    /// Gatherings so far.
+    gatherings: u64,
+    /// Columns received at each boundary so far.
+    received: Vec<u64>,
+    /// The messages of all workers, as far as they have come.
+    messages: Vec<Vec<u64>>,
+}
+
+impl Threads {
+    /// The ends of `workers` threads that hand columns of `halo_words` words over `boundaries` boundaries.
+    pub fn connect(workers: usize, boundaries: usize, halo_words: usize) -> Vec<Self> {
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let shared = Arc::new(Shared {
+            gathered: (0..workers).map(|_| [Place::new(WORDS_AT_A_TIME + 1), Place::new(WORDS_AT_A_TIME + 1)]).collect(),
+            halos: (0..boundaries).map(|_| Place::new(halo_words)).collect(),
+            failed: AtomicBool::new(false),
+            failure: Mutex::new(None),
+            spins: if workers <= cores { SPINS } else { 0 },
+        });
+        let end = |rank| Self {
+            rank,
+            shared: shared.clone(),
+            gatherings: 0,
+            received: vec![0; boundaries],
+            messages: vec![Vec::with_capacity(WORDS_AT_A_TIME); workers],
+        };
+        (0..workers).map(end).collect()
+    }
+
+    /// Something to tell the others of a failure with.
+    pub fn alarm(&self) -> Alarm {
+        Alarm { rank: self.rank, shared: self.shared.clone() }
+    }
+
+    /// Waits until `count` messages were written in a place.
+    fn wait(&self, place: &Place, count: u64) -> Result<(), CommError> {
+        let mut looks = 0;
+        while place.written.load(Ordering::Acquire) < count {
+            if self.shared.failed.load(Ordering::Relaxed) {
+                let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner);
+                let unknown = || CommError::Worker { worker: self.rank, message: "an unknown failure".into() };
+                return Err(failure.clone().unwrap_or_else(unknown));
+            }
+            match looks {
+                looks if looks < self.shared.spins => std::hint::spin_loop(),
+                looks if looks < self.shared.spins + YIELDS => std::thread::yield_now(),
+                _ => std::thread::park_timeout(NAP),
+            }
+            looks = looks.saturating_add(1);
+        }
+        Ok(())
+    }
+
+    /// Writes a part of one's message and counts it; its first word is the length of the whole.
+    fn publish(&mut self, length: usize, part: &[u64]) {
+        let place = &self.shared.gathered[self.rank][(self.gatherings % 2) as usize];
+        place.write(std::iter::once(length as u64).chain(part.iter().copied()));
+        self.gatherings += 1;
+    }
+
+    /// Waits for the part that another worker wrote last, and appends it to what came before; returns the length of the
+    /// whole.
+    fn collect(&mut self, from: usize) -> Result<usize, CommError> {
+        let gathering = self.gatherings - 1;
+        let place = &self.shared.gathered[from][(gathering % 2) as usize];
+        self.wait(place, gathering / 2 + 1)?;
+        let length = place.words[0].load(Ordering::Relaxed) as usize;
+        let message = &mut self.messages[from];
+        let missing = (length - message.len()).min(WORDS_AT_A_TIME);
+        message.extend(place.read().skip(1).take(missing));
+        Ok(length)
+    }
+}
+
+impl Communicator for Threads {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn size(&self) -> usize {
+        self.shared.gathered.len()
+    }
+
+    fn send_halo(&mut self, boundary: usize, _to: usize, words: &[u64]) -> Result<(), CommError> {
+        self.shared.halos[boundary].write(words.iter().copied());
+        Ok(())
+    }
+
+    fn receive_halo(&mut self, boundary: usize, _from: usize, words: &mut [u64]) -> Result<(), CommError> {
+        // Whatever crosses a boundary goes from the owner of one sector to that of the other, so both count alike.
+        self.received[boundary] += 1;
+        let place = &self.shared.halos[boundary];
+        self.wait(place, self.received[boundary])?;
+        words.iter_mut().zip(place.read()).for_each(|(word, sent)| *word = sent);
+        Ok(())
+    }
+
+    fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError> {
+        self.messages.iter_mut().for_each(Vec::clear);
+        // Nearly always one part is all: who has no more writes empty ones until the longest message is through.
+        let mut start = 0;
+        loop {
+            let end = (start + WORDS_AT_A_TIME).min(words.len());
+            self.publish(words.len(), words.get(start..end).unwrap_or(&[]));
+            let mut longest = 0;
+            for from in 0..self.size() {
+                longest = longest.max(self.collect(from)?);
+            }
+            start += WORDS_AT_A_TIME;
+            if start >= longest {
+                break;
+            }
+        }
+        self.messages.iter().enumerate().for_each(|(from, message)| each(from, message));
+        Ok(())
+    }
+}
+
+/// Tells the other threads that one failed, so that none waits for it.
+#[derive(Debug, Clone)]
+pub struct Alarm {
+    rank: usize,
+    shared: Arc<Shared>,
+}
+
+impl Alarm {
+    /// Raises it; the first message stays.
+    pub fn raise(&self, message: String) {
+        let mut failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner);
+        failure.get_or_insert(CommError::Worker { worker: self.rank, message });
+        self.shared.failed.store(true, Ordering::Release);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Runs the same on every thread and returns what each says.
+    fn on_threads<T: Send>(workers: usize, work: impl Fn(Threads) -> T + Sync) -> Vec<T> {
+        let ends = Threads::connect(workers, workers, 3);
+        std::thread::scope(|scope| {
+            let handles: Vec<_> = ends.into_iter().map(|end| scope.spawn(|| work(end))).collect();
+            handles.into_iter().map(|handle| handle.join().unwrap()).collect()
+        })
+    }
+
+    #[test]
+    fn messages_of_any_length_are_gathered_in_order() {
+        let words = |rank: usize, round: usize| -> Vec<u64> {
+            let length = [0, 5, WORDS_AT_A_TIME, WORDS_AT_A_TIME + 1, 3 * WORDS_AT_A_TIME + 7][(rank + round) % 5];
+            (0..length).map(|index| (index * 31 + rank * 7 + round) as u64).collect()
+        };
+        on_threads(3, |mut end| {
+            for round in 0..50 {
+                let mut seen = 0;
+                end.all_gather(&words(end.rank, round), &mut |from, message| {
+                    assert_eq!(from, seen);
+                    assert_eq!(message, words(from, round), "worker {from}, round {round}");
+                    seen += 1;
+                })
+                .unwrap();
+                assert_eq!(seen, 3);
+            }
+        });
+    }
+
+    #[test]
+    fn columns_cross_boundaries() {
+        on_threads(4, |mut end| {
+            let (rank, size) = (end.rank(), end.size());
+            for round in 0..2000 {
+                end.send_halo(rank, (rank + size - 1) % size, &[rank as u64, round, 1]).unwrap();
+                let from = (rank + 1) % size;
+                let mut words = [0; 3];
+                end.receive_halo(from, from, &mut words).unwrap();
+                assert_eq!(words, [from as u64, round, 1]);
+                end.all_gather(&[], &mut |_, _| ()).unwrap();
+            }
+        });
+    }
+
+    #[test]
+    fn who_waits_for_a_failed_worker_is_told() {
+        let results = on_threads(3, |mut end| {
+            if end.rank() == 1 {
+                end.alarm().raise("out of paper".into());
+                return Ok(());
+            }
+            end.all_gather(&[], &mut |_, _| ())
+        });
+        let failure = Err(CommError::Worker { worker: 1, message: "out of paper".into() });
+        assert_eq!(results, [failure.clone(), Ok(()), failure]);
+    }
+}

@@ -1,0 +1,152 @@
+//! Worker threads, their orders, and their end.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::thread::JoinHandle;
+
+use crossbeam::channel::{Receiver, Sender, unbounded};
+
+use crate::comm::CommError;
+use crate::comm::threads::{Alarm, Threads};
+use crate::observe::{Map, Sample, Snapshot};
+use crate::simulation::SimulationError;
+use crate::worker::{Course, Worker};
+
+/// What all workers are to do together.
+#[derive(Debug, Clone)]
+enum Order {
+    /// Take steps until so many are done.
+    AdvanceTo(u64),
+    /// Take a sample.
+    Sample,
+    /// Take maps.
+    Snapshot(Vec<Map>),
+}
+
+/// What the first worker answers, for all.
+#[derive(Debug)]
+enum Answer {
+    Course(Course),
+    Sample(Box<Sample>),
+    Snapshot(Snapshot),
+}
+
+/// Long-lived threads with a worker each.
+#[derive(Debug)]
+pub(crate) struct Crew {
+    orders: Vec<Sender<Order>>,
+    answers: Receiver<Result<Answer, SimulationError>>,
+    threads: Vec<JoinHandle<()>>,
+    course: Course,
+}
+
+impl Crew {
+    /// Starts a thread for each worker; with `pin` each stays on a core of its own as far as there are enough.
+    pub fn start(workers: Vec<(Worker<Threads>, Alarm)>, pin: bool) -> std::io::Result<Self> {
+        let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
+        let (answer, answers) = unbounded();
+        let mut crew = Self { orders: Vec::new(), answers, threads: Vec::new(), course: Course::default() };
+        for (rank, (worker, alarm)) in workers.into_iter().enumerate() {
+            let (order, orders) = unbounded();
+            let answer = (rank == 0).then(|| answer.clone());
+            let core = cores.get(rank % cores.len().max(1)).copied();
+            let thread = std::thread::Builder::new().name(format!("worker {rank}")).spawn(move || {
+                if let Some(core) = core {
+                    core_affinity::set_for_current(core);
+                }
+                work(rank, worker, &alarm, &orders, answer.as_ref());
+            })?;
+            crew.orders.push(order);
+            crew.threads.push(thread);
+        }
+        Ok(crew)
+    }
+
+    fn ask(&mut self, order: &Order) -> Result<Answer, SimulationError> {
+        for worker in &self.orders {
+            // Who does not listen any more has failed, which the first worker will notice.
+            let _ = worker.send(order.clone());
+        }
+        let gone = || CommError::Worker { worker: 0, message: "it ended before its time".into() };
+        self.answers.recv().map_err(|_| gone())?
+    }
+
+    /// Takes steps until `step` of them are done.
+    pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
+        match self.ask(&Order::AdvanceTo(step))? {
+            Answer::Course(course) => self.course = course,
+            answer => unreachable!("{answer:?} to an order to advance"),
+        }
+        Ok(())
+    }
+
+    /// The reported quantities after the last step.
+    pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        match self.ask(&Order::Sample)? {
+            Answer::Sample(sample) => Ok(*sample),
+            answer => unreachable!("{answer:?} to an order for a sample"),
+        }
+    }
+
+    /// The maps asked for, as they are now.
+    pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        match self.ask(&Order::Snapshot(maps.to_vec()))? {
+            Answer::Snapshot(snapshot) => Ok(snapshot),
+            answer => unreachable!("{answer:?} to an order for maps"),
+        }
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        self.course
+    }
+}
+
+impl Drop for Crew {
+    fn drop(&mut self) {
+        // A worker without orders ends.
+        self.orders.clear();
+        for thread in self.threads.drain(..) {
+            // A panic was reported when it happened.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// A thread's life: follows orders until there are no more, or one cannot be followed.
+fn work(
+    rank: usize,
+    mut worker: Worker<Threads>,
+    alarm: &Alarm,
+    orders: &Receiver<Order>,
+    answers: Option<&Sender<Result<Answer, SimulationError>>>,
+) {
+    while let Ok(order) = orders.recv() {
+        let result = catch_unwind(AssertUnwindSafe(|| follow(&mut worker, &order))).unwrap_or_else(|panic| {
+            let message = panic_message(panic.as_ref());
+            alarm.raise(message.clone());
+            Err(CommError::Worker { worker: rank, message }.into())
+        });
+        let failed = result.is_err();
+        if let Some(answers) = answers {
+            // Nobody waits for an answer any more when the simulation is dropped.
+            let _ = answers.send(result);
+        }
+        if failed {
+            return;
+        }
+    }
+}
+
+fn follow(worker: &mut Worker<Threads>, order: &Order) -> Result<Answer, SimulationError> {
+    match order {
+        Order::AdvanceTo(step) => worker.advance_to(*step).map(|()| Answer::Course(worker.course())),
+        Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
+        Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),
+    }
+}
+
+fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".into())
+}

@@ -1,0 +1,107 @@
+//! Where the displacement of the next step is expected.
+//!
+//! After a revolution the pin faces the same columns again, and the displacement follows the same course with a drift;
+//! so it is foretold much better by the last revolutions than by the last step. A good forecast saves time and nothing
+//! else: the balance is solved exactly whatever was foretold.
+
+/// Ways to foretell: by the last step, by the change one revolution ago, and by that change and how it changed.
+const WAYS: usize = 3;
+
+/// How much of an error is forgotten in a step.
+const FORGOTTEN: f64 = 1.0 / 64.0;
+
+/// Steps before errors mean anything.
+const FIRST_STEPS: u64 = 16;
+
+/// The displacements of the last two revolutions, and how well each way would have foretold them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forecast {
+    revolution: usize,
+    /// The last displacements, m; the oldest is overwritten.
+    past: Vec<f64>,
+    /// Where the next one goes.
+    next: usize,
+    steps: u64,
+    /// Largest error of each way, slowly forgotten, m.
+    errors: [f64; WAYS],
+}
+
+impl Forecast {
+    /// Nothing known yet.
+    pub fn new(steps_per_revolution: usize) -> Self {
+        let past = vec![0.0; 2 * steps_per_revolution + 1];
+        Self { revolution: steps_per_revolution, past, next: 0, steps: 0, errors: [0.0; WAYS] }
+    }
+
+    /// The displacement `ago` steps before the next one, m; `ago` is at least 1.
+    fn ago(&self, ago: usize) -> f64 {
+        let index = self.next + self.past.len() - ago;
+        self.past[if index < self.past.len() { index } else { index - self.past.len() }]
+    }
+
+    /// What each way foretells, as far as it reaches back to known steps.
+    fn ways(&self) -> ([f64; WAYS], usize) {
+        let revolution = self.revolution as u64;
+        let known = if self.steps > 2 * revolution {
+            3
+        } else if self.steps > revolution {
+            2
+        } else {
+            usize::from(self.steps > 0)
+        };
+        let last = self.ago(1);
+        let mut ways = [last; WAYS];
+        if known > 1 {
+            let change = self.ago(self.revolution) - self.ago(self.revolution + 1);
+            ways[1] = last + change;
+            if known > 2 {
+                let before = self.ago(2 * self.revolution) - self.ago(2 * self.revolution + 1);
+                ways[2] = last + (2.0 * change - before);
+            }
+        }
+        (ways, known)
+    }
+
+    /// The displacement expected in the next step and how far it may be off, m; `overlap` is a typical overlap, m.
+    pub fn expect(&self, overlap: f64) -> (f64, f64) {
+        let (ways, known) = self.ways();
+        let best = (0..known).min_by(|a, b| self.errors[*a].total_cmp(&self.errors[*b])).unwrap_or(0);
+        let least = if self.steps < FIRST_STEPS { 0.1 * overlap } else { 1e-9 * overlap };
+        (ways[best], (1.5 * self.errors[best]).max(least))
+    }
+
+    /// Takes note of a displacement.
+    pub fn record(&mut self, displacement: f64) {
+        let (ways, known) = self.ways();
+        for (error, way) in self.errors.iter_mut().zip(&ways[..known]) {
+            *error = (*error * (1.0 - FORGOTTEN)).max((way - displacement).abs());
+        }
+        self.past[self.next] = displacement;
+        self.next = (self.next + 1) % self.past.len();
+        self.steps += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_repeats_with_a_steady_drift_is_foretold() {
+        let mut forecast = Forecast::new(10);
+        let displacement = |step: u32| f64::from(step % 10).sin() + 1e-3 * f64::from(step / 10);
+        for step in 0..40 {
+            forecast.record(displacement(step));
+        }
+        // The drift of a revolution comes as one jump at its first step, which the last revolution had as well.
+        let (expected, _) = forecast.expect(0.0);
+        assert!((expected - displacement(40)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn without_a_past_the_last_step_is_all_there_is() {
+        let mut forecast = Forecast::new(10);
+        forecast.record(3.0);
+        assert_eq!(forecast.expect(2.0), (3.0, 0.2));
+    }
+}

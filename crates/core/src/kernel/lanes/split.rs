@@ -1,0 +1,222 @@
+//! Eight cells in several registers: AVX2, and SSE2, which every x86-64 processor has.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, BitAnd, BitOr, Mul, Not, Sub};
+
+use super::{Chunk, IntegerChunk, Integers, Lanes, Mask};
+
+/// A call of an instruction of AVX2 or SSE2.
+macro_rules! call {
+    ($call:expr) => {{
+        #[allow(unsafe_code, reason = "an instruction of AVX2 or SSE2")]
+        // SAFETY: only kernels compiled for the instruction set use these types, and they run only where the processor
+        // has it; what is read or written in memory lies within a chunk behind a reference.
+        unsafe {
+            $call
+        }
+    }};
+}
+
+/// Implements [`Lanes`] by registers of `$lanes` lanes each.
+///
+/// Every operation is written out for each register: a closure would be compiled without the instruction set.
+macro_rules! split {
+    (
+        $name:ident, $mask:ident, $integers:ident: registers [$($part:literal),*] of $lanes:literal lanes,
+        floats $register:ident, words $words:ident,
+        add $add:ident, sub $sub:ident, mul $mul:ident, min $min:ident, max $max:ident, below $below:ident,
+        and $and:ident, andnot $andnot:ident, or $or:ident, select $select:ident, movemask $movemask:ident,
+        splat $splat:ident, load $load:ident, store $store:ident,
+        to_words $to_words:ident, to_floats $to_floats:ident, zero_words $zero_words:ident, splat_32 $splat_32:ident,
+        equal_32 $equal_32:ident, add_words $add_words:ident, sub_words $sub_words:ident, and_words $and_words:ident,
+        or_words $or_words:ident, load_words $load_words:ident, store_words $store_words:ident
+    ) => {
+        /// Eight numbers.
+        #[derive(Clone, Copy)]
+        pub struct $name([$register; 8 / $lanes]);
+
+        /// Eight answers, each all ones or all zeros.
+        #[derive(Clone, Copy)]
+        pub struct $mask([$register; 8 / $lanes]);
+
+        /// Eight integers.
+        #[derive(Clone, Copy)]
+        pub struct $integers([$words; 8 / $lanes]);
+
+        split!(@operator $name, Add, add, $add, [$($part),*]);
+        split!(@operator $name, Sub, sub, $sub, [$($part),*]);
+        split!(@operator $name, Mul, mul, $mul, [$($part),*]);
+        split!(@operator $mask, BitAnd, bitand, $and, [$($part),*]);
+        split!(@operator $mask, BitOr, bitor, $or, [$($part),*]);
+
+        impl Not for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                let ones = call!($to_floats($splat_32(-1)));
+                Self([$(call!($andnot(self.0[$part], ones))),*])
+            }
+        }
+
+        impl Mask for $mask {
+            #[inline(always)]
+            fn any(self) -> bool {
+                let either = call!($splat(0.0));
+                $(let either = call!($or(either, self.0[$part]));)*
+                call!($movemask(either)) != 0
+            }
+
+            #[inline(always)]
+            fn byte(self) -> u8 {
+                0 $(| (call!($movemask(self.0[$part])) as u8) << ($part * $lanes))*
+            }
+
+            #[inline(always)]
+            fn of_byte(byte: u8) -> Self {
+                // One bit for each lane, in both halves of its 64 bits.
+                const BITS: [i32; 16] = [1, 1, 2, 2, 4, 4, 8, 8, 16, 16, 32, 32, 64, 64, 128, 128];
+                let byte = call!($splat_32(i32::from(byte)));
+                $mask([$({
+                    let bits = call!($load_words(BITS[$part * $lanes * 2..][..$lanes * 2].as_ptr().cast()));
+                    call!($to_floats($equal_32($and_words(byte, bits), bits)))
+                }),*])
+            }
+        }
+
+        impl Integers for $integers {
+            type Mask = $mask;
+
+            #[inline(always)]
+            fn zero() -> Self {
+                Self([call!($zero_words()); 8 / $lanes])
+            }
+
+            #[inline(always)]
+            fn load(chunk: &IntegerChunk) -> Self {
+                Self([$(call!($load_words(chunk.0[$part * $lanes..][..$lanes].as_ptr().cast()))),*])
+            }
+
+            #[inline(always)]
+            fn store(self, chunk: &mut IntegerChunk) {
+                $(call!($store_words(chunk.0[$part * $lanes..][..$lanes].as_mut_ptr().cast(), self.0[$part]));)*
+            }
+
+            #[inline(always)]
+            fn plus(self, other: Self) -> Self {
+                Self([$(call!($add_words(self.0[$part], other.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn plus_where(self, mask: $mask, other: Self) -> Self {
+                Self([$(call!($add_words(
+                    self.0[$part],
+                    $and_words($to_words(mask.0[$part]), other.0[$part])
+                ))),*])
+            }
+
+            #[inline(always)]
+            fn count(self, mask: $mask) -> Self {
+                // A mask that says yes is −1 as an integer.
+                Self([$(call!($sub_words(self.0[$part], $to_words(mask.0[$part])))),*])
+            }
+
+            #[inline(always)]
+            fn or_where(self, mask: $mask, other: Self) -> Self {
+                Self([$(call!($or_words(
+                    self.0[$part],
+                    $and_words($to_words(mask.0[$part]), other.0[$part])
+                ))),*])
+            }
+        }
+
+        impl Lanes for $name {
+            type Mask = $mask;
+            type Integers = $integers;
+
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self([call!($splat(value)); 8 / $lanes])
+            }
+
+            #[inline(always)]
+            fn load(chunk: &Chunk) -> Self {
+                Self([$(call!($load(chunk.0[$part * $lanes..][..$lanes].as_ptr()))),*])
+            }
+
+            #[inline(always)]
+            fn store(self, chunk: &mut Chunk) {
+                $(call!($store(chunk.0[$part * $lanes..][..$lanes].as_mut_ptr(), self.0[$part]));)*
+            }
+
+            #[inline(always)]
+            fn below(self, other: Self) -> $mask {
+                $mask([$(call!($below(self.0[$part], other.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                Self([$(call!($min(self.0[$part], other.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self {
+                Self([$(call!($max(self.0[$part], other.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                Self([$(call!($select(no.0[$part], yes.0[$part], mask.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn bits(self) -> $integers {
+                $integers([$(call!($to_words(self.0[$part]))),*])
+            }
+        }
+    };
+    (@operator $kind:ident, $trait:ident, $method:ident, $instruction:ident, [$($part:literal),*]) => {
+        impl $trait for $kind {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self([$(call!($instruction(self.0[$part], other.0[$part]))),*])
+            }
+        }
+    };
+}
+
+/// a < b; AVX has one instruction for every comparison.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn below_avx2(a: __m256d, b: __m256d) -> __m256d {
+    _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)
+}
+
+/// SSE2 has no instruction that selects.
+#[target_feature(enable = "sse2")]
+#[inline]
+fn select_sse2(no: __m128d, yes: __m128d, mask: __m128d) -> __m128d {
+    _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no))
+}
+
+split! {
+    Avx2, Mask256, Integers256: registers [0, 1] of 4 lanes,
+    floats __m256d, words __m256i,
+    add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, min _mm256_min_pd, max _mm256_max_pd, below below_avx2,
+    and _mm256_and_pd, andnot _mm256_andnot_pd, or _mm256_or_pd, select _mm256_blendv_pd, movemask _mm256_movemask_pd,
+    splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
+    to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, zero_words _mm256_setzero_si256,
+    splat_32 _mm256_set1_epi32, equal_32 _mm256_cmpeq_epi32, add_words _mm256_add_epi64, sub_words _mm256_sub_epi64,
+    and_words _mm256_and_si256, or_words _mm256_or_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
+}
+
+split! {
+    Sse2, Mask128, Integers128: registers [0, 1, 2, 3] of 2 lanes,
+    floats __m128d, words __m128i,
+    add _mm_add_pd, sub _mm_sub_pd, mul _mm_mul_pd, min _mm_min_pd, max _mm_max_pd, below _mm_cmplt_pd,
+    and _mm_and_pd, andnot _mm_andnot_pd, or _mm_or_pd, select select_sse2, movemask _mm_movemask_pd,
+    splat _mm_set1_pd, load _mm_loadu_pd, store _mm_storeu_pd,
+    to_words _mm_castpd_si128, to_floats _mm_castsi128_pd, zero_words _mm_setzero_si128,
+    splat_32 _mm_set1_epi32, equal_32 _mm_cmpeq_epi32, add_words _mm_add_epi64, sub_words _mm_sub_epi64,
+    and_words _mm_and_si128, or_words _mm_or_si128, load_words _mm_loadu_si128, store_words _mm_storeu_si128
+}

@@ -1,0 +1,65 @@
+//! Reads columns of pairs against a bracket, without changing them (model 4.1).
+
+use super::instructions::kernel;
+use super::lanes::{Lanes, Mask};
+use super::pairs::Pairs;
+use super::reading::{Bracket, BracketLanes, Reading, StripReading};
+use crate::strips::{DiscSector, PinStrips};
+
+/// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// First column of the pin.
+    pub first: usize,
+    /// First column of the sector.
+    pub over: usize,
+    /// How many columns.
+    pub columns: usize,
+}
+
+kernel! {
+    /// Reads the pairs of a span against a bracket; `DISTINCT` tells whether build-up has properties of its own.
+    pub fn read<const DISTINCT>(
+        pin: &PinStrips,
+        disc: &DiscSector,
+        span: Span,
+        bracket: &Bracket,
+        reading: &mut Reading,
+    ) = read_strips
+}
+
+#[inline(always)]
+fn read_strips<L: Lanes, const DISTINCT: bool>(
+    pin: &PinStrips,
+    disc: &DiscSector,
+    span: Span,
+    bracket: &Bracket,
+    reading: &mut Reading,
+) {
+    let bracket = BracketLanes::<L>::new(bracket);
+    let nothing = L::Mask::of_byte(0);
+    for strip in 0..pin.height.strips() {
+        let pin_height = &pin.height.strip(strip)[span.first..][..span.columns];
+        let resin = &pin.resin(strip)[span.first..][..span.columns];
+        let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
+        let pin_substrate = pin.substrate.as_ref().map(|field| &field.strip(strip)[span.first..][..span.columns]);
+        let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
+        let mut sums = StripReading::<L, DISTINCT>::new();
+        for column in 0..span.columns {
+            let (z_p, z_d) = (L::load(&pin_height[column]), L::load(&disc_height[column]));
+            let pairs = Pairs {
+                on_resin: L::Mask::of_byte(resin[column]),
+                pin_secondary: match pin_substrate {
+                    Some(substrate) => z_p.below(L::load(&substrate[column])),
+                    None => nothing,
+                },
+                disc_secondary: match disc_substrate {
+                    Some(substrate) if DISTINCT => L::load(&substrate[column]).below(z_d),
+                    _ => nothing,
+                },
+            };
+            sums.add(z_p - z_d, pairs, &bracket, strip, reading);
+        }
+        sums.store(strip, reading);
+    }
+}

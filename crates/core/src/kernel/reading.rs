@@ -1,0 +1,191 @@
+//! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
+
+use super::lanes::{Chunk, Integers, Lanes, Mask};
+use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
+use crate::exact::{Quantum, RowIntegers};
+use crate::pair::Pair;
+
+/// Displacements between which the next load balance is expected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bracket {
+    /// Its lower end, m.
+    pub low: f64,
+    /// How far it reaches, m.
+    pub width: f64,
+    /// Of which overlaps at the lower end are multiples.
+    pub quantum: Quantum,
+}
+
+/// A pair that touches at some displacements of the bracket and not at others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearPair {
+    /// g, m.
+    pub gap: f64,
+    /// Its row.
+    pub row: u32,
+    /// Its [`Pair::index`].
+    pub pair: u8,
+}
+
+/// The pairs of a step against a bracket, by pair of statuses and row.
+///
+/// What a pair carries and loses is proportional to its overlap, with a coefficient of its statuses and row: so sums of
+/// overlaps stand for the cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Cells that touch at the lower end.
+    pub touching: [RowIntegers; Pair::COUNT],
+    /// Σ (low − g) over them in quanta, plus the anchor's bits for each.
+    pub overlap: [RowIntegers; Pair::COUNT],
+    /// Pairs with low ≤ g < low + width.
+    pub near: Vec<NearPair>,
+    /// Bits of every anchored overlap together: shows any that is out of the quantum's range.
+    pub range: i64,
+}
+
+impl Reading {
+    /// Nothing read. Where build-up has the properties of what it lies on, only two pairs are told apart.
+    pub fn new(strips: usize, distinct: bool) -> Self {
+        let rows = |pair| RowIntegers::new(if told_apart(distinct).contains(&pair) { strips } else { 0 });
+        Self {
+            touching: std::array::from_fn(rows),
+            overlap: std::array::from_fn(rows),
+            near: Vec::new(),
+            range: 0,
+        }
+    }
+
+    /// Starts anew.
+    pub fn clear(&mut self) {
+        self.touching.iter_mut().chain(&mut self.overlap).for_each(RowIntegers::clear);
+        self.near.clear();
+        self.range = 0;
+    }
+
+    /// Whether an overlap was too large for the quantum.
+    pub fn is_out_of_range(&self, quantum: Quantum) -> bool {
+        // Within the range, sign and exponent are those of the anchor.
+        (self.range | quantum.anchor_bits()) >> 52 != quantum.anchor_bits() >> 52
+    }
+}
+
+/// The indices of the pairs that are told apart.
+pub fn told_apart(distinct: bool) -> &'static [usize] {
+    if distinct { &[0, 1, 2, 3, 4, 5] } else { &PLAIN_PAIRS }
+}
+
+/// A bracket for eight cells at a time.
+#[derive(Clone, Copy)]
+pub(super) struct BracketLanes<L> {
+    low: L,
+    width: L,
+    anchor: L,
+    zero: L,
+}
+
+impl<L: Lanes> BracketLanes<L> {
+    #[inline(always)]
+    pub fn new(bracket: &Bracket) -> Self {
+        Self {
+            low: L::splat(bracket.low),
+            width: L::splat(bracket.width),
+            anchor: L::splat(bracket.quantum.anchor()),
+            zero: L::splat(0.0),
+        }
+    }
+}
+
+/// The sums of a strip while it is swept.
+#[derive(Clone, Copy)]
+pub(super) struct StripReading<L: Lanes, const DISTINCT: bool> {
+    touching: [L::Integers; Pair::COUNT],
+    overlap: [L::Integers; Pair::COUNT],
+    range: L::Integers,
+}
+
+impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
+    /// Nothing read.
+    #[inline(always)]
+    pub fn new() -> Self {
+        let zero = L::Integers::zero();
+        Self { touching: [zero; Pair::COUNT], overlap: [zero; Pair::COUNT], range: zero }
+    }
+
+    /// Reads eight pairs: gap g = z_p − z_d against the bracket.
+    #[inline(always)]
+    pub fn add(
+        &mut self,
+        gap: L,
+        pairs: Pairs<L>,
+        bracket: &BracketLanes<L>,
+        strip: usize,
+        reading: &mut Reading,
+    ) {
+        let beyond = gap - bracket.low;
+        let touches = beyond.below(bracket.zero);
+        let overlap = (bracket.anchor - beyond).bits();
+        self.range = self.range.or_where(touches, overlap);
+        if DISTINCT {
+            let mut pair = 0;
+            while pair < Pair::COUNT {
+                let these = touches & pairs.are(pair);
+                self.touching[pair] = self.touching[pair].count(these);
+                self.overlap[pair] = self.overlap[pair].plus_where(these, overlap);
+                pair += 1;
+            }
+        } else {
+            let resin = touches & pairs.resin();
+            let plateau = touches & !pairs.resin();
+            self.touching[PLATEAU] = self.touching[PLATEAU].count(plateau);
+            self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(plateau, overlap);
+            if resin.any() {
+                let touching = &mut reading.touching[RESIN].0[strip];
+                L::Integers::load(touching).count(resin).store(touching);
+                let sum = &mut reading.overlap[RESIN].0[strip];
+                L::Integers::load(sum).plus_where(resin, overlap).store(sum);
+            }
+        }
+        let near = beyond.below(bracket.width) & !touches;
+        if near.any() {
+            let mut gaps = Chunk([0.0; 8]);
+            gap.store(&mut gaps);
+            let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
+            note_near::<DISTINCT>(&mut reading.near, &gaps, near.byte(), statuses, strip);
+        }
+    }
+
+    /// Adds the sums of the strip to the others.
+    #[inline(always)]
+    pub fn store(self, strip: usize, reading: &mut Reading) {
+        let mut pair = 0;
+        while pair < Pair::COUNT {
+            if DISTINCT || pair == PLATEAU {
+                let touching = &mut reading.touching[pair].0[strip];
+                L::Integers::load(touching).plus(self.touching[pair]).store(touching);
+                let overlap = &mut reading.overlap[pair].0[strip];
+                L::Integers::load(overlap).plus(self.overlap[pair]).store(overlap);
+            }
+            pair += 1;
+        }
+        let mut range = super::lanes::IntegerChunk([0; 8]);
+        self.range.store(&mut range);
+        reading.range |= range.0.iter().fold(0, |bits, lane| bits | lane);
+    }
+}
+
+/// Notes the few pairs of which the bracket does not say whether they touch.
+#[cold]
+#[inline(never)]
+fn note_near<const DISTINCT: bool>(
+    near: &mut Vec<NearPair>,
+    gaps: &Chunk,
+    lanes: u8,
+    statuses: [u8; 3],
+    strip: usize,
+) {
+    near.extend(lanes_of(lanes).map(|lane| NearPair {
+        gap: gaps.0[lane],
+        row: (strip * 8 + lane) as u32,
+        pair: pair_of_lane(lane, DISTINCT, statuses),
+    }));
+}

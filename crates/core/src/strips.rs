@@ -1,0 +1,244 @@
+//! Storage of disc and pin as the kernels want it: strips of eight rows, each strip column by column.
+//!
+//! A strip of a column is one [`Chunk`]; a sweep along a strip reads and writes memory from one end to the other. Rows
+//! beyond the mesh fill up the last strip: the pin's are so high that they never touch.
+
+use crate::kernel::{Chunk, LANES};
+use crate::mesh::Mesh;
+use crate::state::Base;
+
+/// Height of pin cells that are there only to fill up the last strip, m: out of reach of any disc.
+const OUT_OF_REACH: f64 = 1e200;
+
+/// Number of strips that hold `rows` rows.
+pub fn strips(rows: usize) -> usize {
+    rows.div_ceil(LANES)
+}
+
+/// Values by row, in chunks; `filler` fills up the last.
+pub fn chunks(rows: &[f64], filler: f64) -> Vec<Chunk> {
+    let chunk = |values: &[f64]| {
+        let mut chunk = Chunk([filler; LANES]);
+        chunk.0[..values.len()].copy_from_slice(values);
+        chunk
+    };
+    rows.chunks(LANES).map(chunk).collect()
+}
+
+/// A field of heights over some columns, m.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strips {
+    rows: usize,
+    columns: usize,
+    chunks: Vec<Chunk>,
+}
+
+impl Strips {
+    /// The same height everywhere.
+    pub fn new(rows: usize, columns: usize, height: f64) -> Self {
+        Self { rows, columns, chunks: vec![Chunk([height; LANES]); strips(rows) * columns] }
+    }
+
+    /// A field given column by column; `filler` fills up the last strip.
+    pub fn of_columns(rows: usize, heights: &[f64], filler: f64) -> Self {
+        let mut field = Self::new(rows, heights.len() / rows, filler);
+        for (column, heights) in heights.chunks_exact(rows).enumerate() {
+            field.set_column(column, heights);
+        }
+        field
+    }
+
+    /// Number of strips.
+    pub fn strips(&self) -> usize {
+        strips(self.rows)
+    }
+
+    /// A strip, column by column.
+    pub fn strip(&self, strip: usize) -> &[Chunk] {
+        &self.chunks[strip * self.columns..][..self.columns]
+    }
+
+    /// A strip, column by column, to change.
+    pub fn strip_mut(&mut self, strip: usize) -> &mut [Chunk] {
+        &mut self.chunks[strip * self.columns..][..self.columns]
+    }
+
+    /// The rows of a column.
+    pub fn column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+        let chunks = self.chunks.iter().skip(column).step_by(self.columns);
+        chunks.flat_map(|chunk| chunk.0).take(self.rows)
+    }
+
+    /// Changes the rows of a column.
+    pub fn set_column(&mut self, column: usize, heights: &[f64]) {
+        for (chunk, heights) in self.chunks.iter_mut().skip(column).step_by(self.columns).zip(heights.chunks(LANES)) {
+            chunk.0[..heights.len()].copy_from_slice(heights);
+        }
+    }
+}
+
+/// The pin, with a column of resin behind its last, which has nothing before it (model section 1).
+///
+/// A worker's pin is as wide as the whole pin, but only the columns over its own sectors are up to date.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PinStrips {
+    /// z_p, m.
+    pub height: Strips,
+    /// b_p, m; without formation a pin has no build-up, and b_p = z_p is not kept.
+    pub substrate: Option<Strips>,
+    /// Which rows of a strip are resin, one bit each.
+    resin: Vec<u8>,
+    columns: usize,
+}
+
+impl PinStrips {
+    /// The pin before the first step.
+    pub fn new(mesh: &Mesh, heights: &[f64], base: &[Base], builds_up: bool) -> Self {
+        let (rows, columns) = (mesh.rows(), mesh.pin_columns() + 1);
+        let mut height = Strips::new(rows, columns, OUT_OF_REACH);
+        let mut resin = vec![0; strips(rows) * columns];
+        for column in 0..columns - 1 {
+            let cells = mesh.column(column);
+            height.set_column(column, &heights[cells.clone()]);
+            for (row, base) in base[cells].iter().enumerate() {
+                resin[row / LANES * columns + column] |= u8::from(base.is_resin()) << (row % LANES);
+            }
+        }
+        for strip in resin.chunks_exact_mut(columns) {
+            strip[columns - 1] = u8::MAX;
+        }
+        Self { substrate: builds_up.then(|| height.clone()), height, resin, columns }
+    }
+
+    /// Which rows of a strip are resin, column by column.
+    pub fn resin(&self, strip: usize) -> &[u8] {
+        &self.resin[strip * self.columns..][..self.columns]
+    }
+
+    /// Some columns of a strip: z_p, b_p (none where it is not kept), and which rows are resin.
+    pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> (&mut [Chunk], &mut [Chunk], &[u8]) {
+        let substrate = match &mut self.substrate {
+            Some(substrate) => &mut substrate.strip_mut(strip)[first..][..columns],
+            None => &mut [],
+        };
+        let resin = &self.resin[strip * self.columns..][first..][..columns];
+        (&mut self.height.strip_mut(strip)[first..][..columns], substrate, resin)
+    }
+
+    /// Whether a cell's base is resin.
+    pub fn is_resin(&self, row: usize, column: usize) -> bool {
+        self.resin(row / LANES)[column] >> (row % LANES) & 1 == 1
+    }
+
+    /// The rows of a column of b_p.
+    pub fn substrate_column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+        self.substrate.as_ref().unwrap_or(&self.height).column(column)
+    }
+
+    /// Words of a column on its way to another worker: see [`PinStrips::write_crossing`].
+    pub fn crossing_words(mesh: &Mesh) -> usize {
+        2 * mesh.rows() + strips(mesh.rows()).div_ceil(LANES)
+    }
+
+    /// Writes a column that crosses to another worker, and which cells of the next column have build-up: the status of
+    /// the next column is all that the other worker needs of it.
+    pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
+        words.clear();
+        words.extend(self.height.column(column).map(f64::to_bits));
+        words.extend(self.substrate_column(column).map(f64::to_bits));
+        let statuses = (0..self.height.strips()).map(|strip| self.built_up(strip, column + 1));
+        let mut bytes = statuses.collect::<Vec<u8>>();
+        bytes.resize(bytes.len().next_multiple_of(LANES), 0);
+        words.extend(bytes.chunks_exact(LANES).map(|bytes| {
+            bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))
+        }));
+    }
+
+    /// Takes over a column that another worker wrote with [`PinStrips::write_crossing`].
+    pub fn read_crossing(&mut self, column: usize, words: &[u64]) {
+        let rows = self.height.rows;
+        let heights: Vec<f64> = words[..2 * rows].iter().map(|bits| f64::from_bits(*bits)).collect();
+        self.height.set_column(column, &heights[..rows]);
+        let Some(substrate) = &mut self.substrate else { return };
+        substrate.set_column(column, &heights[rows..]);
+        if column + 2 == self.columns {
+            return;
+        }
+        let bytes = words[2 * rows..].iter().flat_map(|word| word.to_le_bytes());
+        for (strip, byte) in bytes.take(substrate.strips()).enumerate() {
+            // Any build-up gives the status: here it is one of 1 m.
+            let built_up = |lane| if byte >> lane & 1 == 1 { 1.0 } else { 0.0 };
+            substrate.strip_mut(strip)[column + 1] = Chunk(std::array::from_fn(built_up));
+            self.height.strip_mut(strip)[column + 1] = Chunk([0.0; LANES]);
+        }
+    }
+
+    /// Which rows of a strip have build-up in a column, one bit each.
+    fn built_up(&self, strip: usize, column: usize) -> u8 {
+        let Some(substrate) = &self.substrate else { return 0 };
+        let cells = self.height.strip(strip)[column].0.into_iter().zip(substrate.strip(strip)[column].0);
+        cells.enumerate().fold(0, |byte, (lane, (height, substrate))| byte | u8::from(height < substrate) << lane)
+    }
+}
+
+/// A sector of the disc: the columns from `first` on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiscSector {
+    /// Its first column on the ring.
+    pub first: usize,
+    /// Its columns.
+    pub columns: usize,
+    /// z_d, m.
+    pub height: Strips,
+    /// b_d, m; where neither build-up nor wear ever parts them, b_d = z_d is not kept.
+    pub substrate: Option<Strips>,
+}
+
+impl DiscSector {
+    /// A sector before the first step; `changes` tells whether anything ever happens to the disc.
+    pub fn new(rows: usize, first: usize, heights: &[f64], changes: bool) -> Self {
+        let height = Strips::of_columns(rows, heights, 0.0);
+        Self { first, columns: height.columns, substrate: changes.then(|| height.clone()), height }
+    }
+
+    /// A strip of z_d and of b_d (none where it is not kept).
+    pub fn strip_mut(&mut self, strip: usize) -> (&mut [Chunk], &mut [Chunk]) {
+        let substrate = match &mut self.substrate {
+            Some(substrate) => substrate.strip_mut(strip),
+            None => &mut [],
+        };
+        (self.height.strip_mut(strip), substrate)
+    }
+
+    /// The rows of a column of b_d.
+    pub fn substrate_column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+        self.substrate.as_ref().unwrap_or(&self.height).column(column)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_crosses_with_the_status_of_the_next() {
+        let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
+        let heights: Vec<f64> = (0..33).map(f64::from).collect();
+        let base = vec![Base::None; 33];
+        let mut from = PinStrips::new(&mesh, &heights, &base, true);
+        let mut to = from.clone();
+        let built_up = |row: usize| row % 3 == 0;
+        let next: Vec<f64> = (0..11).map(|row| 22.0 + row as f64 - if built_up(row) { 1e-9 } else { 0.0 }).collect();
+        from.height.set_column(1, &[7.0; 11]);
+        from.height.set_column(2, &next);
+        let mut words = Vec::new();
+        from.write_crossing(1, &mut words);
+        assert_eq!(words.len(), PinStrips::crossing_words(&mesh));
+        to.read_crossing(1, &words);
+        assert!(to.height.column(1).eq([7.0; 11]));
+        assert!(to.substrate_column(1).eq((11..22).map(f64::from)));
+        let statuses: Vec<bool> =
+            to.height.column(2).zip(to.substrate_column(2)).map(|(height, substrate)| height < substrate).collect();
+        assert_eq!(statuses, (0..11).map(built_up).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,109 @@
+//! Finding the displacement of a step (model 4.1).
+
+use super::Worker;
+use crate::comm::Communicator;
+use crate::contact::{ContactError, Verdict};
+use crate::kernel::{Bracket, Span, read};
+use crate::pair::Pair;
+use crate::sector::Segment;
+use crate::simulation::SimulationError;
+use crate::state::pin_status;
+
+/// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
+const MOST_READINGS: u32 = 200;
+
+/// Bits by which the quantum of overlaps is made coarser when one is out of its range.
+const COARSER: i32 = 12;
+
+impl<C: Communicator> Worker<C> {
+    /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs.
+    pub(super) fn balance(&mut self) -> Result<(), SimulationError> {
+        let (step, normal_force) = (self.course.steps + 1, self.parameters.normal_force);
+        let mut bracket = match self.bracket {
+            Some(bracket) => bracket,
+            None => self.read_around_first_contact()?,
+        };
+        for _ in 0..MOST_READINGS {
+            if self.reading.is_out_of_range(bracket.quantum) {
+                self.quantum = self.quantum.coarser(COARSER);
+                bracket.quantum = self.quantum;
+                self.read_columns(&bracket)?;
+                continue;
+            }
+            let verdict = self.contact.balance(&mut self.reading, &bracket, normal_force);
+            match verdict.map_err(|source| SimulationError::Contact { step, source })? {
+                Verdict::Solved => {
+                    self.course.displacement = self.contact.displacement();
+                    self.course.load_residual = self.contact.residual();
+                    self.course.largest_load_residual =
+                        self.course.largest_load_residual.max(self.course.load_residual);
+                    return Ok(());
+                }
+                Verdict::Between(low, high) => {
+                    bracket = Bracket { low, width: high - low, ..bracket };
+                    self.read_columns(&bracket)?;
+                }
+                Verdict::Apart => bracket = self.read_around_first_contact()?,
+            }
+        }
+        let source = ContactError::NotCarried { displacement: bracket.low, normal_force };
+        Err(SimulationError::Contact { step, source })
+    }
+
+    /// Reads the pairs at the displacement at which the first cell would carry the load alone: it is never below the
+    /// solution.
+    fn read_around_first_contact(&mut self) -> Result<Bracket, SimulationError> {
+        let normal_force = self.parameters.normal_force;
+        let mut least = f64::INFINITY;
+        self.for_each_pair(|row, _, gap, pair| {
+            least = least.min(gap + normal_force / self.coefficients.stiffness[pair][row]);
+        });
+        let own = least.to_bits();
+        self.communicator.all_gather(&[own], &mut |_, words| least = least.min(f64::from_bits(words[0])))?;
+        let bracket = Bracket { low: least, width: 0.0, quantum: self.quantum };
+        self.read_columns(&bracket)?;
+        Ok(bracket)
+    }
+
+    /// Reads all own pairs of the coming step against a bracket, and gathers what the others read.
+    fn read_columns(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+        self.course.extra_readings += 1;
+        self.reading.clear();
+        let read = if self.needs.distinct { read::<true> } else { read::<false> };
+        for Segment { sector, pin, over } in self.partition.segments(self.first()) {
+            let Some(sector) = &self.sectors[sector] else { continue };
+            let span = Span { first: pin.start, over, columns: pin.len() };
+            read(self.instructions, &self.pin, sector, span, bracket, &mut self.reading);
+        }
+        self.gather(false)
+    }
+
+    /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin.
+    fn for_each_pair(&self, mut each: impl FnMut(usize, usize, f64, usize)) {
+        for Segment { sector, pin, over } in self.partition.segments(self.first()) {
+            let Some(sector) = &self.sectors[sector] else { continue };
+            for (offset, column) in pin.enumerate() {
+                let pin_cells = self.pin.height.column(column).zip(self.pin.substrate_column(column));
+                let disc_cells = sector.height.column(over + offset).zip(sector.substrate_column(over + offset));
+                for (row, ((z_p, b_p), (z_d, b_d))) in pin_cells.zip(disc_cells).enumerate() {
+                    let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
+                    each(row, column, z_p - z_d, Pair::new(status, z_d > b_d).index());
+                }
+            }
+        }
+    }
+
+    /// p = k u of every own cell under the pin.
+    pub(super) fn record_pressures(&mut self) {
+        let mut pressure = std::mem::take(&mut self.pressure);
+        let mesh = &self.parameters.mesh;
+        pressure.resize(mesh.pin_cells(), 0.0);
+        let displacement = self.contact.displacement();
+        self.for_each_pair(|row, column, gap, pair| {
+            let overlap = displacement - gap;
+            let stiffness = self.coefficients.stiffness[pair][row] / mesh.area()[row];
+            pressure[mesh.column(column).start + row] = if overlap > 0.0 { stiffness * overlap } else { 0.0 };
+        });
+        self.pressure = pressure;
+    }
+}

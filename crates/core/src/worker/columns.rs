@@ -1,0 +1,100 @@
+//! Sweeping the worker's columns, and handing on those that cross a boundary between sectors.
+
+use super::Worker;
+use crate::comm::Communicator;
+use crate::kernel::{Bracket, Conditions, Span, read};
+use crate::sector::Segment;
+use crate::simulation::SimulationError;
+
+/// Columns that are swept before the first of a segment is handed on: that one, and the one whose status goes with it.
+const FIRST_COLUMNS: usize = 2;
+
+impl<C: Communicator> Worker<C> {
+    /// Wear, destruction and formation in every own column (model 4.2 to 4.4), and the pairs of the next step against
+    /// where its displacement is expected.
+    ///
+    /// The pin column over the first disc column of a sector lies over the sector before in the next step. It is swept
+    /// first and handed on at once; the worker that gets it needs it last.
+    pub(super) fn sweep_columns(&mut self) -> Result<(), SimulationError> {
+        self.reading.clear();
+        self.moved.clear();
+        let (expected, uncertainty) = self.forecast.expect(self.contact.mean_overlap());
+        let bracket = Bracket { low: expected - uncertainty, width: 2.0 * uncertainty, quantum: self.quantum };
+        let partition = self.partition.clone();
+        let first = self.first();
+        let own = self.communicator.rank();
+        let is_alone = self.communicator.size() == 1;
+        if !is_alone {
+            for segment in partition.segments_of(own, first) {
+                let columns = FIRST_COLUMNS.min(segment.pin.len());
+                self.sweep_span(&segment, 0..columns, bracket);
+                self.hand_on(&segment)?;
+            }
+        }
+        for segment in partition.segments_of(own, first) {
+            let swept = if is_alone { 0 } else { FIRST_COLUMNS.min(segment.pin.len()) };
+            self.sweep_span(&segment, swept..segment.pin.len(), bracket);
+        }
+        for entering in partition.entering(first) {
+            if self.sectors[entering.sector].is_none() {
+                continue;
+            }
+            if self.sectors[entering.from].is_none() {
+                self.take_over(entering.from, entering.pin)?;
+            }
+            let Some(sector) = &self.sectors[entering.sector] else { continue };
+            let span = Span { first: entering.pin, over: entering.over, columns: 1 };
+            let read = if self.needs.distinct { read::<true> } else { read::<false> };
+            read(self.instructions, &self.pin, sector, span, &bracket, &mut self.reading);
+        }
+        self.bracket = Some(bracket);
+        Ok(())
+    }
+
+    /// Sweeps some columns of a segment.
+    fn sweep_span(&mut self, segment: &Segment, columns: std::ops::Range<usize>, bracket: Bracket) {
+        let Some(sector) = &mut self.sectors[segment.sector] else { return };
+        let conditions = Conditions {
+            displacement: self.contact.displacement(),
+            share: self.debris.share(),
+            deposits: self.debris.deposits(),
+            losses: self.debris.losses(self.quantum),
+            bracket,
+        };
+        let span = Span {
+            first: segment.pin.start + columns.start,
+            over: segment.over + columns.start,
+            columns: columns.len(),
+        };
+        (self.sweep)(
+            self.instructions,
+            &self.rules,
+            &conditions,
+            &mut self.pin,
+            sector,
+            span,
+            columns.start > 0,
+            &mut self.moved,
+            &mut self.reading,
+        );
+    }
+
+    /// Hands the first pin column of a segment to the worker over whose sector it lies in the next step.
+    fn hand_on(&mut self, segment: &Segment) -> Result<(), SimulationError> {
+        let before = self.partition.before(segment.sector);
+        let to = self.partition.owner(before);
+        if segment.over == 0 && to != self.communicator.rank() {
+            self.pin.write_crossing(segment.pin.start, &mut self.halo);
+            self.communicator.send_halo(segment.sector, to, &self.halo)?;
+        }
+        Ok(())
+    }
+
+    /// Takes over a pin column that another worker has swept.
+    fn take_over(&mut self, from: usize, column: usize) -> Result<(), SimulationError> {
+        self.halo.resize(crate::strips::PinStrips::crossing_words(&self.parameters.mesh), 0);
+        self.communicator.receive_halo(from, self.partition.owner(from), &mut self.halo)?;
+        self.pin.read_crossing(column, &self.halo);
+        Ok(())
+    }
+}

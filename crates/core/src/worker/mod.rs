@@ -1,0 +1,179 @@
+//! One worker: its sectors of the disc, the pin's columns over them, and the step that all workers take together.
+//!
+//! Every worker knows the displacement, the pools and all sums, and computes them alike; what differs is which cells it
+//! sweeps.
+
+mod balance;
+mod columns;
+mod gather;
+mod report;
+
+use std::sync::Arc;
+
+use crate::comm::Communicator;
+use crate::contact::Contact;
+use crate::debris::Debris;
+use crate::exact::Quantum;
+use crate::filling::Filling;
+use crate::forecast::Forecast;
+use crate::history::History;
+use crate::kernel::{Bracket, InstructionSet, Moved, Reading, Rules, Sweep, sweep};
+use crate::pair::Coefficients;
+use crate::parameters::Parameters;
+use crate::parts::Needs;
+use crate::sector::Partition;
+use crate::simulation::SimulationError;
+use crate::state::InitialSurfaces;
+use crate::strips::{DiscSector, PinStrips, strips};
+
+/// What the steps so far were like.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Course {
+    /// Steps done.
+    pub steps: u64,
+    /// δ of the last step, m.
+    pub displacement: f64,
+    /// Contact area of the last step, m².
+    pub contact_area: f64,
+    /// Load residual of the last step.
+    pub load_residual: f64,
+    /// Largest load residual of any step.
+    pub largest_load_residual: f64,
+    /// Passes over the pin beyond one a step: each is a bracket that missed the displacement.
+    pub extra_readings: u64,
+}
+
+/// A worker.
+#[derive(Debug)]
+pub(crate) struct Worker<C> {
+    communicator: C,
+    parameters: Arc<Parameters>,
+    partition: Arc<Partition>,
+    needs: Needs,
+    instructions: InstructionSet,
+    sweep: Sweep,
+    rules: Rules,
+    coefficients: Coefficients,
+    /// Of which overlaps are counted as multiples.
+    quantum: Quantum,
+    pin: PinStrips,
+    /// The worker's own sectors, by their number.
+    sectors: Vec<Option<DiscSector>>,
+    contact: Contact,
+    forecast: Forecast,
+    debris: Debris,
+    history: History,
+    filling: Filling,
+    /// Where the displacement of the coming step is expected; none before the first step.
+    bracket: Option<Bracket>,
+    /// The pairs of the coming step against it.
+    reading: Reading,
+    /// What the last sweep moved.
+    moved: Moved,
+    message: Vec<u64>,
+    halo: Vec<u64>,
+    /// p of the own pin cells in the last watched step, column by column, Pa; empty if none was.
+    pressure: Vec<f64>,
+    course: Course,
+    /// Columns by which the disc was turned before the first step.
+    turned: u64,
+}
+
+impl<C: Communicator> Worker<C> {
+    /// One worker of those that `communicator` connects, at t = 0, over a disc turned by `turned` columns.
+    pub fn new(
+        parameters: Arc<Parameters>,
+        surfaces: &InitialSurfaces,
+        partition: Arc<Partition>,
+        instructions: InstructionSet,
+        turned: u64,
+        communicator: C,
+    ) -> Self {
+        let mesh = &parameters.mesh;
+        let needs = Needs::of(&parameters);
+        let coefficients = Coefficients::new(&parameters);
+        let own = |sector| {
+            let columns = partition.columns(sector);
+            let heights = &surfaces.disc_height[columns.start * mesh.rows()..columns.end * mesh.rows()];
+            let is_own = partition.owner(sector) == communicator.rank();
+            is_own.then(|| DiscSector::new(mesh.rows(), columns.start, heights, needs.forms))
+        };
+        let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
+        let rows = strips(mesh.rows());
+        Self {
+            needs,
+            instructions,
+            sweep: sweep(needs),
+            rules: Rules::new(&parameters, &coefficients),
+            contact: Contact::new(mesh, &coefficients.stiffness, needs.distinct),
+            quantum: Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness()),
+            pin: PinStrips::new(mesh, &surfaces.pin_height, &surfaces.pin_base, needs.forms),
+            forecast: Forecast::new(mesh.disc_columns()),
+            debris: Debris::new(&parameters, &coefficients),
+            history: History::new(mesh.disc_columns()),
+            filling: Filling::new(mesh, surfaces, sectors.iter().flatten()),
+            bracket: None,
+            reading: Reading::new(rows, needs.distinct),
+            moved: Moved::new(rows, needs.forms, needs.distinct),
+            message: Vec::new(),
+            halo: Vec::new(),
+            pressure: Vec::new(),
+            course: Course::default(),
+            turned,
+            coefficients,
+            sectors,
+            partition,
+            communicator,
+            parameters,
+        }
+    }
+
+    /// Takes steps until `step` of them are done; the last is watched, for a sample or maps to follow.
+    pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
+        while self.course.steps < step {
+            self.advance(self.course.steps + 1 == step)?;
+        }
+        Ok(())
+    }
+
+    /// One step:
+    ///
+    /// | model | what happens | where |
+    /// |---|---|---|
+    /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
+    /// | 4.4 | debris at hand for each open cell | [`Debris::spread`] |
+    /// | 4.2 to 4.4 | wear, destruction and formation in every cell | [`crate::wear`], [`crate::plateau`] |
+    /// | 4.1 | the pairs of the next step against where its displacement is expected | [`crate::kernel`] |
+    /// | 4.5 | debris balance | [`Debris::settle`] |
+    /// | 4.6 | the disc turns by one column | |
+    fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
+        self.balance()?;
+        if watched {
+            self.record_pressures();
+        }
+        self.debris.spread(self.contact.touching());
+        self.forecast.record(self.contact.displacement());
+        self.sweep_columns()?;
+        self.gather(true)?;
+        self.debris.settle(&self.contact, &self.moved, self.debris.losses(self.quantum));
+        self.course.contact_area = self.contact.area(&self.parameters.mesh);
+        self.history.record(self.course.contact_area, self.parameters.step_time());
+        self.course.steps += 1;
+        Ok(())
+    }
+
+    /// The disc column under pin column 0 in the coming step.
+    fn first(&self) -> usize {
+        self.parameters.mesh.disc_column(0, self.turned + self.course.steps)
+    }
+
+    /// The disc column under pin column 0 in the last step; before the first, in that.
+    fn last_first(&self) -> usize {
+        self.parameters.mesh.disc_column(0, self.turned + self.course.steps.saturating_sub(1))
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        self.course
+    }
+}

@@ -1,0 +1,194 @@
+//! Samples and maps of what all workers have (model section 5).
+
+use super::Worker;
+use crate::comm::Communicator;
+use crate::exact::{Exact, dot};
+use crate::material::Status;
+use crate::observe::{Map, MapValues, Sample, Snapshot};
+use crate::sector::Segment;
+use crate::simulation::SimulationError;
+use crate::state::{disc_status, pin_status};
+use crate::strips::DiscSector;
+
+impl<C: Communicator> Worker<C> {
+    /// t, s.
+    pub fn time(&self) -> f64 {
+        self.parameters.time_at(self.course.steps)
+    }
+
+    /// The reported quantities after the last step.
+    pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        let parameters = self.parameters.clone();
+        let mesh = &parameters.mesh;
+        self.filling.update(mesh, self.sectors.iter().flatten(), self.last_first(), self.course.steps);
+        let own = self.own_part();
+        let mut rest = OwnPart { largest_pressure: 0.0, pin: vec![0; own.pin.len()], ..OwnPart::default() };
+        self.communicator.all_gather(&own.words(), &mut |_, words| rest.add(words))?;
+        let OwnPart { largest_pressure, open_volume, secondary_area, pin } = rest;
+        let coverage: Vec<f64> = pin
+            .chunks_exact(mesh.rows())
+            .map(|rows| dot(&rows.iter().map(|count| *count as f64).collect::<Vec<_>>(), mesh.area()) / mesh.pin_area())
+            .collect();
+        let contact_area = self.contact.area(mesh);
+        let totals = self.debris.totals();
+        Ok(Sample {
+            step: self.course.steps,
+            time: self.time(),
+            displacement: self.contact.displacement(),
+            contact_area,
+            contact_area_mean: self.history.revolution_mean(),
+            contact_area_integral: self.history.integral(),
+            sliding_distance: self.time() * parameters.angular_velocity * mesh.mean_radius(),
+            contact_ratio: contact_area / mesh.pin_area(),
+            mean_pressure: if contact_area > 0.0 { self.contact.load() / contact_area } else { 0.0 },
+            max_pressure: largest_pressure,
+            worn_pin: totals.worn_pin.value(),
+            worn_resin: totals.worn_resin.value(),
+            worn_disc: totals.worn_disc.value(),
+            // Rounding may leave a trace of debt in an emptied pool; the balance residual takes it as it is.
+            pool: self.debris.pool().max(0.0),
+            emitted: totals.emitted.value(),
+            deposited_pin: totals.deposited_pin.value(),
+            deposited_disc: totals.deposited_disc.value(),
+            returned: totals.returned.value(),
+            pin_none: coverage[Status::None as usize],
+            pin_primary: coverage[Status::Primary as usize],
+            pin_secondary: coverage[Status::Secondary as usize],
+            disc_secondary: secondary_area.value() / mesh.disc_area(),
+            filled_fraction: self.filling.filled_fraction(open_volume),
+            load_residual: self.contact.residual(),
+            balance_residual: self.debris.balance_residual(),
+        })
+    }
+
+    /// What a sample needs of the worker's own cells.
+    fn own_part(&self) -> OwnPart {
+        let rows = self.parameters.mesh.rows();
+        let mut part = OwnPart {
+            largest_pressure: 0.0,
+            open_volume: self.filling.open_volume(),
+            secondary_area: self.filling.secondary_area(),
+            pin: vec![0; 3 * rows],
+        };
+        for column in self.own_pin_columns() {
+            for (row, status) in self.pin_statuses(column).enumerate() {
+                part.pin[status as usize * rows + row] += 1;
+            }
+            let cells = self.pressure.get(self.parameters.mesh.column(column)).unwrap_or(&[]);
+            part.largest_pressure = cells.iter().copied().fold(part.largest_pressure, f64::max);
+        }
+        part
+    }
+
+    /// The pin columns that this worker swept in the last step; before the first step those that it will.
+    fn own_pin_columns(&self) -> impl Iterator<Item = usize> + '_ {
+        self.partition.segments_of(self.communicator.rank(), self.last_first()).flat_map(|segment| segment.pin)
+    }
+
+    fn pin_statuses(&self, column: usize) -> impl Iterator<Item = Status> + '_ {
+        let cells = self.pin.height.column(column).zip(self.pin.substrate_column(column)).enumerate();
+        cells.map(move |(row, (height, substrate))| pin_status(height, substrate, self.pin.is_resin(row, column)))
+    }
+
+    /// The maps asked for, as they are now.
+    pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        let mut values = Vec::with_capacity(maps.len());
+        for map in maps {
+            let field = if map.on_disc() { self.gather_disc(*map)? } else { self.gather_pin(*map)? };
+            let field = match map.is_status() {
+                true => MapValues::Status(field.into_iter().map(|status| status as u8).collect()),
+                false => MapValues::Float(field.into_iter().map(f64::from_bits).collect()),
+            };
+            values.push((*map, field));
+        }
+        Ok(Snapshot { time: self.time(), maps: values })
+    }
+
+    /// The values of a map of the disc, as words, column by column.
+    fn gather_disc(&mut self, map: Map) -> Result<Vec<u64>, SimulationError> {
+        let mut own = Vec::new();
+        for sector in self.sectors.iter().flatten() {
+            (0..sector.columns).for_each(|column| own.extend(disc_words(sector, column, map)));
+        }
+        let (partition, rows) = (self.partition.clone(), self.parameters.mesh.rows());
+        let mut field = vec![0; self.parameters.mesh.disc_cells()];
+        self.communicator.all_gather(&own, &mut |from, words| {
+            let mut rest = words;
+            for sector in (0..partition.sectors()).filter(|sector| partition.owner(*sector) == from) {
+                let columns = partition.columns(sector);
+                let (taken, others) = rest.split_at(rows * columns.len());
+                field[rows * columns.start..rows * columns.end].copy_from_slice(taken);
+                rest = others;
+            }
+        })?;
+        Ok(field)
+    }
+
+    /// The values of a map of the pin, as words, column by column.
+    fn gather_pin(&mut self, map: Map) -> Result<Vec<u64>, SimulationError> {
+        let mesh = &self.parameters.mesh;
+        let mut own = Vec::new();
+        for column in self.own_pin_columns() {
+            match map {
+                Map::PinHeight => own.extend(self.pin.height.column(column).map(f64::to_bits)),
+                Map::PinSubstrate => own.extend(self.pin.substrate_column(column).map(f64::to_bits)),
+                Map::PinStatus => own.extend(self.pin_statuses(column).map(|status| status as u64)),
+                _ => match self.pressure.get(mesh.column(column)) {
+                    Some(cells) => own.extend(cells.iter().map(|pressure| pressure.to_bits())),
+                    None => own.resize(own.len() + mesh.rows(), 0),
+                },
+            }
+        }
+        let (partition, first, rows) = (self.partition.clone(), self.last_first(), mesh.rows());
+        let mut field = vec![0; mesh.pin_cells()];
+        self.communicator.all_gather(&own, &mut |from, words| {
+            let mut rest = words;
+            for Segment { pin, .. } in partition.segments_of(from, first) {
+                let (taken, others) = rest.split_at(rows * pin.len());
+                field[rows * pin.start..rows * pin.end].copy_from_slice(taken);
+                rest = others;
+            }
+        })?;
+        Ok(field)
+    }
+}
+
+/// The values of a map in one column of a sector, as words.
+fn disc_words(sector: &DiscSector, column: usize, map: Map) -> Vec<u64> {
+    let (height, substrate) = (sector.height.column(column), sector.substrate_column(column));
+    match map {
+        Map::DiscHeight => height.map(f64::to_bits).collect(),
+        Map::DiscSubstrate => substrate.map(f64::to_bits).collect(),
+        _ => height.zip(substrate).map(|(height, substrate)| disc_status(height, substrate) as u64).collect(),
+    }
+}
+
+/// What a sample needs of the cells of one worker, or of all.
+#[derive(Debug, Clone, Default)]
+struct OwnPart {
+    /// Pa.
+    largest_pressure: f64,
+    /// Σ A (z_ref − z_d)₊, m³.
+    open_volume: Exact,
+    /// Σ A over the disc's secondary cells, m².
+    secondary_area: Exact,
+    /// Cells of the pin by status and row.
+    pin: Vec<u64>,
+}
+
+impl OwnPart {
+    fn words(&self) -> Vec<u64> {
+        let mut words = vec![self.largest_pressure.to_bits()];
+        words.extend(self.open_volume.words());
+        words.extend(self.secondary_area.words());
+        words.extend(&self.pin);
+        words
+    }
+
+    fn add(&mut self, words: &[u64]) {
+        self.largest_pressure = self.largest_pressure.max(f64::from_bits(words[0]));
+        self.open_volume.add(Exact::of_words(words[1], words[2]));
+        self.secondary_area.add(Exact::of_words(words[3], words[4]));
+        self.pin.iter_mut().zip(&words[5..]).for_each(|(sum, count)| *sum += count);
+    }
+}
