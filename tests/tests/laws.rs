@@ -91,6 +91,18 @@ proptest! {
     }
 
     #[test]
+    fn any_number_of_workers_gives_the_same_bits((parameters, seed) in scenes(), workers in 2..9_usize) {
+        let surfaces = random_surfaces(&parameters.mesh, seed);
+        let run = |workers| {
+            let execution = Execution { workers, ..Execution::default() };
+            let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution).unwrap();
+            simulation.advance_to(2 * parameters.mesh.disc_columns() as u64).unwrap();
+            (simulation.pin().unwrap(), simulation.disc().unwrap(), simulation.sample().unwrap())
+        };
+        prop_assert_eq!(run(workers), run(1));
+    }
+
+    #[test]
     fn the_state_stays_within_its_bounds((parameters, seed) in scenes()) {
         let mesh = &parameters.mesh;
         let mut simulation = start(&parameters, random_surfaces(mesh, seed));

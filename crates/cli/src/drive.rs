@@ -55,7 +55,7 @@ pub fn drive<S: Sink>(
         let sampled = schedule.next_sample(simulation.steps_done()) == event;
         while simulation.steps_done() < event {
             let looked = Instant::now();
-            simulation.advance_to(event.min(simulation.steps_done() + steps_per_look))?;
+            simulation.advance_to(event.min(simulation.steps_done().saturating_add(steps_per_look)))?;
             sink.look(simulation)?;
             if looked.elapsed() > LOOK_EVERY {
                 steps_per_look = (steps_per_look / 2).max(1);

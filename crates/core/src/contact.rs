@@ -112,7 +112,7 @@ impl Contact {
         if low_load > normal_force {
             // Newton's method from above: it does not overshoot.
             let next = low - (low_load - normal_force) / low_slope;
-            let (step, tiny) = (low - next, rounding(low, next));
+            let (step, tiny) = (low - next, rounding(low, next, bracket));
             return Ok(Verdict::Between(next - (0.25 * step).max(tiny), next + (step / 1024.0).max(tiny)));
         }
         // In an order that does not depend on who read what.
@@ -141,7 +141,7 @@ impl Contact {
         // Newton's method from below: the solution is not above.
         let high = low + bracket.width;
         let step = displacement - high;
-        Ok(Verdict::Between(high, displacement + (step / 1024.0).max(rounding(high, displacement))))
+        Ok(Verdict::Between(high, displacement + (step / 1024.0).max(rounding(high, displacement, bracket))))
     }
 
     /// Sums over the cells that touch at the lower end of the bracket, in metres.
@@ -246,6 +246,6 @@ impl Contact {
 }
 
 /// A distance that rounding does not lose between displacements of this size, m.
-fn rounding(a: f64, b: f64) -> f64 {
-    16.0 * f64::EPSILON * (a.abs() + b.abs()) + f64::MIN_POSITIVE
+fn rounding(a: f64, b: f64, bracket: &Bracket) -> f64 {
+    16.0 * f64::EPSILON * (a.abs() + b.abs()) + 4.0 * bracket.quantum.value()
 }

@@ -38,7 +38,7 @@ pub struct Debris {
     /// h_m, m.
     wear_height: f64,
     /// Columns of the pin.
-    columns: f64,
+    columns: usize,
     /// A of every row, m².
     area: Vec<f64>,
     /// Raw volume that plateaus of the pin lose per overlap, by pair and row, m².
@@ -75,14 +75,14 @@ impl Debris {
             captured_fraction: rules.captured_fraction,
             needs: Needs::of(parameters),
             wear_height: parameters.materials.wear_height,
-            columns: mesh.pin_columns() as f64,
+            columns: mesh.pin_columns(),
             area: mesh.area().to_vec(),
             pin_loss: by_area(&coefficients.pin),
             disc_loss: by_area(&coefficients.disc),
             loss_exponent: if largest_loss > 0.0 { libm::ilogb(largest_loss) + 1 } else { 0 },
             pools: vec![RunningSum::default(); pools],
             share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
-            deposits: Quantum::of(0.0),
+            deposits: Quantum::of(0.0, 1),
             rows: vec![0.0; mesh.rows()],
             totals: Totals::default(),
         }
@@ -99,7 +99,7 @@ impl Debris {
         if !self.needs.forms {
             return;
         }
-        self.rows.iter_mut().zip(touching).for_each(|(open, touching)| *open = self.columns - touching);
+        self.rows.iter_mut().zip(touching).for_each(|(open, touching)| *open = self.columns as f64 - touching);
         let mut largest = 0.0_f64;
         for (index, pool) in self.pools.iter().enumerate() {
             let rows = self.rows_of(index);
@@ -112,7 +112,7 @@ impl Debris {
             }
             largest = largest.max(share);
         }
-        self.deposits = Quantum::of(largest);
+        self.deposits = Quantum::of(largest, self.columns);
     }
 
     /// s of every row, m: the height of debris that is at hand for each cell that does not touch.

@@ -14,12 +14,14 @@ pub struct Quantum {
 }
 
 impl Quantum {
-    /// Terms up to `bound` are less than 2^50 quanta each, so that 2^13 of them fit an integer.
+    /// The quantum of up to `terms` terms up to `bound`: their sum fits an integer.
     ///
-    /// The rounding of a term is at most half a quantum, 2^−51 of the bound.
-    pub fn of(bound: f64) -> Self {
+    /// A term is less than 2^50 quanta, so its rounding is at most 2^−51 of the bound; beyond 2^13 terms it is less of
+    /// them and more rounding.
+    pub fn of(bound: f64, terms: usize) -> Self {
         let exponent = if bound > 0.0 { libm::ilogb(bound) } else { 0 };
-        Self::of_exponent(exponent + 1 - 50)
+        let beyond = terms.div_ceil(1 << 13).next_power_of_two().trailing_zeros();
+        Self::of_exponent(exponent + 1 - 50 + beyond as i32)
     }
 
     fn of_exponent(exponent: i32) -> Self {
@@ -141,11 +143,12 @@ mod tests {
     #[test]
     fn terms_are_whole_quanta() {
         for bound in [1e-3, 1.0, 3.7e-9, 4e5] {
-            let quantum = Quantum::of(bound);
+            let quantum = Quantum::of(bound, 1 << 13);
             for term in [0.0, bound, bound / 3.0, -bound / 7.0, quantum.value(), 0.4 * quantum.value()] {
                 let quanta = ((quantum.anchor() + term).to_bits() as i64).wrapping_sub(quantum.anchor_bits());
                 assert_eq!(quanta as f64, (term / quantum.value()).round_ties_even(), "{term} of {bound}");
                 assert!(quanta.abs() <= 1 << 50);
+                assert_eq!(Quantum::of(bound, 5 << 13).value(), 8.0 * quantum.value());
             }
         }
     }

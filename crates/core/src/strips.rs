@@ -166,10 +166,10 @@ impl PinStrips {
         }
         let bytes = words[2 * rows..].iter().flat_map(|word| word.to_le_bytes());
         for (strip, byte) in bytes.take(substrate.strips()).enumerate() {
-            // Any build-up gives the status: here it is one of 1 m.
-            let built_up = |lane| if byte >> lane & 1 == 1 { 1.0 } else { 0.0 };
-            substrate.strip_mut(strip)[column + 1] = Chunk(std::array::from_fn(built_up));
-            self.height.strip_mut(strip)[column + 1] = Chunk([0.0; LANES]);
+            // Any build-up gives the status: here it has no end.
+            let height = self.height.strip(strip)[column + 1].0;
+            let status = |lane: usize| if byte >> lane & 1 == 1 { f64::INFINITY } else { height[lane] };
+            substrate.strip_mut(strip)[column + 1] = Chunk(std::array::from_fn(status));
         }
     }
 
