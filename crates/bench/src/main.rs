@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Steps before the first measurement: one revolution, so that every column has been under the pin.
 const WARM_UP: u64 = 2764;
 /// Steps of one measurement.
-const STEPS: u32 = 4000;
+const STEPS: u32 = 40000;
 /// Measurements.
 const REPEATS: usize = 7;
 
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mesh = &scene.parameters.mesh;
     let cells = mesh.pin_cells();
     let mesh_text = format!("{} x {} pin on {} columns", mesh.rows(), mesh.pin_columns(), mesh.disc_columns());
-    let mut simulation = Simulation::with_execution(scene.parameters.clone(), surface::load(&scene)?.surfaces, plateau_core::simulation::Execution { workers: std::env::args().nth(1).map_or(1, |a| a.parse().unwrap()), ..Default::default() })?;
+    let mut simulation = Simulation::with_execution(scene.parameters.clone(), surface::load(&scene)?.surfaces, plateau_core::simulation::Execution { workers: std::env::args().nth(1).map_or(1, |a| a.parse().unwrap()), instructions: plateau_core::kernel::InstructionSet::available().find(|i| Some(i.name().to_owned()) == std::env::var("ISA").ok()).unwrap_or(plateau_core::kernel::InstructionSet::best()), ..Default::default() })?;
     simulation.advance_to(WARM_UP)?;
     let mut times = Vec::with_capacity(REPEATS);
     let extra = simulation.course().extra_readings;

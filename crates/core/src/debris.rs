@@ -34,6 +34,8 @@ pub struct Totals {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Debris {
     captured_fraction: f64,
+    /// β.
+    pad_share: f64,
     needs: Needs,
     /// h_m, m.
     wear_height: f64,
@@ -73,6 +75,7 @@ impl Debris {
         let largest_loss = losses.copied().fold(0.0, f64::max);
         Self {
             captured_fraction: rules.captured_fraction,
+            pad_share: rules.pad_share,
             needs: Needs::of(parameters),
             wear_height: parameters.materials.wear_height,
             columns: mesh.pin_columns(),
@@ -120,6 +123,11 @@ impl Debris {
         &self.share
     }
 
+    /// s of a row, m.
+    fn share_of(&self, row: usize) -> f64 {
+        self.share[row / LANES].0[row % LANES]
+    }
+
     /// Of which this step's deposits are counted as multiples.
     pub fn deposits(&self) -> Quantum {
         self.deposits
@@ -148,18 +156,31 @@ impl Debris {
             let worn_resin = self.wear_height * (volume(resin) + volume(resin_on_debris));
             let mut worn_disc = if self.needs.disc_wears { worn(&self.disc_loss) } else { 0.0 };
             let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
-            let mut counted = |counts: &RowIntegers, quantum: Quantum| {
-                counts.heights(quantum, &mut self.rows);
-                dot(&self.rows[rows.clone()], &self.area[rows.clone()])
-            };
             if self.needs.forms {
-                deposited_pin = counted(&moved.deposited_pin, self.deposits);
-                deposited_disc = counted(&moved.deposited_disc, self.deposits);
+                let share = self.share_of(rows.start);
+                let even_on_pin = share * self.pad_share;
+                let mut deposited = |even: f64, beyond: &RowIntegers| {
+                    let even = self.deposits.count(even);
+                    let counts = beyond.rows(rows.clone()).zip(&contact.touching()[rows.clone()]);
+                    self.rows[rows.clone()].iter_mut().zip(counts).for_each(|(height, (beyond, touching))| {
+                        let open = self.columns as i64 - *touching as i64;
+                        *height = (even.wrapping_mul(open).wrapping_add(beyond)) as f64 * self.deposits.value();
+                    });
+                    dot(&self.rows[rows.clone()], &self.area[rows.clone()])
+                };
+                deposited_pin = deposited(even_on_pin, &moved.deposited_pin);
+                deposited_disc = deposited(share - even_on_pin, &moved.deposited_disc);
             }
             if self.needs.distinct {
-                worn_pin -= counted(&moved.spared_pin, losses);
+                let mut spared = |counts: &RowIntegers| {
+                    let counts = counts.rows(rows.clone());
+                    let heights = self.rows[rows.clone()].iter_mut();
+                    heights.zip(counts).for_each(|(height, count)| *height = count as f64 * losses.value());
+                    dot(&self.rows[rows.clone()], &self.area[rows.clone()])
+                };
+                worn_pin -= spared(&moved.spared_pin);
                 if self.needs.disc_wears {
-                    worn_disc -= counted(&moved.spared_disc, losses);
+                    worn_disc -= spared(&moved.spared_disc);
                 }
             }
             if moved.seldom.happened {

@@ -3,6 +3,8 @@
 //! Every term is rounded to a multiple of a quantum, and the multiples are added as integers: so the sum of many workers
 //! is that of one, whatever part of the cells each of them has.
 
+use std::ops::Range;
+
 use crate::kernel::{IntegerChunk, LANES};
 
 /// A power of two of which terms are multiples.
@@ -46,6 +48,11 @@ impl Quantum {
         self.anchor
     }
 
+    /// A term in quanta.
+    pub fn count(self, term: f64) -> i64 {
+        ((self.anchor + term).to_bits() as i64).wrapping_sub(self.anchor_bits())
+    }
+
     /// Bits of [`Quantum::anchor`] as an integer.
     pub fn anchor_bits(self) -> i64 {
         self.anchor.to_bits() as i64
@@ -74,10 +81,9 @@ impl RowIntegers {
         }
     }
 
-    /// As multiples of a quantum, m, row by row.
-    pub fn heights(&self, quantum: Quantum, rows: &mut [f64]) {
-        let counts = self.0.iter().flat_map(|chunk| chunk.0);
-        rows.iter_mut().zip(counts).for_each(|(height, count)| *height = count as f64 * quantum.value());
+    /// Those of some rows.
+    pub fn rows(&self, rows: Range<usize>) -> impl Iterator<Item = i64> + '_ {
+        self.0.iter().flat_map(|chunk| chunk.0).take(rows.end).skip(rows.start)
     }
 
     /// As words of a message.

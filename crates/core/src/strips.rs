@@ -3,6 +3,8 @@
 //! A strip of a column is one [`Chunk`]; a sweep along a strip reads and writes memory from one end to the other. Rows
 //! beyond the mesh fill up the last strip: the pin's are so high that they never touch.
 
+use std::ops::Range;
+
 use crate::kernel::{Chunk, LANES};
 use crate::mesh::Mesh;
 use crate::state::Base;
@@ -72,7 +74,8 @@ impl Strips {
     /// Changes the rows of a column.
     pub fn set_column(&mut self, column: usize, heights: &[f64]) {
         for (chunk, heights) in self.chunks.iter_mut().skip(column).step_by(self.columns).zip(heights.chunks(LANES)) {
-            chunk.0[..heights.len()].copy_from_slice(heights);
+            // −0 becomes 0: the kernels compare bits.
+            chunk.0.iter_mut().zip(heights).for_each(|(place, height)| *place = height + 0.0);
         }
     }
 }
@@ -88,7 +91,22 @@ pub struct PinStrips {
     pub substrate: Option<Strips>,
     /// Which rows of a strip are resin, one bit each.
     resin: Vec<u8>,
+    /// Which are plateaus at the start of the coming step: fibre or built up; follows from the heights.
+    plateau: Vec<u8>,
     columns: usize,
+}
+
+/// Some columns of a strip of the pin, to change.
+#[derive(Debug)]
+pub struct PinStrip<'a> {
+    /// z_p, m.
+    pub height: &'a mut [Chunk],
+    /// b_p, m; empty where it is not kept.
+    pub substrate: &'a mut [Chunk],
+    /// Which rows are resin, one bit each.
+    pub resin: &'a [u8],
+    /// Which rows are plateaus at the start of the coming step, one bit each.
+    pub plateau: &'a mut [u8],
 }
 
 impl PinStrips {
@@ -107,7 +125,8 @@ impl PinStrips {
         for strip in resin.chunks_exact_mut(columns) {
             strip[columns - 1] = u8::MAX;
         }
-        Self { substrate: builds_up.then(|| height.clone()), height, resin, columns }
+        let plateau = resin.iter().map(|resin| !resin).collect();
+        Self { substrate: builds_up.then(|| height.clone()), height, resin, plateau, columns }
     }
 
     /// Which rows of a strip are resin, column by column.
@@ -115,14 +134,18 @@ impl PinStrips {
         &self.resin[strip * self.columns..][..self.columns]
     }
 
-    /// Some columns of a strip: z_p, b_p (none where it is not kept), and which rows are resin.
-    pub fn strip_mut(&mut self, strip: usize, first: usize, columns: usize) -> (&mut [Chunk], &mut [Chunk], &[u8]) {
-        let substrate = match &mut self.substrate {
-            Some(substrate) => &mut substrate.strip_mut(strip)[first..][..columns],
-            None => &mut [],
-        };
-        let resin = &self.resin[strip * self.columns..][first..][..columns];
-        (&mut self.height.strip_mut(strip)[first..][..columns], substrate, resin)
+    /// Some columns of a strip.
+    pub fn strip_mut(&mut self, strip: usize, columns: Range<usize>) -> PinStrip<'_> {
+        let bytes = strip * self.columns + columns.start..strip * self.columns + columns.end;
+        PinStrip {
+            substrate: match &mut self.substrate {
+                Some(substrate) => &mut substrate.strip_mut(strip)[columns.clone()],
+                None => &mut [],
+            },
+            height: &mut self.height.strip_mut(strip)[columns],
+            resin: &self.resin[bytes.clone()],
+            plateau: &mut self.plateau[bytes],
+        }
     }
 
     /// Whether a cell's base is resin.
@@ -137,17 +160,17 @@ impl PinStrips {
 
     /// Words of a column on its way to another worker: see [`PinStrips::write_crossing`].
     pub fn crossing_words(mesh: &Mesh) -> usize {
-        2 * mesh.rows() + strips(mesh.rows()).div_ceil(LANES)
+        2 * mesh.rows() + (2 * strips(mesh.rows())).div_ceil(LANES)
     }
 
-    /// Writes a column that crosses to another worker, and which cells of the next column have build-up: the status of
+    /// Writes a column that crosses to another worker, and which cells of it and of the next are plateaus: the status of
     /// the next column is all that the other worker needs of it.
     pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
         words.clear();
         words.extend(self.height.column(column).map(f64::to_bits));
         words.extend(self.substrate_column(column).map(f64::to_bits));
-        let statuses = (0..self.height.strips()).map(|strip| self.built_up(strip, column + 1));
-        let mut bytes = statuses.collect::<Vec<u8>>();
+        let mut bytes: Vec<u8> =
+            [column, column + 1].iter().flat_map(|column| self.plateau.iter().skip(*column).step_by(self.columns)).copied().collect();
         bytes.resize(bytes.len().next_multiple_of(LANES), 0);
         words.extend(bytes.chunks_exact(LANES).map(|bytes| {
             bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))
@@ -161,23 +184,11 @@ impl PinStrips {
         self.height.set_column(column, &heights[..rows]);
         let Some(substrate) = &mut self.substrate else { return };
         substrate.set_column(column, &heights[rows..]);
-        if column + 2 == self.columns {
-            return;
+        let mut bytes = words[2 * rows..].iter().flat_map(|word| word.to_le_bytes());
+        for column in [column, column + 1] {
+            let strips = self.plateau.iter_mut().skip(column).step_by(self.columns);
+            strips.zip(&mut bytes).for_each(|(plateau, byte)| *plateau = byte);
         }
-        let bytes = words[2 * rows..].iter().flat_map(|word| word.to_le_bytes());
-        for (strip, byte) in bytes.take(substrate.strips()).enumerate() {
-            // Any build-up gives the status: here it has no end.
-            let height = self.height.strip(strip)[column + 1].0;
-            let status = |lane: usize| if byte >> lane & 1 == 1 { f64::INFINITY } else { height[lane] };
-            substrate.strip_mut(strip)[column + 1] = Chunk(std::array::from_fn(status));
-        }
-    }
-
-    /// Which rows of a strip have build-up in a column, one bit each.
-    fn built_up(&self, strip: usize, column: usize) -> u8 {
-        let Some(substrate) = &self.substrate else { return 0 };
-        let cells = self.height.strip(strip)[column].0.into_iter().zip(substrate.strip(strip)[column].0);
-        cells.enumerate().fold(0, |byte, (lane, (height, substrate))| byte | u8::from(height < substrate) << lane)
     }
 }
 
@@ -227,10 +238,11 @@ mod tests {
         let base = vec![Base::None; 33];
         let mut from = PinStrips::new(&mesh, &heights, &base, true);
         let mut to = from.clone();
-        let built_up = |row: usize| row % 3 == 0;
-        let next: Vec<f64> = (0..11).map(|row| 22.0 + row as f64 - if built_up(row) { 1e-9 } else { 0.0 }).collect();
+        let plateau = |row: usize| row % 3 == 0;
         from.height.set_column(1, &[7.0; 11]);
-        from.height.set_column(2, &next);
+        for row in (0..11).filter(|row| plateau(*row)) {
+            from.strip_mut(row / LANES, 2..3).plateau[0] |= 1 << (row % LANES);
+        }
         let mut words = Vec::new();
         from.write_crossing(1, &mut words);
         assert_eq!(words.len(), PinStrips::crossing_words(&mesh));
@@ -238,7 +250,7 @@ mod tests {
         assert!(to.height.column(1).eq([7.0; 11]));
         assert!(to.substrate_column(1).eq((11..22).map(f64::from)));
         let statuses: Vec<bool> =
-            to.height.column(2).zip(to.substrate_column(2)).map(|(height, substrate)| height < substrate).collect();
-        assert_eq!(statuses, (0..11).map(built_up).collect::<Vec<_>>());
+            (0..11).map(|row| to.strip_mut(row / LANES, 2..3).plateau[0] >> (row % LANES) & 1 == 1).collect();
+        assert_eq!(statuses, (0..11).map(plateau).collect::<Vec<_>>());
     }
 }

@@ -3,12 +3,14 @@
 //! Each is written once, for eight cells at a time, and compiled for several instruction sets, of which the widest that
 //! the processor has is chosen at start. What they sum up does not depend on the order of the cells.
 
+mod cells;
 mod instructions;
 pub(crate) mod lanes;
 mod moved;
 mod pairs;
 mod read;
 mod reading;
+mod rules;
 mod sweep;
 
 pub use instructions::InstructionSet;
@@ -16,4 +18,5 @@ pub use lanes::{Chunk, IntegerChunk, LANES};
 pub use moved::{Moved, Seldom};
 pub use read::{Span, read};
 pub use reading::{Bracket, NearPair, Reading, told_apart};
-pub use sweep::{Conditions, Rules, Sweep, sweep};
+pub use rules::{Conditions, Rules};
+pub use sweep::{Sweep, sweep};

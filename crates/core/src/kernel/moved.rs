@@ -1,15 +1,18 @@
 //! What a sweep moved, row by row.
 
-use super::lanes::{Chunk, Integers, Lanes};
+use super::lanes::{Chunk, IntegerChunk, Integers, Lanes};
 use super::pairs::lanes_of;
-use crate::exact::{Exact, Quantum, RowIntegers};
+use crate::exact::{Exact, RowIntegers};
 
-/// What a step took off and put on, less what follows from its load balance alone.
+/// What a step took off and put on, as far as it does not follow from its load balance alone.
+///
+/// Most open cells get the whole share, and those of the pin with a plateau ahead the pad share of it: the even deposit.
+/// Only what differs from that is counted here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Heights compacted on the pin, in quanta of the deposits.
+    /// Heights compacted on the pin beyond the even deposit, in quanta of the deposits.
     pub deposited_pin: RowIntegers,
-    /// Heights compacted on the disc, in quanta of the deposits.
+    /// Heights compacted on the disc beyond the even deposit, in quanta of the deposits.
     pub deposited_disc: RowIntegers,
     /// What pin cells did not lose of their raw loss because their build-up was worn through, in quanta of the losses;
     /// only where build-up has properties of its own.
@@ -58,36 +61,40 @@ impl Moved {
     }
 }
 
-/// A sum of heights along a strip.
+/// The sums of [`Moved`] of a strip while it is swept.
 #[derive(Clone, Copy)]
-pub(super) struct StripSum<L: Lanes> {
-    anchor: L,
-    sum: L::Integers,
+pub(super) struct StripMoved<L: Lanes> {
+    pub deposited_pin: L::Integers,
+    pub deposited_disc: L::Integers,
+    pub spared_pin: L::Integers,
+    pub spared_disc: L::Integers,
 }
 
-impl<L: Lanes> StripSum<L> {
+impl<L: Lanes> StripMoved<L> {
     /// Nothing yet.
     #[inline(always)]
-    pub fn new(quantum: Quantum) -> Self {
-        Self { anchor: L::splat(quantum.anchor()), sum: L::Integers::zero() }
+    pub fn new() -> Self {
+        let zero = L::Integers::splat(0);
+        Self { deposited_pin: zero, deposited_disc: zero, spared_pin: zero, spared_disc: zero }
     }
 
-    /// Adds eight heights.
+    /// Adds the sums of the strip to the others.
     #[inline(always)]
-    pub fn add(&mut self, heights: L) {
-        self.sum = self.sum.plus((self.anchor + heights).bits());
-    }
-
-    /// Adds the sum of `columns` columns to the others.
-    #[inline(always)]
-    pub fn store(self, strip: usize, columns: usize, quantum: Quantum, rows: &mut RowIntegers) {
-        let mut sum = super::lanes::IntegerChunk([0; 8]);
-        self.sum.store(&mut sum);
-        let anchors = quantum.anchor_bits().wrapping_mul(columns as i64);
-        for (row, sum) in rows.0[strip].0.iter_mut().zip(sum.0) {
-            *row = row.wrapping_add(sum.wrapping_sub(anchors));
+    pub fn store<const DISTINCT: bool, const FORMS: bool>(self, strip: usize, moved: &mut Moved) {
+        if FORMS {
+            add::<L>(&mut moved.deposited_pin.0[strip], self.deposited_pin);
+            add::<L>(&mut moved.deposited_disc.0[strip], self.deposited_disc);
+        }
+        if DISTINCT {
+            add::<L>(&mut moved.spared_pin.0[strip], self.spared_pin);
+            add::<L>(&mut moved.spared_disc.0[strip], self.spared_disc);
         }
     }
+}
+
+#[inline(always)]
+fn add<L: Lanes>(chunk: &mut IntegerChunk, sum: L::Integers) {
+    L::Integers::load(chunk).plus(sum).store(chunk);
 }
 
 impl Seldom {
@@ -107,4 +114,3 @@ impl Seldom {
         }
     }
 }
-

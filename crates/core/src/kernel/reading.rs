@@ -107,7 +107,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     /// Nothing read.
     #[inline(always)]
     pub fn new() -> Self {
-        let zero = L::Integers::zero();
+        let zero = L::Integers::splat(0);
         Self { touching: [zero; Pair::COUNT], overlap: [zero; Pair::COUNT], range: zero }
     }
 
@@ -152,6 +152,20 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
             note_near::<DISTINCT>(&mut reading.near, &gaps, near.byte(), statuses, strip);
         }
+    }
+
+    /// Reads eight pairs as if all were plateaus but those that `plateau` says are not; returns those for which that is
+    /// not right: what touches without being a plateau, and what is near. Their sums are then not to be used.
+    #[inline(always)]
+    pub fn add_plain(&mut self, gap: L, bracket: &BracketLanes<L>, plateau: u8) -> L::Mask {
+        let beyond = gap - bracket.low;
+        let touches = beyond.below(bracket.zero);
+        let overlap = (bracket.anchor - beyond).bits();
+        self.range = self.range.or_where(touches, overlap);
+        self.touching[PLATEAU] = self.touching[PLATEAU].count(touches);
+        self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches, overlap);
+        let near = beyond.within(bracket.width);
+        if plateau == u8::MAX { near } else { near | (touches & !L::Mask::of_byte(plateau)) }
     }
 
     /// Adds the sums of the strip to the others.

@@ -3,63 +3,25 @@
 //!
 //! In the next step the disc column under pin column j lies under column j + 1. So when column j + 1 has been updated,
 //! the new heights of that pair are at hand, and are read on the way.
+//!
+//! In most steps nothing out of the ordinary happens to most cells: those that touch are plateaus and wear, those that
+//! are open get the even deposit, and statuses stay. Eight such cells at a time are done with few instructions, which
+//! also show where something else happens; those eight are then done by all rules.
 
+use std::ops::Range;
+
+use super::cells::{Strip, update};
 use super::instructions::{InstructionSet, kernel};
-use super::lanes::{Chunk, LANES, Lanes, Mask};
-use super::moved::{Moved, StripSum};
-use super::pairs::{ChunkTable, Pairs};
+use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use super::moved::{Moved, StripMoved};
 use super::read::Span;
-use super::reading::{Bracket, BracketLanes, Reading, StripReading};
-use crate::exact::Quantum;
-use crate::pair::Coefficients;
-use crate::parameters::Parameters;
+use super::reading::{Reading, StripReading};
+use super::rules::{Conditions, Rules, StripRules};
 use crate::parts::Needs;
-use crate::strips::{DiscSector, PinStrips};
-use crate::{plateau, wear};
+use crate::strips::{DiscSector, PinStrip, PinStrips};
 
-/// What stays the same in every step.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rules {
-    /// Raw loss of the pin per overlap, negative: the kernel has −u at hand.
-    pin_loss: ChunkTable,
-    /// Raw loss of the disc per overlap, negative.
-    disc_loss: ChunkTable,
-    fibre: ChunkTable,
-    coating: ChunkTable,
-    /// h_m, m.
-    wear_height: f64,
-    /// β.
-    pad_share: f64,
-}
-
-impl Rules {
-    /// The rules of a scene.
-    pub fn new(parameters: &Parameters, coefficients: &Coefficients) -> Self {
-        Self {
-            pin_loss: ChunkTable::new(&coefficients.pin, -1.0),
-            disc_loss: ChunkTable::new(&coefficients.disc, -1.0),
-            fibre: ChunkTable::new(&coefficients.fibre, 1.0),
-            coating: ChunkTable::new(&coefficients.coating, 1.0),
-            wear_height: parameters.materials.wear_height,
-            pad_share: parameters.plateaus.pad_share,
-        }
-    }
-}
-
-/// What a sweep must know of its step.
-#[derive(Debug, Clone, Copy)]
-pub struct Conditions<'a> {
-    /// δ, m.
-    pub displacement: f64,
-    /// s of every row, m.
-    pub share: &'a [Chunk],
-    /// Of which deposits are counted as multiples.
-    pub deposits: Quantum,
-    /// Of which losses that were spared are counted as multiples.
-    pub losses: Quantum,
-    /// Where the next load balance is expected.
-    pub bracket: Bracket,
-}
+/// Columns of a strip to which something out of the ordinary happened before the rest is swept without expecting anything.
+const MOST_UNUSUAL: usize = 12;
 
 /// A sweep over a span; the flag tells whether the pair of its first pin column with the disc column before its first
 /// is to be read for the next step.
@@ -105,151 +67,171 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
     reading: &mut Reading,
 ) {
     let Span { first, over, columns } = span;
-    let zero = L::splat(0.0);
-    let nothing = L::Mask::of_byte(0);
-    let displacement = L::splat(conditions.displacement);
-    let wear_height = L::splat(rules.wear_height);
-    let pad_share = L::splat(rules.pad_share);
-    let bracket = BracketLanes::<L>::new(&conditions.bracket);
-
-    for strip in 0..pin.height.strips() {
-        let share = L::load(&conditions.share[strip]);
-        let pin_loss = rules.pin_loss.strip::<L>(strip);
-        let disc_loss = rules.disc_loss.strip::<L>(strip);
-        let fibre = rules.fibre.strip::<L>(strip);
-        let coating = rules.coating.strip::<L>(strip);
-
-        let (pin_height, pin_substrate, resin) = pin.strip_mut(strip, first, columns + 1);
-        let (disc_height, disc_substrate) = disc.strip_mut(strip);
-        let mut z_behind = if joined { L::load(&disc_height[over - 1]) } else { L::splat(f64::NEG_INFINITY) };
-        let mut secondary_behind = nothing;
-        if DISTINCT && joined {
-            secondary_behind = L::load(&disc_substrate[over - 1]).below(z_behind);
-        }
-        let disc_height = &mut disc_height[over..][..columns];
-        let disc_substrate = if FORMS { &mut disc_substrate[over..][..columns] } else { &mut [] };
-
-        let mut next = StripReading::<L, DISTINCT>::new();
-        let mut deposited_pin = StripSum::<L>::new(conditions.deposits);
-        let mut deposited_disc = StripSum::<L>::new(conditions.deposits);
-        let mut spared_pin = StripSum::<L>::new(conditions.losses);
-        let mut spared_disc = StripSum::<L>::new(conditions.losses);
-
-        let mut z_ahead = L::load(&pin_height[0]);
-        let mut b_ahead = if FORMS { L::load(&pin_substrate[0]) } else { z_ahead };
-        let mut on_resin_ahead = L::Mask::of_byte(resin[0]);
-        let mut secondary_ahead = if FORMS { z_ahead.below(b_ahead) } else { nothing };
-
-        for column in 0..columns {
-            // The neighbour in the sliding direction as it is at the start of the step.
-            let (mut z_p, mut b_p) = (z_ahead, b_ahead);
-            let (on_resin, pin_secondary) = (on_resin_ahead, secondary_ahead);
-            z_ahead = L::load(&pin_height[column + 1]);
-            on_resin_ahead = L::Mask::of_byte(resin[column + 1]);
-            if FORMS {
-                b_ahead = L::load(&pin_substrate[column + 1]);
-                secondary_ahead = z_ahead.below(b_ahead);
-            }
-            let supported = secondary_ahead | !on_resin_ahead;
-
-            // 4.1 The pair, and how far its cells are apart at the displacement: γ, or −u where they touch.
-            let mut z_d = L::load(&disc_height[column]);
-            let mut b_d = z_d;
-            let mut disc_secondary = nothing;
-            if DISTINCT || (DISC_WEARS && FORMS) {
-                b_d = L::load(&disc_substrate[column]);
-                disc_secondary = b_d.below(z_d);
-            }
-            let pairs: Pairs<L> = Pairs { on_resin, pin_secondary, disc_secondary };
-            let mut clearance = z_p - z_d - displacement;
-            let touches = clearance.below(zero);
-
-            // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
-            let resin_touches = touches & pairs.resin();
-            let wears = touches & !pairs.resin();
-            let loss_per_overlap = if DISTINCT { pairs.pick::<true>(&pin_loss) } else { pin_loss.plateau() };
-            let raw = clearance * loss_per_overlap;
-            if DISTINCT {
-                let below = L::select(on_resin, zero, pairs.pick::<true>(&fibre));
-                let worn = wear::pin(z_p, b_p, raw.only(wears), below);
-                z_p = worn.height;
-                spared_pin.add(worn.spared);
-            } else {
-                z_p = z_p.plus_where(wears, raw);
-            }
-            if resin_touches.any() {
-                z_p = z_p.plus_where(resin_touches, wear_height);
-            }
-            if DISC_WEARS {
-                let raw = (clearance * pairs.pick::<DISTINCT>(&disc_loss)).only(touches);
-                if DISTINCT {
-                    let worn = wear::disc(z_d, b_d, raw, pairs.pick::<true>(&coating));
-                    z_d = worn.height;
-                    spared_disc.add(worn.spared);
-                } else {
-                    z_d = z_d - raw;
-                }
-                b_d = b_d.lesser(z_d);
-            }
-
-            if FORMS {
-                // 4.2 and 4.3 Build-up on resin that is worn through, or falls for want of support.
-                let remains = z_p.below(b_p);
-                let build_up = on_resin & pin_secondary;
-                let falls = if DESTROYS { plateau::falls::<L>(build_up & remains, supported) } else { nothing };
-                let worn_through = build_up & !remains;
-                if (falls | worn_through).any() {
-                    let mut heights = Chunk([0.0; LANES]);
-                    let mut raw_losses = Chunk([0.0; LANES]);
-                    let spared = if DISTINCT { nothing } else { worn_through };
-                    // The build-up that fell is what wear left of it; the one worn through is that of the start.
-                    let at_start = L::load(&pin_height[column]);
-                    (b_p - L::select(falls, z_p, at_start)).store(&mut heights);
-                    raw.store(&mut raw_losses);
-                    moved.seldom.book(&heights, &raw_losses, falls.byte(), spared.byte(), strip);
-                    z_p = L::select(falls | worn_through, b_p, z_p);
-                    clearance = L::select(falls, z_p - z_d - displacement, clearance);
-                }
-                b_p = b_p.greater(z_p);
-
-                // 4.4 Debris at hand fills the clearance of open cells, wholly or in part.
-                let filled = plateau::fill(clearance, share).only(!touches);
-                let on_pin = plateau::on_pin(filled, supported, pad_share);
-                let on_disc = filled - on_pin;
-                z_p = z_p - on_pin;
-                z_d = z_d + on_disc;
-                deposited_pin.add(on_pin);
-                deposited_disc.add(on_disc);
-                b_p.store(&mut pin_substrate[column]);
-            }
-            z_p.store(&mut pin_height[column]);
-            if FORMS || DISC_WEARS {
-                z_d.store(&mut disc_height[column]);
-            }
-            if DISC_WEARS && FORMS {
-                b_d.store(&mut disc_substrate[column]);
-            }
-
-            // 4.1 of the next step: this pin column over the disc column before.
-            let pin_secondary = if FORMS { z_p.below(b_p) } else { nothing };
-            let pairs: Pairs<L> = Pairs { on_resin, pin_secondary, disc_secondary: secondary_behind };
-            next.add(z_p - z_behind, pairs, &bracket, strip, reading);
-            z_behind = z_d;
-            if DISTINCT {
-                secondary_behind = b_d.below(z_d);
-            }
-        }
-
-        next.store(strip, reading);
+    for index in 0..pin.height.strips() {
+        let PinStrip { height, substrate, resin, plateau } = pin.strip_mut(index, first..first + columns + 1);
+        let (disc_height, disc_substrate) = disc.strip_mut(index);
+        let mut strip = Strip {
+            index,
+            pin: PinStrip { height, substrate, resin, plateau },
+            behind_height: if joined { disc_height[over - 1] } else { Chunk([f64::NEG_INFINITY; LANES]) },
+            behind_secondary: 0,
+            disc_height: &mut disc_height[over..][..columns],
+            disc_substrate: &mut [],
+        };
         if FORMS {
-            deposited_pin.store(strip, columns, conditions.deposits, &mut moved.deposited_pin);
-            deposited_disc.store(strip, columns, conditions.deposits, &mut moved.deposited_disc);
-        }
-        if DISTINCT {
-            spared_pin.store(strip, columns, conditions.losses, &mut moved.spared_pin);
-            if DISC_WEARS {
-                spared_disc.store(strip, columns, conditions.losses, &mut moved.spared_disc);
+            let (before, substrate) = disc_substrate.split_at_mut(over);
+            if DISTINCT && let (true, Some(before)) = (joined, before.last()) {
+                strip.behind_secondary = L::load(before).below(L::load(&strip.behind_height)).byte();
             }
+            strip.disc_substrate = &mut substrate[..columns];
+        }
+        let strip_rules = StripRules::<L>::new(rules, conditions, index);
+        let (mut column, mut unusual) = (0, 0);
+        while column < columns {
+            if !DISTINCT && unusual <= MOST_UNUSUAL {
+                column = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>(&strip_rules, &mut strip, column, moved, reading);
+            }
+            let end = if !DISTINCT && unusual <= MOST_UNUSUAL { columns.min(column + 1) } else { columns };
+            sweep_any::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
+                &strip_rules,
+                &mut strip,
+                column..end,
+                moved,
+                reading,
+            );
+            (column, unusual) = (end, unusual + 1);
         }
     }
+}
+
+/// Sweeps some columns of a strip, whatever happens to their cells.
+#[inline(always)]
+fn sweep_any<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    columns: Range<usize>,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) {
+    if columns.is_empty() {
+        return;
+    }
+    let mut strip_moved = StripMoved::<L>::new();
+    let mut next = StripReading::<L, DISTINCT>::new();
+    let mut behind = strip.behind::<L, DISTINCT>(columns.start);
+    for column in columns {
+        behind = update::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
+            rules,
+            strip,
+            column,
+            behind,
+            &mut strip_moved,
+            &mut moved.seldom,
+            &mut next,
+            reading,
+        );
+    }
+    strip_moved.store::<DISTINCT, FORMS>(strip.index, moved);
+    next.store(strip.index, reading);
+}
+
+/// Sweeps the columns of a strip from `start` on, up to the first with a cell to which anything out of the ordinary
+/// happens; returns that column.
+///
+/// Where build-up has the properties of what it lies on, it is ordinary
+/// - to touch as a plateau and wear, or to be open and get the even deposit: as much as there is a plateau ahead for, and
+///   no more than there is room for;
+/// - to keep one's status where it matters: resin that is built up stays so, and bare resin stays bare;
+/// - to be read for the next step as touching, as a plateau, or as open, but not as near.
+#[inline(always)]
+fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    start: usize,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) -> usize {
+    let mut strip_moved = StripMoved::<L>::new();
+    let mut next = StripReading::<L, false>::new();
+    let pin_loss = rules.pin_loss.plateau();
+    let disc_loss = rules.disc_loss.plateau();
+    // What an open cell gets that has no plateau ahead, beyond the even deposit.
+    let unsupported_pin = rules.beyond(rules.zero, rules.even_on_pin);
+    let unsupported_disc = rules.beyond(rules.share, rules.even_on_disc);
+
+    let mut z_behind = strip.behind::<L, false>(start).height;
+    let columns = strip.disc_height.len();
+    let PinStrip { height, substrate, resin, plateau } = &mut strip.pin;
+    let (height, resin, plateau) = (&mut height[..columns], &resin[..columns], &plateau[..=columns]);
+    let substrate = if FORMS { &mut substrate[..columns] } else { &mut [] };
+    let disc_height = &mut *strip.disc_height;
+    let disc_substrate = if FORMS && DISC_WEARS { &mut strip.disc_substrate[..columns] } else { &mut [] };
+
+    let mut column = start;
+    while column < columns {
+        let (z_p, z_d) = (L::load(&height[column]), L::load(&disc_height[column]));
+        let (plateau, ahead) = (plateau[column], plateau[column + 1]);
+
+        // 4.1 and 4.2
+        let clearance = z_p - z_d - rules.displacement;
+        let open = clearance.at_least(rules.zero);
+        let worn = z_p + clearance * pin_loss;
+        let b_p = if FORMS { L::load(&substrate[column]).greater(worn) } else { worn };
+        let mut z_worn = z_d;
+        let mut b_d = z_d;
+        if DISC_WEARS {
+            z_worn = L::select(open, z_d, z_d - clearance * disc_loss);
+            b_d = if FORMS { L::load(&disc_substrate[column]).lesser(z_worn) } else { z_worn };
+        }
+
+        let (new_z_p, new_z_d, mut unusual);
+        let mut with_these = strip_moved;
+        if !FORMS {
+            (new_z_p, new_z_d) = (L::select(open, z_p, worn), z_worn);
+            unusual = !open & L::Mask::of_byte(resin[column]);
+        } else {
+            // 4.4
+            unusual = clearance.within(rules.share);
+            let on_resin = L::Mask::of_byte(resin[column]);
+            if plateau & ahead == u8::MAX {
+                new_z_p = L::select(open, z_p - rules.even_on_pin, worn);
+                new_z_d = L::select(open, z_d + rules.even_on_disc, z_worn);
+                unusual = unusual | new_z_p.at_least_where(on_resin, b_p);
+            } else {
+                let (is_plateau, supported) = (L::Mask::of_byte(plateau), L::Mask::of_byte(ahead));
+                new_z_p = L::select(open, z_p - rules.even_on_pin.only(supported), worn);
+                new_z_d = L::select(open, z_d + L::select(supported, rules.even_on_disc, rules.share), z_worn);
+                let unsupported = open & !supported;
+                with_these.deposited_pin = with_these.deposited_pin.plus_where(unsupported, unsupported_pin);
+                with_these.deposited_disc = with_these.deposited_disc.plus_where(unsupported, unsupported_disc);
+                let built_up = new_z_p.below(b_p);
+                let changes = on_resin & ((built_up & !is_plateau) | (!built_up & is_plateau));
+                let falls = if DESTROYS { L::Mask::of_byte(resin[column] & plateau & !ahead) } else { !open & open };
+                unusual = unusual | changes | falls | (!open & !is_plateau);
+            }
+        }
+
+        // 4.1 of the next step
+        let mut next_with_these = next;
+        unusual = unusual | next_with_these.add_plain(new_z_p - z_behind, &rules.bracket, plateau);
+        if unusual.any() {
+            break;
+        }
+        (next, strip_moved) = (next_with_these, with_these);
+        new_z_p.store(&mut height[column]);
+        if FORMS {
+            b_p.store(&mut substrate[column]);
+        }
+        if FORMS || DISC_WEARS {
+            new_z_d.store(&mut disc_height[column]);
+        }
+        if FORMS && DISC_WEARS {
+            b_d.store(&mut disc_substrate[column]);
+        }
+        z_behind = new_z_d;
+        column += 1;
+    }
+    strip_moved.store::<false, FORMS>(strip.index, moved);
+    next.store(strip.index, reading);
+    column
 }

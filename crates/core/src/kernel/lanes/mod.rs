@@ -45,14 +45,16 @@ pub(crate) trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not
 pub(crate) trait Integers: Copy {
     /// What goes with which of them.
     type Mask;
-    /// All 0.
-    fn zero() -> Self;
+    /// The same number eight times.
+    fn splat(value: i64) -> Self;
     /// From memory.
     fn load(chunk: &IntegerChunk) -> Self;
     /// To memory.
     fn store(self, chunk: &mut IntegerChunk);
     /// Sums.
     fn plus(self, other: Self) -> Self;
+    /// Differences.
+    fn minus(self, other: Self) -> Self;
     /// Sums where the mask says so, else as they are.
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self;
     /// One more where the mask says so.
@@ -75,6 +77,12 @@ pub(crate) trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
     fn store(self, chunk: &mut Chunk);
     /// self < other.
     fn below(self, other: Self) -> Self::Mask;
+    /// self ≥ other.
+    fn at_least(self, other: Self) -> Self::Mask;
+    /// 0 ≤ self < width, of numbers that are not −0.
+    fn within(self, width: Self) -> Self::Mask;
+    /// self ≥ other where the mask says so.
+    fn at_least_where(self, mask: Self::Mask, other: Self) -> Self::Mask;
     /// The lesser of each; `other` where they are equal.
     fn lesser(self, other: Self) -> Self;
     /// The greater of each; `other` where they are equal.

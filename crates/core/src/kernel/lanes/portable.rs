@@ -63,8 +63,8 @@ impl Integers for Words {
     type Mask = Answers;
 
     #[inline(always)]
-    fn zero() -> Self {
-        Self([0; LANES])
+    fn splat(value: i64) -> Self {
+        Self([value; LANES])
     }
 
     #[inline(always)]
@@ -80,6 +80,11 @@ impl Integers for Words {
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
         Self(from_fn(|lane| self.0[lane].wrapping_add(other.0[lane])))
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(from_fn(|lane| self.0[lane].wrapping_sub(other.0[lane])))
     }
 
     #[inline(always)]
@@ -120,6 +125,21 @@ impl Lanes for Portable {
     #[inline(always)]
     fn below(self, other: Self) -> Answers {
         Answers(from_fn(|lane| self.0[lane] < other.0[lane]))
+    }
+
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Answers {
+        Answers(from_fn(|lane| self.0[lane] >= other.0[lane]))
+    }
+
+    #[inline(always)]
+    fn within(self, width: Self) -> Answers {
+        self.at_least(Self::splat(0.0)) & self.below(width)
+    }
+
+    #[inline(always)]
+    fn at_least_where(self, mask: Answers, other: Self) -> Answers {
+        mask & self.at_least(other)
     }
 
     #[inline(always)]

@@ -24,10 +24,10 @@ macro_rules! split {
     (
         $name:ident, $mask:ident, $integers:ident: registers [$($part:literal),*] of $lanes:literal lanes,
         floats $register:ident, words $words:ident,
-        add $add:ident, sub $sub:ident, mul $mul:ident, min $min:ident, max $max:ident, below $below:ident,
+        add $add:ident, sub $sub:ident, mul $mul:ident, min $min:ident, max $max:ident, below $below:ident, below_or_equal $below_or_equal:ident,
         and $and:ident, andnot $andnot:ident, or $or:ident, select $select:ident, movemask $movemask:ident,
         splat $splat:ident, load $load:ident, store $store:ident,
-        to_words $to_words:ident, to_floats $to_floats:ident, zero_words $zero_words:ident, splat_32 $splat_32:ident,
+        to_words $to_words:ident, to_floats $to_floats:ident, splat_words $splat_words:ident, splat_32 $splat_32:ident,
         equal_32 $equal_32:ident, add_words $add_words:ident, sub_words $sub_words:ident, and_words $and_words:ident,
         or_words $or_words:ident, load_words $load_words:ident, store_words $store_words:ident
     ) => {
@@ -87,8 +87,8 @@ macro_rules! split {
             type Mask = $mask;
 
             #[inline(always)]
-            fn zero() -> Self {
-                Self([call!($zero_words()); 8 / $lanes])
+            fn splat(value: i64) -> Self {
+                Self([call!($splat_words(value)); 8 / $lanes])
             }
 
             #[inline(always)]
@@ -104,6 +104,11 @@ macro_rules! split {
             #[inline(always)]
             fn plus(self, other: Self) -> Self {
                 Self([$(call!($add_words(self.0[$part], other.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn minus(self, other: Self) -> Self {
+                Self([$(call!($sub_words(self.0[$part], other.0[$part]))),*])
             }
 
             #[inline(always)]
@@ -154,6 +159,21 @@ macro_rules! split {
             }
 
             #[inline(always)]
+            fn at_least(self, other: Self) -> $mask {
+                $mask([$(call!($below_or_equal(other.0[$part], self.0[$part]))),*])
+            }
+
+            #[inline(always)]
+            fn within(self, width: Self) -> $mask {
+                self.at_least(Self::splat(0.0)) & self.below(width)
+            }
+
+            #[inline(always)]
+            fn at_least_where(self, mask: $mask, other: Self) -> $mask {
+                mask & self.at_least(other)
+            }
+
+            #[inline(always)]
             fn lesser(self, other: Self) -> Self {
                 Self([$(call!($min(self.0[$part], other.0[$part]))),*])
             }
@@ -192,6 +212,13 @@ fn below_avx2(a: __m256d, b: __m256d) -> __m256d {
     _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)
 }
 
+/// a ≤ b.
+#[target_feature(enable = "avx2")]
+#[inline]
+fn below_or_equal_avx2(a: __m256d, b: __m256d) -> __m256d {
+    _mm256_cmp_pd::<_CMP_LE_OQ>(a, b)
+}
+
 /// SSE2 has no instruction that selects.
 #[target_feature(enable = "sse2")]
 #[inline]
@@ -203,9 +230,10 @@ split! {
     Avx2, Mask256, Integers256: registers [0, 1] of 4 lanes,
     floats __m256d, words __m256i,
     add _mm256_add_pd, sub _mm256_sub_pd, mul _mm256_mul_pd, min _mm256_min_pd, max _mm256_max_pd, below below_avx2,
+    below_or_equal below_or_equal_avx2,
     and _mm256_and_pd, andnot _mm256_andnot_pd, or _mm256_or_pd, select _mm256_blendv_pd, movemask _mm256_movemask_pd,
     splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
-    to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, zero_words _mm256_setzero_si256,
+    to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, splat_words _mm256_set1_epi64x,
     splat_32 _mm256_set1_epi32, equal_32 _mm256_cmpeq_epi32, add_words _mm256_add_epi64, sub_words _mm256_sub_epi64,
     and_words _mm256_and_si256, or_words _mm256_or_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
 }
@@ -214,9 +242,10 @@ split! {
     Sse2, Mask128, Integers128: registers [0, 1, 2, 3] of 2 lanes,
     floats __m128d, words __m128i,
     add _mm_add_pd, sub _mm_sub_pd, mul _mm_mul_pd, min _mm_min_pd, max _mm_max_pd, below _mm_cmplt_pd,
+    below_or_equal _mm_cmple_pd,
     and _mm_and_pd, andnot _mm_andnot_pd, or _mm_or_pd, select select_sse2, movemask _mm_movemask_pd,
     splat _mm_set1_pd, load _mm_loadu_pd, store _mm_storeu_pd,
-    to_words _mm_castpd_si128, to_floats _mm_castsi128_pd, zero_words _mm_setzero_si128,
+    to_words _mm_castpd_si128, to_floats _mm_castsi128_pd, splat_words _mm_set1_epi64x,
     splat_32 _mm_set1_epi32, equal_32 _mm_cmpeq_epi32, add_words _mm_add_epi64, sub_words _mm_sub_epi64,
     and_words _mm_and_si128, or_words _mm_or_si128, load_words _mm_loadu_si128, store_words _mm_storeu_si128
 }

@@ -5,18 +5,6 @@ use std::ops::{Add, BitAnd, BitOr, Mul, Not, Sub};
 
 use super::{Chunk, IntegerChunk, Integers, Lanes, Mask};
 
-/// Eight numbers.
-#[derive(Clone, Copy)]
-pub struct Avx512(__m512d);
-
-/// Eight answers.
-#[derive(Clone, Copy)]
-pub struct Mask512(__mmask8);
-
-/// Eight integers.
-#[derive(Clone, Copy)]
-pub struct Integers512(__m512i);
-
 /// A call of an instruction of AVX-512.
 macro_rules! call {
     ($call:expr) => {{
@@ -28,6 +16,18 @@ macro_rules! call {
         }
     }};
 }
+
+/// Eight numbers.
+#[derive(Clone, Copy)]
+pub struct Avx512(__m512d);
+
+/// Eight answers, one bit each.
+#[derive(Clone, Copy)]
+pub struct Mask512(__mmask8);
+
+/// Eight integers.
+#[derive(Clone, Copy)]
+pub struct Integers512(__m512i);
 
 macro_rules! operator {
     ($trait:ident, $method:ident, $instruction:ident) => {
@@ -89,8 +89,8 @@ impl Integers for Integers512 {
     type Mask = Mask512;
 
     #[inline(always)]
-    fn zero() -> Self {
-        Self(call!(_mm512_setzero_si512()))
+    fn splat(value: i64) -> Self {
+        Self(call!(_mm512_set1_epi64(value)))
     }
 
     #[inline(always)]
@@ -109,13 +109,19 @@ impl Integers for Integers512 {
     }
 
     #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(call!(_mm512_sub_epi64(self.0, other.0)))
+    }
+
+    #[inline(always)]
     fn plus_where(self, mask: Mask512, other: Self) -> Self {
         Self(call!(_mm512_mask_add_epi64(self.0, mask.0, self.0, other.0)))
     }
 
     #[inline(always)]
     fn count(self, mask: Mask512) -> Self {
-        self.plus_where(mask, Self(call!(_mm512_set1_epi64(1))))
+        // A count by the mask as a number would cost two instructions.
+        self.plus_where(mask, Self(call!(_mm512_set1_epi64(std::hint::black_box(1)))))
     }
 
     #[inline(always)]
@@ -146,6 +152,22 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn below(self, other: Self) -> Mask512 {
         Mask512(call!(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn at_least(self, other: Self) -> Mask512 {
+        Mask512(call!(_mm512_cmp_pd_mask::<_CMP_GE_OQ>(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn within(self, width: Self) -> Mask512 {
+        // The bits of a negative number are those of a large integer without sign, those of others are in their order.
+        Mask512(call!(_mm512_cmplt_epu64_mask(_mm512_castpd_si512(self.0), _mm512_castpd_si512(width.0))))
+    }
+
+    #[inline(always)]
+    fn at_least_where(self, mask: Mask512, other: Self) -> Mask512 {
+        Mask512(call!(_mm512_mask_cmp_pd_mask::<_CMP_GE_OQ>(mask.0, self.0, other.0)))
     }
 
     #[inline(always)]
