@@ -148,11 +148,11 @@ impl Contact {
     fn take_sums(&mut self, reading: &Reading, bracket: &Bracket) {
         let (quantum, anchor) = (bracket.quantum.value(), bracket.quantum.anchor_bits());
         for pair in self.pairs {
-            let counts = reading.touching[*pair].0.iter().flat_map(|chunk| chunk.0);
-            let sums = reading.overlap[*pair].0.iter().flat_map(|chunk| chunk.0);
+            let counts = reading.touching[*pair].0.as_flattened();
+            let sums = reading.overlap[*pair].0.as_flattened();
             let rows = self.touching[*pair].iter_mut().zip(&mut self.overlap[*pair]);
-            for ((touching, overlap), (count, sum)) in rows.zip(counts.zip(sums)) {
-                *touching = count as f64;
+            for ((touching, overlap), (count, sum)) in rows.zip(counts.iter().zip(sums)) {
+                *touching = *count as f64;
                 *overlap = sum.wrapping_sub(count.wrapping_mul(anchor)) as f64 * quantum;
             }
         }

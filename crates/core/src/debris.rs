@@ -161,10 +161,10 @@ impl Debris {
                 let even_on_pin = share * self.pad_share;
                 let mut deposited = |even: f64, beyond: &RowIntegers| {
                     let even = self.deposits.count(even);
-                    let counts = beyond.rows(rows.clone()).zip(&contact.touching()[rows.clone()]);
+                    let counts = beyond.rows(rows.clone()).iter().zip(&contact.touching()[rows.clone()]);
                     self.rows[rows.clone()].iter_mut().zip(counts).for_each(|(height, (beyond, touching))| {
                         let open = self.columns as i64 - *touching as i64;
-                        *height = (even.wrapping_mul(open).wrapping_add(beyond)) as f64 * self.deposits.value();
+                        *height = (even.wrapping_mul(open).wrapping_add(*beyond)) as f64 * self.deposits.value();
                     });
                     dot(&self.rows[rows.clone()], &self.area[rows.clone()])
                 };
@@ -175,7 +175,7 @@ impl Debris {
                 let mut spared = |counts: &RowIntegers| {
                     let counts = counts.rows(rows.clone());
                     let heights = self.rows[rows.clone()].iter_mut();
-                    heights.zip(counts).for_each(|(height, count)| *height = count as f64 * losses.value());
+                    heights.zip(counts).for_each(|(height, count)| *height = *count as f64 * losses.value());
                     dot(&self.rows[rows.clone()], &self.area[rows.clone()])
                 };
                 worn_pin -= spared(&moved.spared_pin);

@@ -66,29 +66,29 @@ pub struct RowIntegers(pub Vec<IntegerChunk>);
 impl RowIntegers {
     /// All 0.
     pub fn new(strips: usize) -> Self {
-        Self(vec![IntegerChunk([0; LANES]); strips])
+        Self(vec![[0; LANES]; strips])
     }
 
     /// All 0 again.
     pub fn clear(&mut self) {
-        self.0.fill(IntegerChunk([0; LANES]));
+        self.0.fill([0; LANES]);
     }
 
     /// Sums of two, row by row.
     pub fn add(&mut self, words: &[u64]) {
-        for (value, word) in self.0.iter_mut().flat_map(|chunk| &mut chunk.0).zip(words) {
+        for (value, word) in self.0.as_flattened_mut().iter_mut().zip(words) {
             *value = value.wrapping_add(*word as i64);
         }
     }
 
     /// Those of some rows.
-    pub fn rows(&self, rows: Range<usize>) -> impl Iterator<Item = i64> + '_ {
-        self.0.iter().flat_map(|chunk| chunk.0).take(rows.end).skip(rows.start)
+    pub fn rows(&self, rows: Range<usize>) -> &[i64] {
+        &self.0.as_flattened()[rows]
     }
 
     /// As words of a message.
     pub fn words(&self) -> impl Iterator<Item = u64> + '_ {
-        self.0.iter().flat_map(|chunk| chunk.0).map(|value| value as u64)
+        self.0.as_flattened().iter().map(|value| *value as u64)
     }
 }
 

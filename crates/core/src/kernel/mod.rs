@@ -8,6 +8,7 @@ mod instructions;
 pub(crate) mod lanes;
 mod moved;
 mod pairs;
+mod plain;
 mod read;
 mod reading;
 mod rules;

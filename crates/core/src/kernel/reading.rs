@@ -1,6 +1,6 @@
 //! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
 
-use super::lanes::{Chunk, Integers, Lanes, Mask};
+use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::exact::{Quantum, RowIntegers};
 use crate::pair::Pair;
@@ -76,11 +76,13 @@ pub fn told_apart(distinct: bool) -> &'static [usize] {
 
 /// A bracket for eight cells at a time.
 #[derive(Clone, Copy)]
-pub(super) struct BracketLanes<L> {
+pub(super) struct BracketLanes<L: Lanes> {
     low: L,
     width: L,
     anchor: L,
     zero: L,
+    /// 1; the compiler is not to know, for it would count by the mask as a number, which takes more instructions.
+    one: L::Integers,
 }
 
 impl<L: Lanes> BracketLanes<L> {
@@ -91,6 +93,7 @@ impl<L: Lanes> BracketLanes<L> {
             width: L::splat(bracket.width),
             anchor: L::splat(bracket.quantum.anchor()),
             zero: L::splat(0.0),
+            one: L::Integers::splat(std::hint::black_box(1)),
         }
     }
 }
@@ -129,18 +132,18 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             let mut pair = 0;
             while pair < Pair::COUNT {
                 let these = touches & pairs.are(pair);
-                self.touching[pair] = self.touching[pair].count(these);
+                self.touching[pair] = self.touching[pair].plus_where(these, bracket.one);
                 self.overlap[pair] = self.overlap[pair].plus_where(these, overlap);
                 pair += 1;
             }
         } else {
             let resin = touches & pairs.resin();
             let plateau = touches & !pairs.resin();
-            self.touching[PLATEAU] = self.touching[PLATEAU].count(plateau);
+            self.touching[PLATEAU] = self.touching[PLATEAU].plus_where(plateau, bracket.one);
             self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(plateau, overlap);
             if resin.any() {
                 let touching = &mut reading.touching[RESIN].0[strip];
-                L::Integers::load(touching).count(resin).store(touching);
+                L::Integers::load(touching).plus_where(resin, bracket.one).store(touching);
                 let sum = &mut reading.overlap[RESIN].0[strip];
                 L::Integers::load(sum).plus_where(resin, overlap).store(sum);
             }
@@ -154,18 +157,16 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         }
     }
 
-    /// Reads eight pairs as if all were plateaus but those that `plateau` says are not; returns those for which that is
-    /// not right: what touches without being a plateau, and what is near. Their sums are then not to be used.
+    /// Reads eight pairs as if all were plateaus and none near; returns those that touch, and those that are near.
     #[inline(always)]
-    pub fn add_plain(&mut self, gap: L, bracket: &BracketLanes<L>, plateau: u8) -> L::Mask {
+    pub fn add_plateaus(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L::Mask, L::Mask) {
         let beyond = gap - bracket.low;
         let touches = beyond.below(bracket.zero);
         let overlap = (bracket.anchor - beyond).bits();
         self.range = self.range.or_where(touches, overlap);
-        self.touching[PLATEAU] = self.touching[PLATEAU].count(touches);
+        self.touching[PLATEAU] = self.touching[PLATEAU].plus_where(touches, bracket.one);
         self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches, overlap);
-        let near = beyond.within(bracket.width);
-        if plateau == u8::MAX { near } else { near | (touches & !L::Mask::of_byte(plateau)) }
+        (touches, beyond.within(bracket.width))
     }
 
     /// Adds the sums of the strip to the others.
@@ -181,9 +182,9 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             }
             pair += 1;
         }
-        let mut range = super::lanes::IntegerChunk([0; 8]);
+        let mut range = [0; LANES];
         self.range.store(&mut range);
-        reading.range |= range.0.iter().fold(0, |bits, lane| bits | lane);
+        reading.range |= range.iter().fold(0, |bits, lane| bits | lane);
     }
 }
 

@@ -12,8 +12,9 @@ use std::ops::Range;
 
 use super::cells::{Strip, update};
 use super::instructions::{InstructionSet, kernel};
-use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use super::lanes::{Chunk, LANES, Lanes, Mask};
 use super::moved::{Moved, StripMoved};
+use super::plain::sweep_plain;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
@@ -89,7 +90,8 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
         let (mut column, mut unusual) = (0, 0);
         while column < columns {
             if !DISTINCT && unusual <= MOST_UNUSUAL {
-                column = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>(&strip_rules, &mut strip, column, moved, reading);
+                let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
+                column = plain(&strip_rules, &mut strip, column, moved, reading);
             }
             let end = if !DISTINCT && unusual <= MOST_UNUSUAL { columns.min(column + 1) } else { columns };
             sweep_any::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
@@ -133,105 +135,4 @@ fn sweep_any<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FORMS
     }
     strip_moved.store::<DISTINCT, FORMS>(strip.index, moved);
     next.store(strip.index, reading);
-}
-
-/// Sweeps the columns of a strip from `start` on, up to the first with a cell to which anything out of the ordinary
-/// happens; returns that column.
-///
-/// Where build-up has the properties of what it lies on, it is ordinary
-/// - to touch as a plateau and wear, or to be open and get the even deposit: as much as there is a plateau ahead for, and
-///   no more than there is room for;
-/// - to keep one's status where it matters: resin that is built up stays so, and bare resin stays bare;
-/// - to be read for the next step as touching, as a plateau, or as open, but not as near.
-#[inline(always)]
-fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
-    rules: &StripRules<L>,
-    strip: &mut Strip,
-    start: usize,
-    moved: &mut Moved,
-    reading: &mut Reading,
-) -> usize {
-    let mut strip_moved = StripMoved::<L>::new();
-    let mut next = StripReading::<L, false>::new();
-    let pin_loss = rules.pin_loss.plateau();
-    let disc_loss = rules.disc_loss.plateau();
-    // What an open cell gets that has no plateau ahead, beyond the even deposit.
-    let unsupported_pin = rules.beyond(rules.zero, rules.even_on_pin);
-    let unsupported_disc = rules.beyond(rules.share, rules.even_on_disc);
-
-    let mut z_behind = strip.behind::<L, false>(start).height;
-    let columns = strip.disc_height.len();
-    let PinStrip { height, substrate, resin, plateau } = &mut strip.pin;
-    let (height, resin, plateau) = (&mut height[..columns], &resin[..columns], &plateau[..=columns]);
-    let substrate = if FORMS { &mut substrate[..columns] } else { &mut [] };
-    let disc_height = &mut *strip.disc_height;
-    let disc_substrate = if FORMS && DISC_WEARS { &mut strip.disc_substrate[..columns] } else { &mut [] };
-
-    let mut column = start;
-    while column < columns {
-        let (z_p, z_d) = (L::load(&height[column]), L::load(&disc_height[column]));
-        let (plateau, ahead) = (plateau[column], plateau[column + 1]);
-
-        // 4.1 and 4.2
-        let clearance = z_p - z_d - rules.displacement;
-        let open = clearance.at_least(rules.zero);
-        let worn = z_p + clearance * pin_loss;
-        let b_p = if FORMS { L::load(&substrate[column]).greater(worn) } else { worn };
-        let mut z_worn = z_d;
-        let mut b_d = z_d;
-        if DISC_WEARS {
-            z_worn = L::select(open, z_d, z_d - clearance * disc_loss);
-            b_d = if FORMS { L::load(&disc_substrate[column]).lesser(z_worn) } else { z_worn };
-        }
-
-        let (new_z_p, new_z_d, mut unusual);
-        let mut with_these = strip_moved;
-        if !FORMS {
-            (new_z_p, new_z_d) = (L::select(open, z_p, worn), z_worn);
-            unusual = !open & L::Mask::of_byte(resin[column]);
-        } else {
-            // 4.4
-            unusual = clearance.within(rules.share);
-            let on_resin = L::Mask::of_byte(resin[column]);
-            if plateau & ahead == u8::MAX {
-                new_z_p = L::select(open, z_p - rules.even_on_pin, worn);
-                new_z_d = L::select(open, z_d + rules.even_on_disc, z_worn);
-                unusual = unusual | new_z_p.at_least_where(on_resin, b_p);
-            } else {
-                let (is_plateau, supported) = (L::Mask::of_byte(plateau), L::Mask::of_byte(ahead));
-                new_z_p = L::select(open, z_p - rules.even_on_pin.only(supported), worn);
-                new_z_d = L::select(open, z_d + L::select(supported, rules.even_on_disc, rules.share), z_worn);
-                let unsupported = open & !supported;
-                with_these.deposited_pin = with_these.deposited_pin.plus_where(unsupported, unsupported_pin);
-                with_these.deposited_disc = with_these.deposited_disc.plus_where(unsupported, unsupported_disc);
-                let built_up = new_z_p.below(b_p);
-                let changes = on_resin & ((built_up & !is_plateau) | (!built_up & is_plateau));
-                let falls = if DESTROYS { L::Mask::of_byte(resin[column] & plateau & !ahead) } else { !open & open };
-                unusual = unusual | changes | falls | (!open & !is_plateau);
-            }
-        }
-
-        // 4.1 of the next step
-        let mut next_with_these = next;
-        unusual = unusual | next_with_these.add_plain(new_z_p - z_behind, &rules.bracket, plateau);
-        if unusual.any() {
-            break;
-        }
-        (next, strip_moved) = (next_with_these, with_these);
-        new_z_p.store(&mut height[column]);
-        if FORMS {
-            b_p.store(&mut substrate[column]);
-        }
-        if FORMS || DISC_WEARS {
-            new_z_d.store(&mut disc_height[column]);
-        }
-        if FORMS && DISC_WEARS {
-            b_d.store(&mut disc_substrate[column]);
-        }
-        z_behind = new_z_d;
-        column += 1;
-    }
-    strip_moved.store::<false, FORMS>(strip.index, moved);
-    next.store(strip.index, reading);
-    column
 }

@@ -3,7 +3,7 @@
 use super::Worker;
 use crate::comm::Communicator;
 use crate::kernel::{Bracket, Conditions, Span, read};
-use crate::sector::Segment;
+use crate::sector::{Partition, Segment};
 use crate::simulation::SimulationError;
 
 /// Columns that are swept before the first of a segment is handed on: that one, and the one whose status goes with it.
@@ -23,6 +23,7 @@ impl<C: Communicator> Worker<C> {
         let partition = self.partition.clone();
         let first = self.first();
         let own = self.communicator.rank();
+        self.fetch_entering(&partition, first);
         let is_alone = self.communicator.size() == 1;
         if !is_alone {
             for segment in partition.segments_of(own, first) {
@@ -49,6 +50,15 @@ impl<C: Communicator> Worker<C> {
         }
         self.bracket = Some(bracket);
         Ok(())
+    }
+
+    /// Has the disc columns that enter brought near the processor while the others are swept.
+    fn fetch_entering(&self, partition: &Partition, first: usize) {
+        for entering in partition.entering(first) {
+            if let Some(sector) = &self.sectors[entering.sector] {
+                std::hint::black_box(sector.height.column(entering.over).sum::<f64>());
+            }
+        }
     }
 
     /// Sweeps some columns of a segment.

@@ -65,12 +65,12 @@ fn write_reading(message: &mut Vec<u64>, reading: &Reading) {
             continue;
         }
         // Statuses that touch nowhere, as resin mostly, are left out.
-        let touches = touching.0.iter().any(|chunk| chunk.0 != [0; 8]);
+        let touches = touching.0.iter().any(|chunk| *chunk != [0; 8]);
         message.push(u64::from(touches));
         if touches {
             // A column count fits 32 bits: two rows a word.
             message.extend(touching.0.iter().flat_map(|chunk| {
-                let [a, b, c, d, e, f, g, h] = chunk.0.map(|count| count as u64);
+                let [a, b, c, d, e, f, g, h] = chunk.map(|count| count as u64);
                 [a | b << 32, c | d << 32, e | f << 32, g | h << 32]
             }));
             message.extend(overlap.words());
@@ -90,7 +90,7 @@ fn add_reading(words: &mut Words, reading: &mut Reading) {
         }
         let counts = words.take(rows_of(touching) / 2);
         for (chunk, counts) in touching.0.iter_mut().zip(counts.chunks_exact(4)) {
-            for (pair, count) in chunk.0.chunks_exact_mut(2).zip(counts) {
+            for (pair, count) in chunk.chunks_exact_mut(2).zip(counts) {
                 pair[0] += (count & 0xffff_ffff) as i64;
                 pair[1] += (count >> 32) as i64;
             }

@@ -27,9 +27,7 @@ pub const LANES: usize = 8;
 pub struct Chunk(pub [f64; LANES]);
 
 /// Eight integers of one strip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(C, align(64))]
-pub struct IntegerChunk(pub [i64; LANES]);
+pub type IntegerChunk = [i64; LANES];
 
 /// Which of eight cells are meant.
 pub(crate) trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
@@ -57,8 +55,6 @@ pub(crate) trait Integers: Copy {
     fn minus(self, other: Self) -> Self;
     /// Sums where the mask says so, else as they are.
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self;
-    /// One more where the mask says so.
-    fn count(self, mask: Self::Mask) -> Self;
     /// Bits of either, where the mask says so, else as they are.
     fn or_where(self, mask: Self::Mask, other: Self) -> Self;
 }

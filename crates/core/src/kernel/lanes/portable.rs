@@ -69,12 +69,12 @@ impl Integers for Words {
 
     #[inline(always)]
     fn load(chunk: &IntegerChunk) -> Self {
-        Self(chunk.0)
+        Self(*chunk)
     }
 
     #[inline(always)]
     fn store(self, chunk: &mut IntegerChunk) {
-        chunk.0 = self.0;
+        *chunk = self.0;
     }
 
     #[inline(always)]
@@ -90,11 +90,6 @@ impl Integers for Words {
     #[inline(always)]
     fn plus_where(self, mask: Answers, other: Self) -> Self {
         Self(from_fn(|lane| if mask.0[lane] { self.0[lane].wrapping_add(other.0[lane]) } else { self.0[lane] }))
-    }
-
-    #[inline(always)]
-    fn count(self, mask: Answers) -> Self {
-        Self(from_fn(|lane| self.0[lane].wrapping_add(i64::from(mask.0[lane]))))
     }
 
     #[inline(always)]

@@ -93,12 +93,12 @@ macro_rules! split {
 
             #[inline(always)]
             fn load(chunk: &IntegerChunk) -> Self {
-                Self([$(call!($load_words(chunk.0[$part * $lanes..][..$lanes].as_ptr().cast()))),*])
+                Self([$(call!($load_words(chunk[$part * $lanes..][..$lanes].as_ptr().cast()))),*])
             }
 
             #[inline(always)]
             fn store(self, chunk: &mut IntegerChunk) {
-                $(call!($store_words(chunk.0[$part * $lanes..][..$lanes].as_mut_ptr().cast(), self.0[$part]));)*
+                $(call!($store_words(chunk[$part * $lanes..][..$lanes].as_mut_ptr().cast(), self.0[$part]));)*
             }
 
             #[inline(always)]
@@ -117,12 +117,6 @@ macro_rules! split {
                     self.0[$part],
                     $and_words($to_words(mask.0[$part]), other.0[$part])
                 ))),*])
-            }
-
-            #[inline(always)]
-            fn count(self, mask: $mask) -> Self {
-                // A mask that says yes is −1 as an integer.
-                Self([$(call!($sub_words(self.0[$part], $to_words(mask.0[$part])))),*])
             }
 
             #[inline(always)]

@@ -95,12 +95,12 @@ impl Integers for Integers512 {
 
     #[inline(always)]
     fn load(chunk: &IntegerChunk) -> Self {
-        Self(call!(_mm512_load_si512(chunk.0.as_ptr().cast())))
+        Self(call!(_mm512_loadu_si512(chunk.as_ptr().cast())))
     }
 
     #[inline(always)]
     fn store(self, chunk: &mut IntegerChunk) {
-        call!(_mm512_store_si512(chunk.0.as_mut_ptr().cast(), self.0));
+        call!(_mm512_storeu_si512(chunk.as_mut_ptr().cast(), self.0));
     }
 
     #[inline(always)]
@@ -116,12 +116,6 @@ impl Integers for Integers512 {
     #[inline(always)]
     fn plus_where(self, mask: Mask512, other: Self) -> Self {
         Self(call!(_mm512_mask_add_epi64(self.0, mask.0, self.0, other.0)))
-    }
-
-    #[inline(always)]
-    fn count(self, mask: Mask512) -> Self {
-        // A count by the mask as a number would cost two instructions.
-        self.plus_where(mask, Self(call!(_mm512_set1_epi64(std::hint::black_box(1)))))
     }
 
     #[inline(always)]
