@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use crate::error::BenchError;
-use crate::session::Options;
+use crate::session::{Options, WorkerOptions};
 use crate::{kernel, parts, peers, report, roofline, scaling};
 
 /// How long a step of Plateau takes, and why.
@@ -21,16 +21,16 @@ pub struct Arguments {
 enum Command {
     /// Time a step for every instruction set and number of workers
     #[command(after_help = "Example:\n  plateau-bench kernel --json kernel.json")]
-    Kernel(Options),
+    Kernel(WorkerOptions),
     /// Time a step for every number of workers on meshes from the scene's to a full pad
     #[command(after_help = "Example:\n  plateau-bench scaling --workers 1,2 --json scaling.json")]
-    Scaling(Options),
+    Scaling(WorkerOptions),
     /// Time a step with optional parts of the model and of the output on and off
     #[command(after_help = "Example:\n  plateau-bench parts --json parts.json")]
     Parts(Options),
     /// Set what a step moves against the bandwidth of caches and memory
     #[command(after_help = "Example:\n  plateau-bench roofline --json roofline.json")]
-    Roofline(Options),
+    Roofline(WorkerOptions),
     /// Time the same step written in Python, as Numba loops and as NumPy arrays
     #[command(
         after_help = "Installs Numba and NumPy into .venv-peers in the checkout.\n\nExample:\n  plateau-bench peers --json peers.json"

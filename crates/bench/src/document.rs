@@ -195,6 +195,8 @@ pub struct Agreement {
     pub peer: String,
     /// Its versions.
     pub versions: String,
+    /// m of the comparison.
+    pub time_acceleration: f64,
     /// Steps compared.
     pub steps: usize,
     /// Of the displacement after each step.

@@ -6,11 +6,11 @@ use crate::case::{Case, MeshSize};
 use crate::document::Benchmark;
 use crate::error::BenchError;
 use crate::race::{Entry, race};
-use crate::session::Options;
+use crate::session::WorkerOptions;
 use crate::stepper::{Setup, Stepper};
 
 /// Measures and reports.
-pub fn kernel(options: Options) -> Result<(), BenchError> {
+pub fn kernel(options: WorkerOptions) -> Result<(), BenchError> {
     let mut session = options.begin(Benchmark::Kernel)?;
     let case = session.source.case()?;
     let mut entries = Vec::new();

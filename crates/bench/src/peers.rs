@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use plateau_core::observe::{Map, MapValues};
+use tempfile::TempDir;
 
+use crate::case::Case;
 use crate::document::{Agreement, Benchmark};
 use crate::error::BenchError;
 use crate::peer::{Peer, Trace, export, python};
@@ -17,65 +19,100 @@ const PEERS: [(&str, &str); 2] = [("numba", "Numba loops"), ("numpy", "NumPy arr
 /// as much of the overlap, rounding by far less.
 const TOLERANCE: f64 = 1e-9;
 
+/// Time acceleration of a second comparison: build-ups are worn through in a step, which hardly happens at 1.
+const FAST: &str = "numerics.time_acceleration=1000";
+
 /// Checks that the peers compute the same, measures and reports.
 pub fn peers(options: Options) -> Result<(), BenchError> {
     let mut session = options.begin(Benchmark::Peers)?;
-    let case = session.source.case()?;
-    let folder = tempfile::tempdir().map_err(BenchError::file(Path::new("a temporary directory")))?;
-    export(&case, folder.path())?;
+    let mesh = session.mesh;
+    // A scene that the peers do not compute is refused before anything is installed for it.
+    let fast = Reference::new(&session.source.with([FAST.to_owned()]).case()?)?;
+    let scene = Reference::new(&session.source.case()?)?;
     let python = python()?;
 
-    // More than a revolution, so that the pin meets columns that it has been on before.
-    let steps = session.mesh.disc_columns + session.mesh.pin_columns;
-    let setup = Setup::of(1);
-    let mut plateau = Stepper::new(&case, setup)?;
-    let (ours, heights) = reference(&mut plateau, steps)?;
-
-    let mesh = session.mesh;
-    let instructions = setup.instructions.name().to_owned();
-    let mut entries = vec![Entry { name: "Plateau".into(), mesh, workers: 1, instructions, runner: Box::new(plateau) }];
+    let mut peers = Vec::new();
     for (kind, name) in PEERS {
-        let mut peer = match Peer::start(&python, kind, folder.path()) {
+        match fast.start(&python, kind) {
             Err(error) if kind == "numba" => {
                 session.document.notes.push(format!("Numba cannot be had here: {error}."));
                 continue;
             }
-            started => started?,
-        };
-        eprintln!("comparing {steps} steps: {name}");
-        let theirs = peer.trace(steps)?;
-        session.document.agreements.push(Agreement {
-            peer: name.into(),
-            versions: peer.versions.clone(),
-            steps,
-            displacement: compare(name, "displacement", &ours.displacement, &theirs.displacement)?,
-            contact_area: compare(name, "contact area", &ours.contact_area, &theirs.contact_area)?,
-            pool: compare(name, "debris pool", &ours.pool, &theirs.pool)?,
-            heights: compare(name, "height", &heights, &peer.heights(folder.path())?.concat())?,
-        });
-        let instructions = String::from("its own");
-        entries.push(Entry { name: name.into(), mesh, workers: 1, instructions, runner: Box::new(peer) });
+            started => session.document.agreements.push(fast.agreement(&mut started?, name)?),
+        }
+        let mut peer = scene.start(&python, kind)?;
+        session.document.agreements.push(scene.agreement(&mut peer, name)?);
+        peers.push((name, peer));
     }
+
+    let setup = Setup::of(1);
+    let entry = |name: &str, instructions: &str, runner| {
+        let (name, instructions) = (name.to_owned(), instructions.to_owned());
+        Entry { name, mesh, workers: 1, instructions, runner }
+    };
+    let mut entries = vec![entry("Plateau", setup.instructions.name(), Box::new(scene.simulation))];
+    entries.extend(peers.into_iter().map(|(name, peer)| entry(name, "its own", Box::new(peer))));
     session.document.measurements = race(entries, session.pace)?;
     session.finish()
 }
 
-/// What our simulation does in the next steps, and the heights of disc and pin after them.
-fn reference(simulation: &mut Stepper, steps: usize) -> Result<(Trace, Vec<f64>), BenchError> {
-    let mut trace = Trace::default();
-    for _ in 0..steps {
-        simulation.run(1)?;
-        let sample = simulation.sample()?;
-        trace.displacement.push(sample.displacement);
-        trace.contact_area.push(sample.contact_area);
-        trace.pool.push(sample.pool);
+/// What our simulation does from the start on, with which the peers are compared.
+struct Reference {
+    /// Where the peers find the surfaces, and put theirs.
+    folder: TempDir,
+    time_acceleration: f64,
+    steps: usize,
+    trace: Trace,
+    /// Of disc and pin after the last step.
+    heights: Vec<f64>,
+    /// It, after the last step.
+    simulation: Stepper,
+}
+
+impl Reference {
+    fn new(case: &Case) -> Result<Self, BenchError> {
+        let folder = tempfile::tempdir().map_err(BenchError::file(Path::new("a temporary directory")))?;
+        export(case, folder.path())?;
+        let mut simulation = Stepper::new(case, Setup::of(1))?;
+        // More than a revolution, so that the pin meets columns that it has been on before.
+        let steps = case.parameters.mesh.disc_columns() + case.parameters.mesh.pin_columns();
+        let mut trace = Trace::default();
+        for _ in 0..steps {
+            simulation.run(1)?;
+            let sample = simulation.sample()?;
+            trace.displacement.push(sample.displacement);
+            trace.contact_area.push(sample.contact_area);
+            trace.pool.push(sample.pool);
+        }
+        let maps = simulation.snapshot(&[Map::DiscHeight, Map::PinHeight])?.maps;
+        let heights = maps.into_iter().filter_map(|(_, values)| match values {
+            MapValues::Float(heights) => Some(heights),
+            MapValues::Status(_) => None,
+        });
+        let (heights, time_acceleration) = (heights.flatten().collect(), case.parameters.time_acceleration);
+        Ok(Self { folder, time_acceleration, steps, trace, heights, simulation })
     }
-    let maps = simulation.snapshot(&[Map::DiscHeight, Map::PinHeight])?.maps;
-    let heights = maps.into_iter().filter_map(|(_, values)| match values {
-        MapValues::Float(heights) => Some(heights),
-        MapValues::Status(_) => None,
-    });
-    Ok((trace, heights.flatten().collect()))
+
+    fn start(&self, python: &Path, kind: &str) -> Result<Peer, BenchError> {
+        Peer::start(python, kind, self.folder.path())
+    }
+
+    /// Compares a peer's first steps with ours.
+    fn agreement(&self, peer: &mut Peer, name: &str) -> Result<Agreement, BenchError> {
+        let Self { steps, time_acceleration, .. } = *self;
+        eprintln!("comparing {steps} steps with time acceleration {time_acceleration}: {name}");
+        let theirs = peer.trace(steps)?;
+        Ok(Agreement {
+            peer: name.into(),
+            versions: peer.versions.clone(),
+            time_acceleration,
+            steps,
+            displacement: compare(name, "displacement", &self.trace.displacement, &theirs.displacement)?,
+            contact_area: compare(name, "contact area", &self.trace.contact_area, &theirs.contact_area)?,
+            pool: compare(name, "debris pool", &self.trace.pool, &theirs.pool)?,
+            heights: compare(name, "height", &self.heights, &peer.heights(self.folder.path())?.concat())?,
+        })
+    }
 }
 
 /// Largest difference over the largest value.

@@ -5,12 +5,12 @@ use crate::document::{Benchmark, StepTraffic};
 use crate::error::BenchError;
 use crate::kernel::entry;
 use crate::race::race;
-use crate::session::Options;
+use crate::session::WorkerOptions;
 use crate::stepper::Setup;
 use crate::traffic::step_traffic;
 
 /// Measures and reports.
-pub fn roofline(options: Options) -> Result<(), BenchError> {
+pub fn roofline(options: WorkerOptions) -> Result<(), BenchError> {
     let mut session = options.begin(Benchmark::Roofline)?;
     let effort = Effort { repeats: session.pace.repeats, block: session.pace.block / 10 };
     let cores = session.document.machine.cores;

@@ -4,7 +4,7 @@ use crate::document::Benchmark;
 use crate::error::BenchError;
 use crate::kernel::entry;
 use crate::race::race;
-use crate::session::Options;
+use crate::session::WorkerOptions;
 use crate::stepper::Setup;
 
 /// Name of what is measured on meshes that do not depend on the number of workers.
@@ -16,7 +16,7 @@ pub const WEAK: &str = "weak";
 ///
 /// Strong scaling: every number of workers on every mesh. Weak scaling: W workers on a mesh whose pin and ring have W
 /// times the columns, so that every worker has as many cells as one has on the first mesh.
-pub fn scaling(options: Options) -> Result<(), BenchError> {
+pub fn scaling(options: WorkerOptions) -> Result<(), BenchError> {
     let mut session = options.begin(Benchmark::Scaling)?;
     let mut entries = Vec::new();
     for mesh in session.meshes() {

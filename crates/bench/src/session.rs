@@ -23,9 +23,6 @@ pub struct Options {
     /// Set a key of the scene; numerics.time_acceleration is 1 unless it is set here; may be repeated
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub sets: Vec<String>,
-    /// Numbers of workers, such as 1,2,4; by default 1, 2, 4 .. and all cores
-    #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
-    pub workers: Vec<u16>,
     /// Blocks of steps of everything that is timed; the blocks are measured in turn
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub repeats: Option<u32>,
@@ -38,6 +35,16 @@ pub struct Options {
     /// Write the results to a file, as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+/// Options of a benchmark that is made for several numbers of workers.
+#[derive(Debug, Args)]
+pub struct WorkerOptions {
+    #[command(flatten)]
+    options: Options,
+    /// Numbers of workers, such as 1,2,4; by default 1, 2, 4 .. and all cores
+    #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
+    workers: Vec<u16>,
 }
 
 /// A benchmark under way.
@@ -59,7 +66,7 @@ pub struct Session {
 }
 
 impl Options {
-    /// Begins a benchmark.
+    /// Begins a benchmark, of one worker.
     pub fn begin(self, benchmark: Benchmark) -> Result<Session, BenchError> {
         let mut source = Source::new(self.scene, self.sets);
         if self.quick {
@@ -70,9 +77,6 @@ impl Options {
             block: Duration::from_millis(self.block_ms.unwrap_or(if self.quick { 1 } else { 200 }).into()),
             warm_up: self.quick.then_some(20),
         };
-        let mut notes = Vec::new();
-        let machine = Machine::this();
-        let workers = workers(&self.workers, machine.cores, &mut notes)?;
         let parameters = source.parameters()?;
         let settings = Settings {
             scene: source.path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -88,24 +92,27 @@ impl Options {
             format: FORMAT,
             benchmark,
             began: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
-            machine,
+            machine: Machine::this(),
             build: Build::this(),
             settings,
             measurements: Vec::new(),
             bandwidths: Vec::new(),
             traffic: Vec::new(),
             agreements: Vec::new(),
-            notes,
+            notes: Vec::new(),
         };
-        Ok(Session {
-            mesh: mesh_size(&parameters),
-            source,
-            pace,
-            workers,
-            quick: self.quick,
-            document,
-            json: self.json,
-        })
+        let (mesh, workers) = (mesh_size(&parameters), vec![1]);
+        Ok(Session { mesh, source, pace, workers, quick: self.quick, document, json: self.json })
+    }
+}
+
+impl WorkerOptions {
+    /// Begins a benchmark.
+    pub fn begin(self, benchmark: Benchmark) -> Result<Session, BenchError> {
+        let mut session = self.options.begin(benchmark)?;
+        let Document { machine, notes, .. } = &mut session.document;
+        session.workers = workers(&self.workers, machine.cores, notes)?;
+        Ok(session)
     }
 }
 

@@ -234,13 +234,15 @@ fn peers(document: &Document) -> Table {
 }
 
 fn agreements(document: &Document) -> Table {
-    let header = ["program", "steps", "displacement", "contact area", "debris pool", "heights"];
+    let header = ["program", "time acceleration", "steps", "displacement", "contact area", "debris pool", "heights"];
     let mut table = Table::new("Largest difference from ours over the largest value", &header);
     for peer in &document.agreements {
         let differences =
             [peer.displacement, peer.contact_area, peer.pool, peer.heights].map(|value| format!("{value:.0e}"));
         let name = format!("{} ({})", peer.peer, peer.versions);
-        table.rows.push([vec![name, peer.steps.to_string()], differences.to_vec()].concat());
+        table.rows.push(
+            [vec![name, peer.time_acceleration.to_string(), peer.steps.to_string()], differences.to_vec()].concat(),
+        );
     }
     table
 }

@@ -148,7 +148,8 @@ fn peers_agree_before_they_are_timed() {
     assert_eq!(names[0], "Plateau");
     assert!(names.contains(&"NumPy arrays"), "{names:?}");
     let agreements = results["agreements"].as_array().expect("agreements");
-    assert_eq!(agreements.len(), names.len() - 1);
+    // At the scene's time acceleration and at a large one.
+    assert_eq!(agreements.len(), 2 * (names.len() - 1));
     for peer in agreements {
         for quantity in ["displacement", "contact_area", "pool", "heights"] {
             assert!(peer[quantity].as_f64().is_some_and(|difference| difference <= 1e-9), "{quantity} of {peer}");
