@@ -35,7 +35,8 @@ pub fn peers(options: Options) -> Result<(), BenchError> {
     for (kind, name) in PEERS {
         match fast.start(&python, kind) {
             Err(error) if kind == "numba" => {
-                session.document.notes.push(format!("Numba cannot be had here: {error}."));
+                eprintln!("{error}");
+                session.document.notes.push("Numba could not be started on this machine.".into());
                 continue;
             }
             started => session.document.agreements.push(fast.agreement(&mut started?, name)?),
