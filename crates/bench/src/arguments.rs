@@ -1,0 +1,67 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::error::BenchError;
+use crate::session::{Options, WorkerOptions};
+use crate::{kernel, parts, peers, report, roofline, scaling};
+
+/// How long a step of Plateau takes, and why.
+#[derive(Debug, Parser)]
+#[command(name = "plateau-bench", version, max_term_width = 100, arg_required_else_help = true)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Time a step for every instruction set and number of workers
+    #[command(after_help = "Example:\n  plateau-bench kernel --json kernel.json")]
+    Kernel(WorkerOptions),
+    /// Time a step for every number of workers on meshes from the scene's to a full pad
+    #[command(after_help = "Example:\n  plateau-bench scaling --workers 1,2 --json scaling.json")]
+    Scaling(WorkerOptions),
+    /// Time a step with optional parts of the model and of the output on and off
+    #[command(after_help = "Example:\n  plateau-bench parts --json parts.json")]
+    Parts(Options),
+    /// Set what a step moves against the bandwidth of caches and memory
+    #[command(after_help = "Example:\n  plateau-bench roofline --json roofline.json")]
+    Roofline(WorkerOptions),
+    /// Time the same step written in Python, as Numba loops and as NumPy arrays
+    #[command(
+        after_help = "Installs Numba and NumPy into .venv-peers in the checkout.\n\nExample:\n  plateau-bench peers --json peers.json"
+    )]
+    Peers(Options),
+    /// Make Markdown tables from results
+    #[command(after_help = "Example:\n  plateau-bench report --into docs/performance.md kernel.json scaling.json")]
+    Report(ReportOptions),
+}
+
+/// Options of `report`.
+#[derive(Debug, Args)]
+pub struct ReportOptions {
+    /// Results, as --json writes them, one file for each benchmark
+    #[arg(required = true, value_name = "JSON")]
+    pub results: Vec<PathBuf>,
+    /// Put the tables into a document, between its marks, instead of printing them
+    #[arg(long, value_name = "MARKDOWN")]
+    pub into: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Does what is asked for.
+    pub fn perform(self) -> Result<(), BenchError> {
+        match self.command {
+            Command::Kernel(options) => kernel::kernel(options),
+            Command::Scaling(options) => scaling::scaling(options),
+            Command::Parts(options) => parts::parts(options),
+            Command::Roofline(options) => roofline::roofline(options),
+            Command::Peers(options) => peers::peers(options),
+            Command::Report(options) => report::report(&options),
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! What is simulated: a scene, on meshes of several sizes.
+
+use std::path::{Path, PathBuf};
+
+use plateau_core::parameters::Parameters;
+use plateau_core::state::InitialSurfaces;
+use plateau_io::{scene, surface};
+use serde::{Deserialize, Serialize};
+
+use crate::error::BenchError;
+
+/// Scenes are measured as the paper's model has it; `--set` may ask for something else.
+const MODEL: &str = "numerics.time_acceleration=1";
+
+/// Parameters and surfaces of a simulation.
+#[derive(Debug)]
+pub struct Case {
+    /// Everything core is told.
+    pub parameters: Parameters,
+    /// The surfaces before the first step.
+    pub surfaces: InitialSurfaces,
+}
+
+/// Counts of cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct MeshSize {
+    /// Cells in r.
+    pub rows: usize,
+    /// Columns under the pin.
+    pub pin_columns: usize,
+    /// Columns round the ring.
+    pub disc_columns: usize,
+}
+
+impl MeshSize {
+    /// A brake pad at the paper's cell size.
+    pub const FULL_PAD: Self = Self { rows: 800, pin_columns: 1600, disc_columns: 13_800 };
+    /// A sixteenth of the paper's mesh, for a look at whether a benchmark runs.
+    pub const QUICK: Self = Self { rows: 20, pin_columns: 40, disc_columns: 691 };
+
+    /// A mesh `factor` times as large in both directions.
+    pub fn times(self, factor: usize) -> Self {
+        Self {
+            rows: self.rows * factor,
+            pin_columns: self.pin_columns * factor,
+            disc_columns: self.disc_columns * factor,
+        }
+    }
+
+    /// A mesh whose pin and ring are `factor` times as long, the rows being the same.
+    pub fn longer(self, factor: usize) -> Self {
+        Self { pin_columns: self.pin_columns * factor, disc_columns: self.disc_columns * factor, ..self }
+    }
+
+    /// Cells of the pin.
+    pub fn pin_cells(self) -> usize {
+        self.rows * self.pin_columns
+    }
+}
+
+impl std::fmt::Display for MeshSize {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "{} x {} on {}", self.rows, self.pin_columns, self.disc_columns)
+    }
+}
+
+/// A scene file and changes of it.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The scene file.
+    pub path: PathBuf,
+    /// Changes, as after `--set`.
+    pub sets: Vec<String>,
+}
+
+impl Source {
+    /// The scene at `path`, or the paper's, with m = 1 and the changes `sets`.
+    pub fn new(path: Option<PathBuf>, sets: Vec<String>) -> Self {
+        let path = path.unwrap_or_else(|| repository().join("data/scenes/cermet.toml"));
+        Self { path, sets: [vec![MODEL.to_owned()], sets].concat() }
+    }
+
+    /// The same with more changes.
+    pub fn with(&self, sets: impl IntoIterator<Item = String>) -> Self {
+        Self { path: self.path.clone(), sets: self.sets.iter().cloned().chain(sets).collect() }
+    }
+
+    /// The same scene on a mesh of another size.
+    ///
+    /// Cells keep their size, the disc its speed and the pin its nominal pressure: the width of the ring grows with the
+    /// rows, its mean radius with the columns round it, the load with the area of the pin and the angular velocity
+    /// against the radius. So every cell has as much to do as before.
+    pub fn on(&self, size: MeshSize) -> Result<Self, BenchError> {
+        let parameters = self.parameters()?;
+        let mesh = &parameters.mesh;
+        if size == mesh_size(&parameters) {
+            return Ok(self.clone());
+        }
+        let width = mesh.row_height() * size.rows as f64;
+        let radius = mesh.column_width() * size.disc_columns as f64 / std::f64::consts::TAU;
+        let force = parameters.normal_force * size.pin_cells() as f64 / mesh.pin_cells() as f64;
+        let speed = parameters.angular_velocity * mesh.mean_radius() / radius;
+        Ok(self.with([
+            format!("mesh.rows={}", size.rows),
+            format!("mesh.pin_columns={}", size.pin_columns),
+            format!("mesh.disc_columns={}", size.disc_columns),
+            format!("mesh.inner_radius=\"{} m\"", radius - width / 2.0),
+            format!("mesh.outer_radius=\"{} m\"", radius + width / 2.0),
+            format!("operation.normal_force=\"{force} N\""),
+            format!("operation.rotational_speed=\"{speed} rad/s\""),
+        ]))
+    }
+
+    /// Everything core is told, without the surfaces.
+    pub fn parameters(&self) -> Result<Parameters, BenchError> {
+        Ok(scene::load(&self.path, &self.sets)?.parameters)
+    }
+
+    /// Parameters and surfaces.
+    pub fn case(&self) -> Result<Case, BenchError> {
+        let scene = scene::load(&self.path, &self.sets)?;
+        let surfaces = surface::load(&scene)?.surfaces;
+        Ok(Case { parameters: scene.parameters, surfaces })
+    }
+}
+
+/// Counts of cells of a mesh.
+pub fn mesh_size(parameters: &Parameters) -> MeshSize {
+    let mesh = &parameters.mesh;
+    MeshSize { rows: mesh.rows(), pin_columns: mesh.pin_columns(), disc_columns: mesh.disc_columns() }
+}
+
+/// The root of the repository from which this program was built.
+pub fn repository() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Table 2 of the paper.
+    const PAPER: MeshSize = MeshSize { rows: 80, pin_columns: 161, disc_columns: 2764 };
+
+    #[test]
+    fn a_larger_mesh_has_cells_pressure_and_speed_of_the_scene() {
+        let scene = Source::new(None, Vec::new());
+        let paper = scene.parameters().unwrap();
+        assert_eq!(mesh_size(&paper), PAPER);
+        for size in [PAPER.times(4), PAPER.longer(3), MeshSize::FULL_PAD, MeshSize::QUICK] {
+            let scaled = scene.on(size).unwrap().parameters().unwrap();
+            assert_eq!(mesh_size(&scaled), size);
+            let pairs = [
+                (paper.mesh.row_height(), scaled.mesh.row_height()),
+                (paper.mesh.column_width(), scaled.mesh.column_width()),
+                (paper.normal_force / paper.mesh.pin_area(), scaled.normal_force / scaled.mesh.pin_area()),
+                (
+                    paper.angular_velocity * paper.mesh.mean_radius(),
+                    scaled.angular_velocity * scaled.mesh.mean_radius(),
+                ),
+            ];
+            for (paper, scaled) in pairs {
+                // A dozen roundings of 1.1e-16 each; the width is a difference of radii up to 50 times as large.
+                assert!((scaled / paper - 1.0).abs() < 1e-13, "{size}: {scaled} for {paper}");
+            }
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Results as JSON: what was measured, on what, with what.
+
+use std::fs;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::build::Build;
+use crate::case::MeshSize;
+use crate::error::BenchError;
+use crate::machine::Machine;
+
+/// Which benchmark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Benchmark {
+    /// One step by instruction set and number of workers.
+    Kernel,
+    /// Number of workers against size of the mesh.
+    Scaling,
+    /// Optional parts of the model.
+    Parts,
+    /// What a step moves against what caches and memory give.
+    Roofline,
+    /// The same step in Python.
+    Peers,
+}
+
+impl Benchmark {
+    /// All of them, in the order in which they are reported.
+    pub const ALL: [Self; 5] = [Self::Kernel, Self::Scaling, Self::Parts, Self::Roofline, Self::Peers];
+
+    /// Name of the subcommand.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kernel => "kernel",
+            Self::Scaling => "scaling",
+            Self::Parts => "parts",
+            Self::Roofline => "roofline",
+            Self::Peers => "peers",
+        }
+    }
+}
+
+/// Results of one benchmark.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Document {
+    /// Version of this format.
+    pub format: u32,
+    /// Which benchmark.
+    pub benchmark: Benchmark,
+    /// When it began, seconds since 1970-01-01 UTC.
+    pub began: u64,
+    /// The machine.
+    pub machine: Machine,
+    /// The program.
+    pub build: Build,
+    /// What was asked for.
+    pub settings: Settings,
+    /// Times, in the order of the race.
+    pub measurements: Vec<Measurement>,
+    /// What caches and memory give (roofline).
+    pub bandwidths: Vec<Bandwidth>,
+    /// What a step moves (roofline).
+    pub traffic: Vec<StepTraffic>,
+    /// How well the peers agree with us (peers).
+    pub agreements: Vec<Agreement>,
+    /// What a reader must know besides.
+    pub notes: Vec<String>,
+}
+
+/// Version of the format of [`Document`].
+pub const FORMAT: u32 = 1;
+
+/// What was asked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// File name of the scene.
+    pub scene: String,
+    /// Changes of the scene.
+    pub sets: Vec<String>,
+    /// m.
+    pub time_acceleration: f64,
+    /// Largest accepted residual of the load balance.
+    pub load_tolerance: f64,
+    /// Blocks of each entry.
+    pub repeats: usize,
+    /// About how long a block of the slowest entry on a mesh takes, ms.
+    pub block_milliseconds: f64,
+    /// Steps before the first block; none: one revolution.
+    pub warm_up_steps: Option<u64>,
+    /// Only a look at whether it runs: the numbers mean nothing.
+    pub quick: bool,
+}
+
+/// Least, middle and largest of several values.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Least.
+    pub minimum: f64,
+    /// Middle; of an even number of values the mean of the two in the middle.
+    pub median: f64,
+    /// Largest.
+    pub maximum: f64,
+}
+
+impl Spread {
+    /// Of these values; not a number if there are none.
+    pub fn of(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let at = |index: usize| sorted.get(index).copied().unwrap_or(f64::NAN);
+        let middle = sorted.len() / 2;
+        let below = if sorted.len().is_multiple_of(2) { middle.saturating_sub(1) } else { middle };
+        Self { minimum: at(0), median: 0.5 * (at(below) + at(middle)), maximum: at(sorted.len().saturating_sub(1)) }
+    }
+}
+
+/// Times of one entry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measurement {
+    /// What sets it apart from the others.
+    pub name: String,
+    /// Its mesh.
+    pub mesh: MeshSize,
+    /// Threads that share the ring.
+    pub workers: usize,
+    /// Instruction set of the kernels.
+    pub instructions: String,
+    /// Steps of a block.
+    pub steps_per_block: u64,
+    /// Time of a step.
+    pub microseconds_per_step: Spread,
+    /// Median time of a step over the cells of the pin.
+    pub nanoseconds_per_cell: f64,
+    /// Mean over all steps, where it is known.
+    pub load_evaluations_per_step: Option<f64>,
+    /// Time of a step in every block, in the order of measurement.
+    pub raw_microseconds_per_step: Vec<f64>,
+}
+
+impl Measurement {
+    /// How many times as long as `other` this takes: spread of the ratios of blocks that were measured next to each
+    /// other, so that what slowed both down cancels.
+    pub fn ratio_to(&self, other: &Self) -> Spread {
+        let blocks = self.raw_microseconds_per_step.iter().zip(&other.raw_microseconds_per_step);
+        Spread::of(&blocks.map(|(this, other)| this / other).collect::<Vec<_>>())
+    }
+}
+
+/// What a cache or the memory gives to a loop.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Bandwidth {
+    /// Where the data are: L1, L2, .., memory, or the working set of a mesh.
+    pub place: String,
+    /// Bytes over which the loop goes, of each thread.
+    pub working_set_bytes: usize,
+    /// Threads that did so at once, each with data of its own.
+    pub threads: usize,
+    /// Read: every value is added up. 10⁹ bytes a second, all threads together; as the others.
+    pub read: Spread,
+    /// Copy: one half is written to the other; read and written bytes count.
+    pub copy: Spread,
+    /// Update: every value is read, changed and written where it was; both ways count.
+    pub update: Spread,
+}
+
+/// What a step moves, and how long that takes at least.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepTraffic {
+    /// Mesh.
+    pub mesh: MeshSize,
+    /// Workers.
+    pub workers: usize,
+    /// Bytes that a step must read.
+    pub read_bytes: f64,
+    /// Bytes that a step must write.
+    pub written_bytes: f64,
+    /// Bytes that a step goes over.
+    pub working_set_bytes: usize,
+    /// Median time of a step.
+    pub microseconds_per_step: f64,
+    /// Bytes moved over median time, 10⁹ bytes a second.
+    pub moved: f64,
+    /// What an update in place of as many bytes reaches, 10⁹ bytes a second.
+    pub bandwidth: f64,
+    /// `moved` over `bandwidth`.
+    pub fraction: f64,
+}
+
+/// How well a peer agrees with us: largest difference over largest value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Agreement {
+    /// Which peer.
+    pub peer: String,
+    /// Its versions.
+    pub versions: String,
+    /// m of the comparison.
+    pub time_acceleration: f64,
+    /// Steps compared.
+    pub steps: usize,
+    /// Of the displacement after each step.
+    pub displacement: f64,
+    /// Of the contact area after each step.
+    pub contact_area: f64,
+    /// Of the debris pool after each step.
+    pub pool: f64,
+    /// Of the heights of disc and pin after the last step.
+    pub heights: f64,
+}
+
+impl Document {
+    /// Reads what [`Document::write`] wrote.
+    pub fn read(path: &Path) -> Result<Self, BenchError> {
+        let text = fs::read_to_string(path).map_err(BenchError::file(path))?;
+        serde_json::from_str(&text).map_err(|source| BenchError::NoResults { path: path.to_owned(), source })
+    }
+
+    /// Writes the document as JSON.
+    pub fn write(&self, path: &Path) -> Result<(), BenchError> {
+        let no_results = |source| BenchError::NoResults { path: path.to_owned(), source };
+        let text = serde_json::to_string_pretty(self).map_err(no_results)?;
+        fs::write(path, text + "\n").map_err(BenchError::file(path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(Spread::of(&[3.0, 1.0, 8.0]), Spread { minimum: 1.0, median: 3.0, maximum: 8.0 });
+        assert_eq!(Spread::of(&[3.0, 1.0, 8.0, 4.0]), Spread { minimum: 1.0, median: 3.5, maximum: 8.0 });
+    }
+}

@@ -1,0 +1,198 @@
+//! A step of the model in Python: a process that is told what to do line by line.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::Duration;
+
+use plateau_core::material::Material;
+use plateau_core::parameters::{DebrisPool, Integrator, Parameters};
+use plateau_core::parts::Needs;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+use crate::case::{Case, repository};
+use crate::error::BenchError;
+use crate::race::Runner;
+
+/// Memory that the system's allocator (glibc) keeps instead of giving it back and asking anew for every array: without
+/// it NumPy would spend more than half of a step on that.
+const KEPT_MEMORY: (&str, &str) = ("MALLOC_TOP_PAD_", "67108864");
+
+/// The process.
+#[derive(Debug)]
+pub struct Peer {
+    name: String,
+    /// Versions of Python and its packages.
+    pub versions: String,
+    child: Child,
+    requests: Option<ChildStdin>,
+    answers: BufReader<ChildStdout>,
+    load_evaluations_per_step: Option<f64>,
+    steps: u64,
+}
+
+#[derive(Deserialize)]
+struct Greeting {
+    versions: String,
+}
+
+#[derive(Deserialize)]
+struct Advanced {
+    seconds: f64,
+    evaluations: u64,
+}
+
+/// What a simulation did, step by step.
+#[derive(Debug, Default, Deserialize)]
+pub struct Trace {
+    /// δ after every step, m.
+    pub displacement: Vec<f64>,
+    /// Contact area of every step, m².
+    pub contact_area: Vec<f64>,
+    /// M after every step, m³.
+    pub pool: Vec<f64>,
+}
+
+#[derive(Deserialize)]
+struct Nothing {}
+
+impl Peer {
+    /// Starts `python step.py KIND DIRECTORY`.
+    pub fn start(python: &Path, kind: &str, directory: &Path) -> Result<Self, BenchError> {
+        let program = repository().join("crates/bench/peers/step.py");
+        let mut command = Command::new(python);
+        command.arg("-B").arg(program).arg(kind).arg(directory).stdin(Stdio::piped()).stdout(Stdio::piped());
+        command.env(KEPT_MEMORY.0, KEPT_MEMORY.1);
+        let mut child = command.spawn().map_err(BenchError::file(python))?;
+        let (requests, answers) = (child.stdin.take(), child.stdout.take());
+        let answers = answers.ok_or_else(|| problem(kind, "it has no standard output"))?;
+        let (name, versions, answers) = (kind.to_owned(), String::new(), BufReader::new(answers));
+        let mut peer = Self { name, versions, child, requests, answers, load_evaluations_per_step: None, steps: 0 };
+        peer.versions = peer.answer::<Greeting>()?.versions;
+        Ok(peer)
+    }
+
+    /// What happens in the next steps.
+    pub fn trace(&mut self, steps: usize) -> Result<Trace, BenchError> {
+        self.steps += steps as u64;
+        self.ask(&json!({"do": "trace", "steps": steps}))
+    }
+
+    /// Heights of disc and pin as they are now.
+    pub fn heights(&mut self, directory: &Path) -> Result<[Vec<f64>; 2], BenchError> {
+        self.ask::<Nothing>(&json!({"do": "write"}))?;
+        let read = |name| -> Result<Vec<f64>, BenchError> {
+            let path = directory.join(name);
+            let bytes = fs::read(&path).map_err(BenchError::file(&path))?;
+            Ok(bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect())
+        };
+        Ok([read("disc_height_after.f64")?, read("pin_height_after.f64")?])
+    }
+
+    fn ask<A: DeserializeOwned>(&mut self, request: &Value) -> Result<A, BenchError> {
+        let requests = self.requests.as_mut().ok_or_else(|| problem(&self.name, "it has no standard input"))?;
+        writeln!(requests, "{request}").map_err(|error| problem(&self.name, error))?;
+        self.answer()
+    }
+
+    fn answer<A: DeserializeOwned>(&mut self) -> Result<A, BenchError> {
+        let mut line = String::new();
+        match self.answers.read_line(&mut line) {
+            Ok(0) => Err(problem(&self.name, "it ended, see above")),
+            Ok(_) => serde_json::from_str(&line).map_err(|error| problem(&self.name, format!("{error} in {line:?}"))),
+            Err(error) => Err(problem(&self.name, error)),
+        }
+    }
+}
+
+impl Runner for Peer {
+    fn advance(&mut self, steps: u64) -> Result<Duration, BenchError> {
+        let advanced: Advanced = self.ask(&json!({"do": "advance", "steps": steps}))?;
+        self.steps += steps;
+        self.load_evaluations_per_step = Some(advanced.evaluations as f64 / self.steps as f64);
+        Ok(Duration::from_secs_f64(advanced.seconds))
+    }
+
+    fn load_evaluations_per_step(&self) -> Option<f64> {
+        self.load_evaluations_per_step
+    }
+}
+
+impl Drop for Peer {
+    fn drop(&mut self) {
+        // The end of its input is the end of its work. Whether it ended well no longer matters.
+        self.requests = None;
+        let _ = self.child.wait();
+    }
+}
+
+fn problem(peer: &str, problem: impl ToString) -> BenchError {
+    BenchError::Peer { peer: peer.into(), problem: problem.to_string() }
+}
+
+/// A Python with NumPy, and with Numba where it can be had; installs them if need be.
+pub fn python() -> Result<PathBuf, BenchError> {
+    let script = repository().join("scripts/peers.sh");
+    let output =
+        Command::new("sh").arg(&script).stderr(Stdio::inherit()).output().map_err(BenchError::file(&script))?;
+    if !output.status.success() {
+        return Err(problem("Python", "no environment with NumPy can be had, see above"));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).trim_end().into())
+}
+
+/// Writes a case as step.py reads it.
+pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
+    let Case { parameters, surfaces } = case;
+    supported(parameters)?;
+    let Parameters { mesh, materials, plateaus, .. } = parameters;
+    let body = |material: &Material| json!({"youngs_modulus": material.youngs_modulus, "poisson_ratio": material.poisson_ratio});
+    let half_width = 0.5 * mesh.row_height() * mesh.rows() as f64;
+    let scene = json!({
+        "rows": mesh.rows(),
+        "pin_columns": mesh.pin_columns(),
+        "disc_columns": mesh.disc_columns(),
+        "inner_radius": mesh.mean_radius() - half_width,
+        "outer_radius": mesh.mean_radius() + half_width,
+        "foundation_height": parameters.foundation_height,
+        "disc": body(&materials.disc_primary),
+        "fibre": body(&materials.pin_primary),
+        "resin": body(&materials.pin_resin),
+        "wear_rate": materials.pin_primary.specific_wear_rate,
+        "wear_height": materials.wear_height,
+        "normal_force": parameters.normal_force,
+        "load_tolerance": parameters.load_tolerance,
+        "time_acceleration": parameters.time_acceleration,
+        "captured_fraction": plateaus.captured_fraction,
+        "pad_share": plateaus.pad_share,
+    });
+    let write = |name: &str, bytes: &[u8]| {
+        let path = directory.join(name);
+        fs::write(&path, bytes).map_err(BenchError::file(&path))
+    };
+    let raw = |heights: &[f64]| heights.iter().flat_map(|height| height.to_le_bytes()).collect::<Vec<u8>>();
+    write("scene.json", scene.to_string().as_bytes())?;
+    write("disc_height.f64", &raw(&surfaces.disc_height))?;
+    write("pin_height.f64", &raw(&surfaces.pin_height))?;
+    write("pin_base.u8", &surfaces.pin_base.iter().map(|base| *base as u8).collect::<Vec<_>>())
+}
+
+/// The peers do what the paper's scene needs and nothing else.
+fn supported(parameters: &Parameters) -> Result<(), BenchError> {
+    let Needs { distinct, disc_wears, forms, destroys } = Needs::of(parameters);
+    let unsupported = [
+        (distinct, "materials of their own for build-ups"),
+        (disc_wears, "wear of the disc"),
+        (!forms, "no formation"),
+        (!destroys, "no destruction"),
+        (parameters.plateaus.debris_pool != DebrisPool::Contact, "one pool per track"),
+        (parameters.integrator != Integrator::Explicit, "exponential wear"),
+    ];
+    match unsupported.into_iter().find(|(asked, _)| *asked) {
+        Some((_, what)) => Err(BenchError::NotForPeers(what)),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,178 @@
+//! What all benchmarks have in common: options, the document of results, and how it is given out.
+
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use clap::Args;
+
+use crate::build::Build;
+use crate::case::{MeshSize, Source, mesh_size};
+use crate::document::{Benchmark, Document, FORMAT, Settings};
+use crate::error::BenchError;
+use crate::machine::Machine;
+use crate::race::Pace;
+use crate::stepper::MOST_WORKERS;
+use crate::tables::tables;
+
+/// Options of every benchmark.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Scene file (TOML); the paper's scene if none is given
+    pub scene: Option<PathBuf>,
+    /// Set a key of the scene; numerics.time_acceleration is 1 unless it is set here; may be repeated
+    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
+    pub sets: Vec<String>,
+    /// Blocks of steps of everything that is timed; the blocks are measured in turn
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub repeats: Option<u32>,
+    /// About how long a block takes, ms
+    #[arg(long, value_name = "MS", value_parser = clap::value_parser!(u32).range(1..))]
+    pub block_ms: Option<u32>,
+    /// Only look whether it runs: small meshes, few steps; the numbers mean nothing
+    #[arg(long)]
+    pub quick: bool,
+    /// Write the results to a file, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+}
+
+/// Options of a benchmark that is made for several numbers of workers.
+#[derive(Debug, Args)]
+pub struct WorkerOptions {
+    #[command(flatten)]
+    options: Options,
+    /// Numbers of workers, such as 1,2,4; by default 1, 2, 4 .. and all cores
+    #[arg(long, value_name = "N,..", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
+    workers: Vec<u16>,
+}
+
+/// A benchmark under way.
+#[derive(Debug)]
+pub struct Session {
+    /// The scene, on the mesh from which the benchmark starts.
+    pub source: Source,
+    /// That mesh.
+    pub mesh: MeshSize,
+    /// How much is measured.
+    pub pace: Pace,
+    /// Numbers of workers to measure, increasing.
+    pub workers: Vec<usize>,
+    /// Only a look at whether it runs.
+    pub quick: bool,
+    /// Results, none yet.
+    pub document: Document,
+    json: Option<PathBuf>,
+}
+
+impl Options {
+    /// Begins a benchmark, of one worker.
+    pub fn begin(self, benchmark: Benchmark) -> Result<Session, BenchError> {
+        let mut source = Source::new(self.scene, self.sets);
+        if self.quick {
+            source = source.on(MeshSize::QUICK)?;
+        }
+        let pace = Pace {
+            repeats: self.repeats.unwrap_or(if self.quick { 3 } else { 21 }) as usize,
+            block: Duration::from_millis(self.block_ms.unwrap_or(if self.quick { 1 } else { 200 }).into()),
+            warm_up: self.quick.then_some(20),
+        };
+        let parameters = source.parameters()?;
+        let settings = Settings {
+            scene: source.path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            sets: source.sets.clone(),
+            time_acceleration: parameters.time_acceleration,
+            load_tolerance: parameters.load_tolerance,
+            repeats: pace.repeats,
+            block_milliseconds: pace.block.as_secs_f64() * 1e3,
+            warm_up_steps: pace.warm_up,
+            quick: self.quick,
+        };
+        let document = Document {
+            format: FORMAT,
+            benchmark,
+            began: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
+            machine: Machine::this(),
+            build: Build::this(),
+            settings,
+            measurements: Vec::new(),
+            bandwidths: Vec::new(),
+            traffic: Vec::new(),
+            agreements: Vec::new(),
+            notes: Vec::new(),
+        };
+        let (mesh, workers) = (mesh_size(&parameters), vec![1]);
+        Ok(Session { mesh, source, pace, workers, quick: self.quick, document, json: self.json })
+    }
+}
+
+impl WorkerOptions {
+    /// Begins a benchmark.
+    pub fn begin(self, benchmark: Benchmark) -> Result<Session, BenchError> {
+        let mut session = self.options.begin(benchmark)?;
+        let Document { machine, notes, .. } = &mut session.document;
+        session.workers = workers(&self.workers, machine.cores, notes)?;
+        Ok(session)
+    }
+}
+
+impl Session {
+    /// The meshes from that of the scene to a full pad, with the same cells: 1, 4 and 16 times as many, and the pad.
+    pub fn meshes(&self) -> Vec<MeshSize> {
+        let grown = [1, 2, 4].map(|factor| self.mesh.times(factor));
+        if self.quick { grown[..2].to_vec() } else { [&grown[..], &[MeshSize::FULL_PAD]].concat() }
+    }
+
+    /// Prints the tables, and writes the JSON file where one was asked for.
+    pub fn finish(self) -> Result<(), BenchError> {
+        if let Some(path) = &self.json {
+            self.document.write(path)?;
+        }
+        print(&tables(&self.document).iter().map(|table| table.text() + "\n").collect::<String>())
+    }
+}
+
+/// Prints text on standard output; a reader who went away is no error.
+pub fn print(text: &str) -> Result<(), BenchError> {
+    match io::stdout().lock().write_all(text.as_bytes()) {
+        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => {
+            Err(BenchError::File { path: "standard output".into(), source })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The numbers asked for, or 1, 2, 4 .. and all cores as far as there can be so many workers.
+fn workers(asked: &[u16], cores: usize, notes: &mut Vec<String>) -> Result<Vec<usize>, BenchError> {
+    let mut workers: Vec<usize> = if asked.is_empty() {
+        let powers = std::iter::successors(Some(1), |workers| Some(2 * workers)).take_while(|workers| *workers < cores);
+        powers.chain([cores]).collect()
+    } else {
+        asked.iter().map(|workers| usize::from(*workers)).collect()
+    };
+    workers.sort_unstable();
+    workers.dedup();
+    let most = workers.last().copied().unwrap_or(1);
+    if most > MOST_WORKERS {
+        if !asked.is_empty() {
+            return Err(BenchError::Workers { asked: most, most: MOST_WORKERS });
+        }
+        workers.retain(|workers| *workers <= MOST_WORKERS);
+        notes.push(format!("A simulation of this version has at most {MOST_WORKERS} worker."));
+    }
+    Ok(workers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_worker_is_always_measured() {
+        for cores in [1, 2, 6, 64] {
+            let found = workers(&[], cores, &mut Vec::new()).unwrap();
+            assert_eq!(found[0], 1, "{cores} cores: {found:?}");
+            assert!(found.is_sorted_by(|a, b| a < b) && found[found.len() - 1] <= cores, "{cores} cores: {found:?}");
+        }
+    }
+}

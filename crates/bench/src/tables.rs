@@ -1,0 +1,258 @@
+//! The tables that are made from results.
+
+use crate::document::{Benchmark, Document, Measurement, Spread};
+use crate::scaling::{STRONG, WEAK};
+use crate::table::Table;
+
+/// The tables of a benchmark, the last one with the circumstances of the measurement below it.
+pub fn tables(document: &Document) -> Vec<Table> {
+    let mut tables = match document.benchmark {
+        Benchmark::Kernel => vec![kernel(document)],
+        Benchmark::Scaling => vec![strong(document), weak(document), sizes(document)],
+        Benchmark::Parts => vec![parts(document)],
+        Benchmark::Roofline => vec![bandwidths(document), traffic(document)],
+        Benchmark::Peers => vec![peers(document), agreements(document)],
+    };
+    tables.retain(|table| !table.rows.is_empty());
+    if let Some(last) = tables.last_mut() {
+        last.notes.extend(document.notes.iter().cloned());
+        last.notes.push(circumstances(document));
+    }
+    tables
+}
+
+/// Where, with what and how something was measured.
+fn circumstances(document: &Document) -> String {
+    let Document { machine, build, settings, .. } = document;
+    let memory = machine.memory_bytes.map_or(String::new(), |bytes| format!(", {:.1} GB", bytes as f64 / 1e9));
+    let load = machine.load.map_or(String::new(), |load| format!(", load {load} before"));
+    let flags = if build.flags.is_empty() { String::new() } else { format!(", flags {}", build.flags) };
+    let sets: String = settings.sets.iter().map(|set| format!(" `{set}`")).collect();
+    let quick = if settings.quick { " Only a look at whether it runs: the numbers mean nothing." } else { "" };
+    let (name, cores, system) = (&machine.processor, machine.cores, &machine.system);
+    let (commit, changed) = build.revision.split_once('-').unwrap_or((&build.revision, ""));
+    let commit: String = commit.chars().take(12).collect();
+    let changed = if changed.is_empty() { "" } else { ", changed" };
+    format!(
+        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}, load tolerance {:e}; \
+         median of {} blocks of about {} ms, measured in turn.{quick}",
+        build.compiler,
+        build.profile,
+        build.target,
+        settings.scene,
+        settings.load_tolerance,
+        settings.repeats,
+        settings.block_milliseconds,
+    )
+}
+
+/// Median, and least and largest.
+fn time(spread: Spread) -> [String; 2] {
+    [number(spread.median), range(spread)]
+}
+
+fn range(spread: Spread) -> String {
+    format!("{} – {}", number(spread.minimum), number(spread.maximum))
+}
+
+/// At least three digits.
+fn number(value: f64) -> String {
+    let digits = if value >= 100.0 {
+        0
+    } else if value >= 10.0 {
+        1
+    } else {
+        2
+    };
+    format!("{value:.digits$}")
+}
+
+fn percent(fraction: f64) -> String {
+    format!("{:.0} %", fraction * 100.0)
+}
+
+fn evaluations(measurement: &Measurement) -> String {
+    measurement.load_evaluations_per_step.map_or("–".into(), number)
+}
+
+/// How many times as fast as `other`.
+fn speedup(this: &Measurement, other: &Measurement) -> Spread {
+    other.ratio_to(this)
+}
+
+fn kernel(document: &Document) -> Table {
+    let header = ["instructions", "workers", "µs per step", "range", "ns per cell", "load evaluations", "speedup"];
+    let mesh = document.measurements.first().map_or(String::new(), |first| first.mesh.to_string());
+    let mut table = Table::new(format!("One step, {mesh} columns"), &header);
+    for step in &document.measurements {
+        let [median, range] = time(step.microseconds_per_step);
+        table.rows.push(vec![
+            step.name.clone(),
+            step.workers.to_string(),
+            median,
+            range,
+            number(step.nanoseconds_per_cell),
+            evaluations(step),
+            number(speedup(step, &document.measurements[0]).median),
+        ]);
+    }
+    table
+}
+
+/// The measurement of one worker on the same mesh.
+fn alone<'a>(document: &'a Document, step: &Measurement) -> Option<&'a Measurement> {
+    document.measurements.iter().find(|other| other.mesh == step.mesh && other.workers == 1)
+}
+
+fn strong(document: &Document) -> Table {
+    let header = ["mesh", "workers", "µs per step", "range", "ns per cell", "speedup", "efficiency"];
+    let mut table = Table::new("Strong scaling: more workers on the same mesh", &header);
+    for step in document.measurements.iter().filter(|step| step.name == STRONG) {
+        let faster = alone(document, step).map(|alone| speedup(step, alone).median);
+        let [median, range] = time(step.microseconds_per_step);
+        table.rows.push(vec![
+            step.mesh.to_string(),
+            step.workers.to_string(),
+            median,
+            range,
+            number(step.nanoseconds_per_cell),
+            faster.map_or("–".into(), number),
+            faster.map_or("–".into(), |faster| percent(faster / step.workers as f64)),
+        ]);
+    }
+    table
+}
+
+fn weak(document: &Document) -> Table {
+    let header = ["mesh", "workers", "µs per step", "range", "efficiency"];
+    let mut table = Table::new("Weak scaling: W workers on a pin and ring W times as long", &header);
+    let Some(first) = document.measurements.first() else { return table };
+    for step in document.measurements.iter().filter(|step| step.name == WEAK) {
+        let [median, range] = time(step.microseconds_per_step);
+        let efficiency = percent(speedup(step, first).median);
+        table.rows.push(vec![step.mesh.to_string(), step.workers.to_string(), median, range, efficiency]);
+    }
+    if !table.rows.is_empty() {
+        let [median, range] = time(first.microseconds_per_step);
+        table.rows.insert(0, vec![first.mesh.to_string(), "1".into(), median, range, percent(1.0)]);
+    }
+    table
+}
+
+fn sizes(document: &Document) -> Table {
+    let header = ["mesh", "cells", "µs per step", "load evaluations", "ns per cell", "against the first"];
+    let mut table = Table::new("Cost of a cell by size of the mesh, one worker", &header);
+    let alone: Vec<_> = document.measurements.iter().filter(|step| step.name == STRONG && step.workers == 1).collect();
+    for step in &alone {
+        let relative = |time: f64| time * alone[0].mesh.pin_cells() as f64 / step.mesh.pin_cells() as f64;
+        table.rows.push(vec![
+            step.mesh.to_string(),
+            step.mesh.pin_cells().to_string(),
+            number(step.microseconds_per_step.median),
+            evaluations(step),
+            number(step.nanoseconds_per_cell),
+            number(relative(step.ratio_to(alone[0]).median)),
+        ]);
+    }
+    table
+}
+
+fn parts(document: &Document) -> Table {
+    let header = ["scene", "µs per step", "range", "load evaluations", "against the scene", "range"];
+    let mesh = document.measurements.first().map_or(String::new(), |first| first.mesh.to_string());
+    let mut table = Table::new(format!("Optional parts, {mesh} columns, one worker"), &header);
+    for step in &document.measurements {
+        let ratio = step.ratio_to(&document.measurements[0]);
+        let [median, times] = time(step.microseconds_per_step);
+        table.rows.push(vec![
+            step.name.clone(),
+            median,
+            times,
+            evaluations(step),
+            format!("{:.3}", ratio.median),
+            format!("{:.3} – {:.3}", ratio.minimum, ratio.maximum),
+        ]);
+    }
+    table
+}
+
+fn bandwidths(document: &Document) -> Table {
+    let header = ["where", "threads", "KiB each", "read GB/s", "copy GB/s", "update GB/s", "range"];
+    let mut table =
+        Table::new("Bandwidth of caches and memory, and at the working set of a step on each mesh", &header);
+    for row in &document.bandwidths {
+        table.rows.push(vec![
+            row.place.clone(),
+            row.threads.to_string(),
+            (row.working_set_bytes / 1024).to_string(),
+            number(row.read.median),
+            number(row.copy.median),
+            number(row.update.median),
+            range(row.update),
+        ]);
+    }
+    table
+}
+
+fn traffic(document: &Document) -> Table {
+    let header = ["mesh", "workers", "kB read", "kB written", "µs at least", "µs per step", "GB/s", "of the bandwidth"];
+    let mut table = Table::new("What a step must move", &header);
+    for step in &document.traffic {
+        let least = (step.read_bytes + step.written_bytes) / (step.bandwidth * 1e3);
+        table.rows.push(vec![
+            step.mesh.to_string(),
+            step.workers.to_string(),
+            number(step.read_bytes / 1e3),
+            number(step.written_bytes / 1e3),
+            number(least),
+            number(step.microseconds_per_step),
+            number(step.moved),
+            percent(step.fraction),
+        ]);
+    }
+    table
+}
+
+fn peers(document: &Document) -> Table {
+    let header = ["program", "µs per step", "range", "ns per cell", "load evaluations", "times ours", "range"];
+    let mesh = document.measurements.first().map_or(String::new(), |first| first.mesh.to_string());
+    let mut table = Table::new(format!("The same step by other means, {mesh} columns, one core"), &header);
+    for step in &document.measurements {
+        let ratio = step.ratio_to(&document.measurements[0]);
+        let [median, times] = time(step.microseconds_per_step);
+        table.rows.push(vec![
+            step.name.clone(),
+            median,
+            times,
+            number(step.nanoseconds_per_cell),
+            evaluations(step),
+            number(ratio.median),
+            range(ratio),
+        ]);
+    }
+    table
+}
+
+fn agreements(document: &Document) -> Table {
+    let header = ["program", "time acceleration", "steps", "displacement", "contact area", "debris pool", "heights"];
+    let mut table = Table::new("Largest difference from ours over the largest value", &header);
+    for peer in &document.agreements {
+        let differences =
+            [peer.displacement, peer.contact_area, peer.pool, peer.heights].map(|value| format!("{value:.0e}"));
+        let name = format!("{} ({})", peer.peer, peer.versions);
+        table.rows.push(
+            [vec![name, peer.time_acceleration.to_string(), peer.steps.to_string()], differences.to_vec()].concat(),
+        );
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!([1234.5, 123.4, 12.34, 1.234, 0.1234].map(number), ["1234", "123", "12.3", "1.23", "0.12"]);
+    }
+}

@@ -1,0 +1,221 @@
+//! Every subcommand runs and writes what it promises. No time is asserted: `--quick` measures nothing worth knowing.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const BENCHMARKS: [&str; 5] = ["kernel", "scaling", "parts", "roofline", "peers"];
+
+fn bench(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_plateau-bench"));
+    // Where there is no network, pip shall not try for minutes.
+    command.env("PIP_RETRIES", "1").env("PIP_TIMEOUT", "10");
+    command.args(arguments).output().expect("the program")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+/// The results of a quick look, and where they are; the table has been printed.
+fn quick(folder: &TempDir, benchmark: &str) -> (Value, PathBuf) {
+    let path = folder.path().join(format!("{benchmark}.json"));
+    let output = bench(&[benchmark, "--quick", "--json", path.to_str().expect("a path")]);
+    assert!(output.status.success(), "{benchmark}: {}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("the numbers mean nothing"), "{benchmark}: {}", text(&output.stdout));
+    let results = serde_json::from_str(&fs::read_to_string(&path).expect("results")).expect("JSON");
+    (results, path)
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a temporary directory")
+}
+
+/// A number above 0.
+fn positive(value: &Value) -> bool {
+    value.as_f64().is_some_and(|number| number > 0.0)
+}
+
+/// What every result has: machine, build, settings, and raw times whose spread is what is given as the time.
+fn expect_complete(benchmark: &str, results: &Value) {
+    assert_eq!(results["benchmark"], benchmark);
+    assert_eq!(results["format"], 1);
+    assert!(positive(&results["began"]));
+    for field in ["processor", "system"] {
+        assert!(results["machine"][field].as_str().is_some_and(|text| !text.is_empty()), "machine.{field}");
+    }
+    assert!(positive(&results["machine"]["cores"]));
+    assert!(results["machine"]["caches"].is_array());
+    let build = &results["build"];
+    assert!(build["compiler"].as_str().is_some_and(|compiler| compiler.starts_with("rustc ")), "{build}");
+    assert_eq!(build["version"], env!("CARGO_PKG_VERSION"));
+    for field in ["revision", "profile", "optimization", "target"] {
+        assert!(build[field].as_str().is_some_and(|text| !text.is_empty()), "build.{field}");
+    }
+    let settings = &results["settings"];
+    assert_eq!(settings["scene"], "cermet.toml");
+    assert_eq!((&settings["time_acceleration"], &settings["load_tolerance"]), (&1.0.into(), &1e-9.into()));
+    assert_eq!(settings["quick"], true);
+
+    let measurements = results["measurements"].as_array().expect("measurements");
+    assert!(!measurements.is_empty());
+    for step in measurements {
+        let raw = step["raw_microseconds_per_step"].as_array().expect("raw times");
+        assert_eq!(Some(raw.len() as u64), settings["repeats"].as_u64());
+        let mut sorted: Vec<f64> = raw.iter().map(|time| time.as_f64().expect("a time")).collect();
+        sorted.sort_by(f64::total_cmp);
+        let spread = &step["microseconds_per_step"];
+        // Three repeats: least, middle and largest are all there is.
+        let given = ["minimum", "median", "maximum"].map(|name| spread[name].as_f64().expect("a time"));
+        assert_eq!(sorted, given, "{step}");
+        assert!(sorted[0] > 0.0 && positive(&step["nanoseconds_per_cell"]) && positive(&step["steps_per_block"]));
+        assert!(positive(&step["workers"]) && positive(&step["mesh"]["rows"]), "{step}");
+    }
+}
+
+/// Names of what was measured, in order.
+fn names(results: &Value) -> Vec<&str> {
+    let measurements = results["measurements"].as_array().expect("measurements");
+    measurements.iter().map(|step| step["name"].as_str().expect("a name")).collect()
+}
+
+#[test]
+fn kernel_times_every_instruction_set() {
+    let (results, _) = quick(&folder(), "kernel");
+    expect_complete("kernel", &results);
+    let available: Vec<_> = plateau_core::kernel::InstructionSet::available().map(|set| set.name()).collect();
+    assert_eq!(names(&results)[..available.len()], available);
+}
+
+#[test]
+fn scaling_times_meshes_of_growing_size() {
+    let (results, _) = quick(&folder(), "scaling");
+    expect_complete("scaling", &results);
+    let steps = results["measurements"].as_array().expect("measurements");
+    let alone = steps.iter().filter(|step| step["workers"] == 1).map(|step| step["mesh"]["rows"].as_u64());
+    assert_eq!(alone.collect::<Vec<_>>(), [Some(20), Some(40)]);
+}
+
+#[test]
+fn parts_times_the_scene_twice_and_every_variant() {
+    let (results, _) = quick(&folder(), "parts");
+    expect_complete("parts", &results);
+    let names = names(&results);
+    assert_eq!(names[..2], ["the scene", "the scene once more"]);
+    for name in ["no formation, no destruction", "one pool per track", "wear of the disc", "a sample every step"] {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+}
+
+#[test]
+fn roofline_sets_traffic_against_bandwidth() {
+    let (results, _) = quick(&folder(), "roofline");
+    expect_complete("roofline", &results);
+    let bandwidths = results["bandwidths"].as_array().expect("bandwidths");
+    assert!(bandwidths.iter().any(|row| row["place"] == "memory"));
+    for row in bandwidths {
+        for way in ["read", "copy", "update"] {
+            assert!(positive(&row[way]["median"]), "{way} of {row}");
+        }
+    }
+    for step in results["traffic"].as_array().expect("traffic") {
+        // Three heights and a base read, three heights written, for each cell of the paper's scene.
+        let mesh = &step["mesh"];
+        let cells = (mesh["rows"].as_f64().unwrap_or(0.0)) * mesh["pin_columns"].as_f64().unwrap_or(0.0);
+        assert_eq!(step["read_bytes"].as_f64(), Some(25.0 * cells));
+        assert_eq!(step["written_bytes"].as_f64(), Some(24.0 * cells));
+        assert!(positive(&step["fraction"]));
+    }
+}
+
+#[test]
+fn peers_agree_before_they_are_timed() {
+    let folder = folder();
+    let path = folder.path().join("peers.json");
+    let output = bench(&["peers", "--quick", "--json", path.to_str().expect("a path")]);
+    let errors = text(&output.stderr);
+    if errors.contains("no environment with NumPy can be had") {
+        eprintln!("skipped: {errors}");
+        return;
+    }
+    assert!(output.status.success(), "{errors}");
+    let results: Value = serde_json::from_str(&fs::read_to_string(&path).expect("results")).expect("JSON");
+    expect_complete("peers", &results);
+    let names = names(&results);
+    assert_eq!(names[0], "Plateau");
+    assert!(names.contains(&"NumPy arrays"), "{names:?}");
+    let agreements = results["agreements"].as_array().expect("agreements");
+    // At the scene's time acceleration and at a large one.
+    assert_eq!(agreements.len(), 2 * (names.len() - 1));
+    for peer in agreements {
+        for quantity in ["displacement", "contact_area", "pool", "heights"] {
+            assert!(peer[quantity].as_f64().is_some_and(|difference| difference <= 1e-9), "{quantity} of {peer}");
+        }
+    }
+}
+
+#[test]
+fn peers_refuse_a_scene_that_they_do_not_compute() {
+    for (set, what) in [
+        ("plateaus.debris_pool=track", "one pool per track"),
+        ("plateaus.formation=false", "no formation"),
+        ("numerics.integrator=exponential", "exponential wear"),
+    ] {
+        let output = bench(&["peers", "--quick", "--set", set]);
+        assert_eq!(output.status.code(), Some(1), "{set}");
+        assert!(text(&output.stderr).contains(&format!("the scene asks for {what}")), "{}", text(&output.stderr));
+    }
+}
+
+#[test]
+fn a_report_changes_the_tables_of_a_document_and_nothing_else() {
+    let folder = folder();
+    let (_, path) = quick(&folder, "kernel");
+    let document = folder.path().join("performance.md");
+    let [begin, end] = ["<!-- kernel: made by plateau-bench report -->", "<!-- end of kernel -->"];
+    fs::write(&document, format!("By hand.\n{begin}\nold\n{end}\nMore by hand.\n")).expect("a document");
+    let [path, into] = [&path, &document].map(|path| path.to_str().expect("a path"));
+
+    let output = bench(&["report", "--into", into, path]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let printed = bench(&["report", path]);
+    let table = text(&printed.stdout);
+    assert!(table.contains("| instructions | workers |"), "{table}");
+    let expected = format!("By hand.\n{begin}\n\n{table}\n{end}\nMore by hand.\n");
+    assert_eq!(fs::read_to_string(&document).expect("the document"), expected);
+
+    let output = bench(&["report", path, path]);
+    assert!(text(&output.stderr).contains("results of kernel were already given"), "{}", text(&output.stderr));
+    fs::write(&document, "no marks").expect("a document");
+    let output = bench(&["report", "--into", into, path]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains(begin), "{}", text(&output.stderr));
+}
+
+/// docs/performance.md holds the tables of the results in docs/performance, and says so where there are none.
+#[test]
+fn the_documented_tables_are_those_of_the_results() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let documented = fs::read_to_string(docs.join("performance.md")).expect("docs/performance.md");
+    let folder = folder();
+    let copy = folder.path().join("performance.md");
+    fs::write(&copy, &documented).expect("a copy");
+    for benchmark in BENCHMARKS {
+        let results = docs.join("performance").join(format!("{benchmark}.json"));
+        if results.is_file() {
+            let output =
+                bench(&["report", "--into", copy.to_str().expect("a path"), results.to_str().expect("a path")]);
+            assert!(output.status.success(), "{}", text(&output.stderr));
+        } else {
+            let nothing = format!(
+                "<!-- {benchmark}: made by plateau-bench report -->\n\nNot measured yet.\n\n<!-- end of {benchmark} -->"
+            );
+            assert!(documented.contains(&nothing), "{benchmark}: no results, but a table in docs/performance.md");
+        }
+    }
+    let advice = "docs/performance.md differs from the results: plateau-bench report --into docs/performance.md";
+    assert!(fs::read_to_string(&copy).expect("the copy") == documented, "{advice} docs/performance/*.json");
+}
