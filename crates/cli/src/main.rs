@@ -5,6 +5,7 @@ mod commands;
 mod drive;
 mod failure;
 mod interrupt;
+mod job;
 mod machine;
 mod message;
 mod number;
