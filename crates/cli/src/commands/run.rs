@@ -49,7 +49,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
     let Loaded { surfaces, inputs, .. } = loaded;
     let mut simulation = Simulation::new(scene.parameters.clone(), surfaces).map_err(Failure::input)?;
-    let header = header(&scene, &simulation, &inputs, schedule.samples(), job.size())?;
+    let header = header(&scene, &simulation, &inputs, schedule.samples())?;
     job.compare(
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
     )?;
@@ -108,7 +108,6 @@ fn header(
     simulation: &Simulation,
     surface_files: &[(PathBuf, String)],
     expected_samples: u64,
-    workers: usize,
 ) -> Result<Header, Failure> {
     let mut inputs = InputFile::read_all(&scene.files)
         .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
@@ -127,7 +126,7 @@ fn header(
         program: version::program(),
         source_revision: version::REVISION.into(),
         host: machine::host(),
-        workers,
+        workers: 1,
         instruction_set: simulation.instructions().name().into(),
         seeds: scene.seeds.clone(),
         inputs,

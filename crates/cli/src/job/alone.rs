@@ -17,10 +17,6 @@ impl Job {
         true
     }
 
-    pub fn size(&self) -> usize {
-        1
-    }
-
     pub fn agree(&mut self, signal: Option<u8>) -> Result<Option<u8>, CommError> {
         Ok(signal)
     }

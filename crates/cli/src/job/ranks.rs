@@ -30,11 +30,6 @@ impl Job {
         self.meeting.rank() == 0
     }
 
-    /// Number of ranks.
-    pub fn size(&self) -> usize {
-        self.meeting.size()
-    }
-
     /// Whether any rank was asked to stop, and by which signal; all ranks get the same answer.
     pub fn agree(&mut self, signal: Option<u8>) -> Result<Option<u8>, CommError> {
         let mut largest = 0;

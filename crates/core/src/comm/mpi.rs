@@ -29,8 +29,9 @@ const SEND_BUFFER: usize = 64 << 20;
 /// the many short ones slow.
 const LONGEST_SLOT: usize = 1024;
 
-/// How long a rank that failed waits for rank 0 to report the same: what fails is mostly the same on all ranks.
-const HEAD_START: Duration = Duration::from_secs(1);
+/// How long a rank that failed waits for rank 0 to report the same and end all: what fails is mostly the same on all ranks,
+/// and rank 0 may have a file to close.
+const HEAD_START: Duration = Duration::from_secs(5);
 
 /// Why ranks cannot talk to each other.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -116,7 +117,7 @@ impl Session {
     }
 
     /// Ends all ranks with this exit status after `report` said why. Rank 0 reports at once; another rank does so only
-    /// if the job still runs after a second: rank 0 has then not failed in the same way.
+    /// if the job still runs after some seconds: rank 0 has then not failed in the same way.
     pub fn fail(self, status: u8, report: impl FnOnce()) -> ! {
         if self.job.world.rank() != 0 {
             thread::sleep(HEAD_START);
