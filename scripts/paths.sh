@@ -6,7 +6,7 @@ case $target in /*) ;; *) target=$PWD/$target ;; esac
 [ -z "${CARGO_TARGET_DIR:-}" ] || CARGO_TARGET_DIR=$target
 program=$target/release/plateau
 
-# Features other than the default ones, for example PLATEAU_FEATURES=system-hdf5
+# Features besides the default ones or, with system-hdf5, instead of them: PLATEAU_FEATURES=system-hdf5,mpi
 features=${PLATEAU_FEATURES:-}
 
 # The stamp is written when a build ends, but as old as its beginning: what changes during a build is newer.

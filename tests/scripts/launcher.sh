@@ -169,14 +169,23 @@ PLATEAU_FEATURES=system-hdf5 fake_cmake=3.25.1 launch "$checkout/plateau"
 expect 'other features build' "$(builds)" 7
 expect 'the installed HDF5 needs no cmake' "$(tail -n 1 "$calls")" \
     "cargo CMAKE= CMAKE_GENERATOR= build --release --locked -p plateau --target-dir $checkout/target --no-default-features --features system-hdf5"
+PLATEAU_FEATURES=mpi launch "$checkout/plateau"
+expect_message 'no MPI' "the compiler 'mpicc' is missing: install libopenmpi-dev and libclang-dev"
+expect 'without MPI nothing is built' "$(builds)" 7
+stand_in mpicc </dev/null
+PLATEAU_FEATURES=mpi launch "$checkout/plateau"
+expect 'MPI comes on top of the default features' "$(tail -n 1 "$calls" | sed 's/.*target //')" '--features mpi'
+PLATEAU_FEATURES=system-hdf5,mpi launch "$checkout/plateau"
+expect 'the installed HDF5 and MPI' "$(tail -n 1 "$calls" | sed 's/.*target //')" \
+    '--no-default-features --features system-hdf5,mpi'
 launch "$checkout/plateau"
 launch "$checkout/plateau"
-expect 'default features again build, once' "$(builds)" 8
+expect 'default features again build, once' "$(builds)" 10
 
 rm "$checkout/target/release/plateau"
 fake_edit=$checkout/crates/cli/src/main.rs launch "$checkout/plateau"
 launch "$checkout/plateau"
-expect 'a source changed during the build builds again' "$(builds)" 10
+expect 'a source changed during the build builds again' "$(builds)" 12
 
 : >"$checkout/crates/cli/src/main.rs"
 fake_failure=1 launch "$checkout/plateau"
@@ -184,7 +193,7 @@ expect 'a failed build' $status 1
 expect 'a failed build shows the reason' "$(grep -c '^error: this does not compile' "$sandbox/err")" 1
 expect 'a failed build leaves standard output alone' "$(cat "$sandbox/out")" ''
 launch "$checkout/plateau"
-expect 'after a failed build the next one runs' "$(builds) $status" '12 7'
+expect 'after a failed build the next one runs' "$(builds) $status" '14 7'
 
 set_up
 CARGO_TARGET_DIR=elsewhere launch "$checkout/plateau"

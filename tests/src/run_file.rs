@@ -29,6 +29,21 @@ pub struct Content {
     pub bits: Vec<u64>,
 }
 
+/// The datasets that differ, each with the first index at which it does.
+///
+/// # Panics
+/// When the files do not hold the same datasets.
+pub fn differences(one: &BTreeMap<String, Content>, other: &BTreeMap<String, Content>) -> Vec<String> {
+    assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
+    let different = one.iter().zip(other.values()).filter(|((_, one), other)| one != other);
+    different
+        .map(|((path, one), other)| {
+            let index = one.bits.iter().zip(&other.bits).position(|(one, other)| one != other);
+            format!("{path} of shape {:?} from index {index:?} on", one.shape)
+        })
+        .collect()
+}
+
 /// An HDF5 file that is read. Whatever cannot be read ends the test.
 #[derive(Debug)]
 pub struct RunFile {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use plateau_tests::program::{WorkingDirectory, scene};
-use plateau_tests::run_file::{Content, RunFile};
+use plateau_tests::run_file::{Content, RunFile, differences};
 
 /// Every dataset of a short run of `quick.toml` with these arguments.
 fn content(arguments: &[&str]) -> BTreeMap<String, Content> {
@@ -13,18 +13,6 @@ fn content(arguments: &[&str]) -> BTreeMap<String, Content> {
     let outcome = directory.plateau(common.iter().chain(arguments));
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
     RunFile::open(directory.path("run.h5")).content()
-}
-
-/// The datasets that differ, each with the first index at which it does.
-fn differences(one: &BTreeMap<String, Content>, other: &BTreeMap<String, Content>) -> Vec<String> {
-    assert_eq!(one.keys().collect::<Vec<_>>(), other.keys().collect::<Vec<_>>());
-    let different = one.iter().zip(other.values()).filter(|((_, one), other)| one != other);
-    different
-        .map(|((path, one), other)| {
-            let index = one.bits.iter().zip(&other.bits).position(|(one, other)| one != other);
-            format!("{path} of shape {:?} from index {index:?} on", one.shape)
-        })
-        .collect()
 }
 
 #[test]

@@ -20,14 +20,6 @@ pub enum BenchError {
     /// The simulation failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
-    /// More workers than a simulation can have.
-    #[error("{asked} workers were asked for, but a simulation of this version has at most {most}")]
-    Workers {
-        /// Asked for.
-        asked: usize,
-        /// Possible.
-        most: usize,
-    },
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {

@@ -12,7 +12,6 @@ use crate::document::{Benchmark, Document, FORMAT, Settings};
 use crate::error::BenchError;
 use crate::machine::Machine;
 use crate::race::Pace;
-use crate::stepper::MOST_WORKERS;
 use crate::tables::tables;
 
 /// Options of every benchmark.
@@ -142,8 +141,8 @@ pub fn print(text: &str) -> Result<(), BenchError> {
     }
 }
 
-/// The numbers asked for, or 1, 2, 4 .. and all cores as far as there can be so many workers.
-fn workers(asked: &[u16], cores: usize, notes: &mut Vec<String>) -> Result<Vec<usize>, BenchError> {
+/// The numbers asked for, or 1, 2, 4 .. and all cores.
+fn workers(asked: &[u16], cores: usize) -> Vec<usize> {
     let mut workers: Vec<usize> = if asked.is_empty() {
         let powers = std::iter::successors(Some(1), |workers| Some(2 * workers)).take_while(|workers| *workers < cores);
         powers.chain([cores]).collect()
@@ -152,15 +151,7 @@ fn workers(asked: &[u16], cores: usize, notes: &mut Vec<String>) -> Result<Vec<u
     };
     workers.sort_unstable();
     workers.dedup();
-    let most = workers.last().copied().unwrap_or(1);
-    if most > MOST_WORKERS {
-        if !asked.is_empty() {
-            return Err(BenchError::Workers { asked: most, most: MOST_WORKERS });
-        }
-        workers.retain(|workers| *workers <= MOST_WORKERS);
-        notes.push(format!("A simulation of this version has at most {MOST_WORKERS} worker."));
-    }
-    Ok(workers)
+    workers
 }
 
 #[cfg(test)]
@@ -170,7 +161,7 @@ mod tests {
     #[test]
     fn one_worker_is_always_measured() {
         for cores in [1, 2, 6, 64] {
-            let found = workers(&[], cores, &mut Vec::new()).unwrap();
+            let found = workers(&[], cores);
             assert_eq!(found[0], 1, "{cores} cores: {found:?}");
             assert!(found.is_sorted_by(|a, b| a < b) && found[found.len() - 1] <= cores, "{cores} cores: {found:?}");
         }

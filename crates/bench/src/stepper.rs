@@ -4,14 +4,11 @@ use std::time::{Duration, Instant};
 
 use plateau_core::kernel::InstructionSet;
 use plateau_core::observe::{Map, Sample, Snapshot};
-use plateau_core::simulation::Simulation;
+use plateau_core::simulation::{Execution, Simulation};
 
 use crate::case::Case;
 use crate::error::BenchError;
 use crate::race::Runner;
-
-/// The most workers that a simulation can have.
-pub const MOST_WORKERS: usize = 1;
 
 /// How a simulation is carried out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,38 +30,30 @@ impl Setup {
 #[derive(Debug)]
 pub struct Stepper {
     simulation: Simulation,
-    steps: u64,
-    evaluations: u64,
 }
 
 impl Stepper {
     /// A case before its first step.
     pub fn new(case: &Case, setup: Setup) -> Result<Self, BenchError> {
-        if setup.workers > MOST_WORKERS {
-            return Err(BenchError::Workers { asked: setup.workers, most: MOST_WORKERS });
-        }
-        let simulation = Simulation::new(case.parameters.clone(), case.surfaces.clone())?;
-        Ok(Self { simulation: simulation.with_instructions(setup.instructions), steps: 0, evaluations: 0 })
+        let execution = Execution { workers: setup.workers, instructions: setup.instructions, pin: false };
+        let simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
+        Ok(Self { simulation })
     }
 
     /// Advances by so many steps.
     pub fn run(&mut self, steps: u64) -> Result<(), BenchError> {
-        for _ in 0..steps {
-            self.simulation.advance()?;
-            self.evaluations += u64::from(self.simulation.contact().iterations());
-        }
-        self.steps += steps;
-        Ok(())
+        let end = self.simulation.steps_done() + steps;
+        Ok(self.simulation.advance_to(end)?)
     }
 
     /// The reported quantities after the last step.
     pub fn sample(&mut self) -> Result<Sample, BenchError> {
-        Ok(self.simulation.sample())
+        Ok(self.simulation.sample()?)
     }
 
     /// Maps as they are now.
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, BenchError> {
-        Ok(self.simulation.snapshot(maps))
+        Ok(self.simulation.snapshot(maps)?)
     }
 }
 
@@ -76,6 +65,7 @@ impl Runner for Stepper {
     }
 
     fn load_evaluations_per_step(&self) -> Option<f64> {
-        (self.steps > 0).then(|| self.evaluations as f64 / self.steps as f64)
+        let course = self.simulation.course();
+        (course.steps > 0).then(|| 1.0 + course.extra_readings as f64 / course.steps as f64)
     }
 }

@@ -18,8 +18,8 @@ pub enum Failure {
     Stopped {
         /// The signal.
         signal: u8,
-        /// What is left of the run.
-        message: String,
+        /// What is left of the run; a process that wrote nothing does not know.
+        message: Option<String>,
     },
 }
 
@@ -34,15 +34,26 @@ impl Failure {
         Self::Run(error.to_string())
     }
 
+    /// The exit status.
+    pub fn status(&self) -> u8 {
+        match self {
+            Self::Input(_) => 2,
+            Self::Run(_) => 1,
+            Self::Stopped { signal, .. } => 128_u8.saturating_add(*signal),
+        }
+    }
+
+    /// Says what happened on standard error.
+    pub fn say(&self) {
+        if let Self::Input(message) | Self::Run(message) | Self::Stopped { message: Some(message), .. } = self {
+            message::error(message);
+        }
+    }
+
     /// Says what happened on standard error and gives the exit status.
     pub fn report(self) -> ExitCode {
-        let (message, status) = match self {
-            Self::Input(message) => (message, 2),
-            Self::Run(message) => (message, 1),
-            Self::Stopped { signal, message } => (message, 128_u8.saturating_add(signal)),
-        };
-        message::error(message);
-        ExitCode::from(status)
+        self.say();
+        ExitCode::from(self.status())
     }
 }
 

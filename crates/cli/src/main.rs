@@ -6,6 +6,7 @@ mod drive;
 mod execution;
 mod failure;
 mod interrupt;
+mod job;
 mod machine;
 mod message;
 mod number;

@@ -2,6 +2,15 @@
 
 use std::fmt;
 use std::io::{self, Write as _};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static WARNINGS: AtomicBool = AtomicBool::new(true);
+
+/// From now on there are no warnings: another process of the same job gives them.
+#[cfg(feature = "mpi")]
+pub fn no_warnings() {
+    WARNINGS.store(false, Ordering::Relaxed);
+}
 
 /// Says why the program cannot do what was asked.
 pub fn error(message: impl fmt::Display) {
@@ -10,12 +19,16 @@ pub fn error(message: impl fmt::Display) {
 
 /// Says what deserves attention though the program goes on.
 pub fn warning(message: impl fmt::Display) {
-    say(format_args!("plateau: warning: {message}"));
+    if WARNINGS.load(Ordering::Relaxed) {
+        say(format_args!("plateau: warning: {message}"));
+    }
 }
 
 /// Says what is worth knowing.
 pub fn note(message: impl fmt::Display) {
-    say(format_args!("plateau: {message}"));
+    if WARNINGS.load(Ordering::Relaxed) {
+        say(format_args!("plateau: {message}"));
+    }
 }
 
 /// Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.

@@ -18,9 +18,9 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar for this many steps.
-    pub fn new(steps: u64) -> Self {
-        let bar = ProgressBar::new(steps);
+    /// A bar for this many steps, to be seen or not.
+    pub fn new(steps: u64, visible: bool) -> Self {
+        let bar = if visible { ProgressBar::new(steps) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }

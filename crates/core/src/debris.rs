@@ -184,7 +184,8 @@ impl Debris {
                 }
             }
             if moved.seldom.happened {
-                let exact = |heights: &[Exact]| volume(&heights.iter().map(|height| height.value()).collect::<Vec<_>>());
+                let exact =
+                    |heights: &[Exact]| volume(&heights.iter().map(|height| height.value()).collect::<Vec<_>>());
                 worn_pin -= exact(&moved.seldom.spared);
                 returned = exact(&moved.seldom.returned);
             }

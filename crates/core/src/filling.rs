@@ -46,13 +46,7 @@ impl Filling {
 
     /// Measures the own columns that the pin touched since the last call, after `steps` steps; in the last of them pin
     /// column 0 lay over the disc column `first`.
-    pub fn update<'a>(
-        &mut self,
-        mesh: &Mesh,
-        sectors: impl Iterator<Item = &'a DiscSector>,
-        first: usize,
-        steps: u64,
-    ) {
+    pub fn update<'a>(&mut self, mesh: &Mesh, sectors: impl Iterator<Item = &'a DiscSector>, first: usize, steps: u64) {
         let new = steps - self.up_to;
         if new == 0 {
             return;

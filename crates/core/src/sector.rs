@@ -56,7 +56,8 @@ impl Partition {
             return Self::of_sectors(mesh, workers, (mesh.disc_columns() / 2).max(1));
         }
         let per_round = mesh.disc_columns().div_ceil(mesh.pin_columns());
-        let candidates = (1..=most_rounds.min(4 * per_round)).map(|rounds| Self::of_sectors(mesh, workers, rounds * workers));
+        let candidates =
+            (1..=most_rounds.min(4 * per_round)).map(|rounds| Self::of_sectors(mesh, workers, rounds * workers));
         let cost = |partition: &Self| {
             let boundaries = (partition.sectors() * mesh.pin_columns()) as f64 / mesh.disc_columns() as f64;
             partition.mean_largest_load() + BOUNDARY_COST * boundaries / workers as f64
@@ -98,8 +99,10 @@ impl Partition {
 
     /// Mean over a revolution of the columns under the pin that the most loaded worker has.
     pub fn mean_largest_load(&self) -> f64 {
-        let owners: Vec<usize> =
-            (0..self.sectors()).flat_map(|sector| self.columns(sector).map(move |_| sector)).map(|s| self.owner(s)).collect();
+        let owners: Vec<usize> = (0..self.sectors())
+            .flat_map(|sector| self.columns(sector).map(move |_| sector))
+            .map(|s| self.owner(s))
+            .collect();
         let mut loads = vec![0_usize; self.workers];
         owners[..self.pin_columns].iter().for_each(|owner| loads[*owner] += 1);
         let mut sum = 0;

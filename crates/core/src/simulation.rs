@@ -149,23 +149,24 @@ impl Simulation {
         let partition = Arc::new(Partition::new(mesh, execution.workers));
         let parameters = Arc::new(parameters);
         let instructions = execution.instructions;
-        let team = if execution.workers == 1 {
-            let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, Single);
-            Team::Alone(Box::new(worker))
-        } else {
-            let halo_words = PinStrips::crossing_words(&parameters.mesh);
-            let ends = Threads::connect(execution.workers, partition.sectors(), halo_words);
-            let worker = |end: Threads| {
-                let alarm = end.alarm();
-                let partition = partition.clone();
-                (Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, end), alarm)
+        let team =
+            if execution.workers == 1 {
+                let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, Single);
+                Team::Alone(Box::new(worker))
+            } else {
+                let halo_words = PinStrips::crossing_words(&parameters.mesh);
+                let ends = Threads::connect(execution.workers, partition.sectors(), halo_words);
+                let worker = |end: Threads| {
+                    let alarm = end.alarm();
+                    let partition = partition.clone();
+                    (Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, end), alarm)
+                };
+                let crew = Crew::start(ends.into_iter().map(worker).collect(), execution.pin);
+                Team::Crew(crew.map_err(|error| SimulationError::Threads {
+                    workers: execution.workers,
+                    message: error.to_string(),
+                })?)
             };
-            let crew = Crew::start(ends.into_iter().map(worker).collect(), execution.pin);
-            Team::Crew(crew.map_err(|error| SimulationError::Threads {
-                workers: execution.workers,
-                message: error.to_string(),
-            })?)
-        };
         Ok(Self { parameters, pin_base: surfaces.pin_base, execution, team })
     }
 

@@ -169,12 +169,17 @@ impl PinStrips {
         words.clear();
         words.extend(self.height.column(column).map(f64::to_bits));
         words.extend(self.substrate_column(column).map(f64::to_bits));
-        let mut bytes: Vec<u8> =
-            [column, column + 1].iter().flat_map(|column| self.plateau.iter().skip(*column).step_by(self.columns)).copied().collect();
+        let mut bytes: Vec<u8> = [column, column + 1]
+            .iter()
+            .flat_map(|column| self.plateau.iter().skip(*column).step_by(self.columns))
+            .copied()
+            .collect();
         bytes.resize(bytes.len().next_multiple_of(LANES), 0);
-        words.extend(bytes.chunks_exact(LANES).map(|bytes| {
-            bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))
-        }));
+        words.extend(
+            bytes
+                .chunks_exact(LANES)
+                .map(|bytes| bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))),
+        );
     }
 
     /// Takes over a column that another worker wrote with [`PinStrips::write_crossing`].

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use plateau_core::comm::CommError;
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
@@ -16,19 +17,29 @@ use crate::drive::{Sink, drive};
 use crate::execution::decide;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::job::Job;
 use crate::progress::Progress;
 use crate::stability;
 use crate::summary::Summary;
 use crate::table::print;
 use crate::{machine, version};
 
-/// Runs a scene.
+/// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let mut job = Job::start()?;
+    let result = run_scene(arguments, &mut job);
+    job.end(result)
+}
+
+/// All processes of the job do the same, but only the leading one writes and prints.
+fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     // Where the system takes no handler, a run beyond the file size limit ends by a signal; no reason not to run.
     let _ = report_file_size_limit();
     let scene = load_scene(&arguments.scene)?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
-    check_place(&path, arguments.force).map_err(Failure::input)?;
+    if job.leads() {
+        check_place(&path, arguments.force).map_err(Failure::input)?;
+    }
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
@@ -38,22 +49,32 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let mut simulation =
         Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
     let header = header(&scene, &simulation, &inputs, schedule.samples())?;
+    job.compare(
+        &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
+    )?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
-    let writer = RunWriter::create(&path, arguments.force, &header).map_err(create_failure)?;
+    let writer = job.leads().then(|| RunWriter::create(&path, arguments.force, &header)).transpose();
+    let writer = writer.map_err(create_failure)?;
 
     let start = Instant::now();
-    let progress = Progress::new(scene.parameters.steps);
-    let mut recorder = Recorder { writer, progress, interrupt, last: Sample::default() };
+    let progress = Progress::new(scene.parameters.steps, job.leads());
+    let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default() };
     let result = drive(&mut simulation, &schedule, &scene.output.maps, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
+    let Some(writer) = writer else {
+        return result.map(drop).map_err(|failure| match failure {
+            RunFailure::Stopped(signal) => Failure::Stopped { signal, message: None },
+            failure => Failure::run(failure),
+        });
+    };
     match result {
         Ok(()) => {}
         Err(RunFailure::Stopped(signal)) => {
             let report = writer.finish(&End::Interrupted).map_err(Failure::run)?;
             let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
             let message = format!("stopped by signal {signal} after {steps} steps; {file} holds {samples} samples");
-            return Err(Failure::Stopped { signal, message });
+            return Err(Failure::Stopped { signal, message: Some(message) });
         }
         Err(failure) => {
             // The first error is the one to report; a writer that failed has nothing more to say.
@@ -124,6 +145,7 @@ fn create_failure(error: RunFileError) -> Failure {
 enum RunFailure {
     Simulation(SimulationError),
     RunFile(RunFileError),
+    Comm(CommError),
     /// This signal asked the run to stop.
     Stopped(u8),
 }
@@ -139,33 +161,37 @@ impl std::fmt::Display for RunFailure {
         match self {
             Self::Simulation(error) => error.fmt(f),
             Self::RunFile(error) => error.fmt(f),
+            Self::Comm(error) => error.fmt(f),
             Self::Stopped(signal) => write!(f, "stopped by signal {signal}"),
         }
     }
 }
 
 /// Hands what a simulation reports to the writer and shows how far it is.
-struct Recorder {
-    writer: RunWriter,
+struct Recorder<'job> {
+    /// None in a process that does not lead.
+    writer: Option<RunWriter>,
     progress: Progress,
     interrupt: Interrupt,
+    job: &'job mut Job,
     last: Sample,
 }
 
-impl Sink for Recorder {
+impl Sink for Recorder<'_> {
     type Error = RunFailure;
 
     fn sample(&mut self, sample: Sample) -> Result<(), RunFailure> {
         self.last = sample;
-        self.writer.sample(sample).map_err(RunFailure::RunFile)
+        self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample)).map_err(RunFailure::RunFile)
     }
 
     fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), RunFailure> {
-        self.writer.snapshot(snapshot).map_err(RunFailure::RunFile)
+        self.writer.as_mut().map_or(Ok(()), |writer| writer.snapshot(snapshot)).map_err(RunFailure::RunFile)
     }
 
     fn look(&mut self, simulation: &Simulation) -> Result<(), RunFailure> {
         self.progress.show(simulation);
-        self.interrupt.signal().map_or(Ok(()), |signal| Err(RunFailure::Stopped(signal)))
+        let signal = self.job.agree(self.interrupt.signal()).map_err(RunFailure::Comm)?;
+        signal.map_or(Ok(()), |signal| Err(RunFailure::Stopped(signal)))
     }
 }

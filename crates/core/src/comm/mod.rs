@@ -1,5 +1,7 @@
 //! What the workers of one simulation tell each other.
 
+#[cfg(feature = "mpi")]
+pub mod mpi;
 pub mod single;
 pub mod threads;
 
@@ -16,6 +18,10 @@ pub enum CommError {
         /// What it said.
         message: String,
     },
+    /// MPI.
+    #[cfg(feature = "mpi")]
+    #[error(transparent)]
+    Mpi(#[from] mpi::MpiError),
 }
 
 /// How a worker reaches the others.

@@ -74,7 +74,9 @@ impl Threads {
     pub fn connect(workers: usize, boundaries: usize, halo_words: usize) -> Vec<Self> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let shared = Arc::new(Shared {
-            gathered: (0..workers).map(|_| [Place::new(WORDS_AT_A_TIME + 1), Place::new(WORDS_AT_A_TIME + 1)]).collect(),
+            gathered: (0..workers)
+                .map(|_| [Place::new(WORDS_AT_A_TIME + 1), Place::new(WORDS_AT_A_TIME + 1)])
+                .collect(),
             halos: (0..boundaries).map(|_| Place::new(halo_words)).collect(),
             failed: AtomicBool::new(false),
             failure: Mutex::new(None),

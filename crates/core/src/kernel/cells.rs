@@ -38,10 +38,7 @@ impl Strip<'_> {
     #[inline(always)]
     pub fn behind<L: Lanes, const DISTINCT: bool>(&self, column: usize) -> Behind<L> {
         if column == 0 {
-            return Behind {
-                height: L::load(&self.behind_height),
-                secondary: L::Mask::of_byte(self.behind_secondary),
-            };
+            return Behind { height: L::load(&self.behind_height), secondary: L::Mask::of_byte(self.behind_secondary) };
         }
         let height = L::load(&self.disc_height[column - 1]);
         let substrate = if DISTINCT { L::load(&self.disc_substrate[column - 1]) } else { height };
@@ -134,7 +131,8 @@ pub(super) fn update<
         let on_disc = filled - on_pin;
         z_p = z_p - on_pin;
         z_d = z_d + on_disc;
-        let (beyond_pin, beyond_disc) = (rules.beyond(on_pin, rules.even_on_pin), rules.beyond(on_disc, rules.even_on_disc));
+        let (beyond_pin, beyond_disc) =
+            (rules.beyond(on_pin, rules.even_on_pin), rules.beyond(on_disc, rules.even_on_disc));
         moved.deposited_pin = moved.deposited_pin.plus_where(!touches, beyond_pin);
         moved.deposited_disc = moved.deposited_disc.plus_where(!touches, beyond_disc);
         b_p.store(&mut strip.pin.substrate[column]);

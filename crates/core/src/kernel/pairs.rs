@@ -101,7 +101,8 @@ impl<L: Lanes> Entries<L> {
 
 /// The index of one of eight pairs, from their statuses as bytes.
 pub(super) fn pair_of_lane(lane: usize, distinct: bool, [on_resin, pin_secondary, disc_secondary]: [u8; 3]) -> u8 {
-    let [on_resin, pin_secondary, disc_secondary] = [on_resin, pin_secondary, disc_secondary].map(|byte| byte >> lane & 1);
+    let [on_resin, pin_secondary, disc_secondary] =
+        [on_resin, pin_secondary, disc_secondary].map(|byte| byte >> lane & 1);
     let pin = if pin_secondary == 1 { 2 } else { 1 - on_resin };
     match distinct {
         true => 2 * pin + disc_secondary,
@@ -114,4 +115,3 @@ pub(super) fn pair_of_lane(lane: usize, distinct: bool, [on_resin, pin_secondary
 pub(super) fn lanes_of(byte: u8) -> impl Iterator<Item = usize> {
     (0..8).filter(move |lane| byte >> lane & 1 == 1)
 }
-

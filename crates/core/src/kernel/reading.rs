@@ -47,12 +47,7 @@ impl Reading {
     /// Nothing read. Where build-up has the properties of what it lies on, only two pairs are told apart.
     pub fn new(strips: usize, distinct: bool) -> Self {
         let rows = |pair| RowIntegers::new(if told_apart(distinct).contains(&pair) { strips } else { 0 });
-        Self {
-            touching: std::array::from_fn(rows),
-            overlap: std::array::from_fn(rows),
-            near: Vec::new(),
-            range: 0,
-        }
+        Self { touching: std::array::from_fn(rows), overlap: std::array::from_fn(rows), near: Vec::new(), range: 0 }
     }
 
     /// Starts anew.
@@ -116,14 +111,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
 
     /// Reads eight pairs: gap g = z_p − z_d against the bracket.
     #[inline(always)]
-    pub fn add(
-        &mut self,
-        gap: L,
-        pairs: Pairs<L>,
-        bracket: &BracketLanes<L>,
-        strip: usize,
-        reading: &mut Reading,
-    ) {
+    pub fn add(&mut self, gap: L, pairs: Pairs<L>, bracket: &BracketLanes<L>, strip: usize, reading: &mut Reading) {
         let beyond = gap - bracket.low;
         let touches = beyond.below(bracket.zero);
         let overlap = (bracket.anchor - beyond).bits();
@@ -191,13 +179,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
 /// Notes the few pairs of which the bracket does not say whether they touch.
 #[cold]
 #[inline(never)]
-fn note_near<const DISTINCT: bool>(
-    near: &mut Vec<NearPair>,
-    gaps: &Chunk,
-    lanes: u8,
-    statuses: [u8; 3],
-    strip: usize,
-) {
+fn note_near<const DISTINCT: bool>(near: &mut Vec<NearPair>, gaps: &Chunk, lanes: u8, statuses: [u8; 3], strip: usize) {
     near.extend(lanes_of(lanes).map(|lane| NearPair {
         gap: gaps.0[lane],
         row: (strip * 8 + lane) as u32,

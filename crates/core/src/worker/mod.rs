@@ -106,10 +106,7 @@ impl<C: Communicator> Worker<C> {
             sweep: sweep(needs),
             rules: Rules::new(&parameters, &coefficients),
             contact: Contact::new(mesh, &coefficients.stiffness, needs.distinct),
-            quantum: Quantum::of(
-                parameters.normal_force / coefficients.least_plateau_stiffness(),
-                mesh.pin_columns(),
-            ),
+            quantum: Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns()),
             pin: PinStrips::new(mesh, &surfaces.pin_height, &surfaces.pin_base, needs.forms),
             forecast: Forecast::new(mesh.disc_columns()),
             debris: Debris::new(&parameters, &coefficients),

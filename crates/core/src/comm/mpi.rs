@@ -1,0 +1,261 @@
+//! Workers that are ranks of an MPI job (feature `mpi`): every rank runs the same program in a process of its own,
+//! on one machine or on several.
+//!
+//! Errors inside the MPI library end the whole job by themselves, as the MPI standard has it (`MPI_ERRORS_ARE_FATAL`,
+//! MPI 3.1, section 8.3).
+
+use std::cell::Cell;
+use std::fmt;
+use std::rc::Rc;
+use std::thread;
+use std::time::Duration;
+
+use ::mpi::datatype::PartitionMut;
+use ::mpi::environment::{Threading, Universe};
+use ::mpi::topology::SimpleCommunicator;
+use ::mpi::traits::{Communicator as _, CommunicatorCollectives, Destination, Equivalence, Source};
+use ::mpi::{Count, Rank, Tag};
+
+use super::{CommError, Communicator};
+
+/// Largest tag that every MPI library takes (MPI 3.1, section 8.1.2).
+const LARGEST_TAG: usize = 32_767;
+
+/// Bytes for halo messages on their way. As all ranks meet in every step, these are the messages of two steps at most.
+/// The system gives memory only for the part that is used.
+const SEND_BUFFER: usize = 64 << 20;
+
+/// Words beyond which a message of `all_gather` goes in a second round every time: rare long messages must not make
+/// the many short ones slow.
+const LONGEST_SLOT: usize = 1024;
+
+/// How long a rank that failed waits for rank 0 to report the same and end all: what fails is mostly the same on all ranks,
+/// and rank 0 may have a file to close.
+const HEAD_START: Duration = Duration::from_secs(5);
+
+/// Why ranks cannot talk to each other.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MpiError {
+    /// MPI can be started once in the life of a process.
+    #[error("MPI was started before in this process")]
+    StartedBefore,
+    /// The library serves programs of one thread only.
+    #[error("this MPI library gives thread support {found:?}, at least Funneled is needed: use one built with threads")]
+    Threads {
+        /// What the library gives.
+        found: Threading,
+    },
+    /// The number of a boundary is no valid tag.
+    #[error("the ring has a sector {boundary}, MPI tells at most {LARGEST_TAG} apart: use fewer ranks or columns")]
+    Boundary {
+        /// The sector.
+        boundary: usize,
+    },
+    /// A message is too long for the counts of MPI, which have 32 bits.
+    #[error("a message of {words} words, MPI takes at most {}: use a smaller mesh", Count::MAX)]
+    Length {
+        /// Its length.
+        words: usize,
+    },
+    /// A halo message is shorter than it must be.
+    #[error("rank {from} sent {found} words for the boundary of sector {boundary}, expected {expected}")]
+    Halo {
+        /// The sender.
+        from: usize,
+        /// The sector.
+        boundary: usize,
+        /// Words that came.
+        found: usize,
+        /// Words of a halo column.
+        expected: usize,
+    },
+}
+
+/// This process as one rank of an MPI job, from the start to the end of MPI.
+///
+/// A job ends well only when every rank says so with [`Session::finish`]. A session that is dropped otherwise, by a
+/// panic or a forgotten path, ends all ranks with exit status 1, because the others would wait for this one for ever.
+#[derive(Debug)]
+pub struct Session {
+    job: Rc<Job>,
+}
+
+impl Session {
+    /// Starts MPI; a process that no launcher started is the only rank. To be called on the main thread, once, before
+    /// the program starts other threads. Only the main thread may talk to other ranks.
+    ///
+    /// # Errors
+    /// [`MpiError::StartedBefore`] the second time, [`MpiError::Threads`] when no program with threads may use the
+    /// library.
+    pub fn start() -> Result<Self, CommError> {
+        let (mut universe, threading) =
+            ::mpi::initialize_with_threading(Threading::Funneled).ok_or(MpiError::StartedBefore)?;
+        if threading < Threading::Funneled {
+            return Err(MpiError::Threads { found: threading }.into());
+        }
+        universe.set_buffer_size(SEND_BUFFER);
+        Ok(Self { job: Rc::new(Job { finished: Cell::new(false), world: universe.world(), _universe: universe }) })
+    }
+
+    /// A way to talk to the other ranks. MPI ends when the session and all of them are gone.
+    #[must_use]
+    pub fn communicator(&self) -> Mpi {
+        let world = &self.job.world;
+        Mpi {
+            rank: world.rank().unsigned_abs() as usize,
+            size: world.size().unsigned_abs() as usize,
+            slot: 0,
+            outgoing: Vec::new(),
+            incoming: Vec::new(),
+            job: Rc::clone(&self.job),
+        }
+    }
+
+    /// Ends this rank's part in good order. Waits for the other ranks to do the same.
+    pub fn finish(self) {
+        self.job.finished.set(true);
+    }
+
+    /// Ends all ranks with this exit status after `report` said why. Rank 0 reports at once; another rank does so only
+    /// if the job still runs after some seconds: rank 0 has then not failed in the same way.
+    pub fn fail(self, status: u8, report: impl FnOnce()) -> ! {
+        if self.job.world.rank() != 0 {
+            thread::sleep(HEAD_START);
+        }
+        report();
+        self.job.world.abort(status.into())
+    }
+}
+
+/// What ends with MPI.
+struct Job {
+    finished: Cell<bool>,
+    world: SimpleCommunicator,
+    /// Ends MPI when it is dropped, and waits for the other ranks then.
+    _universe: Universe,
+}
+
+impl Drop for Job {
+    fn drop(&mut self) {
+        if !self.finished.get() || thread::panicking() {
+            self.world.abort(1);
+        }
+    }
+}
+
+impl fmt::Debug for Job {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Job").field("rank", &self.world.rank()).field("size", &self.world.size()).finish()
+    }
+}
+
+/// The ranks of a job as workers of one simulation. All ranks must make the same calls of
+/// [`all_gather`](Communicator::all_gather) in the same order.
+#[derive(Debug)]
+pub struct Mpi {
+    rank: usize,
+    size: usize,
+    /// Words of a message that fit into the first round of `all_gather`; equal on all ranks.
+    slot: usize,
+    /// This rank's part of the first round: the length of its message, then its first `slot` words.
+    outgoing: Vec<u64>,
+    /// What a round brought, in order of rank.
+    incoming: Vec<u64>,
+    job: Rc<Job>,
+}
+
+impl Communicator for Mpi {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn size(&self) -> usize {
+        self.size
+    }
+
+    /// A buffered send: MPI copies the message and delivers it whenever the receiver is ready.
+    fn send_halo(&mut self, boundary: usize, to: usize, words: &[u64]) -> Result<(), CommError> {
+        count(words.len())?;
+        self.job.world.process_at_rank(to as Rank).buffered_send_with_tag(words, tag(boundary)?);
+        Ok(())
+    }
+
+    fn receive_halo(&mut self, boundary: usize, from: usize, words: &mut [u64]) -> Result<(), CommError> {
+        let expected = words.len();
+        let status = self.job.world.process_at_rank(from as Rank).receive_into_with_tag(words, tag(boundary)?);
+        let found = status.count(u64::equivalent_datatype()).unsigned_abs() as usize;
+        if found != expected {
+            return Err(MpiError::Halo { from, boundary, found, expected }.into());
+        }
+        Ok(())
+    }
+
+    /// One round of messages of equal length does where nobody's message is longer than in earlier calls; all ranks see
+    /// all lengths and so agree on whether a second round is needed.
+    fn all_gather(&mut self, words: &[u64], each: &mut dyn FnMut(usize, &[u64])) -> Result<(), CommError> {
+        if self.size == 1 {
+            each(0, words);
+            return Ok(());
+        }
+        let stride = self.gather_slots(words);
+        let longest = self.incoming.iter().step_by(stride).max().map_or(0, |&length| length as usize);
+        if longest > self.slot {
+            let lengths: Vec<_> = self.incoming.iter().step_by(stride).map(|&length| length as usize).collect();
+            if longest <= LONGEST_SLOT {
+                self.slot = longest;
+            }
+            return self.gather_all(words, &lengths, each);
+        }
+        for (rank, part) in self.incoming.chunks_exact(stride).enumerate() {
+            each(rank, &part[1..=part[0] as usize]);
+        }
+        Ok(())
+    }
+}
+
+impl Mpi {
+    /// The first round: every length and as much of every message as fits. Gives the words from one rank to the next.
+    fn gather_slots(&mut self, words: &[u64]) -> usize {
+        let stride = 1 + self.slot;
+        self.outgoing.clear();
+        self.outgoing.push(words.len() as u64);
+        self.outgoing.extend(words.iter().take(self.slot));
+        self.outgoing.resize(stride, 0);
+        self.incoming.resize(stride * self.size, 0);
+        self.job.world.all_gather_into(&self.outgoing[..], &mut self.incoming[..]);
+        stride
+    }
+
+    /// The second round: messages of known lengths.
+    fn gather_all(
+        &mut self,
+        words: &[u64],
+        lengths: &[usize],
+        each: &mut dyn FnMut(usize, &[u64]),
+    ) -> Result<(), CommError> {
+        let total = lengths.iter().sum();
+        count(total)?;
+        let counts: Vec<_> = lengths.iter().map(|&length| length as Count).collect();
+        let starts: Vec<_> =
+            counts.iter().scan(0, |next, count| Some(std::mem::replace(next, *next + count))).collect();
+        self.incoming.resize(total, 0);
+        let mut parts = PartitionMut::new(&mut self.incoming[..], counts, starts);
+        self.job.world.all_gather_varcount_into(words, &mut parts);
+        let mut rest = &self.incoming[..];
+        for (rank, &length) in lengths.iter().enumerate() {
+            let (part, after) = rest.split_at(length);
+            each(rank, part);
+            rest = after;
+        }
+        Ok(())
+    }
+}
+
+fn tag(boundary: usize) -> Result<Tag, MpiError> {
+    if boundary > LARGEST_TAG { Err(MpiError::Boundary { boundary }) } else { Ok(boundary as Tag) }
+}
+
+/// Refuses a number of words that MPI cannot count.
+fn count(words: usize) -> Result<(), MpiError> {
+    if words > Count::MAX as usize { Err(MpiError::Length { words }) } else { Ok(()) }
+}

@@ -1,0 +1,81 @@
+#!/bin/sh
+# One scene on the ranks of an MPI job. Installs Open MPI and libclang where they are missing and may be installed.
+# Builds the program with feature mpi in the usual place; the next ./plateau links it anew without.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+root=$PWD
+
+have_mpi() {
+    command -v mpirun >/dev/null 2>&1 && command -v mpicc >/dev/null 2>&1 && have_libclang
+}
+
+have_libclang() {
+    [ -z "${LIBCLANG_PATH:-}" ] || return 0
+    for library in /usr/lib/llvm-*/lib/libclang.so* /usr/lib64/libclang.so* /usr/lib/*/libclang*.so*; do
+        [ ! -e "$library" ] || return 0
+    done
+    return 1
+}
+
+if ! have_mpi; then
+    if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null 2>&1; then
+        echo 'Open MPI (mpirun, mpicc) or libclang is not installed, and only root may install them'
+        exit 77
+    fi
+    if ! { apt-get update && apt-get install -y --no-install-recommends openmpi-bin libopenmpi-dev libclang-dev; }; then
+        echo 'Open MPI or libclang is not installed, and apt-get could not install them'
+        exit 77
+    fi
+fi
+case $(mpirun --version 2>&1) in
+    *'Open MPI'* | *OpenRTE*) ;;
+    *) echo 'mpirun is not that of Open MPI, whose options this check uses' && exit 77 ;;
+esac
+
+PLATEAU_FEATURES=mpi
+export PLATEAU_FEATURES
+. scripts/paths.sh
+. scripts/say.sh
+. scripts/lock.sh
+. scripts/toolchain.sh
+
+# More ranks than cores, and root where CI is root: both only here, on one machine and for seconds.
+mpirun='mpirun --oversubscribe'
+[ "$(id -u)" -ne 0 ] || mpirun="$mpirun --allow-run-as-root"
+
+# ranks N [HOW]: the ranks on their own, without a simulation (crates/core/tests/mpi.rs).
+ranks() {
+    number=$1
+    shift
+    # cargo starts the tests that it built with this runner.
+    timeout 300 cargo test --quiet --release --locked --workspace --features mpi --test mpi \
+        --target-dir "$target" --config "target.'cfg(unix)'.runner = '$mpirun -n $number'" -- "$@"
+}
+
+# ranks_end STATUS HOW: with one rank failing in this way, three ranks must end with this status, and not hang.
+ranks_end() {
+    ranks 3 "$2" >"$output" 2>&1 || :
+    grep -q "(exit status: $1)" "$output" || { cat "$output" && echo "3 ranks: $2 did not end with $1" && exit 1; }
+}
+
+output=$(mktemp) || exit 1
+trap 'rm -f "$output"' EXIT
+
+sh scripts/build.sh || exit 1
+prepare_toolchain
+cargo clippy --release --locked --workspace --all-targets --target-dir "$target" --features mpi -- -D warnings || exit 1
+for number in 1 2 3 5; do
+    ranks $number || exit 1
+done
+ranks_end 1 panic
+ranks_end 1 drop
+ranks_end 3 fail
+ranks_end 3 fail-alike
+[ "$(grep -c 'all ranks failed on purpose' "$output")" -eq 1 ] ||
+    { cat "$output" && echo 'what failed all ranks was not said once' && exit 1; }
+
+# No other build replaces this program while it is tested.
+cp "$program" "$target/plateau-mpi" || exit 1
+# One test at a time: every one of them starts several processes that wait for each other.
+PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun cargo test --release --locked --workspace --test ranks \
+    --target-dir "$target" -- --ignored --test-threads 1

@@ -1,0 +1,175 @@
+//! One scene on several ranks of an MPI job: the same bits, one voice, one end. Needs a program with feature `mpi` and
+//! `PLATEAU_MPIRUN`, the launcher with its options, so `tests/extra/mpi.sh` runs these.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+
+use plateau_tests::program::{Outcome, WorkingDirectory, program, run, scene, wait_until};
+use plateau_tests::run_file::{Content, RunFile, differences};
+
+/// The launcher, to be run in a directory.
+fn mpirun(directory: &WorkingDirectory) -> Command {
+    let launcher = std::env::var("PLATEAU_MPIRUN").expect("PLATEAU_MPIRUN, for example \"mpirun --oversubscribe\"");
+    let mut words = launcher.split_whitespace();
+    let mut command = Command::new(words.next().expect("the launcher"));
+    command.args(words).current_dir(directory.path("."));
+    command
+}
+
+/// Arguments of a short run of `quick.toml` with these.
+fn short_run(arguments: &[&str]) -> Vec<String> {
+    let quick = scene("quick.toml");
+    let common = ["run", &quick, "-o", "run.h5", "--set", "operation.steps=1500"];
+    common.iter().chain(arguments).map(ToString::to_string).collect()
+}
+
+/// Every dataset of the run file that a command wrote, and the number of workers that it names.
+fn written(directory: &WorkingDirectory, outcome: &Outcome) -> (BTreeMap<String, Content>, f64) {
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert_eq!(directory.names(), ["run.h5"]);
+    let file = RunFile::open(directory.path("run.h5"));
+    assert_eq!(file.text("state"), "finished");
+    (file.content(), file.number("workers"))
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn the_number_of_ranks_does_not_show() {
+    let on_threads = |threads| {
+        let directory = WorkingDirectory::new();
+        written(&directory, &directory.plateau(short_run(&["--workers", threads]))).0
+    };
+    let one = on_threads("1");
+    assert_eq!(differences(&one, &on_threads("2")), [""; 0], "2 threads");
+    for ranks in [1, 2, 3] {
+        let directory = WorkingDirectory::new();
+        let mut command = mpirun(&directory);
+        command.args(["-n", &ranks.to_string()]).arg(program()).args(short_run(&[]));
+        let outcome = run(command);
+        let (content, workers) = written(&directory, &outcome);
+        assert_eq!(differences(&one, &content), [""; 0], "{ranks} ranks");
+        assert_eq!(workers, ranks as f64);
+        // One summary, not one from every rank.
+        assert_eq!(outcome.stdout.matches("run.h5").count(), 1, "{}", outcome.stdout);
+    }
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn a_rank_that_fails_ends_all_with_its_status_and_message() {
+    let mut job = EndlessJob::start(3);
+    // Only rank 0 writes, so only rank 0 fails. MPI itself needs larger files when it starts.
+    let order = ["--fsize=200000", "--pid", &job.process(0)];
+    assert!(Command::new("prlimit").args(order).status().expect("prlimit, of util-linux").success());
+    let (status, stderr) = job.end();
+    assert_eq!(status, Some(1), "{stderr}");
+    assert_eq!(stderr.matches("plateau: writing ").count(), 1, "{stderr}");
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn a_rank_without_its_scene_ends_all() {
+    let directory = WorkingDirectory::new();
+    let mut command = mpirun(&directory);
+    command.args(["-n", "2"]).arg(program()).args(short_run(&[]));
+    command.args([":", "-n", "1"]).arg(program()).args(["run", "missing.toml"]);
+    let outcome = run(command);
+    assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
+    assert_eq!(outcome.stderr.matches("missing.toml").count(), 1, "{}", outcome.stderr);
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn what_all_ranks_find_wrong_is_said_once() {
+    let directory = WorkingDirectory::new();
+    let mut command = mpirun(&directory);
+    command.args(["-n", "3"]).arg(program()).args(["run", "missing.toml"]);
+    let outcome = run(command);
+    assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
+    assert_eq!(outcome.stderr.matches("plateau: ").count(), 1, "{}", outcome.stderr);
+    assert_eq!(directory.names(), [""; 0]);
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn ranks_with_different_scenes_do_not_start() {
+    let directory = WorkingDirectory::new();
+    let mut command = mpirun(&directory);
+    command.args(["-n", "2"]).arg(program()).args(short_run(&[]));
+    command.args([":", "-n", "1"]).arg(program()).args(short_run(&["--set", "operation.normal_force=\"6 N\""]));
+    let outcome = run(command);
+    assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("plateau: rank 2 was given another scene"), "{}", outcome.stderr);
+    assert_eq!(directory.names(), [""; 0]);
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn a_rank_that_is_asked_to_stop_stops_all_in_good_order() {
+    let mut job = EndlessJob::start(2);
+    assert!(Command::new("kill").args(["-s", "TERM", &job.process(1)]).status().expect("kill").success());
+    let (status, stderr) = job.end();
+    assert_eq!(status, Some(143), "{stderr}");
+    assert_eq!(stderr.matches("plateau: stopped by signal 15").count(), 1, "{stderr}");
+    assert_eq!(RunFile::open(job.file()).text("state"), "interrupted");
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn a_rank_that_is_killed_ends_all() {
+    let mut job = EndlessJob::start(2);
+    assert!(Command::new("kill").args(["-s", "KILL", &job.process(1)]).status().expect("kill").success());
+    let (status, stderr) = job.end();
+    assert_ne!(status, Some(0), "{stderr}");
+}
+
+/// A run that goes on until something ends it.
+struct EndlessJob {
+    directory: WorkingDirectory,
+    launcher: Child,
+}
+
+impl EndlessJob {
+    /// Starts it and waits for its first sample.
+    fn start(ranks: usize) -> Self {
+        let directory = WorkingDirectory::new();
+        let stderr = File::create(directory.path("stderr")).expect("a file");
+        let mut command = mpirun(&directory);
+        // Every rank leaves its process number in a file that is named by its rank.
+        let order = "echo $$ >$OMPI_COMM_WORLD_RANK; exec \"$0\" \"$@\"";
+        command.args(["-n", &ranks.to_string(), "sh", "-c", order]).arg(program());
+        command.args(["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.steps=100000000"]);
+        let launcher = command.stdout(Stdio::null()).stderr(stderr).spawn().expect("the launcher");
+        let job = Self { directory, launcher };
+        let runs = || RunFile::follow(job.file()).is_ok_and(|file| file.shape("/time")[0] > 0);
+        assert!(wait_until(runs), "no sample came");
+        job
+    }
+
+    fn file(&self) -> PathBuf {
+        self.directory.path("run.h5")
+    }
+
+    /// The process of a rank.
+    fn process(&self, rank: usize) -> String {
+        let text = fs::read_to_string(self.directory.path(&rank.to_string())).expect("a process number");
+        text.trim_end().to_owned()
+    }
+
+    /// Waits for its end; gives the exit status and what was said on standard error.
+    fn end(&mut self) -> (Option<i32>, String) {
+        let mut status = None;
+        let ended = wait_until(|| {
+            status = self.launcher.try_wait().expect("the state of the job");
+            status.is_some()
+        });
+        if !ended {
+            self.launcher.kill().expect("a job that runs");
+            panic!("the job did not end");
+        }
+        let stderr = fs::read_to_string(self.directory.path("stderr")).expect("standard error");
+        (status.and_then(|status| status.code()), stderr)
+    }
+}
