@@ -1,16 +1,15 @@
 //! Load balance of the rigid pin on a Winkler foundation (model 4.1; paper 2.2, Eqs. 2 to 5).
 //!
-//! The load is convex and piecewise linear in the displacement. So a [`Reading`] of the pairs against a bracket of
+//! The load is convex and piecewise linear in the displacement. So a reading of the pairs against a bracket of
 //! displacements, sums for the pairs that touch at its lower end and a list of the few that begin to touch within it,
 //! holds all that is needed to solve the balance exactly where the solution lies within the bracket; where it does not,
 //! the reading tells where to read next.
 
 use thiserror::Error;
 
-use crate::exact::dot;
-use crate::kernel::{Bracket, NearPair, Reading, told_apart};
-use crate::mesh::Mesh;
-use crate::pair::{Pair, Table};
+use crate::exact::{Weights, float};
+use crate::kernel::{Bracket, NearPair};
+use crate::sums::{PairSums, RowWeights, Sums};
 
 /// Why no displacement carries the load.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -52,13 +51,22 @@ pub enum Verdict {
     Apart,
 }
 
+/// The contact of the cells that share a pool.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PoolContact {
+    /// Σ A over cells in contact, in units of the area.
+    pub area: i128,
+    /// Σ A over bare resin in contact, in units of the area.
+    pub resin_area: i128,
+    /// Raw volume that plateaus of the pin lose, m³.
+    pub pin_loss: f64,
+    /// Raw volume that the disc loses, m³.
+    pub disc_loss: f64,
+}
+
 /// The contact of one step: the displacement that carries the load, and what touches there.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// k A by pair and row, N/m.
-    stiffness: Table,
-    /// Pairs that are told apart.
-    pairs: &'static [usize],
     /// δ, m; none before the first step.
     displacement: Option<f64>,
     /// Σ k A u, N.
@@ -67,44 +75,38 @@ pub struct Contact {
     slope: f64,
     /// |Σ k A u − F_N| / F_N.
     residual: f64,
-    /// Σ u of every pair and row, m.
-    overlap: Table,
-    /// Cells in contact of every pair and row.
-    touching: Table,
-    /// Cells in contact of every row.
-    touching_rows: Vec<f64>,
+    /// By pool.
+    pools: Vec<PoolContact>,
+    /// What a unit of the area is worth, m².
+    area_unit: f64,
 }
 
 impl Contact {
-    /// Contact of a pin that has not touched yet; `stiffness` is k A.
-    pub fn new(mesh: &Mesh, stiffness: &Table, distinct: bool) -> Self {
-        let rows = || std::array::from_fn::<_, { Pair::COUNT }, _>(|_| vec![0.0; mesh.rows()]);
+    /// Contact of a pin that has not touched yet.
+    pub fn new(weights: &RowWeights) -> Self {
         Self {
-            stiffness: stiffness.clone(),
-            pairs: told_apart(distinct),
             displacement: None,
             load: 0.0,
             slope: 0.0,
             residual: 0.0,
-            overlap: rows(),
-            touching: rows(),
-            touching_rows: vec![0.0; mesh.rows()],
+            pools: vec![PoolContact::default(); weights.pools()],
+            area_unit: weights.area.unit(),
         }
     }
 
-    /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket of a reading.
+    /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of.
     ///
     /// # Errors
     /// [`ContactError`] when the numbers leave the finite range or rounding leaves no overlap.
     pub fn balance(
         &mut self,
-        reading: &mut Reading,
+        weights: &RowWeights,
+        sums: &Sums,
+        near: &mut [NearPair],
         bracket: &Bracket,
         normal_force: f64,
     ) -> Result<Verdict, ContactError> {
-        self.take_sums(reading, bracket);
-        let by_stiffness = |rows: &Table| self.pairs.iter().map(|pair| dot(&rows[*pair], &self.stiffness[*pair])).sum();
-        let (low_load, low_slope): (f64, f64) = (by_stiffness(&self.overlap), by_stiffness(&self.touching));
+        let (low_load, low_slope) = load_at_low(weights, sums, bracket);
         let low = bracket.low;
         if !(low_load.is_finite() && low.is_finite()) {
             return Err(ContactError::NotFinite { displacement: low, load: low_load, normal_force });
@@ -116,15 +118,15 @@ impl Contact {
             return Ok(Verdict::Between(next - (0.25 * step).max(tiny), next + (step / 1024.0).max(tiny)));
         }
         // In an order that does not depend on who read what.
-        reading.near.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then((a.row, a.pair).cmp(&(b.row, b.pair))));
+        near.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then((a.row, a.pair).cmp(&(b.row, b.pair))));
         let (mut at, mut load, mut slope) = (low, low_load, low_slope);
         let solution = |at: f64, load: f64, slope: f64| at + (normal_force - load) / slope;
-        for pair in &reading.near {
+        for pair in &*near {
             if slope > 0.0 && solution(at, load, slope) <= pair.gap {
                 break;
             }
             load += slope * (pair.gap - at);
-            slope += self.stiffness_of(pair);
+            slope += weights.stiffness_of(pair);
             at = pair.gap;
         }
         if slope == 0.0 {
@@ -132,7 +134,13 @@ impl Contact {
         }
         let displacement = solution(at, load, slope);
         if displacement - low < bracket.width {
-            self.settle(displacement, &reading.near, low, (low_load, low_slope), normal_force)?;
+            (self.load, self.slope) = (low_load + low_slope * (displacement - low), low_slope);
+            self.settle(weights, sums, near, bracket, displacement);
+            if self.slope == 0.0 {
+                return Err(ContactError::NotCarried { displacement, normal_force });
+            }
+            self.residual = ((self.load - normal_force) / normal_force).abs();
+            self.displacement = Some(displacement);
             return Ok(Verdict::Solved);
         }
         if !displacement.is_finite() {
@@ -144,59 +152,48 @@ impl Contact {
         Ok(Verdict::Between(high, displacement + (step / 1024.0).max(rounding(high, displacement, bracket))))
     }
 
-    /// Sums over the cells that touch at the lower end of the bracket, in metres.
-    fn take_sums(&mut self, reading: &Reading, bracket: &Bracket) {
-        let (quantum, anchor) = (bracket.quantum.value(), bracket.quantum.anchor_bits());
-        for pair in self.pairs {
-            let counts = reading.touching[*pair].0.as_flattened();
-            let sums = reading.overlap[*pair].0.as_flattened();
-            let rows = self.touching[*pair].iter_mut().zip(&mut self.overlap[*pair]);
-            for ((touching, overlap), (count, sum)) in rows.zip(counts.iter().zip(sums)) {
-                *touching = *count as f64;
-                *overlap = sum.wrapping_sub(count.wrapping_mul(anchor)) as f64 * quantum;
-            }
-        }
-    }
-
-    fn stiffness_of(&self, pair: &NearPair) -> f64 {
-        self.stiffness[usize::from(pair.pair)][pair.row as usize]
-    }
-
     /// Takes the sums from the lower end of the bracket to the displacement.
     fn settle(
         &mut self,
-        displacement: f64,
+        weights: &RowWeights,
+        sums: &Sums,
         near: &[NearPair],
-        low: f64,
-        (low_load, low_slope): (f64, f64),
-        normal_force: f64,
-    ) -> Result<(), ContactError> {
-        let above = displacement - low;
-        for pair in self.pairs {
-            for (overlap, touching) in self.overlap[*pair].iter_mut().zip(&self.touching[*pair]) {
-                *overlap += touching * above;
+        bracket: &Bracket,
+        displacement: f64,
+    ) {
+        let above = displacement - bracket.low;
+        for (contact, sums) in self.pools.iter_mut().zip(&sums.pools) {
+            *contact = PoolContact::default();
+            for pair in weights.pairs {
+                let sums = &sums.pairs[*pair];
+                if sums.area == 0 {
+                    continue;
+                }
+                contact.area += sums.area;
+                if is_bare_resin(*pair) {
+                    contact.resin_area += sums.area;
+                }
+                let loss = |low: i128, rate: i128, weights: &Weights| {
+                    (float(low) * bracket.quantum.value() + float(rate) * above) * weights.unit()
+                };
+                contact.pin_loss += loss(sums.pin_loss, sums.pin_loss_rate, &weights.pin_loss[*pair]);
+                contact.disc_loss += loss(sums.disc_loss, sums.disc_loss_rate, &weights.disc_loss[*pair]);
             }
         }
-        (self.load, self.slope) = (low_load + low_slope * above, low_slope);
-        for pair in near.iter().take_while(|pair| pair.gap < displacement) {
-            let (index, row) = (usize::from(pair.pair), pair.row as usize);
-            let overlap = displacement - pair.gap;
-            self.touching[index][row] += 1.0;
-            self.overlap[index][row] += overlap;
-            self.load += self.stiffness_of(pair) * overlap;
-            self.slope += self.stiffness_of(pair);
+        for near in near.iter().take_while(|near| near.gap < displacement) {
+            let (pair, row) = (usize::from(near.pair), near.row as usize);
+            let overlap = displacement - near.gap;
+            let contact = &mut self.pools[weights.pool_of(row)];
+            let area = i128::from(weights.area.row(row));
+            contact.area += area;
+            if is_bare_resin(pair) {
+                contact.resin_area += area;
+            }
+            contact.pin_loss += weights.pin_loss[pair].value(row) * overlap;
+            contact.disc_loss += weights.disc_loss[pair].value(row) * overlap;
+            self.load += weights.stiffness_of(near) * overlap;
+            self.slope += weights.stiffness_of(near);
         }
-        let (first, others) = self.pairs.split_first().unwrap_or((&0, &[]));
-        self.touching_rows.copy_from_slice(&self.touching[*first]);
-        for pair in others {
-            self.touching_rows.iter_mut().zip(&self.touching[*pair]).for_each(|(sum, touching)| *sum += touching);
-        }
-        if self.slope == 0.0 {
-            return Err(ContactError::NotCarried { displacement, normal_force });
-        }
-        self.residual = ((self.load - normal_force) / normal_force).abs();
-        self.displacement = Some(displacement);
-        Ok(())
     }
 
     /// δ, m; 0 before the first step.
@@ -204,29 +201,14 @@ impl Contact {
         self.displacement.unwrap_or(0.0)
     }
 
-    /// Cells in contact by row.
-    pub fn touching(&self) -> &[f64] {
-        &self.touching_rows
-    }
-
-    /// Pairs that are told apart, by [`Pair::index`].
-    pub fn pairs(&self) -> &'static [usize] {
-        self.pairs
-    }
-
-    /// Cells in contact of each pair, by row.
-    pub fn touching_by_pair(&self) -> &Table {
-        &self.touching
-    }
-
-    /// Σ u over the cells in contact of each pair by row, m.
-    pub fn overlap_by_pair(&self) -> &Table {
-        &self.overlap
+    /// By pool.
+    pub fn pools(&self) -> &[PoolContact] {
+        &self.pools
     }
 
     /// Contact area Σ A over cells in contact, m².
-    pub fn area(&self, mesh: &Mesh) -> f64 {
-        dot(&self.touching_rows, mesh.area())
+    pub fn area(&self) -> f64 {
+        float(self.pools.iter().map(|pool| pool.area).sum()) * self.area_unit
     }
 
     /// Σ p A, N.
@@ -243,6 +225,23 @@ impl Contact {
     pub fn residual(&self) -> f64 {
         self.residual
     }
+}
+
+/// Σ k A (low − g)₊ and its slope.
+fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f64) {
+    let (mut load, mut slope) = (0.0, 0.0);
+    for pair in weights.pairs {
+        let all = |sum: fn(&PairSums) -> i128| float(sums.pools.iter().map(|pool| sum(&pool.pairs[*pair])).sum());
+        let unit = weights.stiffness[*pair].unit();
+        load += all(|sums| sums.load) * (unit * bracket.quantum.value());
+        slope += all(|sums| sums.stiffness) * unit;
+    }
+    (load, slope)
+}
+
+/// Whether the pin of a pair is bare resin.
+fn is_bare_resin(pair: usize) -> bool {
+    pair < 2
 }
 
 /// A distance that rounding does not lose between displacements of this size, m.

@@ -1,15 +1,14 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4.4 and 4.5).
 
-use std::ops::Range;
-
 use crate::contact::Contact;
-use crate::exact::{Exact, Quantum, RowIntegers, dot};
-use crate::kernel::{Chunk, LANES, Moved};
-use crate::pair::{Coefficients, Table};
-use crate::parameters::{DebrisPool, Parameters};
+use crate::exact::{Quantum, float};
+use crate::kernel::{Chunk, LANES};
+use crate::pair::Coefficients;
+use crate::parameters::Parameters;
 use crate::parts::Needs;
 use crate::strips::strips;
 use crate::sum::RunningSum;
+use crate::sums::{RowWeights, Sums};
 
 /// Volumes moved since t = 0, m³.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -39,81 +38,68 @@ pub struct Debris {
     needs: Needs,
     /// h_m, m.
     wear_height: f64,
-    /// Columns of the pin.
     columns: usize,
-    /// A of every row, m².
-    area: Vec<f64>,
-    /// Raw volume that plateaus of the pin lose per overlap, by pair and row, m².
-    pin_loss: Table,
-    /// The same of the disc.
-    disc_loss: Table,
+    /// Σ A of the pin cells of each pool, in units of the area.
+    pool_area: Vec<i128>,
+    /// What a unit of the area is worth, m².
+    area_unit: f64,
     /// Power of two that is above any loss per overlap.
     loss_exponent: i32,
     /// M, m³: one pool, or one per row.
     pools: Vec<RunningSum>,
-    /// s = M/S of every row, m; all 0 without formation.
+    /// s = M/S of every pool, m; 0 without formation.
+    pool_share: Vec<f64>,
+    /// The same of every row.
     share: Vec<Chunk>,
     /// Of which the deposits of the step are counted as multiples.
     deposits: Quantum,
-    /// Room for a value of every row.
-    rows: Vec<f64>,
     totals: Totals,
 }
 
 impl Debris {
     /// Empty pools.
-    pub fn new(parameters: &Parameters, coefficients: &Coefficients) -> Self {
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, weights: &RowWeights) -> Self {
         let Parameters { mesh, plateaus: rules, .. } = parameters;
-        let pools = match rules.debris_pool {
-            DebrisPool::Contact => 1,
-            DebrisPool::Track => mesh.rows(),
-        };
-        let by_area = |table: &Table| {
-            table.each_ref().map(|rows| rows.iter().zip(mesh.area()).map(|(loss, area)| loss * area).collect())
-        };
         let losses = coefficients.pin.iter().chain(&coefficients.disc).flatten();
         let largest_loss = losses.copied().fold(0.0, f64::max);
+        let columns = mesh.pin_columns() as i128;
+        let area_of = |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
         Self {
             captured_fraction: rules.captured_fraction,
             pad_share: rules.pad_share,
             needs: Needs::of(parameters),
             wear_height: parameters.materials.wear_height,
             columns: mesh.pin_columns(),
-            area: mesh.area().to_vec(),
-            pin_loss: by_area(&coefficients.pin),
-            disc_loss: by_area(&coefficients.disc),
+            pool_area: (0..weights.pools()).map(area_of).collect(),
+            area_unit: weights.area.unit(),
             loss_exponent: if largest_loss > 0.0 { libm::ilogb(largest_loss) + 1 } else { 0 },
-            pools: vec![RunningSum::default(); pools],
+            pools: vec![RunningSum::default(); weights.pools()],
+            pool_share: vec![0.0; weights.pools()],
             share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
             deposits: Quantum::of(0.0, 1),
-            rows: vec![0.0; mesh.rows()],
             totals: Totals::default(),
         }
     }
 
-    /// The rows that share each pool.
-    fn rows_of(&self, pool: usize) -> Range<usize> {
-        let rows = self.area.len() / self.pools.len();
-        pool * rows..(pool + 1) * rows
-    }
-
-    /// Spreads each pool evenly over its cells that do not touch: s = M/S; `touching` are the cells in contact by row.
-    pub fn spread(&mut self, touching: &[f64]) {
+    /// Spreads each pool evenly over its cells that do not touch: s = M/S.
+    pub fn spread(&mut self, contact: &Contact) {
         if !self.needs.forms {
             return;
         }
-        self.rows.iter_mut().zip(touching).for_each(|(open, touching)| *open = self.columns as f64 - touching);
         let mut largest = 0.0_f64;
-        for (index, pool) in self.pools.iter().enumerate() {
-            let rows = self.rows_of(index);
-            let open = dot(&self.rows[rows.clone()], &self.area[rows.clone()]);
+        for (index, (pool, share)) in self.pools.iter().zip(&mut self.pool_share).enumerate() {
+            let open = self.pool_area[index] - contact.pools()[index].area;
             // Rounding may leave a trace of debt in an emptied pool; it is not spread, and the next step settles it.
-            let share = if open > 0.0 { (pool.value() / open).max(0.0) } else { 0.0 };
-            match self.pools.len() {
-                1 => self.share.fill(Chunk([share; LANES])),
-                _ => self.share[index / LANES].0[index % LANES] = share,
+            *share = if open > 0 { (pool.value() / (float(open) * self.area_unit)).max(0.0) } else { 0.0 };
+            largest = largest.max(*share);
+        }
+        match *self.pool_share {
+            [share] => self.share.fill(Chunk([share; LANES])),
+            ref shares => {
+                for (chunk, shares) in self.share.iter_mut().zip(shares.chunks(LANES)) {
+                    chunk.0[..shares.len()].copy_from_slice(shares);
+                }
             }
-            largest = largest.max(share);
         }
         self.deposits = Quantum::of(largest, self.columns);
     }
@@ -121,11 +107,6 @@ impl Debris {
     /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
     pub fn share(&self) -> &[Chunk] {
         &self.share
-    }
-
-    /// s of a row, m.
-    fn share_of(&self, row: usize) -> f64 {
-        self.share[row / LANES].0[row % LANES]
     }
 
     /// Of which this step's deposits are counted as multiples.
@@ -140,58 +121,35 @@ impl Debris {
 
     /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool.
     ///
-    /// What a pair in contact loses is proportional to its overlap, and resin loses its wear height; so the worn volume
-    /// follows from the contact, less what cells were spared whose build-up was worn through.
-    pub fn settle(&mut self, contact: &Contact, moved: &Moved, losses: Quantum) {
-        for pool in 0..self.pools.len() {
-            let rows = self.rows_of(pool);
-            let volume = |heights: &[f64]| dot(&heights[rows.clone()], &self.area[rows.clone()]);
-            let worn = |loss: &Table| -> f64 {
-                let overlap = contact.overlap_by_pair();
-                contact.pairs().iter().map(|pair| dot(&overlap[*pair][rows.clone()], &loss[*pair][rows.clone()])).sum()
-            };
-            let [resin, resin_on_debris] = [&contact.touching_by_pair()[0], &contact.touching_by_pair()[1]];
-
-            let mut worn_pin = worn(&self.pin_loss);
-            let worn_resin = self.wear_height * (volume(resin) + volume(resin_on_debris));
-            let mut worn_disc = if self.needs.disc_wears { worn(&self.disc_loss) } else { 0.0 };
+    /// What wears follows from the contact, less what cells were spared whose build-up was worn through; what is
+    /// compacted is the even deposit on every open cell, and what some got beyond it.
+    pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) {
+        for (index, (contact, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
+            let mut worn_pin = contact.pin_loss;
+            let worn_resin = self.wear_height * (float(contact.resin_area) * self.area_unit);
+            let mut worn_disc = contact.disc_loss;
             let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
             if self.needs.forms {
-                let share = self.share_of(rows.start);
+                let open = self.pool_area[index] - contact.area;
+                let share = self.pool_share[index];
                 let even_on_pin = share * self.pad_share;
-                let mut deposited = |even: f64, beyond: &RowIntegers| {
-                    let even = self.deposits.count(even);
-                    let counts = beyond.rows(rows.clone()).iter().zip(&contact.touching()[rows.clone()]);
-                    self.rows[rows.clone()].iter_mut().zip(counts).for_each(|(height, (beyond, touching))| {
-                        let open = self.columns as i64 - *touching as i64;
-                        *height = (even.wrapping_mul(open).wrapping_add(*beyond)) as f64 * self.deposits.value();
-                    });
-                    dot(&self.rows[rows.clone()], &self.area[rows.clone()])
+                let deposited = |even: f64, beyond: i128| {
+                    float(i128::from(self.deposits.count(even)) * open + beyond)
+                        * (self.area_unit * self.deposits.value())
                 };
-                deposited_pin = deposited(even_on_pin, &moved.deposited_pin);
-                deposited_disc = deposited(share - even_on_pin, &moved.deposited_disc);
+                deposited_pin = deposited(even_on_pin, sums.deposited_pin);
+                deposited_disc = deposited(share - even_on_pin, sums.deposited_disc);
+                worn_pin -= sums.spared_resin.value();
+                returned = sums.returned.value();
             }
             if self.needs.distinct {
-                let mut spared = |counts: &RowIntegers| {
-                    let counts = counts.rows(rows.clone());
-                    let heights = self.rows[rows.clone()].iter_mut();
-                    heights.zip(counts).for_each(|(height, count)| *height = *count as f64 * losses.value());
-                    dot(&self.rows[rows.clone()], &self.area[rows.clone()])
-                };
-                worn_pin -= spared(&moved.spared_pin);
-                if self.needs.disc_wears {
-                    worn_disc -= spared(&moved.spared_disc);
-                }
-            }
-            if moved.seldom.happened {
-                let exact =
-                    |heights: &[Exact]| volume(&heights.iter().map(|height| height.value()).collect::<Vec<_>>());
-                worn_pin -= exact(&moved.seldom.spared);
-                returned = exact(&moved.seldom.returned);
+                let spared = |sum: i128| float(sum) * (self.area_unit * losses.value());
+                worn_pin -= spared(sums.spared_pin);
+                worn_disc -= spared(sums.spared_disc);
             }
 
             let worn = worn_pin + worn_resin + worn_disc;
-            let pool = &mut self.pools[pool];
+            let pool = &mut self.pools[index];
             pool.add(self.captured_fraction * worn);
             pool.add(returned);
             pool.add(-(deposited_pin + deposited_disc));

@@ -74,32 +74,25 @@ impl RowIntegers {
         self.0.fill([0; LANES]);
     }
 
-    /// Sums of two, row by row.
-    pub fn add(&mut self, words: &[u64]) {
-        for (value, word) in self.0.as_flattened_mut().iter_mut().zip(words) {
-            *value = value.wrapping_add(*word as i64);
-        }
-    }
-
     /// Those of some rows.
     pub fn rows(&self, rows: Range<usize>) -> &[i64] {
         &self.0.as_flattened()[rows]
     }
-
-    /// As words of a message.
-    pub fn words(&self) -> impl Iterator<Item = u64> + '_ {
-        self.0.as_flattened().iter().map(|value| *value as u64)
-    }
 }
 
-/// A length or volume as an integer of 2^−100 m or m³: any sum of what this program adds up is exact.
+/// An area or volume as an integer of 2^−BITS m² or m³, below 2^(127−BITS) of them: sums of such are exact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Exact(i128);
+pub struct Exact<const BITS: i32>(i128);
 
-impl Exact {
+/// Volumes that one step moves, m³.
+pub type StepVolume = Exact<140>;
+/// Areas and volumes of the whole ring, m² and m³.
+pub type RingSum = Exact<110>;
+
+impl<const BITS: i32> Exact<BITS> {
     /// The nearest.
     pub fn of(value: f64) -> Self {
-        Self(libm::ldexp(value, 100) as i128)
+        Self(libm::ldexp(value, BITS) as i128)
     }
 
     /// Adds another.
@@ -114,32 +107,70 @@ impl Exact {
 
     /// The nearest double-precision number.
     pub fn value(self) -> f64 {
-        libm::ldexp(self.0 as f64, -100)
+        libm::ldexp(float(self.0), -BITS)
     }
 
-    /// As words of a message.
-    pub fn words(self) -> [u64; 2] {
-        [self.0 as u64, (self.0 >> 64) as u64]
+    /// The integer.
+    pub fn integer(self) -> i128 {
+        self.0
     }
 
-    /// From words of a message.
-    pub fn of_words(low: u64, high: u64) -> Self {
-        Self(((u128::from(high) << 64) | u128::from(low)) as i128)
+    /// From the integer.
+    pub fn of_integer(integer: i128) -> Self {
+        Self(integer)
     }
 }
 
-/// Σ a b over the rows, eight partial sums in a fixed order.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut partial = [0.0; LANES];
-    let (a_chunks, b_chunks) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a_chunks.zip(b_chunks) {
-        for lane in 0..LANES {
-            partial[lane] += a[lane] * b[lane];
-        }
+/// Weights of the rows as integers times a unit, so that weighted sums are exact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Weights {
+    rows: Vec<i64>,
+    unit: f64,
+}
+
+impl Weights {
+    /// The weights to the 53rd bit of the largest.
+    pub fn new(rows: &[f64]) -> Self {
+        let largest = rows.iter().copied().fold(0.0, |largest, weight| f64::max(largest, weight.abs()));
+        let exponent = if largest > 0.0 { libm::ilogb(largest) - 52 } else { 0 };
+        let rows = rows.iter().map(|weight| libm::rint(libm::ldexp(*weight, -exponent)) as i64).collect();
+        Self { rows, unit: libm::ldexp(1.0, exponent) }
     }
-    let [a, b, c, d, e, f, g, h] = partial;
-    ((a + b) + (c + d)) + ((e + f) + (g + h)) + rest
+
+    /// The weights of some rows.
+    pub fn rows(&self, rows: Range<usize>) -> &[i64] {
+        &self.rows[rows]
+    }
+
+    /// The weight of a row, in units.
+    pub fn row(&self, row: usize) -> i64 {
+        self.rows[row]
+    }
+
+    /// The weight of a row.
+    pub fn value(&self, row: usize) -> f64 {
+        self.rows[row] as f64 * self.unit
+    }
+
+    /// Σ weight · count over some rows, in units; `counts` are those of all rows.
+    pub fn sum(&self, rows: Range<usize>, counts: &RowIntegers) -> i128 {
+        let products = self.rows(rows.clone()).iter().zip(counts.rows(rows));
+        products.map(|(weight, count)| i128::from(*weight) * i128::from(*count)).sum()
+    }
+
+    /// What one unit is worth.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+}
+
+/// An exact sum as a floating-point number.
+#[inline]
+pub fn float(sum: i128) -> f64 {
+    // Two conversions that processors have, instead of a routine.
+    let size = sum.unsigned_abs();
+    let size = (size >> 64) as u64 as f64 * 18_446_744_073_709_551_616.0 + size as u64 as f64;
+    if sum < 0 { -size } else { size }
 }
 
 #[cfg(test)]
@@ -161,9 +192,9 @@ mod tests {
 
     #[test]
     fn exact_sums_do_not_depend_on_order() {
-        let terms = [1e-9, 3.3e-22, -1e-9, 7.25, 1e-15, -7.25];
+        let terms = [1e-9, 3.3e-22, -1e-9, 7.25e-5, 1e-15, -7.25e-5];
         let sum = |terms: &mut dyn Iterator<Item = &f64>| {
-            let mut sum = Exact::default();
+            let mut sum = StepVolume::default();
             terms.for_each(|term| sum.add(Exact::of(*term)));
             sum
         };
@@ -171,16 +202,27 @@ mod tests {
         assert_eq!(forward, backward);
         // The exact sum of the terms is 1e-15 + 3.3e-22.
         assert!((forward.value() / (1e-15 + 3.3e-22) - 1.0).abs() < 1e-14);
-        assert_eq!(Exact::of_words(forward.words()[0], forward.words()[1]), forward);
-        let mut negative = Exact::default();
+        let mut negative = StepVolume::default();
         negative.subtract(forward);
-        assert_eq!(Exact::of_words(negative.words()[0], negative.words()[1]), negative);
+        assert_eq!(StepVolume::of_integer(negative.integer()), negative);
+        assert_eq!(negative.value(), -forward.value());
     }
 
     #[test]
-    fn dot_products_are_those_of_the_definition() {
-        let a: Vec<f64> = (0..21).map(f64::from).collect();
+    fn weighted_sums_are_those_of_the_definition() {
         // Closed form: Σ i² = n (n + 1) (2n + 1) / 6 for i up to 20.
-        assert_eq!(dot(&a, &a), 20.0 * 21.0 * 41.0 / 6.0);
+        let weights = Weights::new(&(0..24).map(f64::from).collect::<Vec<_>>());
+        let mut counts = RowIntegers::new(3);
+        counts.0.as_flattened_mut().iter_mut().zip(0..).for_each(|(count, row)| *count = row);
+        assert_eq!(float(weights.sum(0..21, &counts)) * weights.unit(), 20.0 * 21.0 * 41.0 / 6.0);
+        assert_eq!(float(weights.sum(20..21, &counts)) * weights.unit(), 400.0);
+    }
+
+    #[test]
+    fn exact_sums_become_the_nearest_numbers() {
+        for sum in [0, 1, -1, 3 << 70, -(3 << 70), i128::from(i64::MIN), i128::MAX, (1 << 100) + 1] {
+            // One rounding of the low part, one of the sum.
+            assert!((float(sum) / sum as f64 - 1.0).abs() <= 2.0 * f64::EPSILON || sum == 0, "{sum}");
+        }
     }
 }

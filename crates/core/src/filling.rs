@@ -1,6 +1,6 @@
 //! How far the lowlands of the disc are filled, and how much of it is covered (model section 5).
 
-use crate::exact::Exact;
+use crate::exact::RingSum;
 use crate::mesh::Mesh;
 use crate::state::InitialSurfaces;
 use crate::strips::DiscSector;
@@ -13,11 +13,11 @@ pub struct Filling {
     /// V(0) of the whole disc, m³.
     initial_volume: f64,
     /// Open volume and secondary area of every own column.
-    columns: Vec<(Exact, Exact)>,
+    columns: Vec<(RingSum, RingSum)>,
     /// Σ A (z_ref − z_d)₊ over the own columns, m³.
-    open_volume: Exact,
+    open_volume: RingSum,
     /// Σ A over the own secondary cells, m².
-    secondary_area: Exact,
+    secondary_area: RingSum,
     /// Steps up to which the columns are up to date.
     up_to: u64,
 }
@@ -26,16 +26,16 @@ impl Filling {
     /// Measures the initial disc and the own sectors of it.
     pub fn new<'a>(mesh: &Mesh, surfaces: &InitialSurfaces, sectors: impl Iterator<Item = &'a DiscSector>) -> Self {
         let reference = surfaces.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let mut initial_volume = Exact::default();
+        let mut initial_volume = RingSum::default();
         for heights in surfaces.disc_height.chunks_exact(mesh.rows()) {
-            initial_volume.add(Exact::of(open_volume(reference, heights.iter().copied(), mesh)));
+            initial_volume.add(RingSum::of(open_volume(reference, heights.iter().copied(), mesh)));
         }
         let mut filling = Self {
             reference,
             initial_volume: initial_volume.value(),
-            columns: vec![(Exact::default(), Exact::default()); mesh.disc_columns()],
-            open_volume: Exact::default(),
-            secondary_area: Exact::default(),
+            columns: vec![(RingSum::default(), RingSum::default()); mesh.disc_columns()],
+            open_volume: RingSum::default(),
+            secondary_area: RingSum::default(),
             up_to: 0,
         };
         for sector in sectors {
@@ -68,7 +68,7 @@ impl Filling {
         let open = open_volume(self.reference, sector.height.column(column), mesh);
         let cells = sector.height.column(column).zip(sector.substrate_column(column)).zip(mesh.area());
         let secondary = cells.filter(|((height, substrate), _)| height > substrate).map(|(_, area)| area).sum();
-        let measured = (Exact::of(open), Exact::of(secondary));
+        let measured = (RingSum::of(open), RingSum::of(secondary));
         let before = std::mem::replace(&mut self.columns[sector.first + column], measured);
         self.open_volume.add(measured.0);
         self.open_volume.subtract(before.0);
@@ -77,17 +77,17 @@ impl Filling {
     }
 
     /// Σ A (z_ref − z_d)₊ over the own columns, m³.
-    pub fn open_volume(&self) -> Exact {
+    pub fn open_volume(&self) -> RingSum {
         self.open_volume
     }
 
     /// Σ A over the own secondary cells, m².
-    pub fn secondary_area(&self) -> Exact {
+    pub fn secondary_area(&self) -> RingSum {
         self.secondary_area
     }
 
     /// 1 − V(t)/V(0) with V(t) the open volume of the whole disc; 0 when nothing was open at the start.
-    pub fn filled_fraction(&self, open_volume: Exact) -> f64 {
+    pub fn filled_fraction(&self, open_volume: RingSum) -> f64 {
         if self.initial_volume == 0.0 {
             return 0.0;
         }

@@ -52,6 +52,7 @@ pub mod simulation;
 pub mod state;
 pub mod strips;
 pub mod sum;
+pub mod sums;
 pub mod surface;
 pub mod wear;
 mod worker;

@@ -71,6 +71,13 @@ impl Strips {
         chunks.flat_map(|chunk| chunk.0).take(self.rows)
     }
 
+    /// Looks at every strip of a column, which brings it near the processor.
+    pub fn fetch_column(&self, column: usize) {
+        for chunk in self.chunks.iter().skip(column).step_by(self.columns) {
+            std::hint::black_box(chunk.0[0]);
+        }
+    }
+
     /// Changes the rows of a column.
     pub fn set_column(&mut self, column: usize, heights: &[f64]) {
         for (chunk, heights) in self.chunks.iter_mut().skip(column).step_by(self.columns).zip(heights.chunks(LANES)) {

@@ -2,7 +2,7 @@
 //! next step (4.1).
 
 use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
-use super::moved::{Seldom, StripMoved};
+use super::moved::{SeldomEvent, StripMoved, note_seldom};
 use super::pairs::Pairs;
 use super::reading::{Reading, StripReading};
 use super::rules::StripRules;
@@ -61,7 +61,7 @@ pub(super) fn update<
     column: usize,
     behind: Behind<L>,
     moved: &mut StripMoved<L>,
-    seldom: &mut Seldom,
+    seldom: &mut Vec<SeldomEvent>,
     next: &mut StripReading<L, DISTINCT>,
     reading: &mut Reading,
 ) -> Behind<L> {
@@ -119,7 +119,7 @@ pub(super) fn update<
             (b_p - L::select(falls, z_p, z_start)).store(&mut heights);
             raw.store(&mut raw_losses);
             let spared = if DISTINCT { nothing } else { worn_through };
-            seldom.book(&heights, &raw_losses, falls.byte(), spared.byte(), rules.strip);
+            note_seldom(seldom, &heights, &raw_losses, falls.byte(), spared.byte(), rules.strip);
             z_p = L::select(falls | worn_through, b_p, z_p);
             clearance = L::select(falls, z_p - z_d - rules.displacement, clearance);
         }

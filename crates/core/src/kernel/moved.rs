@@ -2,7 +2,7 @@
 
 use super::lanes::{Chunk, IntegerChunk, Integers, Lanes};
 use super::pairs::lanes_of;
-use crate::exact::{Exact, RowIntegers};
+use crate::exact::RowIntegers;
 
 /// What a step took off and put on, as far as it does not follow from its load balance alone.
 ///
@@ -19,32 +19,31 @@ pub struct Moved {
     pub spared_pin: RowIntegers,
     /// The same for disc cells.
     pub spared_disc: RowIntegers,
-    /// What happens seldom.
-    pub seldom: Seldom,
+    /// What happened in few cells.
+    pub seldom: Vec<SeldomEvent>,
 }
 
-/// What happens in few cells of a step, row by row.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Seldom {
-    /// Whether anything did.
-    pub happened: bool,
-    /// Build-up of plateaus that fell, m.
-    pub returned: Vec<Exact>,
-    /// What resin did not lose because the build-up on it was worn through, m.
-    pub spared: Vec<Exact>,
+/// What happened to the build-up of one cell on resin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SeldomEvent {
+    /// Row of the cell.
+    pub row: u32,
+    /// Height that returned to the pool because the plateau fell, m.
+    pub returned: f64,
+    /// What resin was spared of the raw loss because the build-up on it was worn through, m.
+    pub spared: f64,
 }
 
 impl Moved {
     /// Nothing moved; what a scene does not need has no rows.
     pub fn new(strips: usize, forms: bool, distinct: bool) -> Self {
         let rows = |needed| RowIntegers::new(if needed { strips } else { 0 });
-        let seldom = vec![Exact::default(); if forms { strips * 8 } else { 0 }];
         Self {
             deposited_pin: rows(forms),
             deposited_disc: rows(forms),
             spared_pin: rows(distinct),
             spared_disc: rows(distinct),
-            seldom: Seldom { happened: false, returned: seldom.clone(), spared: seldom },
+            seldom: Vec::new(),
         }
     }
 
@@ -53,11 +52,7 @@ impl Moved {
         for rows in [&mut self.deposited_pin, &mut self.deposited_disc, &mut self.spared_pin, &mut self.spared_disc] {
             rows.clear();
         }
-        if self.seldom.happened {
-            self.seldom.happened = false;
-            self.seldom.returned.fill(Exact::default());
-            self.seldom.spared.fill(Exact::default());
-        }
+        self.seldom.clear();
     }
 }
 
@@ -97,20 +92,23 @@ fn add<L: Lanes>(chunk: &mut IntegerChunk, sum: L::Integers) {
     L::Integers::load(chunk).plus(sum).store(chunk);
 }
 
-impl Seldom {
-    /// Books, for some of eight cells on resin whose build-up ends, its height: returned where the plateau falls; where
-    /// it is worn through, what the resin is spared of the raw loss.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn book(&mut self, build_up: &Chunk, raw: &Chunk, fallen: u8, worn_through: u8, strip: usize) {
-        self.happened = true;
-        for lane in lanes_of(fallen) {
-            self.returned[strip * 8 + lane].add(Exact::of(build_up.0[lane]));
-        }
-        for lane in lanes_of(worn_through) {
-            let spared = &mut self.spared[strip * 8 + lane];
-            spared.add(Exact::of(raw.0[lane]));
-            spared.subtract(Exact::of(build_up.0[lane]));
-        }
-    }
+/// Notes, for some of eight cells on resin whose build-up ends, its height: returned where the plateau falls; where it is
+/// worn through, what the resin is spared of the raw loss.
+#[cold]
+#[inline(never)]
+pub(super) fn note_seldom(
+    seldom: &mut Vec<SeldomEvent>,
+    build_up: &Chunk,
+    raw: &Chunk,
+    fallen: u8,
+    worn_through: u8,
+    strip: usize,
+) {
+    let row = |lane: usize| (strip * 8 + lane) as u32;
+    seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { row: row(lane), returned: build_up.0[lane], spared: 0.0 }));
+    seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent {
+        row: row(lane),
+        returned: 0.0,
+        spared: raw.0[lane] - build_up.0[lane],
+    }));
 }

@@ -30,7 +30,13 @@ impl<C: Communicator> Worker<C> {
                 self.read_columns(&bracket)?;
                 continue;
             }
-            let verdict = self.contact.balance(&mut self.reading, &bracket, normal_force);
+            let verdict = self.contact.balance(
+                &self.weights,
+                &self.sums,
+                &mut self.reading.near,
+                &bracket,
+                normal_force,
+            );
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
                     self.course.displacement = self.contact.displacement();
@@ -75,7 +81,7 @@ impl<C: Communicator> Worker<C> {
             let span = Span { first: pin.start, over, columns: pin.len() };
             read(self.instructions, &self.pin, sector, span, bracket, &mut self.reading);
         }
-        self.gather(false)
+        self.gather_reading(bracket)
     }
 
     /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin.

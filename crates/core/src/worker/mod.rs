@@ -25,6 +25,7 @@ use crate::sector::Partition;
 use crate::simulation::SimulationError;
 use crate::state::InitialSurfaces;
 use crate::strips::{DiscSector, PinStrips, strips};
+use crate::sums::{RowWeights, Sums};
 
 /// What the steps so far were like.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -70,6 +71,9 @@ pub(crate) struct Worker<C> {
     reading: Reading,
     /// What the last sweep moved.
     moved: Moved,
+    weights: RowWeights,
+    /// What all workers read and moved.
+    sums: Sums,
     message: Vec<u64>,
     halo: Vec<u64>,
     /// p of the own pin cells in the last watched step, column by column, Pa; empty if none was.
@@ -100,21 +104,24 @@ impl<C: Communicator> Worker<C> {
         };
         let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
         let rows = strips(mesh.rows());
+        let weights = RowWeights::new(&parameters, &coefficients);
         Self {
             needs,
             instructions,
             sweep: sweep(needs),
             rules: Rules::new(&parameters, &coefficients),
-            contact: Contact::new(mesh, &coefficients.stiffness, needs.distinct),
+            contact: Contact::new(&weights),
             quantum: Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns()),
             pin: PinStrips::new(mesh, &surfaces.pin_height, &surfaces.pin_base, needs.forms),
             forecast: Forecast::new(mesh.disc_columns()),
-            debris: Debris::new(&parameters, &coefficients),
+            debris: Debris::new(&parameters, &coefficients, &weights),
             history: History::new(mesh.disc_columns()),
             filling: Filling::new(mesh, surfaces, sectors.iter().flatten()),
             bracket: None,
             reading: Reading::new(rows, needs.distinct),
             moved: Moved::new(rows, needs.forms, needs.distinct),
+            sums: Sums::new(weights.pools()),
+            weights,
             message: Vec::new(),
             halo: Vec::new(),
             pressure: Vec::new(),
@@ -151,12 +158,12 @@ impl<C: Communicator> Worker<C> {
         if watched {
             self.record_pressures();
         }
-        self.debris.spread(self.contact.touching());
+        self.debris.spread(&self.contact);
         self.forecast.record(self.contact.displacement());
         self.sweep_columns()?;
-        self.gather(true)?;
-        self.debris.settle(&self.contact, &self.moved, self.debris.losses(self.quantum));
-        self.course.contact_area = self.contact.area(&self.parameters.mesh);
+        self.gather_sweep()?;
+        self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
+        self.course.contact_area = self.contact.area();
         self.history.record(self.course.contact_area, self.parameters.step_time());
         self.course.steps += 1;
         Ok(())

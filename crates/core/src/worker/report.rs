@@ -2,7 +2,7 @@
 
 use super::Worker;
 use crate::comm::Communicator;
-use crate::exact::{Exact, dot};
+use crate::exact::RingSum;
 use crate::material::Status;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::sector::Segment;
@@ -25,11 +25,9 @@ impl<C: Communicator> Worker<C> {
         let mut rest = OwnPart { largest_pressure: 0.0, pin: vec![0; own.pin.len()], ..OwnPart::default() };
         self.communicator.all_gather(&own.words(), &mut |_, words| rest.add(words))?;
         let OwnPart { largest_pressure, open_volume, secondary_area, pin } = rest;
-        let coverage: Vec<f64> = pin
-            .chunks_exact(mesh.rows())
-            .map(|rows| dot(&rows.iter().map(|count| *count as f64).collect::<Vec<_>>(), mesh.area()) / mesh.pin_area())
-            .collect();
-        let contact_area = self.contact.area(mesh);
+        let area_of = |counts: &[u64]| -> f64 { counts.iter().zip(mesh.area()).map(|(count, area)| *count as f64 * area).sum() };
+        let coverage: Vec<f64> = pin.chunks_exact(mesh.rows()).map(|counts| area_of(counts) / mesh.pin_area()).collect();
+        let contact_area = self.contact.area();
         let totals = self.debris.totals();
         Ok(Sample {
             step: self.course.steps,
@@ -169,9 +167,9 @@ struct OwnPart {
     /// Pa.
     largest_pressure: f64,
     /// Σ A (z_ref − z_d)₊, m³.
-    open_volume: Exact,
+    open_volume: RingSum,
     /// Σ A over the disc's secondary cells, m².
-    secondary_area: Exact,
+    secondary_area: RingSum,
     /// Cells of the pin by status and row.
     pin: Vec<u64>,
 }
@@ -179,16 +177,18 @@ struct OwnPart {
 impl OwnPart {
     fn words(&self) -> Vec<u64> {
         let mut words = vec![self.largest_pressure.to_bits()];
-        words.extend(self.open_volume.words());
-        words.extend(self.secondary_area.words());
+        for sum in [self.open_volume, self.secondary_area] {
+            words.extend([sum.integer() as u64, (sum.integer() >> 64) as u64]);
+        }
         words.extend(&self.pin);
         words
     }
 
     fn add(&mut self, words: &[u64]) {
         self.largest_pressure = self.largest_pressure.max(f64::from_bits(words[0]));
-        self.open_volume.add(Exact::of_words(words[1], words[2]));
-        self.secondary_area.add(Exact::of_words(words[3], words[4]));
+        let exact = |low: u64, high: u64| RingSum::of_integer(((u128::from(high) << 64) | u128::from(low)) as i128);
+        self.open_volume.add(exact(words[1], words[2]));
+        self.secondary_area.add(exact(words[3], words[4]));
         self.pin.iter_mut().zip(&words[5..]).for_each(|(sum, count)| *sum += count);
     }
 }

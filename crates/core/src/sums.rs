@@ -1,0 +1,259 @@
+//! What the load balance and the debris need to know of all cells: exact sums, pool by pool.
+//!
+//! What a pair carries and loses is proportional to its overlap, with a weight of its statuses and row. So a few
+//! weighted sums of the counts of a sweep stand for all its cells; and as they are integers, those of many workers add
+//! up to those of one.
+
+use std::ops::Range;
+
+use crate::exact::{StepVolume, Weights};
+use crate::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
+use crate::mesh::Mesh;
+use crate::pair::{Coefficients, Pair, Table};
+use crate::parameters::{DebrisPool, Parameters};
+use crate::parts::Needs;
+
+/// The weights of every row, for what is summed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowWeights {
+    /// k A by pair, N/m.
+    pub stiffness: [Weights; Pair::COUNT],
+    /// A, m².
+    pub area: Weights,
+    /// Raw volume that plateaus of the pin lose per overlap, by pair, m².
+    pub pin_loss: [Weights; Pair::COUNT],
+    /// The same of the disc.
+    pub disc_loss: [Weights; Pair::COUNT],
+    /// Pairs that are told apart.
+    pub pairs: &'static [usize],
+    needs: Needs,
+    rows: usize,
+    pools: usize,
+}
+
+impl RowWeights {
+    /// The weights of a scene.
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients) -> Self {
+        let mesh = &parameters.mesh;
+        let needs = Needs::of(parameters);
+        let by_area = |table: &Table| table.each_ref().map(|rows| Weights::new(&times_area(rows, mesh)));
+        Self {
+            stiffness: coefficients.stiffness.each_ref().map(|rows| Weights::new(rows)),
+            area: Weights::new(mesh.area()),
+            pin_loss: by_area(&coefficients.pin),
+            disc_loss: by_area(&coefficients.disc),
+            pairs: told_apart(needs.distinct),
+            needs,
+            rows: mesh.rows(),
+            pools: match parameters.plateaus.debris_pool {
+                DebrisPool::Contact => 1,
+                DebrisPool::Track => mesh.rows(),
+            },
+        }
+    }
+
+    /// Number of pools.
+    pub fn pools(&self) -> usize {
+        self.pools
+    }
+
+    /// The rows that share a pool.
+    pub fn rows_of(&self, pool: usize) -> Range<usize> {
+        let rows = self.rows / self.pools;
+        pool * rows..(pool + 1) * rows
+    }
+
+    /// k A of a pair, N/m.
+    pub fn stiffness_of(&self, near: &NearPair) -> f64 {
+        self.stiffness[usize::from(near.pair)].value(near.row as usize)
+    }
+
+    /// The pool of a row.
+    pub fn pool_of(&self, row: usize) -> usize {
+        row * self.pools / self.rows
+    }
+}
+
+fn times_area(rows: &[f64], mesh: &Mesh) -> Vec<f64> {
+    rows.iter().zip(mesh.area()).map(|(value, area)| value * area).collect()
+}
+
+/// Sums over the pairs of one kind that touch at the lower end of a bracket, in units and quanta.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PairSums {
+    /// Σ k A (low − g).
+    pub load: i128,
+    /// Σ k A.
+    pub stiffness: i128,
+    /// Σ A.
+    pub area: i128,
+    /// Σ raw loss of the pin's volume at the lower end.
+    pub pin_loss: i128,
+    /// … and per displacement beyond it.
+    pub pin_loss_rate: i128,
+    /// Σ raw loss of the disc's volume at the lower end.
+    pub disc_loss: i128,
+    /// … and per displacement beyond it.
+    pub disc_loss_rate: i128,
+}
+
+/// Sums over the cells that share a pool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct PoolSums {
+    /// The pairs of the coming step.
+    pub pairs: [PairSums; Pair::COUNT],
+    /// Volume compacted on the pin beyond the even deposit, in units and quanta of the deposits.
+    pub deposited_pin: i128,
+    /// The same on the disc.
+    pub deposited_disc: i128,
+    /// Volume that plateaus of the pin did not lose of their raw loss, in units and quanta of the losses.
+    pub spared_pin: i128,
+    /// The same of the disc.
+    pub spared_disc: i128,
+    /// Volume of fallen build-up, m³.
+    pub returned: StepVolume,
+    /// Volume that resin did not lose because the build-up on it was worn through, m³.
+    pub spared_resin: StepVolume,
+}
+
+/// The sums of every pool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sums {
+    /// By pool.
+    pub pools: Vec<PoolSums>,
+}
+
+impl Sums {
+    /// All 0.
+    pub fn new(pools: usize) -> Self {
+        Self { pools: vec![PoolSums::default(); pools] }
+    }
+
+    /// Takes the sums of what was read against a bracket.
+    pub fn take_reading(&mut self, weights: &RowWeights, reading: &Reading, bracket: &Bracket) {
+        let anchor = bracket.quantum.anchor_bits();
+        for (pool, sums) in self.pools.iter_mut().enumerate() {
+            let rows = weights.rows_of(pool);
+            for pair in weights.pairs {
+                let counts = reading.touching[*pair].rows(rows.clone());
+                // Statuses that touch nowhere, as resin mostly, cost nothing.
+                let touches = counts.iter().fold(0, |any, count| any | count) != 0;
+                let overlaps = reading.overlap[*pair].rows(rows.clone());
+                sums.pairs[*pair] =
+                    if touches { weights.pair_sums(*pair, rows.clone(), counts, overlaps, anchor) } else { PairSums::default() };
+            }
+        }
+    }
+
+    /// Takes the sums of what a sweep moved.
+    pub fn take_moved(&mut self, weights: &RowWeights, moved: &Moved) {
+        for (pool, sums) in self.pools.iter_mut().enumerate() {
+            let rows = weights.rows_of(pool);
+            if weights.needs.forms {
+                sums.deposited_pin = weights.area.sum(rows.clone(), &moved.deposited_pin);
+                sums.deposited_disc = weights.area.sum(rows.clone(), &moved.deposited_disc);
+            }
+            if weights.needs.distinct {
+                sums.spared_pin = weights.area.sum(rows.clone(), &moved.spared_pin);
+                sums.spared_disc = weights.area.sum(rows, &moved.spared_disc);
+            }
+            (sums.returned, sums.spared_resin) = (StepVolume::default(), StepVolume::default());
+        }
+        for event in &moved.seldom {
+            let sums = &mut self.pools[weights.pool_of(event.row as usize)];
+            let area = weights.area.value(event.row as usize);
+            sums.returned.add(StepVolume::of(event.returned * area));
+            sums.spared_resin.add(StepVolume::of(event.spared * area));
+        }
+    }
+
+    /// Adds what another worker sent of a reading.
+    pub fn add_reading(&mut self, weights: &RowWeights, words: &mut impl Iterator<Item = u64>) {
+        for sums in &mut self.pools {
+            for pair in weights.pairs {
+                if words.next() == Some(1) {
+                    sums.pairs[*pair].each().into_iter().for_each(|sum| *sum += next(words));
+                }
+            }
+        }
+    }
+
+    /// Adds what another worker sent of a sweep.
+    pub fn add_moved(&mut self, words: &mut impl Iterator<Item = u64>) {
+        for sums in &mut self.pools {
+            let moved =
+                [&mut sums.deposited_pin, &mut sums.deposited_disc, &mut sums.spared_pin, &mut sums.spared_disc];
+            moved.into_iter().for_each(|sum| *sum += next(words));
+            sums.returned.add(StepVolume::of_integer(next(words)));
+            sums.spared_resin.add(StepVolume::of_integer(next(words)));
+        }
+    }
+
+    /// Writes what was read, for other workers.
+    pub fn write_reading(&self, weights: &RowWeights, message: &mut Vec<u64>) {
+        for sums in &self.pools {
+            for pair in weights.pairs {
+                let mut pair_sums = sums.pairs[*pair];
+                let touches = pair_sums != PairSums::default();
+                message.push(u64::from(touches));
+                if touches {
+                    pair_sums.each().into_iter().for_each(|sum| message.extend(words(*sum)));
+                }
+            }
+        }
+    }
+
+    /// Writes what was moved, for other workers.
+    pub fn write_moved(&self, message: &mut Vec<u64>) {
+        for sums in &self.pools {
+            for sum in [sums.deposited_pin, sums.deposited_disc, sums.spared_pin, sums.spared_disc] {
+                message.extend(words(sum));
+            }
+            message.extend(words(sums.returned.integer()));
+            message.extend(words(sums.spared_resin.integer()));
+        }
+    }
+}
+
+impl RowWeights {
+    /// The sums of one kind of pairs over some rows; `overlaps` hold the anchor's bits for each of `counts`.
+    fn pair_sums(&self, pair: usize, rows: Range<usize>, counts: &[i64], overlaps: &[i64], anchor: i64) -> PairSums {
+        let mut sums = PairSums::default();
+        let weights = self.stiffness[pair].rows(rows.clone()).iter().zip(self.area.rows(rows.clone()));
+        let weights = weights.zip(self.pin_loss[pair].rows(rows.clone()));
+        for ((count, overlap), ((stiffness, area), pin_loss)) in counts.iter().zip(overlaps).zip(weights) {
+            let overlap = i128::from(overlap.wrapping_sub(count.wrapping_mul(anchor)));
+            let count = i128::from(*count);
+            sums.load += i128::from(*stiffness) * overlap;
+            sums.stiffness += i128::from(*stiffness) * count;
+            sums.area += i128::from(*area) * count;
+            sums.pin_loss += i128::from(*pin_loss) * overlap;
+            sums.pin_loss_rate += i128::from(*pin_loss) * count;
+        }
+        if self.needs.disc_wears {
+            let disc_losses = self.disc_loss[pair].rows(rows);
+            for ((count, overlap), disc_loss) in counts.iter().zip(overlaps).zip(disc_losses) {
+                let overlap = overlap.wrapping_sub(count.wrapping_mul(anchor));
+                sums.disc_loss += i128::from(*disc_loss) * i128::from(overlap);
+                sums.disc_loss_rate += i128::from(*disc_loss) * i128::from(*count);
+            }
+        }
+        sums
+    }
+}
+
+impl PairSums {
+    fn each(&mut self) -> [&mut i128; 7] {
+        let Self { load, stiffness, area, pin_loss, pin_loss_rate, disc_loss, disc_loss_rate } = self;
+        [load, stiffness, area, pin_loss, pin_loss_rate, disc_loss, disc_loss_rate]
+    }
+}
+
+fn words(sum: i128) -> [u64; 2] {
+    [sum as u64, (sum >> 64) as u64]
+}
+
+fn next(words: &mut impl Iterator<Item = u64>) -> i128 {
+    let (low, high) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
+    ((u128::from(high) << 64) | u128::from(low)) as i128
+}
