@@ -14,16 +14,28 @@
 //! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`debris`], [`plateau`] |
 //!
 //! # One step
-//! | model | equation | function |
+//! | model | equation | where |
 //! |---|---|---|
-//! | 4.1 gap and pairs | g = z_p − z_d, 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d | [`pair::Coefficients`], [`contact::Contact::face`] |
-//! | 4.1 load balance | Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
+//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pair::Coefficients`] |
+//! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
 //! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`], [`wear`] |
-//! | 4.3 destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau::falls`] |
-//! | 4.4 formation | d = min(γ, s), s = M/S | [`debris::Debris::spread`], [`plateau::form`] |
+//! | 4.3 destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`] |
+//! | 4.4 formation | d = min(γ, s), s = M/S | [`debris::Debris::spread`], [`plateau`] |
 //! | 4.5 debris balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
-//! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance`] |
+//! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance_to`] |
 //! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`] |
+//!
+//! `worker` takes these in turn. Rules 4.2 to 4.4 of eight cells are one function, `kernel::cells::update`.
+//!
+//! # How a step is carried out
+//! - One pass over the pin a step. In the next step the disc column under pin column j lies under column j + 1, so the
+//!   pass that updates the cells also reads the gaps of the next step, against a bracket around the displacement that is
+//!   expected ([`forecast`]): sums over the pairs that surely touch, and a list of the few of which it is not sure. The
+//!   load is piecewise linear, so that this is enough to solve the balance exactly ([`contact`]).
+//! - Eight cells of one strip at a time ([`strips`]), the same source for every instruction set ([`kernel`]).
+//! - Sums are integers, so they do not depend on the order of the cells ([`exact`], [`sums`]).
+//! - The ring is divided into sectors ([`sector`]) that belong to workers: threads or processes that tell each other those
+//!   sums and hand on the pin columns that cross from sector to sector ([`comm`]).
 //!
 //! # Range of validity
 //! Normal load only: no friction, no heat, no inertia. Cells deform independently (Winkler). Time acceleration m > 1 is

@@ -12,9 +12,9 @@ use crossbeam::utils::CachePadded;
 use super::{CommError, Communicator};
 
 /// Looks at a counter before giving way, where every worker has a core of its own.
-const SPINS: u32 = 4000;
+const SPINS: u32 = 500;
 /// Times of giving way before sleeping.
-const YIELDS: u32 = 2000;
+const YIELDS: u32 = 1000;
 /// How long a worker sleeps between two looks.
 const NAP: Duration = Duration::from_micros(200);
 /// Words of a message that are gathered at a time.
