@@ -138,6 +138,7 @@ impl Weights {
     }
 
     /// The weights of some rows.
+    #[inline]
     pub fn rows(&self, rows: Range<usize>) -> &[i64] {
         &self.rows[rows]
     }
@@ -154,14 +155,21 @@ impl Weights {
 
     /// Σ weight · count over some rows, in units; `counts` are those of all rows.
     pub fn sum(&self, rows: Range<usize>, counts: &RowIntegers) -> i128 {
-        let products = self.rows(rows.clone()).iter().zip(counts.rows(rows));
-        products.map(|(weight, count)| i128::from(*weight) * i128::from(*count)).sum()
+        let weights = self.rows(rows.clone());
+        let counts = &counts.rows(rows)[..weights.len()];
+        (0..weights.len()).map(|row| product(weights[row], counts[row])).sum()
     }
 
     /// What one unit is worth.
     pub fn unit(&self) -> f64 {
         self.unit
     }
+}
+
+/// weight · count.
+#[inline(always)]
+pub fn product(weight: i64, count: i64) -> i128 {
+    i128::from(weight) * i128::from(count)
 }
 
 /// An exact sum as a floating-point number.

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::exact::{StepVolume, Weights};
+use crate::exact::{StepVolume, Weights, product};
 use crate::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
 use crate::mesh::Mesh;
 use crate::pair::{Coefficients, Pair, Table};
@@ -219,23 +219,23 @@ impl RowWeights {
     /// The sums of one kind of pairs over some rows; `overlaps` hold the anchor's bits for each of `counts`.
     fn pair_sums(&self, pair: usize, rows: Range<usize>, counts: &[i64], overlaps: &[i64], anchor: i64) -> PairSums {
         let mut sums = PairSums::default();
-        let weights = self.stiffness[pair].rows(rows.clone()).iter().zip(self.area.rows(rows.clone()));
-        let weights = weights.zip(self.pin_loss[pair].rows(rows.clone()));
-        for ((count, overlap), ((stiffness, area), pin_loss)) in counts.iter().zip(overlaps).zip(weights) {
-            let overlap = i128::from(overlap.wrapping_sub(count.wrapping_mul(anchor)));
-            let count = i128::from(*count);
-            sums.load += i128::from(*stiffness) * overlap;
-            sums.stiffness += i128::from(*stiffness) * count;
-            sums.area += i128::from(*area) * count;
-            sums.pin_loss += i128::from(*pin_loss) * overlap;
-            sums.pin_loss_rate += i128::from(*pin_loss) * count;
+        let (counts, overlaps) = (&counts[..rows.len()], &overlaps[..rows.len()]);
+        let (stiffness, area) = (self.stiffness[pair].rows(rows.clone()), self.area.rows(rows.clone()));
+        let pin_loss = self.pin_loss[pair].rows(rows.clone());
+        for row in 0..rows.len() {
+            let overlap = overlaps[row].wrapping_sub(counts[row].wrapping_mul(anchor));
+            sums.load += product(stiffness[row], overlap);
+            sums.stiffness += product(stiffness[row], counts[row]);
+            sums.area += product(area[row], counts[row]);
+            sums.pin_loss += product(pin_loss[row], overlap);
+            sums.pin_loss_rate += product(pin_loss[row], counts[row]);
         }
         if self.needs.disc_wears {
-            let disc_losses = self.disc_loss[pair].rows(rows);
-            for ((count, overlap), disc_loss) in counts.iter().zip(overlaps).zip(disc_losses) {
-                let overlap = overlap.wrapping_sub(count.wrapping_mul(anchor));
-                sums.disc_loss += i128::from(*disc_loss) * i128::from(overlap);
-                sums.disc_loss_rate += i128::from(*disc_loss) * i128::from(*count);
+            let disc_loss = self.disc_loss[pair].rows(rows.clone());
+            for row in 0..rows.len() {
+                let overlap = overlaps[row].wrapping_sub(counts[row].wrapping_mul(anchor));
+                sums.disc_loss += product(disc_loss[row], overlap);
+                sums.disc_loss_rate += product(disc_loss[row], counts[row]);
             }
         }
         sums

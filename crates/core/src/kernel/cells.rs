@@ -85,20 +85,20 @@ pub(super) fn update<
     let touches = clearance.below(rules.zero);
 
     // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
-    let raw = (clearance * pairs.pick::<DISTINCT>(&rules.pin_loss)).only(touches & !pairs.resin());
+    let raw = (clearance * pairs.pick::<DISTINCT>(&rules.pin_loss())).only(touches & !pairs.resin());
     if DISTINCT {
-        let below = L::select(on_resin, rules.zero, pairs.pick::<true>(&rules.fibre));
+        let below = L::select(on_resin, rules.zero, pairs.pick::<true>(&rules.fibre()));
         let worn = wear::pin(z_p, b_p, raw, below);
         z_p = worn.height;
         moved.spared_pin = moved.spared_pin.plus(rules.loss(worn.spared));
     } else {
         z_p = z_p + raw;
     }
-    z_p = z_p.plus_where(touches & pairs.resin(), rules.wear_height);
+    z_p = z_p.plus_where(touches & pairs.resin(), rules.wear_height());
     if DISC_WEARS {
-        let raw = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss)).only(touches);
+        let raw = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss())).only(touches);
         if DISTINCT {
-            let worn = wear::disc(z_d, b_d, raw, pairs.pick::<true>(&rules.coating));
+            let worn = wear::disc(z_d, b_d, raw, pairs.pick::<true>(&rules.coating()));
             z_d = worn.height;
             moved.spared_disc = moved.spared_disc.plus(rules.loss(worn.spared));
         } else {
@@ -127,7 +127,7 @@ pub(super) fn update<
 
         // 4.4 Debris at hand fills the clearance of open cells, wholly or in part.
         let filled = plateau::fill(clearance, rules.share).only(!touches);
-        let on_pin = plateau::on_pin(filled, supported, rules.pad_share);
+        let on_pin = plateau::on_pin(filled, supported, rules.pad_share());
         let on_disc = filled - on_pin;
         z_p = z_p - on_pin;
         z_d = z_d + on_disc;

@@ -34,8 +34,8 @@ pub(super) fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, c
         disc_height: &mut strip.disc_height[..columns],
         disc_substrate: if FORMS && DISC_WEARS { &mut strip.disc_substrate[..columns] } else { &mut [] },
         z_behind,
-        pin_loss: rules.pin_loss.plateau(),
-        disc_loss: rules.disc_loss.plateau(),
+        pin_loss: rules.pin_loss().plateau(),
+        disc_loss: rules.disc_loss().plateau(),
         unsupported_pin: rules.beyond(rules.zero, rules.even_on_pin),
         unsupported_disc: rules.beyond(rules.share, rules.even_on_disc),
         moved: StripMoved::new(),
@@ -64,7 +64,7 @@ pub(super) fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, c
 
 /// A strip while its ordinary cells are swept.
 struct Plain<'a, L: Lanes> {
-    rules: &'a StripRules<L>,
+    rules: &'a StripRules<'a, L>,
     pin_height: &'a mut [Chunk],
     pin_substrate: &'a mut [Chunk],
     resin: &'a [u8],

@@ -52,44 +52,34 @@ pub struct Conditions<'a> {
 }
 
 /// Rules and conditions of a strip, for eight cells at a time.
-pub(super) struct StripRules<L: Lanes> {
+pub(super) struct StripRules<'a, L: Lanes> {
+    pub rules: &'a Rules,
     pub strip: usize,
     pub zero: L,
     pub displacement: L,
-    pub pin_loss: Entries<L>,
-    pub disc_loss: Entries<L>,
-    pub fibre: Entries<L>,
-    pub coating: Entries<L>,
-    pub wear_height: L,
-    pub pad_share: L,
+    /// s, m.
     pub share: L,
     /// β s, m: the pin's part of an even deposit.
     pub even_on_pin: L,
     /// (1 − β) s, m: the disc's part of it.
     pub even_on_disc: L,
     /// Number whose last bit is worth a quantum of the deposits.
-    pub deposits: L,
+    deposits: L,
     /// Number whose last bit is worth a quantum of the losses.
-    pub losses: L,
+    losses: L,
     pub bracket: BracketLanes<L>,
 }
 
-impl<L: Lanes> StripRules<L> {
+impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
-    pub fn new(rules: &Rules, conditions: &Conditions, strip: usize) -> Self {
+    pub fn new(rules: &'a Rules, conditions: &Conditions, strip: usize) -> Self {
         let share = L::load(&conditions.share[strip]);
-        let pad_share = L::splat(rules.pad_share);
-        let even_on_pin = share * pad_share;
+        let even_on_pin = share * L::splat(rules.pad_share);
         Self {
+            rules,
             strip,
             zero: L::splat(0.0),
             displacement: L::splat(conditions.displacement),
-            pin_loss: rules.pin_loss.strip(strip),
-            disc_loss: rules.disc_loss.strip(strip),
-            fibre: rules.fibre.strip(strip),
-            coating: rules.coating.strip(strip),
-            wear_height: L::splat(rules.wear_height),
-            pad_share,
             share,
             even_on_pin,
             even_on_disc: share - even_on_pin,
@@ -97,6 +87,42 @@ impl<L: Lanes> StripRules<L> {
             losses: L::splat(conditions.losses.anchor()),
             bracket: BracketLanes::new(&conditions.bracket),
         }
+    }
+
+    /// Raw loss of the pin per overlap, negative.
+    #[inline(always)]
+    pub fn pin_loss(&self) -> Entries<L> {
+        self.rules.pin_loss.strip(self.strip)
+    }
+
+    /// Raw loss of the disc per overlap, negative.
+    #[inline(always)]
+    pub fn disc_loss(&self) -> Entries<L> {
+        self.rules.disc_loss.strip(self.strip)
+    }
+
+    /// Δh_sub/Δh of the fibre below a build-up.
+    #[inline(always)]
+    pub fn fibre(&self) -> Entries<L> {
+        self.rules.fibre.strip(self.strip)
+    }
+
+    /// Δh_sub/Δh of the coating below a build-up.
+    #[inline(always)]
+    pub fn coating(&self) -> Entries<L> {
+        self.rules.coating.strip(self.strip)
+    }
+
+    /// h_m, m.
+    #[inline(always)]
+    pub fn wear_height(&self) -> L {
+        L::splat(self.rules.wear_height)
+    }
+
+    /// β.
+    #[inline(always)]
+    pub fn pad_share(&self) -> L {
+        L::splat(self.rules.pad_share)
     }
 
     /// By how many quanta a deposit is above the even one.
