@@ -35,7 +35,7 @@ pub struct Stepper {
 impl Stepper {
     /// A case before its first step.
     pub fn new(case: &Case, setup: Setup) -> Result<Self, BenchError> {
-        let execution = Execution { workers: setup.workers, instructions: setup.instructions, pin: false };
+        let execution = Execution { workers: setup.workers, instructions: setup.instructions, ..Execution::default() };
         let simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
         Ok(Self { simulation })
     }

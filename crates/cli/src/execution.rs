@@ -28,7 +28,7 @@ pub fn decide(
     surfaces: &InitialSurfaces,
 ) -> Result<Execution, SimulationError> {
     let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
-    let execution = Execution { workers: 1, instructions, pin: arguments.pin };
+    let execution = Execution { workers: 1, instructions, bands: None, pin: arguments.pin };
     let cores = cores();
     match workers {
         Workers::Auto => fastest(execution, cores, parameters, surfaces),

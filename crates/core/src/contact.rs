@@ -153,14 +153,7 @@ impl Contact {
     }
 
     /// Takes the sums from the lower end of the bracket to the displacement.
-    fn settle(
-        &mut self,
-        weights: &RowWeights,
-        sums: &Sums,
-        near: &[NearPair],
-        bracket: &Bracket,
-        displacement: f64,
-    ) {
+    fn settle(&mut self, weights: &RowWeights, sums: &Sums, near: &[NearPair], bracket: &Bracket, displacement: f64) {
         let above = displacement - bracket.low;
         for (contact, sums) in self.pools.iter_mut().zip(&sums.pools) {
             *contact = PoolContact::default();

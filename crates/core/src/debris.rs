@@ -63,7 +63,8 @@ impl Debris {
         let losses = coefficients.pin.iter().chain(&coefficients.disc).flatten();
         let largest_loss = losses.copied().fold(0.0, f64::max);
         let columns = mesh.pin_columns() as i128;
-        let area_of = |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
+        let area_of =
+            |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
         Self {
             captured_fraction: rules.captured_fraction,
             pad_share: rules.pad_share,

@@ -153,10 +153,10 @@ impl Weights {
         self.rows[row] as f64 * self.unit
     }
 
-    /// Σ weight · count over some rows, in units; `counts` are those of all rows.
-    pub fn sum(&self, rows: Range<usize>, counts: &RowIntegers) -> i128 {
-        let weights = self.rows(rows.clone());
-        let counts = &counts.rows(rows)[..weights.len()];
+    /// Σ weight · count over some rows, in units.
+    pub fn sum(&self, rows: Range<usize>, counts: &[i64]) -> i128 {
+        let weights = self.rows(rows);
+        let counts = &counts[..weights.len()];
         (0..weights.len()).map(|row| product(weights[row], counts[row])).sum()
     }
 
@@ -222,8 +222,8 @@ mod tests {
         let weights = Weights::new(&(0..24).map(f64::from).collect::<Vec<_>>());
         let mut counts = RowIntegers::new(3);
         counts.0.as_flattened_mut().iter_mut().zip(0..).for_each(|(count, row)| *count = row);
-        assert_eq!(float(weights.sum(0..21, &counts)) * weights.unit(), 20.0 * 21.0 * 41.0 / 6.0);
-        assert_eq!(float(weights.sum(20..21, &counts)) * weights.unit(), 400.0);
+        assert_eq!(float(weights.sum(0..21, counts.rows(0..21))) * weights.unit(), 20.0 * 21.0 * 41.0 / 6.0);
+        assert_eq!(float(weights.sum(20..21, counts.rows(20..21))) * weights.unit(), 400.0);
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! How far the lowlands of the disc are filled, and how much of it is covered (model section 5).
 
+use std::ops::Range;
+
 use crate::exact::RingSum;
+use crate::kernel::LANES;
 use crate::mesh::Mesh;
 use crate::state::InitialSurfaces;
 use crate::strips::DiscSector;
@@ -23,12 +26,19 @@ pub struct Filling {
 }
 
 impl Filling {
-    /// Measures the initial disc and the own sectors of it.
-    pub fn new<'a>(mesh: &Mesh, surfaces: &InitialSurfaces, sectors: impl Iterator<Item = &'a DiscSector>) -> Self {
+    /// Measures the initial disc, and the own rows of the own sectors of it.
+    pub fn new<'a>(
+        mesh: &Mesh,
+        rows: Range<usize>,
+        surfaces: &InitialSurfaces,
+        sectors: impl Iterator<Item = &'a DiscSector>,
+    ) -> Self {
         let reference = surfaces.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let mut initial_volume = RingSum::default();
         for heights in surfaces.disc_height.chunks_exact(mesh.rows()) {
-            initial_volume.add(RingSum::of(open_volume(reference, heights.iter().copied(), mesh)));
+            for (heights, area) in heights.chunks(LANES).zip(mesh.area().chunks(LANES)) {
+                initial_volume.add(open_volume(reference, heights, area));
+            }
         }
         let mut filling = Self {
             reference,
@@ -39,14 +49,21 @@ impl Filling {
             up_to: 0,
         };
         for sector in sectors {
-            (0..sector.columns).for_each(|column| filling.measure(mesh, sector, column));
+            (0..sector.columns).for_each(|column| filling.measure(&mesh.area()[rows.clone()], sector, column));
         }
         filling
     }
 
     /// Measures the own columns that the pin touched since the last call, after `steps` steps; in the last of them pin
     /// column 0 lay over the disc column `first`.
-    pub fn update<'a>(&mut self, mesh: &Mesh, sectors: impl Iterator<Item = &'a DiscSector>, first: usize, steps: u64) {
+    pub fn update<'a>(
+        &mut self,
+        mesh: &Mesh,
+        rows: &Range<usize>,
+        sectors: impl Iterator<Item = &'a DiscSector>,
+        first: usize,
+        steps: u64,
+    ) {
         let new = steps - self.up_to;
         if new == 0 {
             return;
@@ -58,17 +75,23 @@ impl Filling {
             for column in 0..sector.columns {
                 let behind = (sector.first + column + mesh.disc_columns() - first) % mesh.disc_columns();
                 if behind < span {
-                    self.measure(mesh, sector, column);
+                    self.measure(&mesh.area()[rows.clone()], sector, column);
                 }
             }
         }
     }
 
-    fn measure(&mut self, mesh: &Mesh, sector: &DiscSector, column: usize) {
-        let open = open_volume(self.reference, sector.height.column(column), mesh);
-        let cells = sector.height.column(column).zip(sector.substrate_column(column)).zip(mesh.area());
-        let secondary = cells.filter(|((height, substrate), _)| height > substrate).map(|(_, area)| area).sum();
-        let measured = (RingSum::of(open), RingSum::of(secondary));
+    fn measure(&mut self, area: &[f64], sector: &DiscSector, column: usize) {
+        let mut measured = (RingSum::default(), RingSum::default());
+        let substrate = sector.substrate.as_ref().unwrap_or(&sector.height);
+        // Strip by strip: a sum over all rows would be rounded otherwise where they are shared among workers.
+        for (strip, area) in area.chunks(LANES).enumerate() {
+            let (heights, substrates) = (&sector.height.chunk(strip, column).0, &substrate.chunk(strip, column).0);
+            measured.0.add(open_volume(self.reference, heights, area));
+            let cells = heights.iter().zip(substrates).zip(area);
+            let secondary = cells.filter(|((height, substrate), _)| height > substrate).map(|(_, area)| area).sum();
+            measured.1.add(RingSum::of(secondary));
+        }
         let before = std::mem::replace(&mut self.columns[sector.first + column], measured);
         self.open_volume.add(measured.0);
         self.open_volume.subtract(before.0);
@@ -95,7 +118,7 @@ impl Filling {
     }
 }
 
-/// Σ A (z_ref − z_d)₊ of a column, m³.
-fn open_volume(reference: f64, heights: impl Iterator<Item = f64>, mesh: &Mesh) -> f64 {
-    heights.zip(mesh.area()).map(|(height, area)| (reference - height).max(0.0) * area).sum()
+/// Σ A (z_ref − z_d)₊ of a strip of a column, m³.
+fn open_volume(reference: f64, heights: &[f64], area: &[f64]) -> RingSum {
+    RingSum::of(heights.iter().zip(area).map(|(height, area)| (reference - height).max(0.0) * area).sum())
 }

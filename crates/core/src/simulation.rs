@@ -65,13 +65,15 @@ pub struct Execution {
     pub workers: usize,
     /// Instruction set of the kernels.
     pub instructions: InstructionSet,
+    /// Bands of rows that the radius is divided into, at most as many as there are workers; the best number unless given.
+    pub bands: Option<usize>,
     /// Whether each worker stays on a core of its own.
     pub pin: bool,
 }
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { workers: 1, instructions: InstructionSet::best(), pin: false }
+        Self { workers: 1, instructions: InstructionSet::best(), bands: None, pin: false }
     }
 }
 
@@ -146,7 +148,7 @@ impl Simulation {
         }
         // A sector has at least two columns.
         execution.workers = execution.workers.clamp(1, (mesh.disc_columns() / 2).max(1));
-        let partition = Arc::new(Partition::new(mesh, execution.workers));
+        let partition = Arc::new(Partition::new(mesh, execution.workers, execution.bands));
         let parameters = Arc::new(parameters);
         let instructions = execution.instructions;
         let team =
@@ -154,8 +156,9 @@ impl Simulation {
                 let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, Single);
                 Team::Alone(Box::new(worker))
             } else {
-                let halo_words = PinStrips::crossing_words(&parameters.mesh);
-                let ends = Threads::connect(execution.workers, partition.sectors(), halo_words);
+                let halo_words = PinStrips::crossing_words(parameters.mesh.rows());
+                let boundaries = if partition.groups() > 1 { partition.sectors() * partition.bands() } else { 0 };
+                let ends = Threads::connect(execution.workers, boundaries, halo_words);
                 let worker = |end: Threads| {
                     let alarm = end.alarm();
                     let partition = partition.clone();

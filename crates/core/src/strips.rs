@@ -41,13 +41,18 @@ impl Strips {
         Self { rows, columns, chunks: vec![Chunk([height; LANES]); strips(rows) * columns] }
     }
 
-    /// A field given column by column; `filler` fills up the last strip.
-    pub fn of_columns(rows: usize, heights: &[f64], filler: f64) -> Self {
-        let mut field = Self::new(rows, heights.len() / rows, filler);
-        for (column, heights) in heights.chunks_exact(rows).enumerate() {
-            field.set_column(column, heights);
+    /// Some rows of a field given column by column of the mesh; 0 fills up the last strip.
+    pub fn of_columns(mesh: &Mesh, own: Range<usize>, heights: &[f64]) -> Self {
+        let mut field = Self::new(own.len(), heights.len() / mesh.rows(), 0.0);
+        for (column, heights) in heights.chunks_exact(mesh.rows()).enumerate() {
+            field.set_column(column, &heights[own.clone()]);
         }
         field
+    }
+
+    /// A chunk.
+    pub fn chunk(&self, strip: usize, column: usize) -> &Chunk {
+        &self.chunks[strip * self.columns + column]
     }
 
     /// Number of strips.
@@ -56,11 +61,13 @@ impl Strips {
     }
 
     /// A strip, column by column.
+    #[inline]
     pub fn strip(&self, strip: usize) -> &[Chunk] {
         &self.chunks[strip * self.columns..][..self.columns]
     }
 
     /// A strip, column by column, to change.
+    #[inline]
     pub fn strip_mut(&mut self, strip: usize) -> &mut [Chunk] {
         &mut self.chunks[strip * self.columns..][..self.columns]
     }
@@ -117,13 +124,13 @@ pub struct PinStrip<'a> {
 }
 
 impl PinStrips {
-    /// The pin before the first step.
-    pub fn new(mesh: &Mesh, heights: &[f64], base: &[Base], builds_up: bool) -> Self {
-        let (rows, columns) = (mesh.rows(), mesh.pin_columns() + 1);
+    /// Some rows of the pin, from the beginning of a strip on, before the first step.
+    pub fn new(mesh: &Mesh, own: Range<usize>, heights: &[f64], base: &[Base], builds_up: bool) -> Self {
+        let (rows, columns) = (own.len(), mesh.pin_columns() + 1);
         let mut height = Strips::new(rows, columns, OUT_OF_REACH);
         let mut resin = vec![0; strips(rows) * columns];
         for column in 0..columns - 1 {
-            let cells = mesh.column(column);
+            let cells = mesh.column(column).start + own.start..mesh.column(column).start + own.end;
             height.set_column(column, &heights[cells.clone()]);
             for (row, base) in base[cells].iter().enumerate() {
                 resin[row / LANES * columns + column] |= u8::from(base.is_resin()) << (row % LANES);
@@ -137,11 +144,13 @@ impl PinStrips {
     }
 
     /// Which rows of a strip are resin, column by column.
+    #[inline]
     pub fn resin(&self, strip: usize) -> &[u8] {
         &self.resin[strip * self.columns..][..self.columns]
     }
 
     /// Some columns of a strip.
+    #[inline]
     pub fn strip_mut(&mut self, strip: usize, columns: Range<usize>) -> PinStrip<'_> {
         let bytes = strip * self.columns + columns.start..strip * self.columns + columns.end;
         PinStrip {
@@ -165,41 +174,35 @@ impl PinStrips {
         self.substrate.as_ref().unwrap_or(&self.height).column(column)
     }
 
-    /// Words of a column on its way to another worker: see [`PinStrips::write_crossing`].
-    pub fn crossing_words(mesh: &Mesh) -> usize {
-        2 * mesh.rows() + (2 * strips(mesh.rows())).div_ceil(LANES)
+    /// Words of a column of so many rows on its way to another worker: see [`PinStrips::write_crossing`].
+    pub fn crossing_words(rows: usize) -> usize {
+        (2 * LANES + 1) * strips(rows)
     }
 
     /// Writes a column that crosses to another worker, and which cells of it and of the next are plateaus: the status of
     /// the next column is all that the other worker needs of it.
     pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
         words.clear();
-        words.extend(self.height.column(column).map(f64::to_bits));
-        words.extend(self.substrate_column(column).map(f64::to_bits));
-        let mut bytes: Vec<u8> = [column, column + 1]
-            .iter()
-            .flat_map(|column| self.plateau.iter().skip(*column).step_by(self.columns))
-            .copied()
-            .collect();
-        bytes.resize(bytes.len().next_multiple_of(LANES), 0);
-        words.extend(
-            bytes
-                .chunks_exact(LANES)
-                .map(|bytes| bytes.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte))),
-        );
+        let substrate = self.substrate.as_ref().unwrap_or(&self.height);
+        for strip in 0..self.height.strips() {
+            words.extend_from_slice(&self.height.strip(strip)[column].0.map(f64::to_bits));
+            words.extend_from_slice(&substrate.strip(strip)[column].0.map(f64::to_bits));
+            let plateau = &self.plateau[strip * self.columns + column..][..2];
+            words.push(u64::from(plateau[0]) | u64::from(plateau[1]) << 8);
+        }
     }
 
     /// Takes over a column that another worker wrote with [`PinStrips::write_crossing`].
     pub fn read_crossing(&mut self, column: usize, words: &[u64]) {
-        let rows = self.height.rows;
-        let heights: Vec<f64> = words[..2 * rows].iter().map(|bits| f64::from_bits(*bits)).collect();
-        self.height.set_column(column, &heights[..rows]);
-        let Some(substrate) = &mut self.substrate else { return };
-        substrate.set_column(column, &heights[rows..]);
-        let mut bytes = words[2 * rows..].iter().flat_map(|word| word.to_le_bytes());
-        for column in [column, column + 1] {
-            let strips = self.plateau.iter_mut().skip(column).step_by(self.columns);
-            strips.zip(&mut bytes).for_each(|(plateau, byte)| *plateau = byte);
+        let (words, _) = words.as_chunks::<{ 2 * LANES + 1 }>();
+        for (strip, words) in words.iter().enumerate() {
+            let heights = |first: usize| Chunk(std::array::from_fn(|lane| f64::from_bits(words[first + lane])));
+            self.height.strip_mut(strip)[column] = heights(0);
+            if let Some(substrate) = &mut self.substrate {
+                substrate.strip_mut(strip)[column] = heights(LANES);
+            }
+            let plateau = &mut self.plateau[strip * self.columns + column..][..2];
+            plateau.copy_from_slice(&words[2 * LANES].to_le_bytes()[..2]);
         }
     }
 }
@@ -218,13 +221,15 @@ pub struct DiscSector {
 }
 
 impl DiscSector {
-    /// A sector before the first step; `changes` tells whether anything ever happens to the disc.
-    pub fn new(rows: usize, first: usize, heights: &[f64], changes: bool) -> Self {
-        let height = Strips::of_columns(rows, heights, 0.0);
-        Self { first, columns: height.columns, substrate: changes.then(|| height.clone()), height }
+    /// Some rows of a sector, which begins with column `first`, before the first step; `builds_up` tells whether the disc
+    /// can.
+    pub fn new(mesh: &Mesh, own: Range<usize>, first: usize, heights: &[f64], builds_up: bool) -> Self {
+        let height = Strips::of_columns(mesh, own, heights);
+        Self { first, columns: height.columns, substrate: builds_up.then(|| height.clone()), height }
     }
 
     /// A strip of z_d and of b_d (none where it is not kept).
+    #[inline]
     pub fn strip_mut(&mut self, strip: usize) -> (&mut [Chunk], &mut [Chunk]) {
         let substrate = match &mut self.substrate {
             Some(substrate) => substrate.strip_mut(strip),
@@ -248,7 +253,7 @@ mod tests {
         let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
         let heights: Vec<f64> = (0..33).map(f64::from).collect();
         let base = vec![Base::None; 33];
-        let mut from = PinStrips::new(&mesh, &heights, &base, true);
+        let mut from = PinStrips::new(&mesh, 0..11, &heights, &base, true);
         let mut to = from.clone();
         let plateau = |row: usize| row.is_multiple_of(3);
         from.height.set_column(1, &[7.0; 11]);
@@ -257,7 +262,7 @@ mod tests {
         }
         let mut words = Vec::new();
         from.write_crossing(1, &mut words);
-        assert_eq!(words.len(), PinStrips::crossing_words(&mesh));
+        assert_eq!(words.len(), PinStrips::crossing_words(11));
         to.read_crossing(1, &words);
         assert!(to.height.column(1).eq([7.0; 11]));
         assert!(to.substrate_column(1).eq((11..22).map(f64::from)));

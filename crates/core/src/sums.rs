@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::exact::{StepVolume, Weights, product};
+use crate::exact::{RowIntegers, StepVolume, Weights, product};
 use crate::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
 use crate::mesh::Mesh;
 use crate::pair::{Coefficients, Pair, Table};
@@ -29,11 +29,13 @@ pub struct RowWeights {
     needs: Needs,
     rows: usize,
     pools: usize,
+    /// Rows of the worker.
+    own: Range<usize>,
 }
 
 impl RowWeights {
-    /// The weights of a scene.
-    pub fn new(parameters: &Parameters, coefficients: &Coefficients) -> Self {
+    /// The weights of a scene for a worker that has the rows `own`.
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, own: Range<usize>) -> Self {
         let mesh = &parameters.mesh;
         let needs = Needs::of(parameters);
         let by_area = |table: &Table| table.each_ref().map(|rows| Weights::new(&times_area(rows, mesh)));
@@ -49,6 +51,7 @@ impl RowWeights {
                 DebrisPool::Contact => 1,
                 DebrisPool::Track => mesh.rows(),
             },
+            own,
         }
     }
 
@@ -61,6 +64,13 @@ impl RowWeights {
     pub fn rows_of(&self, pool: usize) -> Range<usize> {
         let rows = self.rows / self.pools;
         pool * rows..(pool + 1) * rows
+    }
+
+    /// Those of the worker's rows that share a pool.
+    fn own_rows_of(&self, pool: usize) -> Range<usize> {
+        let Range { start, end } = self.rows_of(pool);
+        let start = start.clamp(self.own.start, self.own.end);
+        start..end.clamp(start, self.own.end)
     }
 
     /// k A of a pair, N/m.
@@ -133,14 +143,18 @@ impl Sums {
     pub fn take_reading(&mut self, weights: &RowWeights, reading: &Reading, bracket: &Bracket) {
         let anchor = bracket.quantum.anchor_bits();
         for (pool, sums) in self.pools.iter_mut().enumerate() {
-            let rows = weights.rows_of(pool);
+            let rows = weights.own_rows_of(pool);
+            let here = rows.start - weights.own.start..rows.end - weights.own.start;
             for pair in weights.pairs {
-                let counts = reading.touching[*pair].rows(rows.clone());
+                let counts = reading.touching[*pair].rows(here.clone());
                 // Statuses that touch nowhere, as resin mostly, cost nothing.
                 let touches = counts.iter().fold(0, |any, count| any | count) != 0;
-                let overlaps = reading.overlap[*pair].rows(rows.clone());
-                sums.pairs[*pair] =
-                    if touches { weights.pair_sums(*pair, rows.clone(), counts, overlaps, anchor) } else { PairSums::default() };
+                let overlaps = reading.overlap[*pair].rows(here.clone());
+                sums.pairs[*pair] = if touches {
+                    weights.pair_sums(*pair, rows.clone(), counts, overlaps, anchor)
+                } else {
+                    PairSums::default()
+                };
             }
         }
     }
@@ -148,14 +162,16 @@ impl Sums {
     /// Takes the sums of what a sweep moved.
     pub fn take_moved(&mut self, weights: &RowWeights, moved: &Moved) {
         for (pool, sums) in self.pools.iter_mut().enumerate() {
-            let rows = weights.rows_of(pool);
+            let rows = weights.own_rows_of(pool);
+            let here = rows.start - weights.own.start..rows.end - weights.own.start;
+            let sum = |counts: &RowIntegers| weights.area.sum(rows.clone(), counts.rows(here.clone()));
             if weights.needs.forms {
-                sums.deposited_pin = weights.area.sum(rows.clone(), &moved.deposited_pin);
-                sums.deposited_disc = weights.area.sum(rows.clone(), &moved.deposited_disc);
+                sums.deposited_pin = sum(&moved.deposited_pin);
+                sums.deposited_disc = sum(&moved.deposited_disc);
             }
             if weights.needs.distinct {
-                sums.spared_pin = weights.area.sum(rows.clone(), &moved.spared_pin);
-                sums.spared_disc = weights.area.sum(rows, &moved.spared_disc);
+                sums.spared_pin = sum(&moved.spared_pin);
+                sums.spared_disc = sum(&moved.spared_disc);
             }
             (sums.returned, sums.spared_resin) = (StepVolume::default(), StepVolume::default());
         }
@@ -222,12 +238,15 @@ impl RowWeights {
         let (counts, overlaps) = (&counts[..rows.len()], &overlaps[..rows.len()]);
         let (stiffness, area) = (self.stiffness[pair].rows(rows.clone()), self.area.rows(rows.clone()));
         let pin_loss = self.pin_loss[pair].rows(rows.clone());
+        // In two loops, so that the sums fit in registers.
         for row in 0..rows.len() {
             let overlap = overlaps[row].wrapping_sub(counts[row].wrapping_mul(anchor));
             sums.load += product(stiffness[row], overlap);
+            sums.pin_loss += product(pin_loss[row], overlap);
+        }
+        for row in 0..rows.len() {
             sums.stiffness += product(stiffness[row], counts[row]);
             sums.area += product(area[row], counts[row]);
-            sums.pin_loss += product(pin_loss[row], overlap);
             sums.pin_loss_rate += product(pin_loss[row], counts[row]);
         }
         if self.needs.disc_wears {

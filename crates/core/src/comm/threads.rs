@@ -32,15 +32,11 @@ impl Place {
         Self { written: CachePadded::new(AtomicU64::new(0)), words: (0..words).map(|_| AtomicU64::new(0)).collect() }
     }
 
-    /// Writes words from the beginning on.
-    fn write(&self, words: impl Iterator<Item = u64>) {
-        self.words.iter().zip(words).for_each(|(place, word)| place.store(word, Ordering::Relaxed));
+    /// Writes words from the place `first` on, and counts them as a message.
+    fn write(&self, first: usize, words: &[u64]) {
+        self.words[first..].iter().zip(words).for_each(|(place, word)| place.store(*word, Ordering::Relaxed));
         // Who reads this count sees the words that were written before.
         self.written.store(self.written.load(Ordering::Relaxed) + 1, Ordering::Release);
-    }
-
-    fn read(&self) -> impl Iterator<Item = u64> + '_ {
-        self.words.iter().map(|place| place.load(Ordering::Relaxed))
     }
 }
 
@@ -119,7 +115,8 @@ impl Threads {
     /// Writes a part of one's message and counts it; its first word is the length of the whole.
     fn publish(&mut self, length: usize, part: &[u64]) {
         let place = &self.shared.gathered[self.rank][(self.gatherings % 2) as usize];
-        place.write(std::iter::once(length as u64).chain(part.iter().copied()));
+        place.words[0].store(length as u64, Ordering::Relaxed);
+        place.write(1, part);
         self.gatherings += 1;
     }
 
@@ -132,7 +129,7 @@ impl Threads {
         let length = place.words[0].load(Ordering::Relaxed) as usize;
         let message = &mut self.messages[from];
         let missing = (length - message.len()).min(WORDS_AT_A_TIME);
-        message.extend(place.read().skip(1).take(missing));
+        message.extend(place.words[1..=missing].iter().map(|word| word.load(Ordering::Relaxed)));
         Ok(length)
     }
 }
@@ -147,7 +144,7 @@ impl Communicator for Threads {
     }
 
     fn send_halo(&mut self, boundary: usize, _to: usize, words: &[u64]) -> Result<(), CommError> {
-        self.shared.halos[boundary].write(words.iter().copied());
+        self.shared.halos[boundary].write(0, words);
         Ok(())
     }
 
@@ -156,7 +153,7 @@ impl Communicator for Threads {
         self.received[boundary] += 1;
         let place = &self.shared.halos[boundary];
         self.wait(place, self.received[boundary])?;
-        words.iter_mut().zip(place.read()).for_each(|(word, sent)| *word = sent);
+        words.iter_mut().zip(&place.words).for_each(|(word, sent)| *word = sent.load(Ordering::Relaxed));
         Ok(())
     }
 

@@ -12,7 +12,7 @@ use crate::{plateau, wear};
 /// A strip of the columns that are swept.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
-    /// Which.
+    /// Which, of the worker's.
     pub index: usize,
     /// The pin, with the column that is ahead of the last.
     pub pin: PinStrip<'a>,
@@ -151,6 +151,6 @@ pub(super) fn update<
         strip.pin.plateau[column] = (pin_secondary | !on_resin).byte();
     }
     let pairs = Pairs { on_resin, pin_secondary, disc_secondary: behind.secondary };
-    next.add(z_p - behind.height, pairs, &rules.bracket, rules.strip, reading);
+    next.add(z_p - behind.height, pairs, &rules.bracket, strip.index, reading);
     Behind { height: z_d, secondary: if DISTINCT { b_d.below(z_d) } else { nothing } }
 }

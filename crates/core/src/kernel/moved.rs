@@ -1,6 +1,6 @@
 //! What a sweep moved, row by row.
 
-use super::lanes::{Chunk, IntegerChunk, Integers, Lanes};
+use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes};
 use super::pairs::lanes_of;
 use crate::exact::RowIntegers;
 
@@ -104,7 +104,7 @@ pub(super) fn note_seldom(
     worn_through: u8,
     strip: usize,
 ) {
-    let row = |lane: usize| (strip * 8 + lane) as u32;
+    let row = |lane: usize| (strip * LANES + lane) as u32;
     seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { row: row(lane), returned: build_up.0[lane], spared: 0.0 }));
     seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent {
         row: row(lane),

@@ -1,6 +1,6 @@
 //! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
 
-use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::exact::{Quantum, RowIntegers};
 use crate::pair::Pair;
@@ -39,28 +39,37 @@ pub struct Reading {
     pub overlap: [RowIntegers; Pair::COUNT],
     /// Pairs with low ≤ g < low + width.
     pub near: Vec<NearPair>,
+    /// The row of the mesh that is the first here.
+    pub first_row: usize,
     /// Bits of every anchored overlap together: shows any that is out of the quantum's range.
-    pub range: i64,
+    pub range: IntegerChunk,
 }
 
 impl Reading {
     /// Nothing read. Where build-up has the properties of what it lies on, only two pairs are told apart.
-    pub fn new(strips: usize, distinct: bool) -> Self {
+    pub fn new(first_row: usize, strips: usize, distinct: bool) -> Self {
         let rows = |pair| RowIntegers::new(if told_apart(distinct).contains(&pair) { strips } else { 0 });
-        Self { touching: std::array::from_fn(rows), overlap: std::array::from_fn(rows), near: Vec::new(), range: 0 }
+        Self {
+            touching: std::array::from_fn(rows),
+            overlap: std::array::from_fn(rows),
+            near: Vec::new(),
+            first_row,
+            range: [0; LANES],
+        }
     }
 
     /// Starts anew.
     pub fn clear(&mut self) {
         self.touching.iter_mut().chain(&mut self.overlap).for_each(RowIntegers::clear);
         self.near.clear();
-        self.range = 0;
+        self.range = [0; LANES];
     }
 
     /// Whether an overlap was too large for the quantum.
     pub fn is_out_of_range(&self, quantum: Quantum) -> bool {
         // Within the range, sign and exponent are those of the anchor.
-        (self.range | quantum.anchor_bits()) >> 52 != quantum.anchor_bits() >> 52
+        let range = self.range.iter().fold(0, |bits, lane| bits | lane);
+        (range | quantum.anchor_bits()) >> 52 != quantum.anchor_bits() >> 52
     }
 }
 
@@ -141,7 +150,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             let mut gaps = Chunk([0.0; 8]);
             gap.store(&mut gaps);
             let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
-            note_near::<DISTINCT>(&mut reading.near, &gaps, near.byte(), statuses, strip);
+            note_near::<DISTINCT>(reading, &gaps, near.byte(), statuses, strip);
         }
     }
 
@@ -170,19 +179,18 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             }
             pair += 1;
         }
-        let mut range = [0; LANES];
-        self.range.store(&mut range);
-        reading.range |= range.iter().fold(0, |bits, lane| bits | lane);
+        self.range.or(L::Integers::load(&reading.range)).store(&mut reading.range);
     }
 }
 
 /// Notes the few pairs of which the bracket does not say whether they touch.
 #[cold]
 #[inline(never)]
-fn note_near<const DISTINCT: bool>(near: &mut Vec<NearPair>, gaps: &Chunk, lanes: u8, statuses: [u8; 3], strip: usize) {
-    near.extend(lanes_of(lanes).map(|lane| NearPair {
+fn note_near<const DISTINCT: bool>(reading: &mut Reading, gaps: &Chunk, lanes: u8, statuses: [u8; 3], strip: usize) {
+    let first_row = reading.first_row;
+    reading.near.extend(lanes_of(lanes).map(|lane| NearPair {
         gap: gaps.0[lane],
-        row: (strip * 8 + lane) as u32,
+        row: (first_row + strip * LANES + lane) as u32,
         pair: pair_of_lane(lane, DISTINCT, statuses),
     }));
 }

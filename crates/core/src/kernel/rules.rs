@@ -49,11 +49,14 @@ pub struct Conditions<'a> {
     pub losses: Quantum,
     /// Where the next load balance is expected.
     pub bracket: Bracket,
+    /// The strip of the mesh that is the first of the worker.
+    pub first_strip: usize,
 }
 
 /// Rules and conditions of a strip, for eight cells at a time.
 pub(super) struct StripRules<'a, L: Lanes> {
     pub rules: &'a Rules,
+    /// Strip of the mesh.
     pub strip: usize,
     pub zero: L,
     pub displacement: L,
@@ -73,6 +76,7 @@ pub(super) struct StripRules<'a, L: Lanes> {
 impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
     pub fn new(rules: &'a Rules, conditions: &Conditions, strip: usize) -> Self {
+        let strip = conditions.first_strip + strip;
         let share = L::load(&conditions.share[strip]);
         let even_on_pin = share * L::splat(rules.pad_share);
         Self {

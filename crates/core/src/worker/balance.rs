@@ -30,13 +30,8 @@ impl<C: Communicator> Worker<C> {
                 self.read_columns(&bracket)?;
                 continue;
             }
-            let verdict = self.contact.balance(
-                &self.weights,
-                &self.sums,
-                &mut self.reading.near,
-                &bracket,
-                normal_force,
-            );
+            let verdict =
+                self.contact.balance(&self.weights, &self.sums, &mut self.reading.near, &bracket, normal_force);
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
                     self.course.displacement = self.contact.displacement();
@@ -93,7 +88,7 @@ impl<C: Communicator> Worker<C> {
                 let disc_cells = sector.height.column(over + offset).zip(sector.substrate_column(over + offset));
                 for (row, ((z_p, b_p), (z_d, b_d))) in pin_cells.zip(disc_cells).enumerate() {
                     let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
-                    each(row, column, z_p - z_d, Pair::new(status, z_d > b_d).index());
+                    each(self.rows.start + row, column, z_p - z_d, Pair::new(status, z_d > b_d).index());
                 }
             }
         }

@@ -2,9 +2,10 @@
 
 use super::Worker;
 use crate::comm::Communicator;
-use crate::kernel::{Bracket, Conditions, Span, read};
+use crate::kernel::{Bracket, Conditions, LANES, Span, read};
 use crate::sector::{Partition, Segment};
 use crate::simulation::SimulationError;
+use crate::strips::PinStrips;
 
 /// Columns that are swept before the first of a segment is handed on: that one, and the one whose status goes with it.
 const FIRST_COLUMNS: usize = 2;
@@ -22,9 +23,9 @@ impl<C: Communicator> Worker<C> {
         let bracket = Bracket { low: expected - uncertainty, width: 2.0 * uncertainty, quantum: self.quantum };
         let partition = self.partition.clone();
         let first = self.first();
-        let own = self.communicator.rank();
+        let own = self.group;
         self.fetch_entering(&partition, first);
-        let is_alone = self.communicator.size() == 1;
+        let is_alone = partition.groups() == 1;
         if !is_alone {
             for segment in partition.segments_of(own, first) {
                 let columns = FIRST_COLUMNS.min(segment.pin.len());
@@ -70,6 +71,7 @@ impl<C: Communicator> Worker<C> {
             deposits: self.debris.deposits(),
             losses: self.debris.losses(self.quantum),
             bracket,
+            first_strip: self.rows.start / LANES,
         };
         let span = Span {
             first: segment.pin.start + columns.start,
@@ -91,20 +93,25 @@ impl<C: Communicator> Worker<C> {
 
     /// Hands the first pin column of a segment to the worker over whose sector it lies in the next step.
     fn hand_on(&mut self, segment: &Segment) -> Result<(), SimulationError> {
-        let before = self.partition.before(segment.sector);
-        let to = self.partition.owner(before);
+        let to = self.partition.owner(self.partition.before(segment.sector), self.band);
         if segment.over == 0 && to != self.communicator.rank() {
             self.pin.write_crossing(segment.pin.start, &mut self.halo);
-            self.communicator.send_halo(segment.sector, to, &self.halo)?;
+            self.communicator.send_halo(self.boundary(segment.sector), to, &self.halo)?;
         }
         Ok(())
     }
 
     /// Takes over a pin column that another worker has swept.
     fn take_over(&mut self, from: usize, column: usize) -> Result<(), SimulationError> {
-        self.halo.resize(crate::strips::PinStrips::crossing_words(&self.parameters.mesh), 0);
-        self.communicator.receive_halo(from, self.partition.owner(from), &mut self.halo)?;
+        self.halo.resize(PinStrips::crossing_words(self.rows.len()), 0);
+        let (boundary, owner) = (self.boundary(from), self.partition.owner(from, self.band));
+        self.communicator.receive_halo(boundary, owner, &mut self.halo)?;
         self.pin.read_crossing(column, &self.halo);
         Ok(())
+    }
+
+    /// The lower boundary of the worker's band of a sector.
+    fn boundary(&self, sector: usize) -> usize {
+        sector * self.partition.bands() + self.band
     }
 }

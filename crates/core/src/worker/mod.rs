@@ -8,6 +8,7 @@ mod columns;
 mod gather;
 mod report;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::comm::Communicator;
@@ -81,6 +82,12 @@ pub(crate) struct Worker<C> {
     course: Course,
     /// Columns by which the disc was turned before the first step.
     turned: u64,
+    /// The group of workers that shares the worker's sectors.
+    group: usize,
+    /// The worker's band of them.
+    band: usize,
+    /// The rows of that band.
+    rows: Range<usize>,
 }
 
 impl<C: Communicator> Worker<C> {
@@ -96,15 +103,17 @@ impl<C: Communicator> Worker<C> {
         let mesh = &parameters.mesh;
         let needs = Needs::of(&parameters);
         let coefficients = Coefficients::new(&parameters);
+        let (group, band) = (partition.group_of(communicator.rank()), partition.band_of(communicator.rank()));
+        let rows = partition.rows_of(band);
         let own = |sector| {
             let columns = partition.columns(sector);
             let heights = &surfaces.disc_height[columns.start * mesh.rows()..columns.end * mesh.rows()];
-            let is_own = partition.owner(sector) == communicator.rank();
-            is_own.then(|| DiscSector::new(mesh.rows(), columns.start, heights, needs.forms))
+            let is_own = partition.group(sector) == group;
+            is_own.then(|| DiscSector::new(mesh, rows.clone(), columns.start, heights, needs.forms))
         };
         let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
-        let rows = strips(mesh.rows());
-        let weights = RowWeights::new(&parameters, &coefficients);
+        let strips = strips(rows.len());
+        let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
         Self {
             needs,
             instructions,
@@ -112,14 +121,14 @@ impl<C: Communicator> Worker<C> {
             rules: Rules::new(&parameters, &coefficients),
             contact: Contact::new(&weights),
             quantum: Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns()),
-            pin: PinStrips::new(mesh, &surfaces.pin_height, &surfaces.pin_base, needs.forms),
+            pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs.forms),
             forecast: Forecast::new(mesh.disc_columns()),
             debris: Debris::new(&parameters, &coefficients, &weights),
             history: History::new(mesh.disc_columns()),
-            filling: Filling::new(mesh, surfaces, sectors.iter().flatten()),
+            filling: Filling::new(mesh, rows.clone(), surfaces, sectors.iter().flatten()),
             bracket: None,
-            reading: Reading::new(rows, needs.distinct),
-            moved: Moved::new(rows, needs.forms, needs.distinct),
+            reading: Reading::new(rows.start, strips, needs.distinct),
+            moved: Moved::new(strips, needs.forms, needs.distinct),
             sums: Sums::new(weights.pools()),
             weights,
             message: Vec::new(),
@@ -127,6 +136,9 @@ impl<C: Communicator> Worker<C> {
             pressure: Vec::new(),
             course: Course::default(),
             turned,
+            group,
+            band,
+            rows,
             coefficients,
             sectors,
             partition,

@@ -1,11 +1,12 @@
 //! Samples and maps of what all workers have (model section 5).
 
+use std::ops::Range;
+
 use super::Worker;
 use crate::comm::Communicator;
 use crate::exact::RingSum;
 use crate::material::Status;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
-use crate::sector::Segment;
 use crate::simulation::SimulationError;
 use crate::state::{disc_status, pin_status};
 use crate::strips::DiscSector;
@@ -20,13 +21,15 @@ impl<C: Communicator> Worker<C> {
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         let parameters = self.parameters.clone();
         let mesh = &parameters.mesh;
-        self.filling.update(mesh, self.sectors.iter().flatten(), self.last_first(), self.course.steps);
+        self.filling.update(mesh, &self.rows, self.sectors.iter().flatten(), self.last_first(), self.course.steps);
         let own = self.own_part();
         let mut rest = OwnPart { largest_pressure: 0.0, pin: vec![0; own.pin.len()], ..OwnPart::default() };
         self.communicator.all_gather(&own.words(), &mut |_, words| rest.add(words))?;
         let OwnPart { largest_pressure, open_volume, secondary_area, pin } = rest;
-        let area_of = |counts: &[u64]| -> f64 { counts.iter().zip(mesh.area()).map(|(count, area)| *count as f64 * area).sum() };
-        let coverage: Vec<f64> = pin.chunks_exact(mesh.rows()).map(|counts| area_of(counts) / mesh.pin_area()).collect();
+        let area_of =
+            |counts: &[u64]| -> f64 { counts.iter().zip(mesh.area()).map(|(count, area)| *count as f64 * area).sum() };
+        let coverage: Vec<f64> =
+            pin.chunks_exact(mesh.rows()).map(|counts| area_of(counts) / mesh.pin_area()).collect();
         let contact_area = self.contact.area();
         let totals = self.debris.totals();
         Ok(Sample {
@@ -69,10 +72,10 @@ impl<C: Communicator> Worker<C> {
             pin: vec![0; 3 * rows],
         };
         for column in self.own_pin_columns() {
-            for (row, status) in self.pin_statuses(column).enumerate() {
+            for (row, status) in self.rows.clone().zip(self.pin_statuses(column)) {
                 part.pin[status as usize * rows + row] += 1;
             }
-            let cells = self.pressure.get(self.parameters.mesh.column(column)).unwrap_or(&[]);
+            let cells = self.pressure.get(self.own_cells(column)).unwrap_or(&[]);
             part.largest_pressure = cells.iter().copied().fold(part.largest_pressure, f64::max);
         }
         part
@@ -80,7 +83,13 @@ impl<C: Communicator> Worker<C> {
 
     /// The pin columns that this worker swept in the last step; before the first step those that it will.
     fn own_pin_columns(&self) -> impl Iterator<Item = usize> + '_ {
-        self.partition.segments_of(self.communicator.rank(), self.last_first()).flat_map(|segment| segment.pin)
+        self.partition.segments_of(self.group, self.last_first()).flat_map(|segment| segment.pin)
+    }
+
+    /// The own cells of a pin column.
+    fn own_cells(&self, column: usize) -> Range<usize> {
+        let start = self.parameters.mesh.column(column).start;
+        start + self.rows.start..start + self.rows.end
     }
 
     fn pin_statuses(&self, column: usize) -> impl Iterator<Item = Status> + '_ {
@@ -111,12 +120,11 @@ impl<C: Communicator> Worker<C> {
         let (partition, rows) = (self.partition.clone(), self.parameters.mesh.rows());
         let mut field = vec![0; self.parameters.mesh.disc_cells()];
         self.communicator.all_gather(&own, &mut |from, words| {
-            let mut rest = words;
-            for sector in (0..partition.sectors()).filter(|sector| partition.owner(*sector) == from) {
-                let columns = partition.columns(sector);
-                let (taken, others) = rest.split_at(rows * columns.len());
-                field[rows * columns.start..rows * columns.end].copy_from_slice(taken);
-                rest = others;
+            let (group, band) = (partition.group_of(from), partition.rows_of(partition.band_of(from)));
+            let sectors = (0..partition.sectors()).filter(|sector| partition.group(*sector) == group);
+            let columns = sectors.flat_map(|sector| partition.columns(sector));
+            for (column, words) in columns.zip(words.chunks_exact(band.len())) {
+                field[rows * column + band.start..rows * column + band.end].copy_from_slice(words);
             }
         })?;
         Ok(field)
@@ -131,20 +139,19 @@ impl<C: Communicator> Worker<C> {
                 Map::PinHeight => own.extend(self.pin.height.column(column).map(f64::to_bits)),
                 Map::PinSubstrate => own.extend(self.pin.substrate_column(column).map(f64::to_bits)),
                 Map::PinStatus => own.extend(self.pin_statuses(column).map(|status| status as u64)),
-                _ => match self.pressure.get(mesh.column(column)) {
+                _ => match self.pressure.get(self.own_cells(column)) {
                     Some(cells) => own.extend(cells.iter().map(|pressure| pressure.to_bits())),
-                    None => own.resize(own.len() + mesh.rows(), 0),
+                    None => own.resize(own.len() + self.rows.len(), 0),
                 },
             }
         }
         let (partition, first, rows) = (self.partition.clone(), self.last_first(), mesh.rows());
         let mut field = vec![0; mesh.pin_cells()];
         self.communicator.all_gather(&own, &mut |from, words| {
-            let mut rest = words;
-            for Segment { pin, .. } in partition.segments_of(from, first) {
-                let (taken, others) = rest.split_at(rows * pin.len());
-                field[rows * pin.start..rows * pin.end].copy_from_slice(taken);
-                rest = others;
+            let band = partition.rows_of(partition.band_of(from));
+            let columns = partition.segments_of(partition.group_of(from), first).flat_map(|segment| segment.pin);
+            for (column, words) in columns.zip(words.chunks_exact(band.len())) {
+                field[rows * column + band.start..rows * column + band.end].copy_from_slice(words);
             }
         })?;
         Ok(field)

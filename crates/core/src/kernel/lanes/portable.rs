@@ -93,6 +93,11 @@ impl Integers for Words {
     }
 
     #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(from_fn(|lane| self.0[lane] | other.0[lane]))
+    }
+
+    #[inline(always)]
     fn or_where(self, mask: Answers, other: Self) -> Self {
         Self(from_fn(|lane| if mask.0[lane] { self.0[lane] | other.0[lane] } else { self.0[lane] }))
     }

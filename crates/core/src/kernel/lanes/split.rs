@@ -120,6 +120,11 @@ macro_rules! split {
             }
 
             #[inline(always)]
+            fn or(self, other: Self) -> Self {
+                Self([$(call!($or_words(self.0[$part], other.0[$part]))),*])
+            }
+
+            #[inline(always)]
             fn or_where(self, mask: $mask, other: Self) -> Self {
                 Self([$(call!($or_words(
                     self.0[$part],
