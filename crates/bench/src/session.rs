@@ -109,8 +109,8 @@ impl WorkerOptions {
     /// Begins a benchmark.
     pub fn begin(self, benchmark: Benchmark) -> Result<Session, BenchError> {
         let mut session = self.options.begin(benchmark)?;
-        let Document { machine, notes, .. } = &mut session.document;
-        session.workers = workers(&self.workers, machine.cores, notes)?;
+        let cores = session.document.machine.cores;
+        session.workers = workers(&self.workers, cores);
         Ok(session)
     }
 }

@@ -243,7 +243,7 @@ mod tests {
         let base = vec![Base::None; 33];
         let mut from = PinStrips::new(&mesh, &heights, &base, true);
         let mut to = from.clone();
-        let plateau = |row: usize| row % 3 == 0;
+        let plateau = |row: usize| row.is_multiple_of(3);
         from.height.set_column(1, &[7.0; 11]);
         for row in (0..11).filter(|row| plateau(*row)) {
             from.strip_mut(row / LANES, 2..3).plateau[0] |= 1 << (row % LANES);
