@@ -26,7 +26,7 @@ pub trait Sink {
     /// When they cannot be taken; the run then ends.
     fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), Self::Error>;
 
-    /// Called every few steps. Given how many `steps` would be right until the next call, gives how many it shall be.
+    /// Called every few steps. `steps` is the number proposed until the next call; returns the number that it shall be.
     ///
     /// # Errors
     /// When the run is to end here.

@@ -51,8 +51,8 @@ impl Job {
         Simulation::on_ranks(parameters, surfaces, execution.instructions, self.session.communicator())
     }
 
-    /// Whether any rank was asked to stop, and by which signal, and how many `steps` the first rank wants to take before
-    /// the ranks agree again, for it has a clock of its own; all ranks get the same answer.
+    /// Whether any rank was asked to stop, and by which signal; and how many steps to take before the next agreement.
+    /// Clocks differ, so the number is that of the first rank, and all ranks get the same answer.
     pub fn agree(&mut self, signal: Option<u8>, steps: u64) -> Result<(Option<u8>, u64), CommError> {
         let (mut largest, mut first) = (0, steps);
         self.meeting.all_gather(&[signal.unwrap_or(0).into(), steps], &mut |rank, words| {
