@@ -25,6 +25,13 @@ fn short_run(arguments: &[&str]) -> Vec<String> {
     common.iter().chain(arguments).map(ToString::to_string).collect()
 }
 
+/// What this many ranks say, and how they end, with these arguments.
+fn on_ranks(directory: &WorkingDirectory, ranks: usize, arguments: &[String]) -> Outcome {
+    let mut command = mpirun(directory);
+    command.args(["-n", &ranks.to_string()]).arg(program()).args(arguments);
+    run(command)
+}
+
 /// Every dataset of the run file that a command wrote, and the number of workers that it names.
 fn written(directory: &WorkingDirectory, outcome: &Outcome) -> (BTreeMap<String, Content>, f64) {
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
@@ -45,15 +52,45 @@ fn the_number_of_ranks_does_not_show() {
     assert_eq!(differences(&one, &on_threads("2")), [""; 0], "2 threads");
     for ranks in [1, 2, 3] {
         let directory = WorkingDirectory::new();
-        let mut command = mpirun(&directory);
-        command.args(["-n", &ranks.to_string()]).arg(program()).args(short_run(&[]));
-        let outcome = run(command);
+        let outcome = on_ranks(&directory, ranks, &short_run(&[]));
         let (content, workers) = written(&directory, &outcome);
         assert_eq!(differences(&one, &content), [""; 0], "{ranks} ranks");
         assert_eq!(workers, ranks as f64);
         // One summary, not one from every rank.
         assert_eq!(outcome.stdout.matches("run.h5").count(), 1, "{}", outcome.stdout);
     }
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn ranks_without_a_sector_keep_pace() {
+    // 7 columns make at most 3 sectors.
+    let arguments = short_run(&[
+        "--set=mesh.disc_columns=7",
+        "--set=mesh.pin_columns=4",
+        "--set=disc.surface.synthetic.correlation_length=\"20 mm\"",
+    ]);
+    let directory = WorkingDirectory::new();
+    let one = written(&directory, &directory.plateau(&arguments)).0;
+    let directory = WorkingDirectory::new();
+    let (content, workers) = written(&directory, &on_ranks(&directory, 5, &arguments));
+    assert_eq!(differences(&one, &content), [""; 0]);
+    assert_eq!(workers, 5.0);
+}
+
+#[test]
+#[ignore = "needs MPI"]
+fn ranks_take_the_place_of_threads() {
+    for arguments in [["--workers", "2"], ["--workers", "auto"], ["--workers=1", "--pin"]] {
+        let directory = WorkingDirectory::new();
+        let outcome = on_ranks(&directory, 3, &short_run(&arguments));
+        assert_eq!(written(&directory, &outcome).1, 3.0, "{arguments:?}");
+        assert_eq!(outcome.stderr.matches("plateau: ").count(), 1, "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("plateau: warning: 3 ranks share the ring"), "{}", outcome.stderr);
+    }
+    let directory = WorkingDirectory::new();
+    let outcome = on_ranks(&directory, 1, &short_run(&["--workers", "2"]));
+    assert_eq!(written(&directory, &outcome).1, 2.0);
 }
 
 #[test]
@@ -84,9 +121,7 @@ fn a_rank_without_its_scene_ends_all() {
 #[ignore = "needs MPI"]
 fn what_all_ranks_find_wrong_is_said_once() {
     let directory = WorkingDirectory::new();
-    let mut command = mpirun(&directory);
-    command.args(["-n", "3"]).arg(program()).args(["run", "missing.toml"]);
-    let outcome = run(command);
+    let outcome = on_ranks(&directory, 3, &["run", "missing.toml"].map(String::from));
     assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
     assert_eq!(outcome.stderr.matches("plateau: ").count(), 1, "{}", outcome.stderr);
     assert_eq!(directory.names(), [""; 0]);

@@ -26,12 +26,12 @@ pub trait Sink {
     /// When they cannot be taken; the run then ends.
     fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), Self::Error>;
 
-    /// Called every few steps.
+    /// Called every few steps. `steps` is the number proposed until the next call; returns the number that it shall be.
     ///
     /// # Errors
     /// When the run is to end here.
-    fn look(&mut self, _simulation: &Simulation) -> Result<(), Self::Error> {
-        Ok(())
+    fn look(&mut self, _simulation: &Simulation, steps: u64) -> Result<u64, Self::Error> {
+        Ok(steps)
     }
 }
 
@@ -54,14 +54,9 @@ pub fn drive<S: Sink>(
         let event = schedule.next_event(simulation.steps_done());
         let sampled = schedule.next_sample(simulation.steps_done()) == event;
         while simulation.steps_done() < event {
-            let looked = Instant::now();
+            let start = Instant::now();
             simulation.advance_to(event.min(simulation.steps_done().saturating_add(steps_per_look)))?;
-            sink.look(simulation)?;
-            if looked.elapsed() > LOOK_EVERY {
-                steps_per_look = (steps_per_look / 2).max(1);
-            } else if looked.elapsed() < LOOK_EVERY / 2 {
-                steps_per_look = steps_per_look.saturating_mul(2);
-            }
+            steps_per_look = sink.look(simulation, adapted(steps_per_look, start.elapsed()))?;
         }
         if sampled {
             sink.sample(simulation.sample()?)?;
@@ -71,4 +66,15 @@ pub fn drive<S: Sink>(
         }
     }
     Ok(())
+}
+
+/// The number of steps between two looks, after that many took so long.
+fn adapted(steps: u64, time: Duration) -> u64 {
+    if time > LOOK_EVERY {
+        (steps / 2).max(1)
+    } else if time < LOOK_EVERY / 2 {
+        steps.saturating_mul(2)
+    } else {
+        steps
+    }
 }

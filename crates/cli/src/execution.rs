@@ -17,18 +17,29 @@ const TRIAL: Duration = Duration::from_millis(25);
 /// Steps before a trial's clock starts: threads start and caches fill.
 const WARM_UP_STEPS: u64 = 200;
 
-/// Decides how a scene is carried out, and says what is worth knowing about it.
+/// Decides how a scene is carried out by `ranks` processes together, and says what is worth knowing about it. Where
+/// there are several, each of them is one worker.
 ///
 /// # Errors
 /// [`SimulationError`] when a trial fails.
 pub fn decide(
     workers: Workers,
+    ranks: usize,
     arguments: &ExecutionArguments,
     parameters: &Parameters,
     surfaces: &InitialSurfaces,
 ) -> Result<Execution, SimulationError> {
     let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
     let execution = Execution { workers: 1, instructions, bands: None, pin: arguments.pin };
+    if ranks > 1 {
+        if workers != Workers::Count(1) || arguments.pin {
+            message::warning(format_args!(
+                "{ranks} ranks share the ring, one worker each: numerics.workers, --workers and --pin have no effect; \
+                 the launcher pins ranks, as in mpirun --bind-to core"
+            ));
+        }
+        return Ok(Execution { workers: ranks, pin: false, ..execution });
+    }
     let cores = cores();
     match workers {
         Workers::Auto => fastest(execution, cores, parameters, surfaces),

@@ -224,7 +224,9 @@ mod tests {
 
     #[test]
     fn segments_cover_the_pin_and_lie_over_the_right_columns() {
-        for (disc_columns, pin_columns, workers) in [(2764, 161, 2), (40, 40, 3), (17, 5, 8), (9, 9, 1), (30, 1, 5)] {
+        for (disc_columns, pin_columns, workers) in
+            [(2764, 161, 2), (40, 40, 3), (17, 5, 8), (9, 9, 1), (30, 1, 5), (7, 4, 5)]
+        {
             let mesh = mesh(disc_columns, pin_columns);
             let partition = Partition::new(&mesh, workers, Some(1));
             for step in 0..2 * disc_columns as u64 {

@@ -7,9 +7,12 @@ use thiserror::Error;
 use crate::comm::CommError;
 use crate::comm::single::Single;
 use crate::comm::threads::Threads;
+#[cfg(feature = "mpi")]
+use crate::comm::{Communicator as _, mpi::Mpi};
 use crate::contact::ContactError;
 use crate::crew::Crew;
 use crate::kernel::InstructionSet;
+use crate::mesh::Mesh;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::parameters::Parameters;
 use crate::sector::Partition;
@@ -61,7 +64,7 @@ pub enum SimulationError {
 /// How a simulation is carried out. Nothing of it shows in the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Execution {
-    /// Worker threads that share the ring, at least 1.
+    /// Workers that share the ring, at least 1: threads or, with feature `mpi`, ranks.
     pub workers: usize,
     /// Instruction set of the kernels.
     pub instructions: InstructionSet,
@@ -93,6 +96,9 @@ enum Team {
     Alone(Box<Worker<Single>>),
     /// Threads of their own.
     Crew(Crew),
+    /// This thread and, each for itself, the other ranks of an MPI job.
+    #[cfg(feature = "mpi")]
+    Rank(Box<Worker<Mpi>>),
 }
 
 /// Gives the same call to whoever does the work.
@@ -101,6 +107,8 @@ macro_rules! team {
         match &mut $simulation.team {
             Team::Alone($worker) => $call,
             Team::Crew($worker) => $call,
+            #[cfg(feature = "mpi")]
+            Team::Rank($worker) => $call,
         }
     };
 }
@@ -137,15 +145,7 @@ impl Simulation {
         columns: u64,
     ) -> Result<Self, SimulationError> {
         let mesh = &parameters.mesh;
-        if !surfaces.fits(mesh) {
-            return Err(SimulationError::Size { disc: mesh.disc_cells(), pin: mesh.pin_cells() });
-        }
-        for (surface, heights) in [("disc", &surfaces.disc_height), ("pin", &surfaces.pin_height)] {
-            let count = heights.iter().filter(|height| !height.is_finite()).count();
-            if count > 0 {
-                return Err(SimulationError::Height { surface, count });
-            }
-        }
+        check(mesh, &surfaces)?;
         // A sector has at least two columns.
         execution.workers = execution.workers.clamp(1, (mesh.disc_columns() / 2).max(1));
         let partition = Arc::new(Partition::new(mesh, execution.workers, execution.bands));
@@ -171,6 +171,28 @@ impl Simulation {
                 })?)
             };
         Ok(Self { parameters, pin_base: surfaces.pin_base, execution, team })
+    }
+
+    /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
+    ///
+    /// All ranks must make the same calls in the same order, and get the same answers. Where there are more ranks than
+    /// sectors, the last ones have no cells and only keep pace.
+    ///
+    /// # Errors
+    /// [`SimulationError`] as [`Simulation::new`].
+    #[cfg(feature = "mpi")]
+    pub fn on_ranks(
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        instructions: InstructionSet,
+        communicator: Mpi,
+    ) -> Result<Self, SimulationError> {
+        check(&parameters.mesh, &surfaces)?;
+        let execution = Execution { workers: communicator.size(), instructions, bands: None, pin: false };
+        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
+        let parameters = Arc::new(parameters);
+        let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, 0, communicator);
+        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, team: Team::Rank(Box::new(worker)) })
     }
 
     /// One step: see the table in [`crate`].
@@ -252,6 +274,8 @@ impl Simulation {
         match &self.team {
             Team::Alone(worker) => worker.course(),
             Team::Crew(crew) => crew.course(),
+            #[cfg(feature = "mpi")]
+            Team::Rank(worker) => worker.course(),
         }
     }
 
@@ -264,4 +288,18 @@ impl Simulation {
     pub fn time(&self) -> f64 {
         self.parameters.time_at(self.steps_done())
     }
+}
+
+/// Refuses surfaces that do not fit the mesh or have a height that is not finite.
+fn check(mesh: &Mesh, surfaces: &InitialSurfaces) -> Result<(), SimulationError> {
+    if !surfaces.fits(mesh) {
+        return Err(SimulationError::Size { disc: mesh.disc_cells(), pin: mesh.pin_cells() });
+    }
+    for (surface, heights) in [("disc", &surfaces.disc_height), ("pin", &surfaces.pin_height)] {
+        let count = heights.iter().filter(|height| !height.is_finite()).count();
+        if count > 0 {
+            return Err(SimulationError::Height { surface, count });
+        }
+    }
+    Ok(())
 }

@@ -45,9 +45,9 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
     let Loaded { surfaces, inputs, .. } = loaded;
-    let execution = decide(scene.workers, &arguments.execution, &scene.parameters, &surfaces).map_err(Failure::run)?;
-    let mut simulation =
-        Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
+    let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
+    let execution = execution.map_err(Failure::run)?;
+    let mut simulation = job.simulation(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
     let header = header(&scene, &simulation, &inputs, schedule.samples())?;
     job.compare(
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
@@ -189,9 +189,9 @@ impl Sink for Recorder<'_> {
         self.writer.as_mut().map_or(Ok(()), |writer| writer.snapshot(snapshot)).map_err(RunFailure::RunFile)
     }
 
-    fn look(&mut self, simulation: &Simulation) -> Result<(), RunFailure> {
+    fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, RunFailure> {
         self.progress.show(simulation);
-        let signal = self.job.agree(self.interrupt.signal()).map_err(RunFailure::Comm)?;
-        signal.map_or(Ok(()), |signal| Err(RunFailure::Stopped(signal)))
+        let (signal, steps) = self.job.agree(self.interrupt.signal(), steps).map_err(RunFailure::Comm)?;
+        signal.map_or(Ok(steps), |signal| Err(RunFailure::Stopped(signal)))
     }
 }

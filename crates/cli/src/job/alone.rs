@@ -1,6 +1,9 @@
 //! A process on its own.
 
 use plateau_core::comm::CommError;
+use plateau_core::parameters::Parameters;
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::state::InitialSurfaces;
 
 use crate::failure::Failure;
 
@@ -17,8 +20,21 @@ impl Job {
         true
     }
 
-    pub fn agree(&mut self, signal: Option<u8>) -> Result<Option<u8>, CommError> {
-        Ok(signal)
+    pub fn ranks(&self) -> usize {
+        1
+    }
+
+    pub fn simulation(
+        &self,
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+    ) -> Result<Simulation, SimulationError> {
+        Simulation::with_execution(parameters, surfaces, execution)
+    }
+
+    pub fn agree(&mut self, signal: Option<u8>, steps: u64) -> Result<(Option<u8>, u64), CommError> {
+        Ok((signal, steps))
     }
 
     pub fn compare(&mut self, _text: &str) -> Result<(), Failure> {

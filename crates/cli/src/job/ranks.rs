@@ -2,6 +2,9 @@
 
 use plateau_core::comm::mpi::{Mpi, Session};
 use plateau_core::comm::{CommError, Communicator as _};
+use plateau_core::parameters::Parameters;
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::state::InitialSurfaces;
 
 use crate::failure::Failure;
 use crate::message;
@@ -30,13 +33,35 @@ impl Job {
         self.meeting.rank() == 0
     }
 
-    /// Whether any rank was asked to stop, and by which signal; all ranks get the same answer.
-    pub fn agree(&mut self, signal: Option<u8>) -> Result<Option<u8>, CommError> {
-        let mut largest = 0;
-        self.meeting.all_gather(&[signal.unwrap_or(0).into()], &mut |_, words| {
-            largest = words.iter().copied().fold(largest, u64::max);
+    /// How many ranks there are.
+    pub fn ranks(&self) -> usize {
+        self.meeting.size()
+    }
+
+    /// The simulation that the ranks carry out together; a single rank may have threads instead.
+    pub fn simulation(
+        &self,
+        parameters: Parameters,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+    ) -> Result<Simulation, SimulationError> {
+        if self.ranks() == 1 {
+            return Simulation::with_execution(parameters, surfaces, execution);
+        }
+        Simulation::on_ranks(parameters, surfaces, execution.instructions, self.session.communicator())
+    }
+
+    /// Whether any rank was asked to stop, and by which signal; and how many steps to take before the next agreement.
+    /// Clocks differ, so the number is that of the first rank, and all ranks get the same answer.
+    pub fn agree(&mut self, signal: Option<u8>, steps: u64) -> Result<(Option<u8>, u64), CommError> {
+        let (mut largest, mut first) = (0, steps);
+        self.meeting.all_gather(&[signal.unwrap_or(0).into(), steps], &mut |rank, words| {
+            largest = largest.max(words[0]);
+            if rank == 0 {
+                first = words[1];
+            }
         })?;
-        Ok(u8::try_from(largest).ok().filter(|signal| *signal != 0))
+        Ok((u8::try_from(largest).ok().filter(|signal| *signal != 0), first))
     }
 
     /// Makes sure that all ranks are about to do the same, which `text` describes.
