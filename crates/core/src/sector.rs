@@ -38,10 +38,12 @@ pub struct Segment {
     pub pin: Range<usize>,
     /// Column within the sector under the first of them.
     pub over: usize,
+    /// Whether the sector's column before that is at rest, so that the sweep itself can read its pair of the next step.
+    pub joined: bool,
 }
 
-/// A pair that no sweep can read for the next step: a pin column that the disc's turn carries over another sector, or
-/// over a column that no pin column lies over yet.
+/// A pair that no sweep can read for the next step: of a pin column that the disc's turn carries over another sector, or
+/// over a column that is swept later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entering {
     /// Column of the pin.
@@ -189,7 +191,8 @@ impl Partition {
             }
             let Range { start, end } = self.columns(sector);
             let columns = (end - column).min(self.pin_columns - pin);
-            let segment = Segment { sector, pin: pin..pin + columns, over: column - start };
+            let joined = column > start && self.pin_columns < self.disc_columns;
+            let segment = Segment { sector, pin: pin..pin + columns, over: column - start, joined };
             pin += columns;
             sector = (sector + 1) % self.sectors();
             column = self.starts[sector];
@@ -202,9 +205,10 @@ impl Partition {
         self.segments(first).filter(move |segment| self.group(segment.sector) == group)
     }
 
-    /// What enters where: of each segment the first pin column, which in the next step lies over the disc column before.
+    /// What enters where: of each segment that is not joined the first pin column, which in the next step lies over the
+    /// disc column before.
     pub fn entering(&self, first: usize) -> impl Iterator<Item = Entering> + '_ {
-        self.segments(first).map(|Segment { sector, pin, over }| {
+        self.segments(first).filter(|segment| !segment.joined).map(|Segment { sector, pin, over, .. }| {
             if over > 0 {
                 return Entering { pin: pin.start, from: sector, sector, over: over - 1 };
             }
@@ -239,6 +243,8 @@ mod tests {
                         assert_eq!(partition.sector_of(column), segment.sector);
                     }
                     next = segment.pin.end;
+                    let is_at_rest = segment.pin.start == 0 && pin_columns < disc_columns;
+                    assert_eq!(segment.joined, is_at_rest && segment.over > 0);
                 }
                 assert_eq!(next, pin_columns);
                 for entering in partition.entering(mesh.disc_column(0, step)) {

@@ -71,7 +71,7 @@ impl<C: Communicator> Worker<C> {
         self.course.extra_readings += 1;
         self.reading.clear();
         let read = if self.needs.distinct { read::<true> } else { read::<false> };
-        for Segment { sector, pin, over } in self.partition.segments(self.first()) {
+        for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
             let span = Span { first: pin.start, over, columns: pin.len() };
             read(self.instructions, &self.pin, sector, span, bracket, &mut self.reading);
@@ -81,7 +81,7 @@ impl<C: Communicator> Worker<C> {
 
     /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin.
     fn for_each_pair(&self, mut each: impl FnMut(usize, usize, f64, usize)) {
-        for Segment { sector, pin, over } in self.partition.segments(self.first()) {
+        for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
             for (offset, column) in pin.enumerate() {
                 let pin_cells = self.pin.height.column(column).zip(self.pin.substrate_column(column));

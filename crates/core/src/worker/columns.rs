@@ -55,6 +55,11 @@ impl<C: Communicator> Worker<C> {
 
     /// Has the disc columns that enter brought near the processor while the others are swept.
     fn fetch_entering(&self, partition: &Partition, first: usize) {
+        for segment in partition.segments_of(self.group, first).filter(|segment| segment.joined) {
+            if let Some(sector) = &self.sectors[segment.sector] {
+                sector.height.fetch_column(segment.over - 1);
+            }
+        }
         for entering in partition.entering(first) {
             if let Some(sector) = &self.sectors[entering.sector] {
                 sector.height.fetch_column(entering.over);
@@ -85,7 +90,7 @@ impl<C: Communicator> Worker<C> {
             &mut self.pin,
             sector,
             span,
-            columns.start > 0,
+            columns.start > 0 || segment.joined,
             &mut self.moved,
             &mut self.reading,
         );
