@@ -238,15 +238,12 @@ impl RowWeights {
         let (counts, overlaps) = (&counts[..rows.len()], &overlaps[..rows.len()]);
         let (stiffness, area) = (self.stiffness[pair].rows(rows.clone()), self.area.rows(rows.clone()));
         let pin_loss = self.pin_loss[pair].rows(rows.clone());
-        // In two loops, so that the sums fit in registers.
         for row in 0..rows.len() {
             let overlap = overlaps[row].wrapping_sub(counts[row].wrapping_mul(anchor));
             sums.load += product(stiffness[row], overlap);
-            sums.pin_loss += product(pin_loss[row], overlap);
-        }
-        for row in 0..rows.len() {
             sums.stiffness += product(stiffness[row], counts[row]);
             sums.area += product(area[row], counts[row]);
+            sums.pin_loss += product(pin_loss[row], overlap);
             sums.pin_loss_rate += product(pin_loss[row], counts[row]);
         }
         if self.needs.disc_wears {

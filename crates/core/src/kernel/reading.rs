@@ -1,6 +1,6 @@
 //! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
 
-use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
+use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::exact::{Quantum, RowIntegers};
 use crate::pair::Pair;
@@ -41,8 +41,8 @@ pub struct Reading {
     pub near: Vec<NearPair>,
     /// The row of the mesh that is the first here.
     pub first_row: usize,
-    /// Bits of every anchored overlap together: shows any that is out of the quantum's range.
-    pub range: IntegerChunk,
+    /// The largest anchored overlaps: show any that is out of the quantum's range.
+    pub largest: Chunk,
 }
 
 impl Reading {
@@ -54,7 +54,7 @@ impl Reading {
             overlap: std::array::from_fn(rows),
             near: Vec::new(),
             first_row,
-            range: [0; LANES],
+            largest: Chunk([0.0; LANES]),
         }
     }
 
@@ -62,14 +62,18 @@ impl Reading {
     pub fn clear(&mut self) {
         self.touching.iter_mut().chain(&mut self.overlap).for_each(RowIntegers::clear);
         self.near.clear();
-        self.range = [0; LANES];
+        self.largest = Chunk([0.0; LANES]);
+    }
+
+    /// The largest of the anchored overlaps.
+    pub fn largest(&self) -> f64 {
+        self.largest.0.iter().copied().fold(0.0, f64::max)
     }
 
     /// Whether an overlap was too large for the quantum.
     pub fn is_out_of_range(&self, quantum: Quantum) -> bool {
-        // Within the range, sign and exponent are those of the anchor.
-        let range = self.range.iter().fold(0, |bits, lane| bits | lane);
-        (range | quantum.anchor_bits()) >> 52 != quantum.anchor_bits() >> 52
+        // Beyond, the last bit of an anchored overlap is worth two quanta.
+        self.largest() >= quantum.anchor() * (2.0 / 1.5)
     }
 }
 
@@ -107,7 +111,7 @@ impl<L: Lanes> BracketLanes<L> {
 pub(super) struct StripReading<L: Lanes, const DISTINCT: bool> {
     touching: [L::Integers; Pair::COUNT],
     overlap: [L::Integers; Pair::COUNT],
-    range: L::Integers,
+    largest: L,
 }
 
 impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
@@ -115,7 +119,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     #[inline(always)]
     pub fn new() -> Self {
         let zero = L::Integers::splat(0);
-        Self { touching: [zero; Pair::COUNT], overlap: [zero; Pair::COUNT], range: zero }
+        Self { touching: [zero; Pair::COUNT], overlap: [zero; Pair::COUNT], largest: L::splat(0.0) }
     }
 
     /// Reads eight pairs: gap g = z_p − z_d against the bracket.
@@ -123,8 +127,9 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     pub fn add(&mut self, gap: L, pairs: Pairs<L>, bracket: &BracketLanes<L>, strip: usize, reading: &mut Reading) {
         let beyond = gap - bracket.low;
         let touches = beyond.below(bracket.zero);
-        let overlap = (bracket.anchor - beyond).bits();
-        self.range = self.range.or_where(touches, overlap);
+        let anchored = bracket.anchor - beyond;
+        self.largest = anchored.greater(self.largest);
+        let overlap = anchored.bits();
         if DISTINCT {
             let mut pair = 0;
             while pair < Pair::COUNT {
@@ -159,8 +164,9 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     pub fn add_plateaus(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L::Mask, L::Mask) {
         let beyond = gap - bracket.low;
         let touches = beyond.below(bracket.zero);
-        let overlap = (bracket.anchor - beyond).bits();
-        self.range = self.range.or_where(touches, overlap);
+        let anchored = bracket.anchor - beyond;
+        self.largest = anchored.greater(self.largest);
+        let overlap = anchored.bits();
         self.touching[PLATEAU] = self.touching[PLATEAU].plus_where(touches, bracket.one);
         self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches, overlap);
         (touches, beyond.within(bracket.width))
@@ -179,7 +185,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             }
             pair += 1;
         }
-        self.range.or(L::Integers::load(&reading.range)).store(&mut reading.range);
+        self.largest.greater(L::load(&reading.largest)).store(&mut reading.largest);
     }
 }
 

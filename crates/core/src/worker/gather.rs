@@ -49,7 +49,7 @@ impl<C: Communicator> Worker<C> {
 }
 
 fn write_near(message: &mut Vec<u64>, reading: &Reading) {
-    message.push(reading.range.iter().fold(0, |bits, lane| bits | lane) as u64);
+    message.push(reading.largest().to_bits());
     message.push(reading.near.len() as u64);
     for near in &reading.near {
         message.extend([near.gap.to_bits(), u64::from(near.row) << 8 | u64::from(near.pair)]);
@@ -58,7 +58,7 @@ fn write_near(message: &mut Vec<u64>, reading: &Reading) {
 
 fn add_near(words: &mut impl Iterator<Item = u64>, reading: &mut Reading) {
     let mut next = || words.next().unwrap_or(0);
-    reading.range[0] |= next() as i64;
+    reading.largest.0[0] = reading.largest.0[0].max(f64::from_bits(next()));
     for _ in 0..next() {
         let (gap, cell) = (next(), next());
         reading.near.push(NearPair { gap: f64::from_bits(gap), row: (cell >> 8) as u32, pair: cell as u8 });

@@ -55,10 +55,6 @@ pub(crate) trait Integers: Copy {
     fn minus(self, other: Self) -> Self;
     /// Sums where the mask says so, else as they are.
     fn plus_where(self, mask: Self::Mask, other: Self) -> Self;
-    /// Bits of either.
-    fn or(self, other: Self) -> Self;
-    /// Bits of either, where the mask says so, else as they are.
-    fn or_where(self, mask: Self::Mask, other: Self) -> Self;
 }
 
 /// Eight double-precision numbers.

@@ -91,16 +91,6 @@ impl Integers for Words {
     fn plus_where(self, mask: Answers, other: Self) -> Self {
         Self(from_fn(|lane| if mask.0[lane] { self.0[lane].wrapping_add(other.0[lane]) } else { self.0[lane] }))
     }
-
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Self(from_fn(|lane| self.0[lane] | other.0[lane]))
-    }
-
-    #[inline(always)]
-    fn or_where(self, mask: Answers, other: Self) -> Self {
-        Self(from_fn(|lane| if mask.0[lane] { self.0[lane] | other.0[lane] } else { self.0[lane] }))
-    }
 }
 
 impl Lanes for Portable {

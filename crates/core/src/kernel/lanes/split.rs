@@ -29,7 +29,7 @@ macro_rules! split {
         splat $splat:ident, load $load:ident, store $store:ident,
         to_words $to_words:ident, to_floats $to_floats:ident, splat_words $splat_words:ident, splat_32 $splat_32:ident,
         equal_32 $equal_32:ident, add_words $add_words:ident, sub_words $sub_words:ident, and_words $and_words:ident,
-        or_words $or_words:ident, load_words $load_words:ident, store_words $store_words:ident
+        load_words $load_words:ident, store_words $store_words:ident
     ) => {
         /// Eight numbers.
         #[derive(Clone, Copy)]
@@ -114,19 +114,6 @@ macro_rules! split {
             #[inline(always)]
             fn plus_where(self, mask: $mask, other: Self) -> Self {
                 Self([$(call!($add_words(
-                    self.0[$part],
-                    $and_words($to_words(mask.0[$part]), other.0[$part])
-                ))),*])
-            }
-
-            #[inline(always)]
-            fn or(self, other: Self) -> Self {
-                Self([$(call!($or_words(self.0[$part], other.0[$part]))),*])
-            }
-
-            #[inline(always)]
-            fn or_where(self, mask: $mask, other: Self) -> Self {
-                Self([$(call!($or_words(
                     self.0[$part],
                     $and_words($to_words(mask.0[$part]), other.0[$part])
                 ))),*])
@@ -234,7 +221,7 @@ split! {
     splat _mm256_set1_pd, load _mm256_loadu_pd, store _mm256_storeu_pd,
     to_words _mm256_castpd_si256, to_floats _mm256_castsi256_pd, splat_words _mm256_set1_epi64x,
     splat_32 _mm256_set1_epi32, equal_32 _mm256_cmpeq_epi32, add_words _mm256_add_epi64, sub_words _mm256_sub_epi64,
-    and_words _mm256_and_si256, or_words _mm256_or_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
+    and_words _mm256_and_si256, load_words _mm256_loadu_si256, store_words _mm256_storeu_si256
 }
 
 split! {
@@ -246,5 +233,5 @@ split! {
     splat _mm_set1_pd, load _mm_loadu_pd, store _mm_storeu_pd,
     to_words _mm_castpd_si128, to_floats _mm_castsi128_pd, splat_words _mm_set1_epi64x,
     splat_32 _mm_set1_epi32, equal_32 _mm_cmpeq_epi32, add_words _mm_add_epi64, sub_words _mm_sub_epi64,
-    and_words _mm_and_si128, or_words _mm_or_si128, load_words _mm_loadu_si128, store_words _mm_storeu_si128
+    and_words _mm_and_si128, load_words _mm_loadu_si128, store_words _mm_storeu_si128
 }

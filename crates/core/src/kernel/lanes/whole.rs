@@ -117,16 +117,6 @@ impl Integers for Integers512 {
     fn plus_where(self, mask: Mask512, other: Self) -> Self {
         Self(call!(_mm512_mask_add_epi64(self.0, mask.0, self.0, other.0)))
     }
-
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Self(call!(_mm512_or_si512(self.0, other.0)))
-    }
-
-    #[inline(always)]
-    fn or_where(self, mask: Mask512, other: Self) -> Self {
-        Self(call!(_mm512_mask_or_epi64(self.0, mask.0, self.0, other.0)))
-    }
 }
 
 impl Lanes for Avx512 {
