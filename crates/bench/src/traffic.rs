@@ -5,8 +5,8 @@ use plateau_core::parts::Needs;
 
 /// Size of a height.
 const HEIGHT: f64 = size_of::<f64>() as f64;
-/// Size of a base.
-const BASE: f64 = 1.0;
+/// Size of a cell's bits: whether it is resin, and whether it is a plateau.
+const STATUS: f64 = 0.25;
 
 /// Bytes of one pair of cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,20 +23,20 @@ pub struct CellTraffic {
 ///
 /// | field | read | written |
 /// |---|---|---|
-/// | z_p, b_p | always | always (wear raises both) |
+/// | z_p | always | always |
+/// | b_p | where plateaus form | where plateaus form |
 /// | z_d | always | where plateaus form or the disc wears |
-/// | b_d | where the disc wears, or build-up on it differs from the coating | where the disc wears |
-/// | base | always (1 byte) | never |
+/// | b_d | where plateaus form, if the disc wears or build-up on it differs from the coating | if the disc wears |
+/// | statuses | always (2 bits) | seldom |
 ///
-/// What belongs to a row (areas, coefficients, sums) stays in the first cache and does not count. Further passes (load
-/// evaluations, gaps and stiffness that are kept) move more; that is what a step could save.
+/// What belongs to a row (areas, coefficients, sums) stays in the first cache and does not count.
 pub fn cell_traffic(needs: Needs) -> CellTraffic {
+    let Needs { distinct, disc_wears, forms, .. } = needs;
     let when = |needed: bool| if needed { HEIGHT } else { 0.0 };
-    let disc_substrate = needs.disc_wears || needs.distinct;
-    let held = 3.0 * HEIGHT + when(disc_substrate) + BASE;
+    let held = 2.0 * HEIGHT + when(forms) + when(forms && (disc_wears || distinct)) + STATUS;
     CellTraffic {
         read: held,
-        written: 2.0 * HEIGHT + when(needs.forms || needs.disc_wears) + when(needs.disc_wears),
+        written: HEIGHT + when(forms) + when(forms || disc_wears) + when(forms && disc_wears),
         held,
     }
 }
@@ -53,20 +53,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_paper_s_scene_moves_three_heights_each_way_and_a_base() {
+    fn the_paper_s_scene_moves_three_heights_each_way() {
         let needs = Needs { distinct: false, disc_wears: false, forms: true, destroys: true };
-        assert_eq!(cell_traffic(needs), CellTraffic { read: 25.0, written: 24.0, held: 25.0 });
+        assert_eq!(cell_traffic(needs), CellTraffic { read: 24.25, written: 24.0, held: 24.25 });
     }
 
     #[test]
     fn wear_alone_leaves_the_disc_as_it_is() {
         let needs = Needs { distinct: false, disc_wears: false, forms: false, destroys: false };
-        assert_eq!(cell_traffic(needs), CellTraffic { read: 25.0, written: 16.0, held: 25.0 });
+        assert_eq!(cell_traffic(needs), CellTraffic { read: 16.25, written: 8.0, held: 16.25 });
     }
 
     #[test]
     fn a_disc_that_wears_moves_its_substrate_too() {
         let needs = Needs { distinct: true, disc_wears: true, forms: true, destroys: true };
-        assert_eq!(cell_traffic(needs), CellTraffic { read: 33.0, written: 32.0, held: 33.0 });
+        assert_eq!(cell_traffic(needs), CellTraffic { read: 32.25, written: 32.0, held: 32.25 });
     }
 }

@@ -90,9 +90,16 @@ pub type StepVolume = Exact<140>;
 pub type RingSum = Exact<110>;
 
 impl<const BITS: i32> Exact<BITS> {
-    /// The nearest.
+    /// The value to the last whole unit.
+    #[inline]
     pub fn of(value: f64) -> Self {
-        Self(libm::ldexp(value, BITS) as i128)
+        // Mantissa and exponent: a conversion of the product would be a call of a routine.
+        let bits = value.abs().to_bits();
+        let exponent = (bits >> 52) as i32;
+        let mantissa = i128::from((bits & ((1 << 52) - 1)) | u64::from(exponent > 0) << 52);
+        let shift = exponent.max(1) - 1075 + BITS;
+        let size = if shift >= 0 { mantissa << shift.min(74) } else { mantissa >> (-shift).min(127) };
+        Self(if value < 0.0 { -size } else { size })
     }
 
     /// Adds another.
@@ -214,6 +221,14 @@ mod tests {
         negative.subtract(forward);
         assert_eq!(StepVolume::of_integer(negative.integer()), negative);
         assert_eq!(negative.value(), -forward.value());
+    }
+
+    #[test]
+    fn values_are_cut_to_whole_units() {
+        for value in [0.0, 1.0, -1.0, 3.25e-5, -7.1e-19, 1.9e-36, 1e-50, f64::MIN_POSITIVE, 0.5 * f64::MIN_POSITIVE] {
+            let unit = libm::ldexp(1.0, -110);
+            assert_eq!(RingSum::of(value).integer(), (value / unit).trunc() as i128, "{value:e}");
+        }
     }
 
     #[test]

@@ -21,7 +21,7 @@ use super::rules::{Conditions, Rules, StripRules};
 use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrip, PinStrips};
 
-/// Columns of a strip to which something out of the ordinary happened before the rest is swept without expecting anything.
+/// Columns of a strip with something out of the ordinary after which it is not looked for any more.
 const MOST_UNUSUAL: usize = 12;
 
 /// A sweep over a span; the flag tells whether the pair of its first pin column with the disc column before its first
@@ -89,11 +89,12 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         let (mut column, mut unusual) = (0, 0);
         while column < columns {
+            let mut end = columns;
             if !DISTINCT && unusual <= MOST_UNUSUAL {
                 let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
                 column = plain(&strip_rules, &mut strip, column, moved, reading);
+                end = columns.min(column + 1);
             }
-            let end = if !DISTINCT && unusual <= MOST_UNUSUAL { columns.min(column + 1) } else { columns };
             sweep_any::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
                 &strip_rules,
                 &mut strip,
