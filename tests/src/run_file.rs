@@ -117,6 +117,24 @@ impl RunFile {
         read.unwrap_or_else(|error| panic!("{attribute}: {error}")).to_string()
     }
 
+    /// Every attribute of the root by its name, as text.
+    pub fn attributes(&self) -> BTreeMap<String, String> {
+        let names = self.file.attr_names().expect("names of attributes");
+        let text = |name: &str| {
+            let kind = self.file.attr(name).and_then(|attribute| attribute.dtype()?.to_descriptor());
+            match kind.unwrap_or_else(|error| panic!("{name}: {error}")) {
+                TypeDescriptor::VarLenUnicode => self.text(name),
+                _ => self.number(name).to_string(),
+            }
+        };
+        names.into_iter().map(|name| (name.clone(), text(&name))).collect()
+    }
+
+    /// Shape of the chunks of a dataset.
+    pub fn chunk(&self, dataset: &str) -> Option<Vec<usize>> {
+        self.dataset(dataset).chunk()
+    }
+
     /// Every dataset of the file by its path.
     pub fn content(&self) -> BTreeMap<String, Content> {
         let mut content = BTreeMap::new();

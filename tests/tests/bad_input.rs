@@ -86,6 +86,8 @@ fn command_lines() -> Vec<Case> {
         case("set of an unknown key", &["run", "scene.toml", "--set", "mesh.row=3"], quick),
         case("no workers", &["run", "scene.toml", "--workers", "0"], quick),
         case("workers that are no number", &["run", "scene.toml", "--workers", "many"], quick),
+        case("unknown instruction set", &["run", "scene.toml", "--isa", "nonsense"], quick),
+        case("no instruction set", &["run", "scene.toml", "--isa"], quick),
     ]
 }
 
@@ -244,6 +246,7 @@ fn messages(cases: Vec<Case>) -> String {
         messages.push(format!("# {name}: plateau {}\n{message}", arguments.join(" ")));
     }
     let text = without(&messages.join("\n"), "of memory and ", " are available", "[memory]");
+    let text = without(&text, "this processor has ", "\n", "[instruction sets]");
     without(&text, "cannot be read as HDF5: ", "\n", "[what the HDF5 library says]")
 }
 

@@ -1,40 +1,205 @@
-//! Equal scenes give equal bits, whatever the number of workers.
+//! Equal scenes give equal bits, whatever the number of workers and the instruction set.
 
-use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
 
-use plateau_tests::program::{WorkingDirectory, scene};
-use plateau_tests::run_file::{Content, RunFile, differences};
+use plateau_core::kernel::InstructionSet;
+use plateau_core::observe::Sample;
+use plateau_core::parameters::{DebrisPool, Integrator, Parameters};
+use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::state::InitialSurfaces;
+use plateau_io::{scene as scene_file, surface};
+use plateau_tests::divergence::{differences, first_divergence};
+use plateau_tests::patience::within;
+use plateau_tests::program::scene;
+use plateau_tests::scenes::{random_surfaces, wear_only};
 
-/// Every dataset of a short run of `quick.toml` with these arguments.
-fn content(arguments: &[&str]) -> BTreeMap<String, Content> {
-    let directory = WorkingDirectory::new();
-    let scene = scene("quick.toml");
-    let common = ["run", &scene, "-o", "run.h5", "--set", "operation.steps=1500"];
-    let outcome = directory.plateau(common.iter().chain(arguments));
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
-    RunFile::open(directory.path("run.h5")).content()
+/// Numbers of workers: fewer and more than cores, even and odd.
+const WORKERS: [usize; 5] = [1, 2, 3, 5, 8];
+
+/// No comparison takes nearly as long, not even with 8 workers on one core; one that does hangs.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+#[derive(Clone)]
+struct Scene {
+    name: String,
+    parameters: Parameters,
+    surfaces: InitialSurfaces,
 }
 
-#[test]
-fn equal_scenes_give_equal_bits() {
-    let (one, other) = (content(&[]), content(&[]));
-    // 3 coordinates, time and map time, 23 series, 7 maps, the fibre map.
-    assert_eq!(one.len(), 36);
-    assert_eq!(differences(&one, &other), [""; 0]);
-}
+impl Scene {
+    /// `quick.toml` with changes, for so many steps.
+    fn quick(steps: u64, sets: &[&str]) -> Self {
+        let sets: Vec<String> = sets.iter().map(ToString::to_string).collect();
+        let scene = scene_file::load(Path::new(&scene("quick.toml")), &sets).expect("quick.toml");
+        let surfaces = surface::load(&scene).expect("synthetic surfaces").surfaces;
+        let parameters = Parameters { steps, ..scene.parameters };
+        Self { name: format!("quick.toml {sets:?}"), parameters, surfaces }
+    }
 
-#[test]
-fn the_number_of_workers_does_not_show() {
-    let one = content(&["--workers", "1"]);
-    for workers in ["2", "3", "auto"] {
-        assert_eq!(differences(&one, &content(&["--workers", workers])), [""; 0], "{workers} workers");
+    /// Random surfaces and plateaus on a mesh of `rows`, `disc_columns` and `pin_columns`, changed.
+    fn random([rows, disc_columns, pin_columns]: [usize; 3], change: impl FnOnce(&mut Parameters)) -> Self {
+        let mut parameters = wear_only(rows, disc_columns, pin_columns);
+        parameters.steps = 700;
+        parameters.load_tolerance = 1e-9;
+        parameters.time_acceleration = 20.0;
+        parameters.plateaus.captured_fraction = 0.5;
+        parameters.plateaus.formation = true;
+        parameters.plateaus.destruction = true;
+        change(&mut parameters);
+        let surfaces = random_surfaces(&parameters.mesh, 7);
+        Self { name: format!("{rows} rows, {disc_columns} columns, {pin_columns} under the pin"), parameters, surfaces }
+    }
+
+    fn start(&self, execution: Execution) -> Simulation {
+        Simulation::with_execution(self.parameters.clone(), self.surfaces.clone(), execution).expect("a simulation")
+    }
+
+    /// One worker with the plainest instruction set: what all others are held against.
+    fn reference(&self) -> Simulation {
+        self.start(Execution { workers: 1, instructions: InstructionSet::PORTABLE, ..Execution::default() })
+    }
+
+    /// Holds every number of workers with every instruction set against the reference, after a look whether what the
+    /// scene is for really happens in it.
+    fn is_the_same_for_all(self, happens: impl Fn(&Sample) -> bool) {
+        let mut reference = self.reference();
+        reference.advance_to(self.parameters.steps).expect("the reference");
+        let end = reference.sample().expect("its sample");
+        assert!(happens(&end), "{}: nothing to compare in {end:?}", self.name);
+        // Sectors alone with every instruction set, and the best grid of sectors and bands.
+        let best = InstructionSet::best();
+        let grids = InstructionSet::available().map(|each| (each, Some(1))).chain([(best, None)]).collect::<Vec<_>>();
+        for workers in WORKERS {
+            for (instructions, bands) in grids.clone() {
+                let grid = if bands.is_some() { "in one band" } else { "in the best bands" };
+                let variant = format!("{}, {workers} workers {grid} with {}", self.name, instructions.name());
+                let scene = self.clone();
+                let execution = Execution { workers, instructions, bands, pin: false };
+                let compare = move || first_divergence(|| scene.reference(), || scene.start(execution));
+                if let Some(divergence) = within(PATIENCE, &variant, compare) {
+                    panic!("{variant}: {divergence}");
+                }
+            }
+        }
     }
 }
 
+/// Without these, resin touches and plateaus fall only after 16 000 steps.
+const FAST: [&str; 2] = ["numerics.time_acceleration=400", "plateaus.captured_fraction=0.5"];
+
+/// Materials of their own for all that can touch, on a disc that wears.
+const OWN_MATERIALS: [&str; 7] = [
+    "materials.disc_primary.specific_wear_rate=2e-15 1/Pa",
+    "materials.disc_secondary.youngs_modulus=3e10 Pa",
+    "materials.disc_secondary.poisson_ratio=0.25",
+    "materials.disc_secondary.specific_wear_rate=4e-14 1/Pa",
+    "materials.pin_secondary.youngs_modulus=2e9 Pa",
+    "materials.pin_secondary.poisson_ratio=0.3",
+    "materials.pin_secondary.specific_wear_rate=8e-14 1/Pa",
+];
+
+fn plateaus_form_and_fall(end: &Sample) -> bool {
+    end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.returned > 0.0
+}
+
+fn the_disc_wears_too(end: &Sample) -> bool {
+    plateaus_form_and_fall(end) && end.worn_disc > 0.0
+}
+
 #[test]
-fn another_seed_gives_other_numbers() {
-    let different = differences(&content(&[]), &content(&["--set", "pin.surface.synthetic.seed=4"]));
-    for path in ["/pin/height", "/disc/height", "/series/displacement"] {
-        assert!(different.iter().any(|text| text.starts_with(path)), "{path} is not in {different:?}");
+fn the_quick_scene() {
+    Scene::quick(17_000, &[]).is_the_same_for_all(plateaus_form_and_fall);
+}
+
+#[test]
+fn one_pool_per_track() {
+    let sets = [&FAST[..], &["plateaus.debris_pool=track"]].concat();
+    Scene::quick(1500, &sets).is_the_same_for_all(plateaus_form_and_fall);
+}
+
+#[test]
+fn exponential_wear_with_materials_of_their_own() {
+    let sets = [&FAST[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
+    Scene::quick(1500, &sets).is_the_same_for_all(the_disc_wears_too);
+}
+
+#[test]
+fn explicit_wear_with_materials_of_their_own_and_one_pool_per_track() {
+    let sets = [&FAST[..], &OWN_MATERIALS, &["plateaus.debris_pool=track"]].concat();
+    Scene::quick(1500, &sets).is_the_same_for_all(the_disc_wears_too);
+}
+
+#[test]
+fn no_formation() {
+    let sets = [&FAST[..], &["plateaus.formation=false"]].concat();
+    Scene::quick(1500, &sets).is_the_same_for_all(|end| end.worn_resin > 0.0 && end.deposited_disc == 0.0);
+}
+
+#[test]
+fn no_formation_on_a_disc_that_wears() {
+    let sets = [&FAST[..], &["plateaus.formation=false", OWN_MATERIALS[0]]].concat();
+    Scene::quick(1500, &sets).is_the_same_for_all(|end| end.worn_disc > 0.0 && end.deposited_disc == 0.0);
+}
+
+#[test]
+fn no_destruction() {
+    let sets = [&FAST[..], &["plateaus.destruction=false"]].concat();
+    Scene::quick(1500, &sets).is_the_same_for_all(|end| end.deposited_pin > 0.0 && end.returned == 0.0);
+}
+
+#[test]
+fn a_time_acceleration_at_which_much_changes() {
+    let sets = ["numerics.time_acceleration=1000", "numerics.integrator=exponential", "plateaus.captured_fraction=0.9"];
+    Scene::quick(3000, &sets).is_the_same_for_all(|end| plateaus_form_and_fall(end) && end.filled_fraction > 0.2);
+}
+
+#[test]
+fn a_pin_as_wide_as_the_ring() {
+    Scene::random([9, 37, 37], |_| ()).is_the_same_for_all(plateaus_form_and_fall);
+}
+
+#[test]
+fn rows_that_fill_no_strip_and_columns_that_no_number_of_workers_divides() {
+    let change = |parameters: &mut Parameters| {
+        parameters.materials.disc_primary.specific_wear_rate = 1e-15;
+        parameters.materials.pin_secondary.specific_wear_rate = 9e-14;
+        parameters.materials.disc_secondary.youngs_modulus = 2e10;
+        parameters.plateaus.debris_pool = DebrisPool::Track;
+        parameters.integrator = Integrator::Exponential;
+    };
+    Scene::random([13, 211, 29], change).is_the_same_for_all(the_disc_wears_too);
+}
+
+#[test]
+fn rows_that_fill_no_strip_and_columns_that_are_prime_in_the_plainest_case() {
+    Scene::random([13, 211, 29], |_| ()).is_the_same_for_all(plateaus_form_and_fall);
+}
+
+#[test]
+fn a_pin_of_one_column() {
+    Scene::random([9, 31, 1], |_| ()).is_the_same_for_all(|end| end.deposited_disc > 0.0);
+}
+
+#[test]
+fn sectors_of_two_columns() {
+    Scene::random([1, 16, 5], |_| ()).is_the_same_for_all(|end| end.deposited_disc > 0.0);
+}
+
+#[test]
+fn looking_changes_nothing() {
+    for workers in [1, 3] {
+        let scene = Scene::quick(150, &[&FAST[..], &OWN_MATERIALS].concat());
+        let compare = move || {
+            let execution = Execution { workers, ..Execution::default() };
+            let mut pair = [scene.start(execution), scene.start(execution)];
+            for step in 0..150 {
+                pair[0].advance_to(step).expect("a step");
+                pair[0].sample().expect("a sample");
+                pair[0].disc().expect("a disc");
+            }
+            differences(&mut pair, 150)
+        };
+        assert_eq!(within(PATIENCE, "two simulations", compare), []);
     }
 }

@@ -73,7 +73,7 @@ pub struct ExecutionArguments {
     /// Instruction set of the kernels, for tests; the widest that the processor has unless given
     #[arg(long, value_name = "NAME", value_parser = instruction_set)]
     pub isa: Option<InstructionSet>,
-    /// Keep each worker on a core of its own
+    /// Keep each worker on a core of its own, as far as there are enough; a single worker is left free
     #[arg(long)]
     pub pin: bool,
 }
@@ -90,4 +90,6 @@ fn instruction_set(text: &str) -> Result<InstructionSet, String> {
 pub struct CheckArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
 }

@@ -14,7 +14,7 @@ use crate::message;
 /// How long each number of workers is tried.
 const TRIAL: Duration = Duration::from_millis(25);
 
-/// Steps before a trial's clock starts: threads start and caches fill.
+/// Steps before a trial's clock starts: threads start, caches fill, and the first displacement is searched from afar.
 const WARM_UP_STEPS: u64 = 200;
 
 /// Decides how a scene is carried out by `ranks` processes together, and says what is worth knowing about it. Where
@@ -71,7 +71,7 @@ fn fastest(
     let mut trials = Vec::new();
     for workers in candidates {
         let execution = Execution { workers, ..execution };
-        trials.push((time_per_step(execution, parameters, surfaces)?, workers));
+        trials.push((time_per_step(execution, parameters, surfaces, TRIAL)?, workers));
     }
     let (_, workers) = trials.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 1));
     let times: Vec<String> =
@@ -80,24 +80,27 @@ fn fastest(
     Ok(Execution { workers, ..execution })
 }
 
-/// Wall time of a step, s.
-fn time_per_step(
+/// Wall time of a step, s: measured for about as long as `trial` on the first steps of a run, after some to warm up.
+///
+/// # Errors
+/// [`SimulationError`] when these steps fail.
+pub fn time_per_step(
     execution: Execution,
     parameters: &Parameters,
     surfaces: &InitialSurfaces,
+    trial: Duration,
 ) -> Result<f64, SimulationError> {
     let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution)?;
-    simulation.advance_to(1)?;
-    // A mesh on which a step takes long needs no warming up.
-    let first = Instant::now();
-    simulation.advance_to(2)?;
-    let warm_up = if first.elapsed() * (WARM_UP_STEPS as u32) < TRIAL { WARM_UP_STEPS } else { 2 };
-    simulation.advance_to(2 + warm_up)?;
-    let (start, mut steps, mut batch) = (Instant::now(), 0, 1);
-    while start.elapsed() < TRIAL {
-        simulation.advance_to(2 + warm_up + steps + batch)?;
-        steps += batch;
+    // What comes after the end of a run is not its business.
+    let last = parameters.steps.max(1);
+    let warm_up = Instant::now();
+    while simulation.steps_done() < WARM_UP_STEPS.min(last / 2) && warm_up.elapsed() < trial {
+        simulation.advance()?;
+    }
+    let (start, before, mut batch) = (Instant::now(), simulation.steps_done(), 1);
+    while simulation.steps_done() < last && start.elapsed() < trial {
+        simulation.advance_to(last.min(simulation.steps_done() + batch))?;
         batch *= 2;
     }
-    Ok(start.elapsed().as_secs_f64() / steps as f64)
+    Ok(start.elapsed().as_secs_f64() / (simulation.steps_done() - before) as f64)
 }

@@ -6,8 +6,8 @@ use std::thread::JoinHandle;
 
 use crossbeam::channel::{Receiver, Sender, unbounded};
 
-use crate::comm::CommError;
-use crate::comm::threads::{Alarm, Threads};
+use crate::comm::threads::Alarm;
+use crate::comm::{CommError, Communicator};
 use crate::observe::{Map, Sample, Snapshot};
 use crate::simulation::SimulationError;
 use crate::worker::{Course, Worker};
@@ -38,14 +38,23 @@ pub(crate) struct Crew {
     answers: Receiver<Result<Answer, SimulationError>>,
     threads: Vec<JoinHandle<()>>,
     course: Course,
+    /// Why there are no more answers.
+    failure: Option<SimulationError>,
 }
 
 impl Crew {
     /// Starts a thread for each worker; with `pin` each stays on a core of its own as far as there are enough.
-    pub fn start(workers: Vec<(Worker<Threads>, Alarm)>, pin: bool) -> std::io::Result<Self> {
+    ///
+    /// # Errors
+    /// What the system says when it gives no more threads.
+    pub fn start<C: Communicator + Send + 'static>(
+        workers: Vec<(Worker<C>, Alarm)>,
+        pin: bool,
+    ) -> std::io::Result<Self> {
         let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
         let (answer, answers) = unbounded();
-        let mut crew = Self { orders: Vec::new(), answers, threads: Vec::new(), course: Course::default() };
+        let (orders, threads) = (Vec::new(), Vec::new());
+        let mut crew = Self { orders, answers, threads, course: Course::default(), failure: None };
         for (rank, (worker, alarm)) in workers.into_iter().enumerate() {
             let (order, orders) = unbounded();
             let answer = (rank == 0).then(|| answer.clone());
@@ -62,13 +71,19 @@ impl Crew {
         Ok(crew)
     }
 
+    /// Has all workers follow an order; once they could not, the reason is all there is to be had.
     fn ask(&mut self, order: &Order) -> Result<Answer, SimulationError> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.clone());
+        }
         for worker in &self.orders {
             // Who does not listen any more has failed, which the first worker will notice.
             let _ = worker.send(order.clone());
         }
         let gone = || CommError::Worker { worker: 0, message: "it ended before its time".into() };
-        self.answers.recv().map_err(|_| gone())?
+        let answer = self.answers.recv().unwrap_or_else(|_| Err(gone().into()));
+        self.failure = answer.as_ref().err().cloned();
+        answer
     }
 
     /// Takes steps until `step` of them are done.
@@ -114,9 +129,9 @@ impl Drop for Crew {
 }
 
 /// A thread's life: follows orders until there are no more, or one cannot be followed.
-fn work(
+fn work<C: Communicator>(
     rank: usize,
-    mut worker: Worker<Threads>,
+    mut worker: Worker<C>,
     alarm: &Alarm,
     orders: &Receiver<Order>,
     answers: Option<&Sender<Result<Answer, SimulationError>>>,
@@ -138,7 +153,7 @@ fn work(
     }
 }
 
-fn follow(worker: &mut Worker<Threads>, order: &Order) -> Result<Answer, SimulationError> {
+fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answer, SimulationError> {
     match order {
         Order::AdvanceTo(step) => worker.advance_to(*step).map(|()| Answer::Course(worker.course())),
         Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
@@ -150,3 +165,6 @@ fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".into())
 }
+
+#[cfg(test)]
+mod tests;

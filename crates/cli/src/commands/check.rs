@@ -1,17 +1,18 @@
 //! `plateau check`: what a scene resolves to, what it needs and what it will cost, without running it.
 
 use std::fmt::Write as _;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use plateau_core::parts::{Part, parts};
 use plateau_core::schedule::Schedule;
-use plateau_core::simulation::Simulation;
+use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::{memory_estimate, recipe::Scene};
-use plateau_io::surface;
+use plateau_io::surface::{self, Loaded};
 use serde::Serialize;
 
 use super::load_scene;
 use crate::arguments::CheckArguments;
+use crate::execution::{decide, time_per_step};
 use crate::failure::Failure;
 use crate::message;
 use crate::number;
@@ -26,9 +27,14 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
-    let simulation = Simulation::new(scene.parameters.clone(), loaded.surfaces).map_err(Failure::input)?;
-    let seconds_per_step = trial(simulation)?;
-    let check = Check::new(&scene, loaded.report, &parts, seconds_per_step);
+    let Loaded { surfaces, report, .. } = loaded;
+    let decided = decide(scene.workers, 1, &arguments.execution, &scene.parameters, &surfaces).map_err(Failure::run)?;
+    // A ring of few columns has no work for many workers.
+    let simulation = Simulation::with_execution(scene.parameters.clone(), surfaces.clone(), decided);
+    let execution = simulation.map_err(Failure::input)?.execution();
+    let measured = time_per_step(execution, &scene.parameters, &surfaces, TRIAL);
+    let seconds_per_step = measured.map_err(Failure::run)?;
+    let check = Check::new(&scene, report, &parts, execution, seconds_per_step);
     stability::warn(&scene.parameters);
     if scene.output.file.exists() {
         message::warning(format_args!(
@@ -42,20 +48,6 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     } else {
         print(&check.to_text())
     }
-}
-
-/// Seconds per step, measured on the first steps.
-fn trial(mut simulation: Simulation) -> Result<f64, Failure> {
-    let steps = simulation.parameters().steps;
-    // The first step searches its displacement from afar and is not typical.
-    if steps > 1 {
-        simulation.advance().map_err(Failure::run)?;
-    }
-    let (start, before) = (Instant::now(), simulation.steps_done());
-    while simulation.steps_done() < steps && start.elapsed() < TRIAL {
-        simulation.advance().map_err(Failure::run)?;
-    }
-    Ok(start.elapsed().as_secs_f64() / (simulation.steps_done() - before) as f64)
 }
 
 /// What `plateau check` reports.
@@ -76,6 +68,8 @@ struct Check {
     samples: u64,
     maps: usize,
     memory: u64,
+    workers: usize,
+    instruction_set: &'static str,
     estimated_time: f64,
     stiffness_number: f64,
     warns_of_stiffness: bool,
@@ -91,7 +85,7 @@ struct Reasoned {
 }
 
 impl Check {
-    fn new(scene: &Scene, surfaces: Vec<String>, parts: &[Part], seconds_per_step: f64) -> Self {
+    fn new(scene: &Scene, surfaces: Vec<String>, parts: &[Part], execution: Execution, seconds_per_step: f64) -> Self {
         let parameters = &scene.parameters;
         let mesh = &parameters.mesh;
         let schedule = Schedule::new(parameters, scene.output.sample_every, &scene.output.maps_at);
@@ -99,6 +93,8 @@ impl Check {
             .iter()
             .map(|part| (part.needed, Reasoned { part: part.name.into(), reason: part.reason.into() }))
             .collect();
+        let workers = Reasoned { part: "several workers".into(), reason: format!("workers = {}", execution.workers) };
+        reasoned.push((execution.workers > 1, workers));
         reasoned.extend(plateau_core::observe::Map::ALL.map(|map| {
             let asked = scene.output.maps.contains(&map);
             let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
@@ -122,6 +118,8 @@ impl Check {
             samples: schedule.samples(),
             maps: if scene.output.maps.is_empty() { 0 } else { schedule.maps() },
             memory: memory_estimate(scene),
+            workers: execution.workers,
+            instruction_set: execution.instructions.name(),
             estimated_time: seconds_per_step * parameters.steps as f64,
             stiffness_number,
             warns_of_stiffness: stability::is_doubtful(parameters),
@@ -165,6 +163,7 @@ impl Check {
             ("output", format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps)),
             ("stiffness number", stiffness),
             ("memory for cells and maps", number::bytes(self.memory)),
+            ("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)),
             ("estimated time", format!("{} (from a short trial)", number::duration(self.estimated_time))),
         ];
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());

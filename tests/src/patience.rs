@@ -1,0 +1,47 @@
+//! What must not hang: it ends in time, or the test does.
+
+use std::panic::resume_unwind;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// Does something on a thread of its own and gives what it gives.
+///
+/// # Panics
+/// When it takes longer than `patience`, or panics itself.
+pub fn within<T: Send + 'static>(patience: Duration, what: &str, work: impl FnOnce() -> T + Send + 'static) -> T {
+    let (done, result) = channel();
+    let thread = std::thread::spawn(move || {
+        // Nobody waits any more when it took too long.
+        let _ = done.send(work());
+    });
+    match result.recv_timeout(patience) {
+        Ok(result) => result,
+        Err(RecvTimeoutError::Timeout) => panic!("{what}: no end within {patience:?}"),
+        Err(RecvTimeoutError::Disconnected) => match thread.join() {
+            Err(panic) => resume_unwind(panic),
+            Ok(()) => panic!("{what}: no result"),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_ends_in_time_is_heard() {
+        assert_eq!(within(Duration::from_secs(60), "a sum", || 2 + 2), 4);
+    }
+
+    #[test]
+    #[should_panic(expected = "a nap: no end within 10ms")]
+    fn who_takes_too_long_is_named() {
+        within(Duration::from_millis(10), "a nap", || std::thread::sleep(Duration::from_secs(5)));
+    }
+
+    #[test]
+    #[should_panic(expected = "out of paper")]
+    fn a_panic_goes_on() {
+        within(Duration::from_secs(60), "a panic", || panic!("out of paper"));
+    }
+}
