@@ -114,7 +114,8 @@ fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
         let instructions = InstructionSet::PORTABLE;
         (Worker::new(parameters.clone(), &surfaces, partition.clone(), instructions, 0, faulty), alarm)
     };
-    let threads = Threads::connect(WORKERS, partition.sectors() * partition.bands(), PinStrips::crossing_words(mesh.rows()));
+    let threads =
+        Threads::connect(WORKERS, partition.sectors() * partition.bands(), PinStrips::crossing_words(mesh.rows()));
     let workers = threads.into_iter().map(worker).collect();
     (Crew::start(workers, false).unwrap(), alive)
 }
