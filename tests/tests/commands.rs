@@ -145,6 +145,56 @@ fn a_check_tells_what_a_run_takes() {
 }
 
 #[test]
+fn a_check_lists_every_part_that_a_scene_can_do_without() {
+    let parts = |arguments: &[&str], list: &str| -> Vec<String> {
+        let directory = WorkingDirectory::new();
+        let quick = scene("quick.toml");
+        let outcome = directory.plateau(["check", &quick, "--json"].iter().chain(arguments));
+        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
+        let parts = report[list].as_array().unwrap().iter();
+        parts.map(|part| part["part"].as_str().unwrap().to_owned()).collect()
+    };
+    let optional = [
+        "wear of plateaus on the pin",
+        "wear of the resin",
+        "wear of the disc",
+        "formation of plateaus",
+        "destruction of plateaus",
+        "properties of their own for build-ups",
+        "one debris pool per track",
+        "exponential wear",
+        "time acceleration",
+        "several workers",
+        "map disc_height",
+        "map disc_substrate",
+        "map disc_status",
+        "map pin_height",
+        "map pin_substrate",
+        "map pin_status",
+        "map pressure",
+    ];
+    let least = [
+        "materials.pin_primary.specific_wear_rate=0 1/Pa",
+        "pin.base.uniform=primary",
+        "plateaus.formation=false",
+        "numerics.time_acceleration=1",
+        "output.maps=[]",
+    ];
+    let least: Vec<&str> = least.iter().flat_map(|set| ["--set", set]).collect();
+    assert_eq!((parts(&least, "left_out"), parts(&least, "needed")), (optional.map(str::to_owned).to_vec(), vec![]));
+    let most = [
+        "materials.disc_primary.specific_wear_rate=1e-16 1/Pa",
+        "materials.pin_secondary.youngs_modulus=2e9 Pa",
+        "plateaus.debris_pool=track",
+        "numerics.integrator=exponential",
+        "numerics.workers=2",
+    ];
+    let most: Vec<&str> = most.iter().flat_map(|set| ["--set", set]).collect();
+    assert_eq!((parts(&most, "needed"), parts(&most, "left_out")), (optional.map(str::to_owned).to_vec(), vec![]));
+}
+
+#[test]
 fn a_check_warns_of_large_stiffness_numbers_of_the_explicit_rule() {
     let directory = WorkingDirectory::new();
     let check = |acceleration: &str, integrator: &str| -> (f64, String) {

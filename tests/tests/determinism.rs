@@ -62,7 +62,7 @@ impl Scene {
 
     /// Holds every number of workers with every instruction set against the reference, after a look whether what the
     /// scene is for really happens in it.
-    fn is_the_same_for_all(self, happens: impl Fn(&Sample) -> bool) {
+    fn agrees_for_all(self, happens: impl Fn(&Sample) -> bool) {
         let mut reference = self.reference();
         reference.advance_to(self.parameters.steps).expect("the reference");
         let end = reference.sample().expect("its sample");
@@ -109,54 +109,54 @@ fn the_disc_wears_too(end: &Sample) -> bool {
 
 #[test]
 fn the_quick_scene() {
-    Scene::quick(17_000, &[]).is_the_same_for_all(plateaus_form_and_fall);
+    Scene::quick(17_000, &[]).agrees_for_all(plateaus_form_and_fall);
 }
 
 #[test]
 fn one_pool_per_track() {
     let sets = [&FAST[..], &["plateaus.debris_pool=track"]].concat();
-    Scene::quick(1500, &sets).is_the_same_for_all(plateaus_form_and_fall);
+    Scene::quick(1500, &sets).agrees_for_all(plateaus_form_and_fall);
 }
 
 #[test]
 fn exponential_wear_with_materials_of_their_own() {
     let sets = [&FAST[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
-    Scene::quick(1500, &sets).is_the_same_for_all(the_disc_wears_too);
+    Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 
 #[test]
 fn explicit_wear_with_materials_of_their_own_and_one_pool_per_track() {
     let sets = [&FAST[..], &OWN_MATERIALS, &["plateaus.debris_pool=track"]].concat();
-    Scene::quick(1500, &sets).is_the_same_for_all(the_disc_wears_too);
+    Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 
 #[test]
 fn no_formation() {
     let sets = [&FAST[..], &["plateaus.formation=false"]].concat();
-    Scene::quick(1500, &sets).is_the_same_for_all(|end| end.worn_resin > 0.0 && end.deposited_disc == 0.0);
+    Scene::quick(1500, &sets).agrees_for_all(|end| end.worn_resin > 0.0 && end.deposited_disc == 0.0);
 }
 
 #[test]
 fn no_formation_on_a_disc_that_wears() {
     let sets = [&FAST[..], &["plateaus.formation=false", OWN_MATERIALS[0]]].concat();
-    Scene::quick(1500, &sets).is_the_same_for_all(|end| end.worn_disc > 0.0 && end.deposited_disc == 0.0);
+    Scene::quick(1500, &sets).agrees_for_all(|end| end.worn_disc > 0.0 && end.deposited_disc == 0.0);
 }
 
 #[test]
 fn no_destruction() {
     let sets = [&FAST[..], &["plateaus.destruction=false"]].concat();
-    Scene::quick(1500, &sets).is_the_same_for_all(|end| end.deposited_pin > 0.0 && end.returned == 0.0);
+    Scene::quick(1500, &sets).agrees_for_all(|end| end.deposited_pin > 0.0 && end.returned == 0.0);
 }
 
 #[test]
 fn a_time_acceleration_at_which_much_changes() {
     let sets = ["numerics.time_acceleration=1000", "numerics.integrator=exponential", "plateaus.captured_fraction=0.9"];
-    Scene::quick(3000, &sets).is_the_same_for_all(|end| plateaus_form_and_fall(end) && end.filled_fraction > 0.2);
+    Scene::quick(3000, &sets).agrees_for_all(|end| plateaus_form_and_fall(end) && end.filled_fraction > 0.2);
 }
 
 #[test]
 fn a_pin_as_wide_as_the_ring() {
-    Scene::random([9, 37, 37], |_| ()).is_the_same_for_all(plateaus_form_and_fall);
+    Scene::random([9, 37, 37], |_| ()).agrees_for_all(plateaus_form_and_fall);
 }
 
 #[test]
@@ -168,22 +168,22 @@ fn rows_that_fill_no_strip_and_columns_that_no_number_of_workers_divides() {
         parameters.plateaus.debris_pool = DebrisPool::Track;
         parameters.integrator = Integrator::Exponential;
     };
-    Scene::random([13, 211, 29], change).is_the_same_for_all(the_disc_wears_too);
+    Scene::random([13, 211, 29], change).agrees_for_all(the_disc_wears_too);
 }
 
 #[test]
 fn rows_that_fill_no_strip_and_columns_that_are_prime_in_the_plainest_case() {
-    Scene::random([13, 211, 29], |_| ()).is_the_same_for_all(plateaus_form_and_fall);
+    Scene::random([13, 211, 29], |_| ()).agrees_for_all(plateaus_form_and_fall);
 }
 
 #[test]
 fn a_pin_of_one_column() {
-    Scene::random([9, 31, 1], |_| ()).is_the_same_for_all(|end| end.deposited_disc > 0.0);
+    Scene::random([9, 31, 1], |_| ()).agrees_for_all(|end| end.deposited_disc > 0.0);
 }
 
 #[test]
 fn sectors_of_two_columns() {
-    Scene::random([1, 16, 5], |_| ()).is_the_same_for_all(|end| end.deposited_disc > 0.0);
+    Scene::random([1, 16, 5], |_| ()).agrees_for_all(|end| end.deposited_disc > 0.0);
 }
 
 #[test]
