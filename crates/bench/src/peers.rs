@@ -15,19 +15,22 @@ use crate::stepper::{Setup, Stepper};
 
 /// How a peer is called by step.py, and by people.
 const PEERS: [(&str, &str); 2] = [("numba", "Numba loops"), ("numpy", "NumPy arrays")];
-/// Largest accepted difference over the largest value. The load tolerance leaves the displacement undetermined by about
-/// as much of the overlap, rounding by far less.
+/// Largest accepted difference over the largest value.
 const TOLERANCE: f64 = 1e-9;
 
 /// Time acceleration of a second comparison: build-ups are worn through in a step, which hardly happens at 1.
 const FAST: &str = "numerics.time_acceleration=1000";
+
+/// Load tolerance of the comparisons: ours is solved exactly, and an error of theirs decides which clearances are filled.
+const EXACT: &str = "contact.load_tolerance=1e-14";
 
 /// Checks that the peers compute the same, measures and reports.
 pub fn peers(options: Options) -> Result<(), BenchError> {
     let mut session = options.begin(Benchmark::Peers)?;
     let mesh = session.mesh;
     // A scene that the peers do not compute is refused before anything is installed for it.
-    let fast = Reference::new(&session.source.with([FAST.to_owned()]).case()?)?;
+    let fast = Reference::new(&session.source.with([FAST, EXACT].map(str::to_owned)).case()?)?;
+    let exact = Reference::new(&session.source.with([EXACT.to_owned()]).case()?)?;
     let scene = Reference::new(&session.source.case()?)?;
     let python = python()?;
 
@@ -41,8 +44,10 @@ pub fn peers(options: Options) -> Result<(), BenchError> {
             }
             started => session.document.agreements.push(fast.agreement(&mut started?, name)?),
         }
+        session.document.agreements.push(exact.agreement(&mut exact.start(&python, kind)?, name)?);
+        // What is timed has made as many steps as ours.
         let mut peer = scene.start(&python, kind)?;
-        session.document.agreements.push(scene.agreement(&mut peer, name)?);
+        peer.trace(scene.steps)?;
         peers.push((name, peer));
     }
 
