@@ -71,7 +71,8 @@ fn fastest(
     let mut trials = Vec::new();
     for workers in candidates {
         let execution = Execution { workers, ..execution };
-        trials.push((time_per_step(execution, parameters, surfaces, TRIAL)?, workers));
+        let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution)?;
+        trials.push((time_per_step(&mut simulation, TRIAL)?, workers));
     }
     let (_, workers) = trials.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 1));
     let times: Vec<String> =
@@ -80,19 +81,13 @@ fn fastest(
     Ok(Execution { workers, ..execution })
 }
 
-/// Wall time of a step, s: measured for about as long as `trial` on the first steps of a run, after some to warm up.
+/// Wall time of a step, s: measured for about as long as `trial` on the first steps of a simulation, after some to warm up.
 ///
 /// # Errors
 /// [`SimulationError`] when these steps fail.
-pub fn time_per_step(
-    execution: Execution,
-    parameters: &Parameters,
-    surfaces: &InitialSurfaces,
-    trial: Duration,
-) -> Result<f64, SimulationError> {
-    let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution)?;
+pub fn time_per_step(simulation: &mut Simulation, trial: Duration) -> Result<f64, SimulationError> {
     // What comes after the end of a run is not its business.
-    let last = parameters.steps.max(1);
+    let last = simulation.parameters().steps.max(1);
     let warm_up = Instant::now();
     while simulation.steps_done() < WARM_UP_STEPS.min(last / 2) && warm_up.elapsed() < trial {
         simulation.advance()?;

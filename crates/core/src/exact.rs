@@ -173,6 +173,17 @@ impl Weights {
     }
 }
 
+/// An exact sum as words of a message.
+pub fn words(sum: i128) -> [u64; 2] {
+    [sum as u64, (sum >> 64) as u64]
+}
+
+/// An exact sum from the next two words of a message.
+pub fn of_words(words: &mut impl Iterator<Item = u64>) -> i128 {
+    let (low, high) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
+    ((u128::from(high) << 64) | u128::from(low)) as i128
+}
+
 /// weight · count.
 #[inline(always)]
 pub fn product(weight: i64, count: i64) -> i128 {

@@ -83,7 +83,7 @@ impl Filling {
 
     fn measure(&mut self, area: &[f64], sector: &DiscSector, column: usize) {
         let mut measured = (RingSum::default(), RingSum::default());
-        let substrate = sector.substrate.as_ref().unwrap_or(&sector.height);
+        let substrate = sector.substrate();
         // Strip by strip: a sum over all rows would be rounded otherwise where they are shared among workers.
         for (strip, area) in area.chunks(LANES).enumerate() {
             let (heights, substrates) = (&sector.height.chunk(strip, column).0, &substrate.chunk(strip, column).0);

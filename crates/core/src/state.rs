@@ -31,11 +31,6 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Disc before the first step: no build-up anywhere.
-    pub fn new(height: Vec<f64>) -> Self {
-        Self { substrate: height.clone(), height }
-    }
-
     /// Status of every cell, column by column: secondary where the surface stands above the substrate.
     pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
         let cells = self.height.iter().zip(&self.substrate);
@@ -52,24 +47,6 @@ pub struct Pin {
     pub substrate: Vec<f64>,
     /// Resin or fibre.
     pub base: Vec<Base>,
-}
-
-impl Pin {
-    /// Pin before the first step: no build-up anywhere.
-    ///
-    /// # Panics
-    /// When the two fields differ in length.
-    pub fn new(height: Vec<f64>, base: Vec<Base>) -> Self {
-        assert_eq!(height.len(), base.len(), "heights and bases of the pin");
-        Self { substrate: height.clone(), height, base }
-    }
-
-    /// Status of every cell, column by column: secondary where debris stands out of the substrate toward the disc,
-    /// else its base.
-    pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
-        let cells = self.height.iter().zip(&self.substrate).zip(&self.base);
-        cells.map(|((height, substrate), base)| pin_status(*height, *substrate, base.is_resin()))
-    }
 }
 
 /// Status of a disc cell: secondary where the surface stands above the substrate.

@@ -169,9 +169,9 @@ impl PinStrips {
         self.resin(row / LANES)[column] >> (row % LANES) & 1 == 1
     }
 
-    /// The rows of a column of b_p.
-    pub fn substrate_column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
-        self.substrate.as_ref().unwrap_or(&self.height).column(column)
+    /// b_p, m, kept or not.
+    pub fn substrate(&self) -> &Strips {
+        self.substrate.as_ref().unwrap_or(&self.height)
     }
 
     /// Words of a column of so many rows on its way to another worker: see [`PinStrips::write_crossing`].
@@ -183,7 +183,7 @@ impl PinStrips {
     /// the next column is all that the other worker needs of it.
     pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
         words.clear();
-        let substrate = self.substrate.as_ref().unwrap_or(&self.height);
+        let substrate = self.substrate();
         for strip in 0..self.height.strips() {
             words.extend_from_slice(&self.height.strip(strip)[column].0.map(f64::to_bits));
             words.extend_from_slice(&substrate.strip(strip)[column].0.map(f64::to_bits));
@@ -238,9 +238,9 @@ impl DiscSector {
         (self.height.strip_mut(strip), substrate)
     }
 
-    /// The rows of a column of b_d.
-    pub fn substrate_column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
-        self.substrate.as_ref().unwrap_or(&self.height).column(column)
+    /// b_d, m, kept or not.
+    pub fn substrate(&self) -> &Strips {
+        self.substrate.as_ref().unwrap_or(&self.height)
     }
 }
 
@@ -265,7 +265,7 @@ mod tests {
         assert_eq!(words.len(), PinStrips::crossing_words(11));
         to.read_crossing(1, &words);
         assert!(to.height.column(1).eq([7.0; 11]));
-        assert!(to.substrate_column(1).eq((11..22).map(f64::from)));
+        assert!(to.substrate().column(1).eq((11..22).map(f64::from)));
         let statuses: Vec<bool> =
             (0..11).map(|row| to.strip_mut(row / LANES, 2..3).plateau[0] >> (row % LANES) & 1 == 1).collect();
         assert_eq!(statuses, (0..11).map(plateau).collect::<Vec<_>>());

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::exact::{RowIntegers, StepVolume, Weights, product};
+use crate::exact::{RowIntegers, StepVolume, Weights, of_words, product, words};
 use crate::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
 use crate::mesh::Mesh;
 use crate::pair::{Coefficients, Pair, Table};
@@ -66,11 +66,12 @@ impl RowWeights {
         pool * rows..(pool + 1) * rows
     }
 
-    /// Those of the worker's rows that share a pool.
-    fn own_rows_of(&self, pool: usize) -> Range<usize> {
+    /// Those of the worker's rows that share a pool: as rows of the mesh, and as the worker counts them.
+    fn own_rows_of(&self, pool: usize) -> (Range<usize>, Range<usize>) {
         let Range { start, end } = self.rows_of(pool);
         let start = start.clamp(self.own.start, self.own.end);
-        start..end.clamp(start, self.own.end)
+        let end = end.clamp(start, self.own.end);
+        (start..end, start - self.own.start..end - self.own.start)
     }
 
     /// k A of a pair, N/m.
@@ -143,8 +144,7 @@ impl Sums {
     pub fn take_reading(&mut self, weights: &RowWeights, reading: &Reading, bracket: &Bracket) {
         let anchor = bracket.quantum.anchor_bits();
         for (pool, sums) in self.pools.iter_mut().enumerate() {
-            let rows = weights.own_rows_of(pool);
-            let here = rows.start - weights.own.start..rows.end - weights.own.start;
+            let (rows, here) = weights.own_rows_of(pool);
             for pair in weights.pairs {
                 let counts = reading.touching[*pair].rows(here.clone());
                 // Statuses that touch nowhere, as resin mostly, cost nothing.
@@ -162,8 +162,7 @@ impl Sums {
     /// Takes the sums of what a sweep moved.
     pub fn take_moved(&mut self, weights: &RowWeights, moved: &Moved) {
         for (pool, sums) in self.pools.iter_mut().enumerate() {
-            let rows = weights.own_rows_of(pool);
-            let here = rows.start - weights.own.start..rows.end - weights.own.start;
+            let (rows, here) = weights.own_rows_of(pool);
             let sum = |counts: &RowIntegers| weights.area.sum(rows.clone(), counts.rows(here.clone()));
             if weights.needs.forms {
                 sums.deposited_pin = sum(&moved.deposited_pin);
@@ -188,7 +187,7 @@ impl Sums {
         for sums in &mut self.pools {
             for pair in weights.pairs {
                 if words.next() == Some(1) {
-                    sums.pairs[*pair].each().into_iter().for_each(|sum| *sum += next(words));
+                    sums.pairs[*pair].each().into_iter().for_each(|sum| *sum += of_words(words));
                 }
             }
         }
@@ -199,9 +198,9 @@ impl Sums {
         for sums in &mut self.pools {
             let moved =
                 [&mut sums.deposited_pin, &mut sums.deposited_disc, &mut sums.spared_pin, &mut sums.spared_disc];
-            moved.into_iter().for_each(|sum| *sum += next(words));
-            sums.returned.add(StepVolume::of_integer(next(words)));
-            sums.spared_resin.add(StepVolume::of_integer(next(words)));
+            moved.into_iter().for_each(|sum| *sum += of_words(words));
+            sums.returned.add(StepVolume::of_integer(of_words(words)));
+            sums.spared_resin.add(StepVolume::of_integer(of_words(words)));
         }
     }
 
@@ -263,13 +262,4 @@ impl PairSums {
         let Self { load, stiffness, area, pin_loss, pin_loss_rate, disc_loss, disc_loss_rate } = self;
         [load, stiffness, area, pin_loss, pin_loss_rate, disc_loss, disc_loss_rate]
     }
-}
-
-fn words(sum: i128) -> [u64; 2] {
-    [sum as u64, (sum >> 64) as u64]
-}
-
-fn next(words: &mut impl Iterator<Item = u64>) -> i128 {
-    let (low, high) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
-    ((u128::from(high) << 64) | u128::from(low)) as i128
 }

@@ -29,12 +29,11 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
     let Loaded { surfaces, report, .. } = loaded;
     let decided = decide(scene.workers, 1, &arguments.execution, &scene.parameters, &surfaces).map_err(Failure::run)?;
-    // A ring of few columns has no work for many workers.
-    let simulation = Simulation::with_execution(scene.parameters.clone(), surfaces.clone(), decided);
-    let execution = simulation.map_err(Failure::input)?.execution();
-    let measured = time_per_step(execution, &scene.parameters, &surfaces, TRIAL);
-    let seconds_per_step = measured.map_err(Failure::run)?;
-    let check = Check::new(&scene, report, &parts, execution, seconds_per_step);
+    let mut simulation =
+        Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
+    let seconds_per_step = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;
+    // A ring of few columns has no work for many workers: what there are, the simulation knows.
+    let check = Check::new(&scene, report, &parts, simulation.execution(), seconds_per_step);
     stability::warn(&scene.parameters);
     if scene.output.file.exists() {
         message::warning(format_args!(

@@ -17,7 +17,7 @@ mod sweep;
 pub use instructions::InstructionSet;
 pub use lanes::{Chunk, IntegerChunk, LANES};
 pub use moved::{Moved, SeldomEvent};
-pub use read::{Span, read};
+pub use read::{Read, Span, read};
 pub use reading::{Bracket, NearPair, Reading, told_apart};
 pub use rules::{Conditions, Rules};
 pub use sweep::{Sweep, sweep};

@@ -1,6 +1,6 @@
 //! Statuses of eight pairs of cells, and the coefficients that belong to them.
 
-use super::lanes::{Chunk, Lanes};
+use super::lanes::{Chunk, LANES, Lanes};
 use crate::pair::{Pair, Table};
 use crate::strips::chunks;
 
@@ -17,21 +17,16 @@ impl ChunkTable {
     /// Each pair's entries in a strip.
     #[inline(always)]
     pub(super) fn strip<L: Lanes>(&self, strip: usize) -> Entries<L> {
+        // Without a closure, which would be compiled without the instruction set.
         let [a, b, c, d, e, f] = &self.0;
-        Entries([&a[strip], &b[strip], &c[strip], &d[strip], &e[strip], &f[strip]].map_lanes())
-    }
-}
-
-/// Loads without a closure, which would be compiled without the instruction set.
-trait MapLanes<L> {
-    fn map_lanes(self) -> [L; Pair::COUNT];
-}
-
-impl<L: Lanes> MapLanes<L> for [&Chunk; Pair::COUNT] {
-    #[inline(always)]
-    fn map_lanes(self) -> [L; Pair::COUNT] {
-        let [a, b, c, d, e, f] = self;
-        [L::load(a), L::load(b), L::load(c), L::load(d), L::load(e), L::load(f)]
+        Entries([
+            L::load(&a[strip]),
+            L::load(&b[strip]),
+            L::load(&c[strip]),
+            L::load(&d[strip]),
+            L::load(&e[strip]),
+            L::load(&f[strip]),
+        ])
     }
 }
 
@@ -113,5 +108,5 @@ pub(super) fn pair_of_lane(lane: usize, distinct: bool, [on_resin, pin_secondary
 
 /// The lanes whose bit is set.
 pub(super) fn lanes_of(byte: u8) -> impl Iterator<Item = usize> {
-    (0..8).filter(move |lane| byte >> lane & 1 == 1)
+    (0..LANES).filter(move |lane| byte >> lane & 1 == 1)
 }

@@ -1,9 +1,10 @@
 //! Reads columns of pairs against a bracket, without changing them (model 4.1).
 
-use super::instructions::kernel;
+use super::instructions::{InstructionSet, kernel};
 use super::lanes::{Lanes, Mask};
 use super::pairs::Pairs;
 use super::reading::{Bracket, BracketLanes, Reading, StripReading};
+use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
 
 /// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
@@ -17,9 +18,17 @@ pub struct Span {
     pub columns: usize,
 }
 
+/// Reads the pairs of a span against a bracket.
+pub type Read = fn(InstructionSet, &PinStrips, &DiscSector, Span, &Bracket, &mut Reading);
+
+/// The reading that looks at what a scene needs and nothing else; chosen once per run.
+pub fn read(needs: Needs) -> Read {
+    if needs.distinct { read_span::<true> } else { read_span::<false> }
+}
+
 kernel! {
-    /// Reads the pairs of a span against a bracket; `DISTINCT` tells whether build-up has properties of its own.
-    pub fn read<const DISTINCT>(
+    /// Reads a span; `DISTINCT` tells whether build-up has properties of its own.
+    pub fn read_span<const DISTINCT>(
         pin: &PinStrips,
         disc: &DiscSector,
         span: Span,

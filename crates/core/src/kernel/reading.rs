@@ -122,14 +122,19 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         Self { touching: [zero; Pair::COUNT], overlap: [zero; Pair::COUNT], largest: L::splat(0.0) }
     }
 
+    /// How eight gaps stand to the bracket: g − low, which touch at its lower end, and their overlaps there, anchored.
+    #[inline(always)]
+    fn face(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L, L::Mask, L::Integers) {
+        let beyond = gap - bracket.low;
+        let anchored = bracket.anchor - beyond;
+        self.largest = anchored.greater(self.largest);
+        (beyond, beyond.below(bracket.zero), anchored.bits())
+    }
+
     /// Reads eight pairs: gap g = z_p − z_d against the bracket.
     #[inline(always)]
     pub fn add(&mut self, gap: L, pairs: Pairs<L>, bracket: &BracketLanes<L>, strip: usize, reading: &mut Reading) {
-        let beyond = gap - bracket.low;
-        let touches = beyond.below(bracket.zero);
-        let anchored = bracket.anchor - beyond;
-        self.largest = anchored.greater(self.largest);
-        let overlap = anchored.bits();
+        let (beyond, touches, overlap) = self.face(gap, bracket);
         if DISTINCT {
             let mut pair = 0;
             while pair < Pair::COUNT {
@@ -152,7 +157,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         }
         let near = beyond.below(bracket.width) & !touches;
         if near.any() {
-            let mut gaps = Chunk([0.0; 8]);
+            let mut gaps = Chunk([0.0; LANES]);
             gap.store(&mut gaps);
             let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
             note_near::<DISTINCT>(reading, &gaps, near.byte(), statuses, strip);
@@ -162,11 +167,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     /// Reads eight pairs as if all were plateaus and none near; returns those that touch, and those that are near.
     #[inline(always)]
     pub fn add_plateaus(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L::Mask, L::Mask) {
-        let beyond = gap - bracket.low;
-        let touches = beyond.below(bracket.zero);
-        let anchored = bracket.anchor - beyond;
-        self.largest = anchored.greater(self.largest);
-        let overlap = anchored.bits();
+        let (beyond, touches, overlap) = self.face(gap, bracket);
         self.touching[PLATEAU] = self.touching[PLATEAU].plus_where(touches, bracket.one);
         self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches, overlap);
         (touches, beyond.within(bracket.width))

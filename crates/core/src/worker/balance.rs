@@ -3,7 +3,7 @@
 use super::Worker;
 use crate::comm::Communicator;
 use crate::contact::{ContactError, Verdict};
-use crate::kernel::{Bracket, Span, read};
+use crate::kernel::{Bracket, Span};
 use crate::pair::Pair;
 use crate::sector::Segment;
 use crate::simulation::SimulationError;
@@ -34,10 +34,7 @@ impl<C: Communicator> Worker<C> {
                 self.contact.balance(&self.weights, &self.sums, &mut self.reading.near, &bracket, normal_force);
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
-                    self.course.displacement = self.contact.displacement();
-                    self.course.load_residual = self.contact.residual();
-                    self.course.largest_load_residual =
-                        self.course.largest_load_residual.max(self.course.load_residual);
+                    self.course.largest_load_residual = self.course.largest_load_residual.max(self.contact.residual());
                     return Ok(());
                 }
                 Verdict::Between(low, high) => {
@@ -70,11 +67,10 @@ impl<C: Communicator> Worker<C> {
     fn read_columns(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
         self.course.extra_readings += 1;
         self.reading.clear();
-        let read = if self.needs.distinct { read::<true> } else { read::<false> };
         for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
             let span = Span { first: pin.start, over, columns: pin.len() };
-            read(self.instructions, &self.pin, sector, span, bracket, &mut self.reading);
+            (self.read)(self.instructions, &self.pin, sector, span, bracket, &mut self.reading);
         }
         self.gather_reading(bracket)
     }
@@ -84,8 +80,8 @@ impl<C: Communicator> Worker<C> {
         for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
             for (offset, column) in pin.enumerate() {
-                let pin_cells = self.pin.height.column(column).zip(self.pin.substrate_column(column));
-                let disc_cells = sector.height.column(over + offset).zip(sector.substrate_column(over + offset));
+                let pin_cells = self.pin.height.column(column).zip(self.pin.substrate().column(column));
+                let disc_cells = sector.height.column(over + offset).zip(sector.substrate().column(over + offset));
                 for (row, ((z_p, b_p), (z_d, b_d))) in pin_cells.zip(disc_cells).enumerate() {
                     let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
                     each(self.rows.start + row, column, z_p - z_d, Pair::new(status, z_d > b_d).index());

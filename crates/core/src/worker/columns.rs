@@ -2,7 +2,7 @@
 
 use super::Worker;
 use crate::comm::Communicator;
-use crate::kernel::{Bracket, Conditions, LANES, Span, read};
+use crate::kernel::{Bracket, Conditions, LANES, Span};
 use crate::sector::{Partition, Segment};
 use crate::simulation::SimulationError;
 use crate::strips::PinStrips;
@@ -12,11 +12,11 @@ const FIRST_COLUMNS: usize = 2;
 
 impl<C: Communicator> Worker<C> {
     /// Wear, destruction and formation in every own column (model 4.2 to 4.4), and the pairs of the next step against
-    /// where its displacement is expected.
+    /// where its displacement is expected: the bracket that is returned.
     ///
     /// The pin column over the first disc column of a sector lies over the sector before in the next step. It is swept
     /// first and handed on at once; the worker that gets it needs it last.
-    pub(super) fn sweep_columns(&mut self) -> Result<(), SimulationError> {
+    pub(super) fn sweep_columns(&mut self) -> Result<Bracket, SimulationError> {
         self.reading.clear();
         self.moved.clear();
         let (expected, uncertainty) = self.forecast.expect(self.contact.mean_overlap());
@@ -46,11 +46,9 @@ impl<C: Communicator> Worker<C> {
             }
             let Some(sector) = &self.sectors[entering.sector] else { continue };
             let span = Span { first: entering.pin, over: entering.over, columns: 1 };
-            let read = if self.needs.distinct { read::<true> } else { read::<false> };
-            read(self.instructions, &self.pin, sector, span, &bracket, &mut self.reading);
+            (self.read)(self.instructions, &self.pin, sector, span, &bracket, &mut self.reading);
         }
-        self.bracket = Some(bracket);
-        Ok(())
+        Ok(bracket)
     }
 
     /// Has the disc columns that enter brought near the processor while the others are swept.

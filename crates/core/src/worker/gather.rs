@@ -6,11 +6,9 @@ use crate::kernel::{Bracket, NearPair, Reading};
 use crate::simulation::SimulationError;
 
 impl<C: Communicator> Worker<C> {
-    /// The sums over all workers after a sweep.
-    pub(super) fn gather_sweep(&mut self) -> Result<(), SimulationError> {
-        if let Some(bracket) = self.bracket {
-            self.sums.take_reading(&self.weights, &self.reading, &bracket);
-        }
+    /// The sums over all workers after a sweep that read the next step against a bracket.
+    pub(super) fn gather_sweep(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+        self.sums.take_reading(&self.weights, &self.reading, bracket);
         self.sums.take_moved(&self.weights, &self.moved);
         self.exchange(true)
     }

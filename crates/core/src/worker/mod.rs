@@ -18,7 +18,7 @@ use crate::exact::Quantum;
 use crate::filling::Filling;
 use crate::forecast::Forecast;
 use crate::history::History;
-use crate::kernel::{Bracket, InstructionSet, Moved, Reading, Rules, Sweep, sweep};
+use crate::kernel::{Bracket, InstructionSet, Moved, Read, Reading, Rules, Sweep, read, sweep};
 use crate::pair::Coefficients;
 use crate::parameters::Parameters;
 use crate::parts::Needs;
@@ -33,12 +33,8 @@ use crate::sums::{RowWeights, Sums};
 pub struct Course {
     /// Steps done.
     pub steps: u64,
-    /// δ of the last step, m.
-    pub displacement: f64,
     /// Contact area of the last step, m².
     pub contact_area: f64,
-    /// Load residual of the last step.
-    pub load_residual: f64,
     /// Largest load residual of any step.
     pub largest_load_residual: f64,
     /// Passes over the pin beyond one a step: each is a bracket that missed the displacement.
@@ -51,9 +47,9 @@ pub(crate) struct Worker<C> {
     communicator: C,
     parameters: Arc<Parameters>,
     partition: Arc<Partition>,
-    needs: Needs,
     instructions: InstructionSet,
     sweep: Sweep,
+    read: Read,
     rules: Rules,
     coefficients: Coefficients,
     /// Of which overlaps are counted as multiples.
@@ -115,9 +111,9 @@ impl<C: Communicator> Worker<C> {
         let strips = strips(rows.len());
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
         Self {
-            needs,
             instructions,
             sweep: sweep(needs),
+            read: read(needs),
             rules: Rules::new(&parameters, &coefficients),
             contact: Contact::new(&weights),
             quantum: Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns()),
@@ -172,8 +168,9 @@ impl<C: Communicator> Worker<C> {
         }
         self.debris.spread(&self.contact);
         self.forecast.record(self.contact.displacement());
-        self.sweep_columns()?;
-        self.gather_sweep()?;
+        let bracket = self.sweep_columns()?;
+        self.gather_sweep(&bracket)?;
+        self.bracket = Some(bracket);
         self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
         self.course.contact_area = self.contact.area();
         self.history.record(self.course.contact_area, self.parameters.step_time());

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Worker;
 use crate::comm::Communicator;
-use crate::exact::RingSum;
+use crate::exact::{self, RingSum};
 use crate::material::Status;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::simulation::SimulationError;
@@ -93,7 +93,7 @@ impl<C: Communicator> Worker<C> {
     }
 
     fn pin_statuses(&self, column: usize) -> impl Iterator<Item = Status> + '_ {
-        let cells = self.pin.height.column(column).zip(self.pin.substrate_column(column)).enumerate();
+        let cells = self.pin.height.column(column).zip(self.pin.substrate().column(column)).enumerate();
         cells.map(move |(row, (height, substrate))| pin_status(height, substrate, self.pin.is_resin(row, column)))
     }
 
@@ -137,7 +137,7 @@ impl<C: Communicator> Worker<C> {
         for column in self.own_pin_columns() {
             match map {
                 Map::PinHeight => own.extend(self.pin.height.column(column).map(f64::to_bits)),
-                Map::PinSubstrate => own.extend(self.pin.substrate_column(column).map(f64::to_bits)),
+                Map::PinSubstrate => own.extend(self.pin.substrate().column(column).map(f64::to_bits)),
                 Map::PinStatus => own.extend(self.pin_statuses(column).map(|status| status as u64)),
                 _ => match self.pressure.get(self.own_cells(column)) {
                     Some(cells) => own.extend(cells.iter().map(|pressure| pressure.to_bits())),
@@ -160,7 +160,7 @@ impl<C: Communicator> Worker<C> {
 
 /// The values of a map in one column of a sector, as words.
 fn disc_words(sector: &DiscSector, column: usize, map: Map) -> Vec<u64> {
-    let (height, substrate) = (sector.height.column(column), sector.substrate_column(column));
+    let (height, substrate) = (sector.height.column(column), sector.substrate().column(column));
     match map {
         Map::DiscHeight => height.map(f64::to_bits).collect(),
         Map::DiscSubstrate => substrate.map(f64::to_bits).collect(),
@@ -185,7 +185,7 @@ impl OwnPart {
     fn words(&self) -> Vec<u64> {
         let mut words = vec![self.largest_pressure.to_bits()];
         for sum in [self.open_volume, self.secondary_area] {
-            words.extend([sum.integer() as u64, (sum.integer() >> 64) as u64]);
+            words.extend(exact::words(sum.integer()));
         }
         words.extend(&self.pin);
         words
@@ -193,9 +193,9 @@ impl OwnPart {
 
     fn add(&mut self, words: &[u64]) {
         self.largest_pressure = self.largest_pressure.max(f64::from_bits(words[0]));
-        let exact = |low: u64, high: u64| RingSum::of_integer(((u128::from(high) << 64) | u128::from(low)) as i128);
-        self.open_volume.add(exact(words[1], words[2]));
-        self.secondary_area.add(exact(words[3], words[4]));
+        let mut sums = words[1..5].iter().copied();
+        self.open_volume.add(RingSum::of_integer(exact::of_words(&mut sums)));
+        self.secondary_area.add(RingSum::of_integer(exact::of_words(&mut sums)));
         self.pin.iter_mut().zip(&words[5..]).for_each(|(sum, count)| *sum += count);
     }
 }
