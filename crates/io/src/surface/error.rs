@@ -80,6 +80,18 @@ pub enum FileError {
         /// The dataset asked for.
         dataset: String,
     },
+    /// The shape is not that of the mesh and the pitch is unknown.
+    #[error(
+        "there are {} columns and {} rows, expected {} and {} for the whole body; as a patch they need a pitch: \
+         pixel = \"50 um\" in the prepare table, for example",
+        found.0, found.1, mesh.0, mesh.1
+    )]
+    NoPitch {
+        /// Columns and rows of the file.
+        found: (usize, usize),
+        /// Columns and rows of the body.
+        mesh: (usize, usize),
+    },
     /// A damaged or unusual SDF file.
     #[error(transparent)]
     Sdf(#[from] SdfError),

@@ -41,20 +41,6 @@ pub enum Hdf5Error {
         /// What is looked for.
         wanted: String,
     },
-    /// The shape is not that of the mesh and the pitch is unknown.
-    #[error(
-        "dataset {dataset} has shape ({}, {}), expected ({}, {}) for the whole body; \
-         as a patch it needs its pitch: pixel = \"50 um\", for example",
-        found.0, found.1, mesh.0, mesh.1
-    )]
-    NoPitch {
-        /// The dataset.
-        dataset: String,
-        /// Its shape (columns, rows).
-        found: (usize, usize),
-        /// Shape of the body's fields.
-        mesh: (usize, usize),
-    },
     /// More points than are read.
     #[error("dataset {dataset} has shape ({}, {}), which is more than the {MOST_POINTS} points that are read", shape.0, shape.1)]
     TooLarge {

@@ -8,9 +8,9 @@ use plateau_core::surface::{Body, Length, Patch, RawHeights, fibre_fraction};
 
 use super::error::{FileError, SurfaceError};
 use super::format::{Format, detect};
-use super::hdf5::{self, Hdf5Error};
+use super::hdf5;
 use super::inputs::Inputs;
-use super::sdf;
+use super::measured::{ReadOptions, read};
 use crate::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene};
 
 /// The surfaces of a scene, ready for the first step.
@@ -45,6 +45,22 @@ pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     Ok(Loaded { surfaces, inputs: loader.inputs.0, report: loader.report })
 }
 
+/// Table of the scene that says where a body's heights come from.
+fn surface_key(body: Body) -> &'static str {
+    match body {
+        Body::Disc => "disc.surface",
+        Body::Pin => "pin.surface",
+    }
+}
+
+/// Table of the scene that says how they are prepared.
+fn prepare_key(body: Body) -> &'static str {
+    match body {
+        Body::Disc => "disc.prepare",
+        Body::Pin => "pin.prepare",
+    }
+}
+
 struct Loader<'a> {
     mesh: &'a Mesh,
     inputs: Inputs,
@@ -60,20 +76,9 @@ fn source_name(source: &HeightSource) -> String {
     }
 }
 
-/// Heights of a file before their preparation.
-struct FileHeights {
-    raw: RawHeights,
-    /// Peaks are positive whatever the body.
-    instrument: bool,
-    description: String,
-}
-
 impl Loader<'_> {
     fn heights(&mut self, recipe: &HeightRecipe, body: Body) -> Result<Vec<f64>, SurfaceError> {
-        let (surface, prepare) = match body {
-            Body::Disc => ("disc.surface", "disc.prepare"),
-            Body::Pin => ("pin.surface", "pin.prepare"),
-        };
+        let (surface, prepare) = (surface_key(body), prepare_key(body));
         let (raw, negate) = match &recipe.source {
             HeightSource::Flat => {
                 self.report.push(format!("{surface}: flat"));
@@ -93,11 +98,10 @@ impl Loader<'_> {
             }
             HeightSource::File { path, dataset } => {
                 let pixel = recipe.preparation.pixel;
-                let read = self
+                let (raw, instrument) = self
                     .file_heights(path, dataset.as_deref(), body, pixel)
                     .map_err(|reason| SurfaceError::File { key: surface, path: path.clone(), reason })?;
-                self.report.push(format!("{surface}: {}, {}", path.display(), read.description));
-                (read.raw, read.instrument && body == Body::Pin)
+                (raw, instrument && body == Body::Pin)
             }
         };
         let prepared = recipe.preparation.apply(raw, recipe.mirror, body, self.mesh).map_err(|reason| {
@@ -113,28 +117,33 @@ impl Loader<'_> {
         Ok(heights)
     }
 
+    /// Heights of a file. Heights of the model with the shape of the body's fields are those of its cells; any other
+    /// are a patch and need a pitch.
     fn file_heights(
         &mut self,
         path: &Path,
         dataset: Option<&str>,
         body: Body,
         pixel: Option<f64>,
-    ) -> Result<FileHeights, FileError> {
-        let format = detect(path)?;
-        let read = match format {
-            Format::Hdf5 => hdf5_heights(path, dataset, (body.columns(self.mesh), self.mesh.rows()), pixel)?,
-            Format::SdfAscii | Format::SdfBinary => {
-                if let Some(dataset) = dataset {
-                    return Err(FileError::NoDatasets { format, dataset: dataset.to_owned() });
-                }
-                let patch = sdf::read(&std::fs::read(path)?)?;
-                let description = describe(&patch);
-                FileHeights { raw: RawHeights::Patch(patch), instrument: true, description }
-            }
-            other => return Err(FileError::NotReadable(other)),
-        };
+    ) -> Result<(RawHeights, bool), FileError> {
+        let options = ReadOptions { dataset: dataset.map(str::to_owned), ..ReadOptions::default() };
+        let measured = read(path, &options)?;
         self.inputs.add(path)?;
-        Ok(read)
+        let notes = measured.notes.iter().map(|note| format!("{note}, ")).collect::<String>();
+        let surface = surface_key(body);
+        self.report.push(format!("{surface}: {}, {notes}{}", path.display(), measured.describe()));
+        let instrument = measured.instrument;
+        let mesh = (body.columns(self.mesh), self.mesh.rows());
+        let found = (measured.columns, measured.rows);
+        let raw = if !instrument && measured.pitch.or(pixel.map(|pixel| [pixel; 2])).is_none() && found == mesh {
+            RawHeights::OnMesh(measured.heights)
+        } else {
+            let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
+            let [column_pitch, row_pitch] = pitch.ok_or(FileError::NoPitch { found, mesh })?;
+            let (columns, rows) = found;
+            RawHeights::Patch(Patch { columns, rows, column_pitch, row_pitch, heights: measured.heights })
+        };
+        Ok((raw, instrument))
     }
 
     fn base(&mut self, source: &BaseSource) -> Result<Vec<Base>, SurfaceError> {
@@ -171,38 +180,6 @@ impl Loader<'_> {
         self.report.push(format!("pin.base: {}, dataset {name}", path.display()));
         Ok(base)
     }
-}
-
-/// A dataset with the shape `mesh` of the body's fields covers the body; any other is a patch and needs a pitch.
-fn hdf5_heights(
-    path: &Path,
-    dataset: Option<&str>,
-    mesh: (usize, usize),
-    pixel: Option<f64>,
-) -> Result<FileHeights, FileError> {
-    let read = hdf5::heights(path, dataset)?;
-    let (columns, rows) = (read.columns, read.rows);
-    let description = format!("dataset {}, {columns} x {rows} points", read.dataset);
-    let raw = match pixel {
-        None if (columns, rows) == mesh => RawHeights::OnMesh(read.heights),
-        None => {
-            let (dataset, found) = (read.dataset, (columns, rows));
-            return Err(Hdf5Error::NoPitch { dataset, found, mesh }.into());
-        }
-        Some(pixel) => {
-            RawHeights::Patch(Patch { columns, rows, column_pitch: pixel, row_pitch: pixel, heights: read.heights })
-        }
-    };
-    Ok(FileHeights { raw, instrument: false, description })
-}
-
-fn describe(patch: &Patch) -> String {
-    let pitch = if patch.column_pitch == patch.row_pitch {
-        format!("{} pitch", Length(patch.column_pitch))
-    } else {
-        format!("{} by {} pitch", Length(patch.column_pitch), Length(patch.row_pitch))
-    };
-    format!("{} x {} points, {pitch}", patch.columns, patch.rows)
 }
 
 /// Root-mean-square deviation from the mean, lowest and highest of the heights.

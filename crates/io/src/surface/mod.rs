@@ -5,9 +5,11 @@ mod format;
 mod hdf5;
 mod inputs;
 mod load;
+mod measured;
 pub mod sdf;
 
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;
 pub use load::{Loaded, load};
+pub use measured::{Measured, ReadOptions, read};

@@ -1,0 +1,88 @@
+//! What a surface file holds, whatever its format.
+
+use std::path::Path;
+
+use plateau_core::surface::{Length, Patch};
+
+use super::error::FileError;
+use super::format::{Format, detect};
+use super::{hdf5, sdf};
+
+/// What a user says of a file that the file itself does not.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Dataset in an HDF5 file, or array in an .npz archive.
+    pub dataset: Option<String>,
+    /// What the number 1 stands for, m; for text that does not state its unit.
+    pub unit: Option<f64>,
+    /// Distance of neighbouring points along x and y, m; for files that do not state it.
+    pub pitch: Option<[f64; 2]>,
+    /// Heights of black and white of an image, m.
+    pub height_range: Option<[f64; 2]>,
+}
+
+/// Heights as a file has them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// What the file is.
+    pub format: Format,
+    /// Points along x, the sliding direction.
+    pub columns: usize,
+    /// Points along y, outward.
+    pub rows: usize,
+    /// Distance of neighbouring points along x and y, m; none if neither file nor user tell it.
+    pub pitch: Option<[f64; 2]>,
+    /// Heights, m, column by column: the point (column x, row y) is at `x * rows + y`; NaN where there is none.
+    pub heights: Vec<f64>,
+    /// Peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
+    pub instrument: bool,
+    /// What the file says of itself that a user may want to see, one fact a line.
+    pub notes: Vec<String>,
+    /// What is wrong with the file but does not change its heights, as a checksum that does not fit.
+    pub warnings: Vec<String>,
+}
+
+impl Measured {
+    /// The heights with their pitch, if that is known.
+    pub fn into_patch(self) -> Option<Patch> {
+        let Self { columns, rows, heights, .. } = self;
+        let [column_pitch, row_pitch] = self.pitch?;
+        Some(Patch { columns, rows, column_pitch, row_pitch, heights })
+    }
+
+    /// Size and pitch in words.
+    pub fn describe(&self) -> String {
+        let pitch = match self.pitch {
+            None => "pitch unknown".to_owned(),
+            Some([x, y]) if x == y => format!("{} pitch", Length(x)),
+            Some([x, y]) => format!("{} by {} pitch", Length(x), Length(y)),
+        };
+        format!("{} x {} points, {pitch}", self.columns, self.rows)
+    }
+}
+
+/// Reads a surface file; what it is, is told by its content.
+///
+/// # Errors
+/// [`FileError`] when the file cannot be read exactly.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
+    let format = detect(path)?;
+    if let (Some(dataset), false) = (&options.dataset, format == Format::Hdf5) {
+        return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
+    }
+    match format {
+        Format::Hdf5 => {
+            let hdf5::Heights { dataset, columns, rows, heights } = hdf5::heights(path, options.dataset.as_deref())?;
+            let notes = vec![format!("dataset {dataset}")];
+            let pitch = options.pitch;
+            Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
+        }
+        Format::SdfAscii | Format::SdfBinary => {
+            let Patch { columns, rows, column_pitch, row_pitch, heights } = sdf::read(&std::fs::read(path)?)?;
+            let pitch = Some([column_pitch, row_pitch]);
+            let (notes, warnings) = (Vec::new(), Vec::new());
+            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+        }
+        other => Err(FileError::NotReadable(other)),
+    }
+}
