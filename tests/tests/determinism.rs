@@ -4,9 +4,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use plateau_core::kernel::InstructionSet;
-use plateau_core::observe::Sample;
+use plateau_core::observe::{Map, Sample};
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters};
-use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::{scene as scene_file, surface};
 use plateau_tests::divergence::{differences, first_divergence};
@@ -198,6 +198,28 @@ fn looking_changes_nothing() {
                 pair[0].sample().expect("a sample");
                 pair[0].disc().expect("a disc");
             }
+            differences(&mut pair, 150)
+        };
+        assert_eq!(within(PATIENCE, "two simulations", compare), []);
+    }
+}
+
+#[test]
+fn pressures_that_were_not_kept_are_not_reported() {
+    for workers in [1, 3] {
+        let scene = Scene::quick(150, &FAST);
+        let compare = move || {
+            let execution = Execution { workers, ..Execution::default() };
+            let mut pair = [scene.start(execution), scene.start(execution)];
+            pair[0].pass_to(149).expect("steps");
+            // A crew that answered with an error gives no other answers: asked of one that is dropped.
+            let mut passed = scene.start(execution);
+            passed.pass_to(20).expect("steps");
+            assert_eq!(passed.snapshot(&[Map::DiscHeight]).map(drop), Ok(()));
+            assert_eq!(passed.snapshot(&Map::ALL).map(drop), Err(SimulationError::NotWatched { step: 20 }));
+            let mut passed = scene.start(execution);
+            passed.pass_to(20).expect("steps");
+            assert_eq!(passed.sample().map(drop), Err(SimulationError::NotWatched { step: 20 }));
             differences(&mut pair, 150)
         };
         assert_eq!(within(PATIENCE, "two simulations", compare), []);

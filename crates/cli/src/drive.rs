@@ -7,7 +7,7 @@ use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
 
 /// Time between two looks at progress and signals.
-const LOOK_EVERY: Duration = Duration::from_millis(20);
+const LOOK_EVERY: Duration = Duration::from_millis(100);
 
 /// Takes what a simulation reports.
 pub trait Sink {
@@ -55,7 +55,10 @@ pub fn drive<S: Sink>(
         let sampled = schedule.next_sample(simulation.steps_done()) == event;
         while simulation.steps_done() < event {
             let start = Instant::now();
-            simulation.advance_to(event.min(simulation.steps_done().saturating_add(steps_per_look)))?;
+            match simulation.steps_done().saturating_add(steps_per_look) {
+                before if before < event => simulation.pass_to(before)?,
+                _ => simulation.advance_to(event)?,
+            }
             steps_per_look = sink.look(simulation, adapted(steps_per_look, start.elapsed()))?;
         }
         if sampled {

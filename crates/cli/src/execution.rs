@@ -94,7 +94,7 @@ pub fn time_per_step(simulation: &mut Simulation, trial: Duration) -> Result<f64
     }
     let (start, before, mut batch) = (Instant::now(), simulation.steps_done(), 1);
     while simulation.steps_done() < last && start.elapsed() < trial {
-        simulation.advance_to(last.min(simulation.steps_done() + batch))?;
+        simulation.pass_to(last.min(simulation.steps_done() + batch))?;
         batch *= 2;
     }
     Ok(start.elapsed().as_secs_f64() / (simulation.steps_done() - before) as f64)

@@ -15,8 +15,8 @@ use crate::worker::{Course, Worker};
 /// What all workers are to do together.
 #[derive(Debug, Clone)]
 enum Order {
-    /// Take steps until so many are done.
-    AdvanceTo(u64),
+    /// Take steps until so many are done, and watch the last or not.
+    AdvanceTo(u64, bool),
     /// Take a sample.
     Sample,
     /// Take maps.
@@ -86,9 +86,9 @@ impl Crew {
         answer
     }
 
-    /// Takes steps until `step` of them are done.
-    pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
-        match self.ask(&Order::AdvanceTo(step))? {
+    /// Takes steps until `step` of them are done; the last may be watched.
+    pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
+        match self.ask(&Order::AdvanceTo(step, watched))? {
             Answer::Course(course) => self.course = course,
             answer => unreachable!("{answer:?} to an order to advance"),
         }
@@ -155,7 +155,7 @@ fn work<C: Communicator>(
 
 fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answer, SimulationError> {
     match order {
-        Order::AdvanceTo(step) => worker.advance_to(*step).map(|()| Answer::Course(worker.course())),
+        Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
         Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
         Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),
     }

@@ -48,6 +48,12 @@ pub enum SimulationError {
         /// What went wrong.
         source: ContactError,
     },
+    /// Pressures are asked for that were not kept.
+    #[error("the pressures of step {step} were not kept: take it with `advance_to`")]
+    NotWatched {
+        /// The last step.
+        step: u64,
+    },
     /// A worker failed.
     #[error(transparent)]
     Worker(#[from] CommError),
@@ -209,13 +215,21 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::advance`].
     pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
-        team!(self, team => team.advance_to(step))
+        team!(self, team => team.advance_to(step, true))
+    }
+
+    /// The same where no sample and no map of pressure is taken after the last of the steps: its pressures are not kept.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn pass_to(&mut self, step: u64) -> Result<(), SimulationError> {
+        team!(self, team => team.advance_to(step, false))
     }
 
     /// The reported quantities after the last step.
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`].
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         team!(self, team => team.sample())
     }
@@ -223,7 +237,8 @@ impl Simulation {
     /// The maps asked for, as they are now.
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
+    /// [`Simulation::pass_to`].
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
         team!(self, team => team.snapshot(maps))
     }

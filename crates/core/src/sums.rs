@@ -142,16 +142,15 @@ impl Sums {
 
     /// Takes the sums of what was read against a bracket.
     pub fn take_reading(&mut self, weights: &RowWeights, reading: &Reading, bracket: &Bracket) {
-        let anchor = bracket.quantum.anchor_bits();
+        let split = bracket.quantum.split();
         for (pool, sums) in self.pools.iter_mut().enumerate() {
             let (rows, here) = weights.own_rows_of(pool);
             for pair in weights.pairs {
-                let counts = reading.touching[*pair].rows(here.clone());
-                // Statuses that touch nowhere, as resin mostly, cost nothing.
-                let touches = counts.iter().fold(0, |any, count| any | count) != 0;
                 let overlaps = reading.overlap[*pair].rows(here.clone());
+                // Statuses that touch nowhere, as resin mostly, cost nothing.
+                let touches = overlaps.iter().fold(0, |any, overlap| any | overlap) != 0;
                 sums.pairs[*pair] = if touches {
-                    weights.pair_sums(*pair, rows.clone(), counts, overlaps, anchor)
+                    weights.pair_sums(*pair, rows.clone(), overlaps, &split)
                 } else {
                     PairSums::default()
                 };
@@ -231,26 +230,32 @@ impl Sums {
 }
 
 impl RowWeights {
-    /// The sums of one kind of pairs over some rows; `overlaps` hold the anchor's bits for each of `counts`.
-    fn pair_sums(&self, pair: usize, rows: Range<usize>, counts: &[i64], overlaps: &[i64], anchor: i64) -> PairSums {
+    /// The sums of one kind of pairs over some rows; `split` parts the sums of anchored overlaps, see [`Quantum::split`].
+    fn pair_sums(
+        &self,
+        pair: usize,
+        rows: Range<usize>,
+        overlaps: &[i64],
+        split: impl Fn(i64) -> (i64, i64),
+    ) -> PairSums {
         let mut sums = PairSums::default();
-        let (counts, overlaps) = (&counts[..rows.len()], &overlaps[..rows.len()]);
+        let overlaps = &overlaps[..rows.len()];
         let (stiffness, area) = (self.stiffness[pair].rows(rows.clone()), self.area.rows(rows.clone()));
         let pin_loss = self.pin_loss[pair].rows(rows.clone());
         for row in 0..rows.len() {
-            let overlap = overlaps[row].wrapping_sub(counts[row].wrapping_mul(anchor));
+            let (count, overlap) = split(overlaps[row]);
             sums.load += product(stiffness[row], overlap);
-            sums.stiffness += product(stiffness[row], counts[row]);
-            sums.area += product(area[row], counts[row]);
+            sums.stiffness += product(stiffness[row], count);
+            sums.area += product(area[row], count);
             sums.pin_loss += product(pin_loss[row], overlap);
-            sums.pin_loss_rate += product(pin_loss[row], counts[row]);
+            sums.pin_loss_rate += product(pin_loss[row], count);
         }
         if self.needs.disc_wears {
             let disc_loss = self.disc_loss[pair].rows(rows.clone());
             for row in 0..rows.len() {
-                let overlap = overlaps[row].wrapping_sub(counts[row].wrapping_mul(anchor));
+                let (count, overlap) = split(overlaps[row]);
                 sums.disc_loss += product(disc_loss[row], overlap);
-                sums.disc_loss_rate += product(disc_loss[row], counts[row]);
+                sums.disc_loss_rate += product(disc_loss[row], count);
             }
         }
         sums

@@ -244,7 +244,7 @@ fn unsuitable_hdf5_content_is_named() {
         ("text", "dataset /text has "),
         (
             "pin/height",
-            "dataset /pin/height has shape (6, 4), expected (60, 4) for the whole body; as a patch it needs",
+            "dataset /pin/height, there are 6 columns and 4 rows, expected 60 and 4 for the whole body; as a patch they need",
         ),
         ("promise", "dataset /promise has shape (1073741824, 1073741824), which is more than the 268435456 points"),
         ("disc/infinite", "1 of 240 heights in dataset /disc/infinite are infinite"),

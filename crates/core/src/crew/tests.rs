@@ -131,7 +131,7 @@ fn within_patience<T: Send + 'static>(what: &str, work: impl FnOnce() -> T + Sen
 fn a_crew_without_a_fault_takes_its_steps_and_ends() {
     let alive = within_patience("a crew", || {
         let (mut crew, alive) = crew(0, None);
-        crew.advance_to(40).unwrap();
+        crew.advance_to(40, true).unwrap();
         assert_eq!((crew.course().steps, crew.sample().unwrap().step), (40, 40));
         drop(crew);
         Arc::strong_count(&alive)
@@ -150,13 +150,13 @@ fn a_panic_in_one_worker_ends_all_with_its_name() {
                     let (mut crew, alive) = crew(rank, Some(Fault { call, before }));
                     // Where it panics after its last message of an order, the others notice with the next order.
                     let mut orders = (1..200).map(|step| {
-                        crew.advance_to(step)?;
+                        crew.advance_to(step, true)?;
                         crew.sample()?;
                         crew.snapshot(&Map::ALL).map(drop)
                     });
                     let first = orders.find_map(Result::err);
                     let failures =
-                        [first, crew.advance_to(1000).err(), crew.sample().err(), crew.snapshot(&Map::ALL).err()];
+                        [first, crew.advance_to(1000, true).err(), crew.sample().err(), crew.snapshot(&Map::ALL).err()];
                     drop(crew);
                     (failures, Arc::strong_count(&alive))
                 });

@@ -8,12 +8,25 @@ use crate::pair::Pair;
 /// Displacements between which the next load balance is expected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bracket {
-    /// Its lower end, m.
+    /// Its lower end, a multiple of the quantum, m.
     pub low: f64,
-    /// How far it reaches, m.
+    /// How far it reaches, a multiple of the quantum, m.
     pub width: f64,
     /// Of which overlaps at the lower end are multiples.
     pub quantum: Quantum,
+}
+
+impl Bracket {
+    /// The displacements from `low` on, `width` long, and what rounding adds; the quantum is made coarser if it must be
+    /// for a number as large as these.
+    pub fn new(low: f64, width: f64, quantum: &mut Quantum) -> Self {
+        let size = low.abs() + width;
+        if size > quantum.reach() {
+            *quantum = quantum.coarser(libm::ilogb(size / quantum.reach()).saturating_add(1));
+        }
+        let (low, width) = (quantum.nearest(low - quantum.value()), quantum.nearest(width + 2.0 * quantum.value()));
+        Self { low, width, quantum: *quantum }
+    }
 }
 
 /// A pair that touches at some displacements of the bracket and not at others.
@@ -33,11 +46,10 @@ pub struct NearPair {
 /// overlaps stand for the cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reading {
-    /// Cells that touch at the lower end.
-    pub touching: [RowIntegers; Pair::COUNT],
-    /// Σ (low − g) over them in quanta, plus the anchor's bits for each.
+    /// The bits of the anchored overlaps low − g of the cells that touch at the lower end, added up: see
+    /// [`Quantum::split`].
     pub overlap: [RowIntegers; Pair::COUNT],
-    /// Pairs with low ≤ g < low + width.
+    /// Pairs with low ≤ g ≤ low + width, to half a quantum.
     pub near: Vec<NearPair>,
     /// The row of the mesh that is the first here.
     pub first_row: usize,
@@ -49,18 +61,12 @@ impl Reading {
     /// Nothing read. Where build-up has the properties of what it lies on, only two pairs are told apart.
     pub fn new(first_row: usize, strips: usize, distinct: bool) -> Self {
         let rows = |pair| RowIntegers::new(if told_apart(distinct).contains(&pair) { strips } else { 0 });
-        Self {
-            touching: std::array::from_fn(rows),
-            overlap: std::array::from_fn(rows),
-            near: Vec::new(),
-            first_row,
-            largest: Chunk([0.0; LANES]),
-        }
+        Self { overlap: std::array::from_fn(rows), near: Vec::new(), first_row, largest: Chunk([0.0; LANES]) }
     }
 
     /// Starts anew.
     pub fn clear(&mut self) {
-        self.touching.iter_mut().chain(&mut self.overlap).for_each(RowIntegers::clear);
+        self.overlap.iter_mut().for_each(RowIntegers::clear);
         self.near.clear();
         self.largest = Chunk([0.0; LANES]);
     }
@@ -70,10 +76,9 @@ impl Reading {
         self.largest.0.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Whether an overlap was too large for the quantum.
-    pub fn is_out_of_range(&self, quantum: Quantum) -> bool {
-        // Beyond, the last bit of an anchored overlap is worth two quanta.
-        self.largest() >= quantum.anchor() * (2.0 / 1.5)
+    /// By how many bits the quantum is too fine for the overlaps that were read in up to `columns` columns, if it is.
+    pub fn lacks(&self, quantum: Quantum, columns: usize) -> Option<i32> {
+        quantum.lacks(self.largest() - quantum.anchor(), columns)
     }
 }
 
@@ -85,31 +90,36 @@ pub fn told_apart(distinct: bool) -> &'static [usize] {
 /// A bracket for eight cells at a time.
 #[derive(Clone, Copy)]
 pub(super) struct BracketLanes<L: Lanes> {
+    /// The lower end, anchored: a gap taken off it leaves the anchored overlap, in one rounding.
     low: L,
-    width: L,
-    anchor: L,
-    zero: L,
-    /// 1; the compiler is not to know, for it would count by the mask as a number, which takes more instructions.
-    one: L::Integers,
+    /// Overlap 0, anchored.
+    none: L,
+    /// What is left of a gap at the upper end, anchored.
+    high: L,
 }
 
 impl<L: Lanes> BracketLanes<L> {
     #[inline(always)]
     pub fn new(bracket: &Bracket) -> Self {
-        Self {
-            low: L::splat(bracket.low),
-            width: L::splat(bracket.width),
-            anchor: L::splat(bracket.quantum.anchor()),
-            zero: L::splat(0.0),
-            one: L::Integers::splat(std::hint::black_box(1)),
-        }
+        let anchor = bracket.quantum.anchor();
+        Self { low: L::splat(anchor + bracket.low), none: L::splat(anchor), high: L::splat(anchor - bracket.width) }
     }
+}
+
+/// How eight pairs stand to a bracket.
+#[derive(Clone, Copy)]
+struct Stand<L: Lanes> {
+    /// Their overlaps at its lower end, anchored; of no meaning for pairs that do not touch there.
+    overlap: L::Integers,
+    /// Which touch at the lower end.
+    touches: L::Mask,
+    /// Which touch somewhere in the bracket, but not at its lower end.
+    near: L::Mask,
 }
 
 /// The sums of a strip while it is swept.
 #[derive(Clone, Copy)]
 pub(super) struct StripReading<L: Lanes, const DISTINCT: bool> {
-    touching: [L::Integers; Pair::COUNT],
     overlap: [L::Integers; Pair::COUNT],
     largest: L,
 }
@@ -118,44 +128,36 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     /// Nothing read.
     #[inline(always)]
     pub fn new() -> Self {
-        let zero = L::Integers::splat(0);
-        Self { touching: [zero; Pair::COUNT], overlap: [zero; Pair::COUNT], largest: L::splat(0.0) }
+        Self { overlap: [L::Integers::splat(0); Pair::COUNT], largest: L::splat(0.0) }
     }
 
-    /// How eight gaps stand to the bracket: g − low, which touch at its lower end, and their overlaps there, anchored.
+    /// How eight pairs with gaps g = z_p − z_d stand to the bracket.
     #[inline(always)]
-    fn face(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L, L::Mask, L::Integers) {
-        let beyond = gap - bracket.low;
-        let anchored = bracket.anchor - beyond;
+    fn face(&mut self, gap: L, bracket: &BracketLanes<L>) -> Stand<L> {
+        let anchored = bracket.low - gap;
         self.largest = anchored.greater(self.largest);
-        (beyond, beyond.below(bracket.zero), anchored.bits())
+        let touches = bracket.none.below(anchored);
+        Stand { overlap: anchored.bits(), touches, near: anchored.at_least(bracket.high) & !touches }
     }
 
     /// Reads eight pairs: gap g = z_p − z_d against the bracket.
     #[inline(always)]
     pub fn add(&mut self, gap: L, pairs: Pairs<L>, bracket: &BracketLanes<L>, strip: usize, reading: &mut Reading) {
-        let (beyond, touches, overlap) = self.face(gap, bracket);
+        let Stand { overlap, touches, near } = self.face(gap, bracket);
         if DISTINCT {
             let mut pair = 0;
             while pair < Pair::COUNT {
-                let these = touches & pairs.are(pair);
-                self.touching[pair] = self.touching[pair].plus_where(these, bracket.one);
-                self.overlap[pair] = self.overlap[pair].plus_where(these, overlap);
+                self.overlap[pair] = self.overlap[pair].plus_where(touches & pairs.are(pair), overlap);
                 pair += 1;
             }
         } else {
             let resin = touches & pairs.resin();
-            let plateau = touches & !pairs.resin();
-            self.touching[PLATEAU] = self.touching[PLATEAU].plus_where(plateau, bracket.one);
-            self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(plateau, overlap);
+            self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches & !pairs.resin(), overlap);
             if resin.any() {
-                let touching = &mut reading.touching[RESIN].0[strip];
-                L::Integers::load(touching).plus_where(resin, bracket.one).store(touching);
                 let sum = &mut reading.overlap[RESIN].0[strip];
                 L::Integers::load(sum).plus_where(resin, overlap).store(sum);
             }
         }
-        let near = beyond.below(bracket.width) & !touches;
         if near.any() {
             let mut gaps = Chunk([0.0; LANES]);
             gap.store(&mut gaps);
@@ -167,10 +169,9 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     /// Reads eight pairs as if all were plateaus and none near; returns those that touch, and those that are near.
     #[inline(always)]
     pub fn add_plateaus(&mut self, gap: L, bracket: &BracketLanes<L>) -> (L::Mask, L::Mask) {
-        let (beyond, touches, overlap) = self.face(gap, bracket);
-        self.touching[PLATEAU] = self.touching[PLATEAU].plus_where(touches, bracket.one);
+        let Stand { overlap, touches, near } = self.face(gap, bracket);
         self.overlap[PLATEAU] = self.overlap[PLATEAU].plus_where(touches, overlap);
-        (touches, beyond.within(bracket.width))
+        (touches, near)
     }
 
     /// Adds the sums of the strip to the others.
@@ -179,8 +180,6 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         let mut pair = 0;
         while pair < Pair::COUNT {
             if DISTINCT || pair == PLATEAU {
-                let touching = &mut reading.touching[pair].0[strip];
-                L::Integers::load(touching).plus(self.touching[pair]).store(touching);
                 let overlap = &mut reading.overlap[pair].0[strip];
                 L::Integers::load(overlap).plus(self.overlap[pair]).store(overlap);
             }

@@ -12,9 +12,6 @@ use crate::state::pin_status;
 /// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
 const MOST_READINGS: u32 = 200;
 
-/// Bits by which the quantum of overlaps is made coarser when one is out of its range.
-const COARSER: i32 = 12;
-
 impl<C: Communicator> Worker<C> {
     /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs.
     pub(super) fn balance(&mut self) -> Result<(), SimulationError> {
@@ -24,9 +21,9 @@ impl<C: Communicator> Worker<C> {
             None => self.read_around_first_contact()?,
         };
         for _ in 0..MOST_READINGS {
-            if self.reading.is_out_of_range(bracket.quantum) {
-                self.quantum = self.quantum.coarser(COARSER);
-                bracket.quantum = self.quantum;
+            if let Some(bits) = self.reading.lacks(bracket.quantum, self.parameters.mesh.pin_columns()) {
+                self.quantum = self.quantum.coarser(bits);
+                bracket = Bracket::new(bracket.low, bracket.width, &mut self.quantum);
                 self.read_columns(&bracket)?;
                 continue;
             }
@@ -38,7 +35,7 @@ impl<C: Communicator> Worker<C> {
                     return Ok(());
                 }
                 Verdict::Between(low, high) => {
-                    bracket = Bracket { low, width: high - low, ..bracket };
+                    bracket = Bracket::new(low, high - low, &mut self.quantum);
                     self.read_columns(&bracket)?;
                 }
                 Verdict::Apart => bracket = self.read_around_first_contact()?,
@@ -58,7 +55,7 @@ impl<C: Communicator> Worker<C> {
         });
         let own = least.to_bits();
         self.communicator.all_gather(&[own], &mut |_, words| least = least.min(f64::from_bits(words[0])))?;
-        let bracket = Bracket { low: least, width: 0.0, quantum: self.quantum };
+        let bracket = Bracket::new(least, 0.0, &mut self.quantum);
         self.read_columns(&bracket)?;
         Ok(bracket)
     }

@@ -73,7 +73,7 @@ pub(crate) struct Worker<C> {
     sums: Sums,
     message: Vec<u64>,
     halo: Vec<u64>,
-    /// p of the own pin cells in the last watched step, column by column, Pa; empty if none was.
+    /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
     pressure: Vec<f64>,
     course: Course,
     /// Columns by which the disc was turned before the first step.
@@ -143,12 +143,19 @@ impl<C: Communicator> Worker<C> {
         }
     }
 
-    /// Takes steps until `step` of them are done; the last is watched, for a sample or maps to follow.
-    pub fn advance_to(&mut self, step: u64) -> Result<(), SimulationError> {
+    /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
+    pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
         while self.course.steps < step {
-            self.advance(self.course.steps + 1 == step)?;
+            self.pressure.clear();
+            self.advance(watched && self.course.steps + 1 == step)?;
         }
         Ok(())
+    }
+
+    /// Refuses to report pressures of a step that was not watched.
+    fn check_watched(&self) -> Result<(), SimulationError> {
+        let steps = self.course.steps;
+        if steps > 0 && self.pressure.is_empty() { Err(SimulationError::NotWatched { step: steps }) } else { Ok(()) }
     }
 
     /// One step:

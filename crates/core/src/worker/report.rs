@@ -19,6 +19,7 @@ impl<C: Communicator> Worker<C> {
 
     /// The reported quantities after the last step.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        self.check_watched()?;
         let parameters = self.parameters.clone();
         let mesh = &parameters.mesh;
         self.filling.update(mesh, &self.rows, self.sectors.iter().flatten(), self.last_first(), self.course.steps);
@@ -100,6 +101,9 @@ impl<C: Communicator> Worker<C> {
     /// The maps asked for, as they are now.
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
         let mut values = Vec::with_capacity(maps.len());
+        if maps.contains(&Map::Pressure) {
+            self.check_watched()?;
+        }
         for map in maps {
             let field = if map.on_disc() { self.gather_disc(*map)? } else { self.gather_pin(*map)? };
             let field = match map.is_status() {

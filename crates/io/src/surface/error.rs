@@ -82,11 +82,13 @@ pub enum FileError {
     },
     /// The shape is not that of the mesh and the pitch is unknown.
     #[error(
-        "there are {} columns and {} rows, expected {} and {} for the whole body; as a patch they need a pitch: \
+        "{what}there are {} columns and {} rows, expected {} and {} for the whole body; as a patch they need a pitch: \
          pixel = \"50 um\" in the prepare table, for example",
         found.0, found.1, mesh.0, mesh.1
     )]
     NoPitch {
+        /// Which heights of the file, if it may have others.
+        what: String,
         /// Columns and rows of the file.
         found: (usize, usize),
         /// Columns and rows of the body.

@@ -139,7 +139,7 @@ impl Loader<'_> {
             RawHeights::OnMesh(measured.heights)
         } else {
             let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
-            let [column_pitch, row_pitch] = pitch.ok_or(FileError::NoPitch { found, mesh })?;
+            let [column_pitch, row_pitch] = pitch.ok_or(FileError::NoPitch { what: notes, found, mesh })?;
             let (columns, rows) = found;
             RawHeights::Patch(Patch { columns, rows, column_pitch, row_pitch, heights: measured.heights })
         };
