@@ -56,7 +56,8 @@ impl<C: Communicator> Worker<C> {
             pin_none: coverage[Status::None as usize],
             pin_primary: coverage[Status::Primary as usize],
             pin_secondary: coverage[Status::Secondary as usize],
-            disc_secondary: secondary_area.value() / mesh.disc_area(),
+            // Rounding may leave all of the disc a trace above 1.
+            disc_secondary: (secondary_area.value() / mesh.disc_area()).min(1.0),
             filled_fraction: self.filling.filled_fraction(open_volume),
             load_residual: self.contact.residual(),
             balance_residual: self.debris.balance_residual(),
