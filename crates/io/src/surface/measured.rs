@@ -6,6 +6,7 @@ use plateau_core::surface::{Length, Patch};
 
 use super::error::FileError;
 use super::format::{Format, detect};
+use super::sdf::{Dialect, SdfKind};
 use super::{hdf5, sdf};
 
 /// What a user says of a file that the file itself does not.
@@ -77,12 +78,15 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
             let pitch = options.pitch;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
         }
-        Format::SdfAscii | Format::SdfBinary => {
+        Format::Sdf(SdfKind { dialect: Dialect::Iso1, .. }) => {
             let Patch { columns, rows, column_pitch, row_pitch, heights } = sdf::read(&std::fs::read(path)?)?;
             let pitch = Some([column_pitch, row_pitch]);
             let (notes, warnings) = (Vec::new(), Vec::new());
             Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
         }
-        other => Err(FileError::NotReadable(other)),
+        Format::Sdf(_) | Format::X3p => Err(FileError::NotReadable(format)),
+        Format::Npy | Format::Npz => Err(FileError::NotReadable(format)),
+        Format::Png | Format::Tiff => Err(FileError::NotReadable(format)),
+        Format::Text => Err(FileError::NotReadable(format)),
     }
 }

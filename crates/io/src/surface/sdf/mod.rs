@@ -8,8 +8,10 @@ mod ascii;
 mod binary;
 mod error;
 mod header;
+mod kind;
 
 pub use error::{Position, SdfError};
+pub use kind::{Dialect, Encoding, SdfKind};
 
 use plateau_core::surface::Patch;
 
