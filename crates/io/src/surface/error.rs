@@ -8,7 +8,9 @@ use thiserror::Error;
 
 use super::format::Format;
 use super::hdf5::Hdf5Error;
+use super::instrument::CONVERSION;
 use super::sdf::SdfError;
+use super::x3p::X3pError;
 
 /// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
 #[derive(Debug, Error)]
@@ -69,6 +71,12 @@ pub enum FileError {
     /// It is known what it is, but this version does not read it.
     #[error("this is {0}, which this version does not read; {READABLE}")]
     NotReadable(Format),
+    /// An instrument's own format.
+    #[error("this is {0}, which is not read; convert it to SDF: {CONVERSION}")]
+    Instrument(&'static str),
+    /// A zip archive that cannot be opened.
+    #[error("this is a damaged zip archive: {0}")]
+    Zip(String),
     /// A fibre map in a format of heights.
     #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
@@ -95,10 +103,13 @@ pub enum FileError {
     /// A damaged or unusual SDF file.
     #[error(transparent)]
     Sdf(#[from] SdfError),
+    /// A damaged or unusual X3P file.
+    #[error(transparent)]
+    X3p(#[from] X3pError),
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
     Hdf5(#[from] Hdf5Error),
 }
 
 /// What to do about a file that cannot be read.
-const READABLE: &str = "convert it to SDF ISO-1.0 (ASCII or binary) or HDF5";
+const READABLE: &str = "convert it to SDF, X3P or HDF5";

@@ -2,10 +2,13 @@
 
 use std::fmt;
 use std::fs::File;
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
+use zip::ZipArchive;
+
 use super::error::FileError;
+use super::instrument::recognise;
 use super::sdf::SdfKind;
 
 /// Formats of surface files that are told apart.
@@ -27,6 +30,8 @@ pub enum Format {
     Tiff,
     /// Table or list of numbers as text.
     Text,
+    /// An instrument's own format, in words; such files are not read.
+    Instrument(&'static str),
 }
 
 impl fmt::Display for Format {
@@ -40,6 +45,7 @@ impl fmt::Display for Format {
             Self::Png => "a PNG image",
             Self::Tiff => "a TIFF image",
             Self::Text => "a text file",
+            Self::Instrument(name) => name,
         })
     }
 }
@@ -56,9 +62,34 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(FileError::NotAFile);
     }
+    let mut file = BufReader::new(File::open(path)?);
     let mut head = Vec::new();
-    File::open(path)?.take(HEAD).read_to_end(&mut head)?;
+    file.by_ref().take(HEAD).read_to_end(&mut head)?;
+    if head.starts_with(b"PK\x03\x04") {
+        return from_archive(file);
+    }
     from_head(&head).ok_or_else(|| FileError::Unknown { found: describe(&head) })
+}
+
+/// What a zip archive is, told by its entries.
+fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
+    let archive = ZipArchive::new(file).map_err(|error| FileError::Zip(error.to_string()))?;
+    let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);
+    if has(b"main.xml") {
+        return Ok(Format::X3p);
+    }
+    if !archive.is_empty() && archive.file_names_raw().all(|entry| entry.ends_with(b".npy")) {
+        return Ok(Format::Npz);
+    }
+    if has(b"index.xml") && archive.file_names_raw().any(|entry| entry.ends_with(b"recipe.txt")) {
+        return Ok(Format::Instrument("a Sensofar file (.plux)"));
+    }
+    let first = archive.file_names_raw().next().map(|name| name[..name.len().min(40)].escape_ascii());
+    let entries = match first {
+        None => "an empty zip archive".to_owned(),
+        Some(first) => format!("a zip archive of {} entries, the first is \"{first}\"", archive.len()),
+    };
+    Err(FileError::Unknown { found: entries })
 }
 
 fn from_head(head: &[u8]) -> Option<Format> {
@@ -68,19 +99,25 @@ fn from_head(head: &[u8]) -> Option<Format> {
         return Some(Format::Hdf5);
     }
     for (signature, format) in [
-        (b"PK\x03\x04".as_slice(), Format::X3p),
-        (b"\x93NUMPY", Format::Npy),
+        (b"\x93NUMPY".as_slice(), Format::Npy),
         (b"\x89PNG\r\n\x1a\n", Format::Png),
+        // The second number is that of files beyond 4 GiB.
         (b"II\x2a\0", Format::Tiff),
         (b"MM\0\x2a", Format::Tiff),
+        (b"II\x2b\0", Format::Tiff),
+        (b"MM\0\x2b", Format::Tiff),
     ] {
         if at(0, signature) {
             return Some(format);
         }
     }
+    if let Some(name) = recognise(head) {
+        return Some(Format::Instrument(name));
+    }
     let text = without_margin(head);
     // Only text may have blanks in front.
-    if let Some(kind) = SdfKind::from_magic(if text.starts_with(b"a") { text } else { head }) {
+    if let Some(kind) = SdfKind::from_magic(if text.starts_with(b"a") || text.starts_with(b"A") { text } else { head })
+    {
         return Some(Format::Sdf(kind));
     }
     let printable = |byte: &u8| !byte.is_ascii_control() || byte.is_ascii_whitespace();
@@ -117,7 +154,8 @@ mod tests {
             (b"bISO-1.0sdfio", sdf(Dialect::Iso1, Encoding::Binary)),
             (b"bISO-2.0sdfio", sdf(Dialect::Iso2, Encoding::Binary)),
             (b"aBCR-1.0\r\n", sdf(Dialect::Bcr1, Encoding::Ascii)),
-            (b"PK\x03\x04\x14", Some(Format::X3p)),
+            (b"BBCR-1.0", sdf(Dialect::Bcr1, Encoding::Binary)),
+            (b"GWYPGWYO", Some(Format::Instrument("a Gwyddion file (.gwy)"))),
             (b"\x93NUMPY\x01", Some(Format::Npy)),
             (b"1.0 2.0\n3.0 4.0\n", Some(Format::Text)),
             (b"", None),

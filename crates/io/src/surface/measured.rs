@@ -1,13 +1,14 @@
 //! What a surface file holds, whatever its format.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use plateau_core::surface::{Length, Patch};
 
 use super::error::FileError;
 use super::format::{Format, detect};
-use super::sdf::{Dialect, SdfKind};
-use super::{hdf5, sdf};
+use super::{hdf5, sdf, x3p};
 
 /// What a user says of a file that the file itself does not.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -78,15 +79,26 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
             let pitch = options.pitch;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
         }
-        Format::Sdf(SdfKind { dialect: Dialect::Iso1, .. }) => {
-            let Patch { columns, rows, column_pitch, row_pitch, heights } = sdf::read(&std::fs::read(path)?)?;
-            let pitch = Some([column_pitch, row_pitch]);
-            let (notes, warnings) = (Vec::new(), Vec::new());
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+        Format::Sdf(_) => {
+            let file = File::open(path)?;
+            let length = file.metadata()?.len();
+            let sdf::Surface { patch, warnings } = sdf::read(BufReader::new(file), length)?;
+            Ok(from_instrument(format, patch, Vec::new(), warnings))
         }
-        Format::Sdf(_) | Format::X3p => Err(FileError::NotReadable(format)),
+        Format::X3p => {
+            let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(File::open(path)?))?;
+            Ok(from_instrument(format, patch, notes, warnings))
+        }
         Format::Npy | Format::Npz => Err(FileError::NotReadable(format)),
         Format::Png | Format::Tiff => Err(FileError::NotReadable(format)),
         Format::Text => Err(FileError::NotReadable(format)),
+        Format::Instrument(name) => Err(FileError::Instrument(name)),
     }
+}
+
+/// Heights of a file that states its pitch, with peaks positive.
+fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: Vec<String>) -> Measured {
+    let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
+    let pitch = Some([column_pitch, row_pitch]);
+    Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings }
 }

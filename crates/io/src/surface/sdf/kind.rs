@@ -56,9 +56,13 @@ impl SdfKind {
         }
     }
 
-    /// The kind of a file that starts like this.
+    /// The kind of a file that starts like this. BCR-1.0 allows the first letter to be large.
     pub(in crate::surface) fn from_magic(head: &[u8]) -> Option<Self> {
-        Self::ALL.into_iter().find(|kind| head.starts_with(kind.magic().as_bytes()))
+        let (first, rest) = head.split_first()?;
+        Self::ALL.into_iter().find(|kind| {
+            let magic = kind.magic().as_bytes();
+            first.eq_ignore_ascii_case(&magic[0]) && rest.starts_with(&magic[1..])
+        })
     }
 }
 
