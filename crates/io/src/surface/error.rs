@@ -80,6 +80,14 @@ pub enum FileError {
     /// A fibre map in a format of heights.
     #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
+    /// A pitch or a height that no surface has.
+    #[error("the file states {found}, expected {expected}: is it damaged, or its unit another?")]
+    Absurd {
+        /// The number.
+        found: String,
+        /// Numbers that are read.
+        expected: String,
+    },
     /// `dataset` was given for a file that has none.
     #[error("this is {format}, which has no datasets: leave out dataset = \"{dataset}\"")]
     NoDatasets {

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::BufReader;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use plateau_core::surface::{Length, Patch};
@@ -9,6 +10,11 @@ use plateau_core::surface::{Length, Patch};
 use super::error::FileError;
 use super::format::{Format, detect};
 use super::{hdf5, sdf, x3p};
+
+/// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
+const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
+/// Largest height or depth that is read, m; instruments with a far zero give up to 0.1.
+const HIGHEST: f64 = 1e3;
 
 /// What a user says of a file that the file itself does not.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -52,6 +58,21 @@ impl Measured {
         Some(Patch { columns, rows, column_pitch, row_pitch, heights })
     }
 
+    /// Refuses what is far from any surface: a damaged file, or numbers of another unit.
+    fn check(&self) -> Result<(), FileError> {
+        if let Some(pitch) = self.pitch.iter().flatten().find(|pitch| !PITCHES.contains(pitch)) {
+            let expected = format!("{:e} to {:e} m", PITCHES.start(), PITCHES.end());
+            return Err(FileError::Absurd { found: format!("a pitch of {pitch:e} m"), expected });
+        }
+        match self.heights.iter().find(|height| height.abs() > HIGHEST) {
+            None => Ok(()),
+            Some(height) => Err(FileError::Absurd {
+                found: format!("a height of {height:e} m"),
+                expected: format!("{:e} to {HIGHEST:e} m", -HIGHEST),
+            }),
+        }
+    }
+
     /// Size and pitch in words.
     pub fn describe(&self) -> String {
         let pitch = match self.pitch {
@@ -66,8 +87,14 @@ impl Measured {
 /// Reads a surface file; what it is, is told by its content.
 ///
 /// # Errors
-/// [`FileError`] when the file cannot be read exactly.
+/// [`FileError`] when the file cannot be read exactly, or holds what no surface has.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
+    let measured = read_format(path, options)?;
+    measured.check()?;
+    Ok(measured)
+}
+
+fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     let format = detect(path)?;
     if let (Some(dataset), false) = (&options.dataset, format == Format::Hdf5) {
         return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
