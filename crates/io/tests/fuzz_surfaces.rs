@@ -5,6 +5,7 @@
 //! file that fails is put into the corpus, so that it is tried first from then on. A new format is covered as soon as
 //! the corpus has a file of it.
 
+use std::cell::Cell;
 use std::fs;
 use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use std::time::{Duration, Instant};
 use plateau_io::surface::{ReadOptions, read};
 use proptest::prelude::*;
 use proptest::sample::Index;
-use proptest::test_runner::{Config, TestError, TestRunner};
+use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
 use sha2::{Digest, Sha256};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
@@ -180,10 +181,12 @@ fn options() -> ReadOptions {
     ReadOptions { dataset: None, unit: Some(1e-6), pitch: Some([1e-6, 2e-6]), height_range: Some([0.0, 1e-6]) }
 }
 
-/// Reads a file; what comes out must be an error with a text or a surface.
-fn check(path: &Path) -> Result<(), TestCaseError> {
+/// Reads a file; what comes out must be an error with a text or a surface. Says which.
+fn check(path: &Path) -> Result<bool, TestCaseError> {
     let start = Instant::now();
-    match read(path, &options()) {
+    let result = read(path, &options());
+    let read = result.is_ok();
+    match result {
         Err(error) => prop_assert!(!error.to_string().is_empty()),
         Ok(measured) => {
             prop_assert_eq!(Some(measured.heights.len()), measured.columns.checked_mul(measured.rows));
@@ -193,7 +196,7 @@ fn check(path: &Path) -> Result<(), TestCaseError> {
         }
     }
     prop_assert!(start.elapsed() < LONGEST, "{:?} for one file", start.elapsed());
-    Ok(())
+    Ok(read)
 }
 
 /// Most memory that this process has taken so far, in kB, where the system tells.
@@ -208,8 +211,7 @@ fn every_file_of_the_corpus_is_read_or_refused() {
     assert!(files.len() > 20, "the corpus is not here");
     let mut read_by = 0;
     for (path, _) in files {
-        check(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        read_by += u32::from(read(&path, &options()).is_ok());
+        read_by += u32::from(check(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display())));
     }
     assert!(read_by > 10, "the files that are changed must be good ones, only {read_by} are");
 }
@@ -230,29 +232,36 @@ fn changed_files_are_read_or_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("changed");
     let seconds = std::env::var("PLATEAU_FUZZ_SECONDS").ok().map(|text| text.parse().unwrap());
-    let (start, mut tried) = (Instant::now(), 0);
-    let config = Config { cases: CASES, failure_persistence: None, ..Config::default() };
-    let mut runner = match seconds {
-        None => TestRunner::new_with_rng(config, proptest::test_runner::TestRng::deterministic_rng(Default::default())),
-        Some(_) => TestRunner::new(config),
-    };
+    let (start, tried, accepted) = (Instant::now(), Cell::new(0_u32), Cell::new(0_u32));
+    let duration = Duration::from_secs(seconds.unwrap_or(0));
     loop {
+        // A runner counts over all its runs and does nothing once it has enough, so each batch has its own.
+        let config = Config { cases: CASES, failure_persistence: None, ..Config::default() };
+        let mut runner = match seconds {
+            None => TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::default())),
+            Some(_) => TestRunner::new(config),
+        };
+        let before = tried.get();
         let result = runner.run(&strategy, |content| {
             fs::write(&path, content).unwrap();
-            check(&path)
+            tried.set(tried.get() + 1);
+            accepted.set(accepted.get() + u32::from(check(&path)?));
+            Ok(())
         });
-        tried += CASES;
         if let Err(TestError::Fail(reason, content)) = &result {
             let name = format!("found-{:.12}", format!("{:x}", Sha256::digest(content)));
             fs::write(corpus().join(&name), content).unwrap();
             panic!("{reason}; the file is {} now", corpus().join(name).display());
         }
         result.unwrap();
-        if start.elapsed() >= Duration::from_secs(seconds.unwrap_or(0)) {
+        assert!(tried.get() >= before + CASES, "a batch must try files");
+        if start.elapsed() >= duration {
             break;
         }
     }
+    let (tried, accepted) = (tried.get(), accepted.get());
     let memory = peak_memory();
-    println!("{tried} changed files in {:.0?}, at most {memory:?} kB of memory", start.elapsed());
+    println!("{tried} changed files in {:.0?}, {accepted} read, at most {memory:?} kB of memory", start.elapsed());
+    assert!(accepted > tried / 100, "so few changed files are still read that the readers are hardly reached");
     assert!(memory.is_none_or(|kilobytes| kilobytes < MOST_MEMORY), "{memory:?} kB of memory");
 }

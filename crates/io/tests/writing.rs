@@ -63,15 +63,23 @@ fn what_was_written_is_read_bit_for_bit() {
 }
 
 #[test]
-fn sdf_is_binary_iso_1_unless_a_side_is_too_long_for_it() {
+fn sdf_is_iso_1_and_binary_unless_there_are_too_many_points_or_some_are_missing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.sdf");
     let options = WriteOptions { replace: true, ..WriteOptions::default() };
-    for (columns, dialect) in [(65_535, Dialect::Iso1), (65_536, Dialect::Iso2)] {
-        write(&path, &patch(columns, 1), &options).unwrap();
-        let kind = SdfKind { dialect, encoding: Encoding::Binary };
+    for (columns, missing, dialect, encoding) in [
+        (65_535, false, Dialect::Iso1, Encoding::Binary),
+        (65_536, true, Dialect::Iso1, Encoding::Ascii),
+        (65_536, false, Dialect::Iso2, Encoding::Binary),
+    ] {
+        let mut patch = patch(columns, 1);
+        if !missing {
+            patch.heights.iter_mut().filter(|height| height.is_nan()).for_each(|height| *height = 0.0);
+        }
+        write(&path, &patch, &options).unwrap();
+        let kind = SdfKind { dialect, encoding };
         assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
-        check_equal(&read_patch(&path), &patch(columns, 1));
+        check_equal(&read_patch(&path), &patch);
     }
     let before = fs::read(&path).unwrap();
     for dialect in [Dialect::Iso1, Dialect::Bcr1] {

@@ -19,8 +19,9 @@ use crate::timestamp;
 pub struct WriteOptions {
     /// An existing file is replaced.
     pub replace: bool,
-    /// Dialect and encoding of SDF; without it ISO-1.0 binary, or ISO-2.0 binary where a side has more than 65535
-    /// points.
+    /// Dialect and encoding of SDF. Without it ISO-1.0, or ISO-2.0 where a side has more than 65535 points; binary, or
+    /// ISO-1.0 ASCII where points are missing: every program knows the word for them, while some take their mark in
+    /// binary64 for a height (SurfaceTopography 1.27.1 does).
     pub sdf: Option<SdfKind>,
 }
 
@@ -119,6 +120,9 @@ fn check(patch: &Patch) -> Result<(), String> {
 }
 
 fn default_kind(patch: &Patch) -> SdfKind {
+    if patch.missing() > 0 {
+        return SdfKind { dialect: Dialect::Iso1, encoding: Encoding::Ascii };
+    }
     let kind = |dialect| SdfKind { dialect, encoding: Encoding::Binary };
     let fits = patch.columns.max(patch.rows) as u64 <= sdf::most_points(kind(Dialect::Iso1));
     kind(if fits { Dialect::Iso1 } else { Dialect::Iso2 })

@@ -57,7 +57,7 @@ pub enum SdfError {
         at: Position,
     },
     /// A line of the header is no field.
-    #[error("{at}: found \"{found}\", expected a header field \"Name = Value\" or the line \"*\"")]
+    #[error("{at}: found \"{found}\", expected a header field \"Name = Value\", one of up to 100, or the line \"*\"")]
     NotAField {
         /// Where.
         at: Position,
