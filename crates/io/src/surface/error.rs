@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use super::format::Format;
 use super::hdf5::Hdf5Error;
-use super::instrument::CONVERSION;
+use super::instrument::Instrument;
 use super::sdf::SdfError;
 use super::x3p::X3pError;
 
@@ -72,8 +72,8 @@ pub enum FileError {
     #[error("this is {0}, which this version does not read; {READABLE}")]
     NotReadable(Format),
     /// An instrument's own format.
-    #[error("this is {0}, which is not read; convert it to SDF: {CONVERSION}")]
-    Instrument(&'static str),
+    #[error("this is {}, which is not read; convert it to SDF: {}", .0.name, .0.conversion)]
+    Instrument(Instrument),
     /// A zip archive that cannot be opened.
     #[error("this is a damaged zip archive: {0}")]
     Zip(String),
@@ -113,10 +113,16 @@ pub enum FileError {
     Sdf(#[from] SdfError),
     /// A damaged or unusual X3P file.
     #[error(transparent)]
-    X3p(#[from] X3pError),
+    X3p(Box<X3pError>),
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
     Hdf5(#[from] Hdf5Error),
+}
+
+impl From<X3pError> for FileError {
+    fn from(error: X3pError) -> Self {
+        Self::X3p(Box::new(error))
+    }
 }
 
 /// What to do about a file that cannot be read.

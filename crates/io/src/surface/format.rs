@@ -8,7 +8,7 @@ use std::path::Path;
 use zip::ZipArchive;
 
 use super::error::FileError;
-use super::instrument::recognise;
+use super::instrument::{Instrument, PLUX, recognise};
 use super::sdf::SdfKind;
 
 /// Formats of surface files that are told apart.
@@ -30,8 +30,8 @@ pub enum Format {
     Tiff,
     /// Table or list of numbers as text.
     Text,
-    /// An instrument's own format, in words; such files are not read.
-    Instrument(&'static str),
+    /// An instrument's own format; such files are not read.
+    Instrument(Instrument),
 }
 
 impl fmt::Display for Format {
@@ -45,7 +45,7 @@ impl fmt::Display for Format {
             Self::Png => "a PNG image",
             Self::Tiff => "a TIFF image",
             Self::Text => "a text file",
-            Self::Instrument(name) => name,
+            Self::Instrument(instrument) => instrument.name,
         })
     }
 }
@@ -82,7 +82,7 @@ fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
         return Ok(Format::Npz);
     }
     if has(b"index.xml") && archive.file_names_raw().any(|entry| entry.ends_with(b"recipe.txt")) {
-        return Ok(Format::Instrument("a Sensofar file (.plux)"));
+        return Ok(Format::Instrument(PLUX));
     }
     let first = archive.file_names_raw().next().map(|name| name[..name.len().min(40)].escape_ascii());
     let entries = match first {
@@ -111,8 +111,8 @@ fn from_head(head: &[u8]) -> Option<Format> {
             return Some(format);
         }
     }
-    if let Some(name) = recognise(head) {
-        return Some(Format::Instrument(name));
+    if let Some(instrument) = recognise(head) {
+        return Some(Format::Instrument(instrument));
     }
     let text = without_margin(head);
     // Only text may have blanks in front.
@@ -155,7 +155,7 @@ mod tests {
             (b"bISO-2.0sdfio", sdf(Dialect::Iso2, Encoding::Binary)),
             (b"aBCR-1.0\r\n", sdf(Dialect::Bcr1, Encoding::Ascii)),
             (b"BBCR-1.0", sdf(Dialect::Bcr1, Encoding::Binary)),
-            (b"GWYPGWYO", Some(Format::Instrument("a Gwyddion file (.gwy)"))),
+            (b"GWYPGWYO", recognise(b"GWYP").map(Format::Instrument)),
             (b"\x93NUMPY\x01", Some(Format::Npy)),
             (b"1.0 2.0\n3.0 4.0\n", Some(Format::Text)),
             (b"", None),

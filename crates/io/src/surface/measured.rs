@@ -119,7 +119,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
         Format::Npy | Format::Npz => Err(FileError::NotReadable(format)),
         Format::Png | Format::Tiff => Err(FileError::NotReadable(format)),
         Format::Text => Err(FileError::NotReadable(format)),
-        Format::Instrument(name) => Err(FileError::Instrument(name)),
+        Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
 }
 

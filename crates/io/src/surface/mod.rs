@@ -15,6 +15,7 @@ pub mod x3p;
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;
+pub use instrument::Instrument;
 pub use load::{Loaded, load};
 pub use measured::{Measured, ReadOptions, read};
 pub use writing::{WriteError, WriteOptions, write};
