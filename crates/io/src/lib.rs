@@ -11,4 +11,5 @@ mod digest;
 pub mod run_file;
 pub mod scene;
 pub mod surface;
+mod timestamp;
 pub mod units;

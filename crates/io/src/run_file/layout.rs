@@ -12,7 +12,7 @@ use plateau_core::observe::{Map, QUANTITIES};
 use super::Header;
 use super::dimension::Dimensions;
 use super::status::StoredStatus;
-use super::timestamp::iso_8601;
+use crate::timestamp::iso_8601;
 
 /// `format_version` of the files written here.
 const FORMAT_VERSION: i32 = 1;

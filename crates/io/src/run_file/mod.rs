@@ -25,7 +25,6 @@ mod limit;
 mod place;
 mod status;
 mod store;
-mod timestamp;
 mod writer;
 
 pub use end::End;

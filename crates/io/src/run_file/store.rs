@@ -15,8 +15,8 @@ use super::dimension::EMPTY_FILE;
 use super::layout::{self, MAP_TIME, TIME};
 use super::place::Place;
 use super::status::StoredStatus;
-use super::timestamp::iso_8601;
 use super::{End, Header, RunFileError};
+use crate::timestamp::iso_8601;
 
 /// Chunk cache of a dataset: slots, bytes, and 1 for "a chunk that is full goes first".
 ///

@@ -8,7 +8,9 @@ use thiserror::Error;
 
 use super::format::Format;
 use super::hdf5::Hdf5Error;
+use super::instrument::Instrument;
 use super::sdf::SdfError;
+use super::x3p::X3pError;
 
 /// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
 #[derive(Debug, Error)]
@@ -69,9 +71,23 @@ pub enum FileError {
     /// It is known what it is, but this version does not read it.
     #[error("this is {0}, which this version does not read; {READABLE}")]
     NotReadable(Format),
+    /// An instrument's own format.
+    #[error("this is {}, which is not read; convert it to SDF: {}", .0.name, .0.conversion)]
+    Instrument(Instrument),
+    /// A zip archive that cannot be opened.
+    #[error("this is a damaged zip archive: {0}")]
+    Zip(String),
     /// A fibre map in a format of heights.
     #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
+    /// A pitch or a height that no surface has.
+    #[error("the file states {found}, expected {expected}: is it damaged, or its unit another?")]
+    Absurd {
+        /// The number.
+        found: String,
+        /// Numbers that are read.
+        expected: String,
+    },
     /// `dataset` was given for a file that has none.
     #[error("this is {format}, which has no datasets: leave out dataset = \"{dataset}\"")]
     NoDatasets {
@@ -97,10 +113,19 @@ pub enum FileError {
     /// A damaged or unusual SDF file.
     #[error(transparent)]
     Sdf(#[from] SdfError),
+    /// A damaged or unusual X3P file.
+    #[error(transparent)]
+    X3p(Box<X3pError>),
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
     Hdf5(#[from] Hdf5Error),
 }
 
+impl From<X3pError> for FileError {
+    fn from(error: X3pError) -> Self {
+        Self::X3p(Box::new(error))
+    }
+}
+
 /// What to do about a file that cannot be read.
-const READABLE: &str = "convert it to SDF ISO-1.0 (ASCII or binary) or HDF5";
+const READABLE: &str = "convert it to SDF, X3P or HDF5";

@@ -2,43 +2,50 @@
 
 use std::fmt;
 use std::fs::File;
-use std::io::Read;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
+use zip::ZipArchive;
+
 use super::error::FileError;
+use super::instrument::{Instrument, PLUX, recognise};
+use super::sdf::SdfKind;
 
 /// Formats of surface files that are told apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     /// HDF5.
     Hdf5,
-    /// SDF ISO-1.0 (ISO 25178-71), text.
-    SdfAscii,
-    /// SDF ISO-1.0 (ISO 25178-71), binary.
-    SdfBinary,
-    /// SDF ISO-2.0, not read yet.
-    SdfIso2,
-    /// SDF BCR-1.0, not read yet.
-    SdfBcr,
-    /// X3P (ISO 25178-72) or another zip archive, not read yet.
+    /// SDF (ISO 25178-71, BCR-1.0).
+    Sdf(SdfKind),
+    /// X3P (ISO 25178-72).
     X3p,
-    /// NumPy array, not read yet.
+    /// One NumPy array.
     Npy,
-    /// Table or list of numbers as text, not read yet.
+    /// Several NumPy arrays in a zip archive.
+    Npz,
+    /// PNG image.
+    Png,
+    /// TIFF image.
+    Tiff,
+    /// Table or list of numbers as text.
     Text,
+    /// An instrument's own format; such files are not read.
+    Instrument(Instrument),
 }
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Hdf5 => "an HDF5 file",
-            Self::SdfAscii => "an SDF ISO-1.0 file (ASCII)",
-            Self::SdfBinary => "an SDF ISO-1.0 file (binary)",
-            Self::SdfIso2 => "an SDF ISO-2.0 file",
-            Self::SdfBcr => "an SDF BCR-1.0 file",
-            Self::X3p => "an X3P file (zip archive)",
+            Self::Sdf(kind) => return write!(f, "an SDF {kind} file"),
+            Self::X3p => "an X3P file",
             Self::Npy => "a NumPy array file (.npy)",
+            Self::Npz => "an archive of NumPy arrays (.npz)",
+            Self::Png => "a PNG image",
+            Self::Tiff => "a TIFF image",
             Self::Text => "a text file",
+            Self::Instrument(instrument) => instrument.name,
         })
     }
 }
@@ -55,9 +62,34 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(FileError::NotAFile);
     }
+    let mut file = BufReader::new(File::open(path)?);
     let mut head = Vec::new();
-    File::open(path)?.take(HEAD).read_to_end(&mut head)?;
+    file.by_ref().take(HEAD).read_to_end(&mut head)?;
+    if head.starts_with(b"PK\x03\x04") {
+        return from_archive(file);
+    }
     from_head(&head).ok_or_else(|| FileError::Unknown { found: describe(&head) })
+}
+
+/// What a zip archive is, told by its entries.
+fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
+    let archive = ZipArchive::new(file).map_err(|error| FileError::Zip(error.to_string()))?;
+    let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);
+    if has(b"main.xml") {
+        return Ok(Format::X3p);
+    }
+    if !archive.is_empty() && archive.file_names_raw().all(|entry| entry.ends_with(b".npy")) {
+        return Ok(Format::Npz);
+    }
+    if has(b"index.xml") && archive.file_names_raw().any(|entry| entry.ends_with(b"recipe.txt")) {
+        return Ok(Format::Instrument(PLUX));
+    }
+    let first = archive.file_names_raw().next().map(|name| name[..name.len().min(40)].escape_ascii());
+    let entries = match first {
+        None => "an empty zip archive".to_owned(),
+        Some(first) => format!("a zip archive of {} entries, the first is \"{first}\"", archive.len()),
+    };
+    Err(FileError::Unknown { found: entries })
 }
 
 fn from_head(head: &[u8]) -> Option<Format> {
@@ -66,26 +98,27 @@ fn from_head(head: &[u8]) -> Option<Format> {
     if [0, 512, 1024, 2048].iter().any(|offset| at(*offset, b"\x89HDF\r\n\x1a\n")) {
         return Some(Format::Hdf5);
     }
-    if at(0, b"PK\x03\x04") {
-        return Some(Format::X3p);
-    }
-    if at(0, b"\x93NUMPY") {
-        return Some(Format::Npy);
-    }
-    let text = without_margin(head);
-    for (magic, format) in [
-        (b"aISO-1.0", Format::SdfAscii),
-        (b"bISO-1.0", Format::SdfBinary),
-        (b"aISO-2.0", Format::SdfIso2),
-        (b"bISO-2.0", Format::SdfIso2),
-        (b"aBCR-1.0", Format::SdfBcr),
-        (b"bBCR-1.0", Format::SdfBcr),
+    for (signature, format) in [
+        (b"\x93NUMPY".as_slice(), Format::Npy),
+        (b"\x89PNG\r\n\x1a\n", Format::Png),
+        // The second number is that of files beyond 4 GiB.
+        (b"II\x2a\0", Format::Tiff),
+        (b"MM\0\x2a", Format::Tiff),
+        (b"II\x2b\0", Format::Tiff),
+        (b"MM\0\x2b", Format::Tiff),
     ] {
-        // Only text may have blanks in front.
-        let start = if magic[0] == b'a' { text } else { head };
-        if start.starts_with(magic) {
+        if at(0, signature) {
             return Some(format);
         }
+    }
+    if let Some(instrument) = recognise(head) {
+        return Some(Format::Instrument(instrument));
+    }
+    let text = without_margin(head);
+    // Only text may have blanks in front.
+    if let Some(kind) = SdfKind::from_magic(if text.starts_with(b"a") || text.starts_with(b"A") { text } else { head })
+    {
+        return Some(Format::Sdf(kind));
     }
     let printable = |byte: &u8| !byte.is_ascii_control() || byte.is_ascii_whitespace();
     (text.iter().any(u8::is_ascii_digit) && head.iter().all(printable)).then_some(Format::Text)
@@ -106,24 +139,27 @@ fn describe(head: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::sdf::{Dialect, Encoding};
 
     #[test]
     fn tells_formats_by_their_signatures() {
         let mut user_block = vec![0; 512];
         user_block.extend(b"\x89HDF\r\n\x1a\n");
+        let sdf = |dialect, encoding| Some(Format::Sdf(SdfKind { dialect, encoding }));
         for (head, format) in [
             (b"\x89HDF\r\n\x1a\n".as_slice(), Some(Format::Hdf5)),
             (&user_block, Some(Format::Hdf5)),
-            (b"aISO-1.0\r\n", Some(Format::SdfAscii)),
-            (b"\xef\xbb\xbf  aISO-1.0\n", Some(Format::SdfAscii)),
-            (b"bISO-1.0sdfio", Some(Format::SdfBinary)),
-            (b"bISO-2.0sdfio", Some(Format::SdfIso2)),
-            (b"aBCR-1.0\r\n", Some(Format::SdfBcr)),
-            (b"PK\x03\x04\x14", Some(Format::X3p)),
+            (b"aISO-1.0\r\n", sdf(Dialect::Iso1, Encoding::Ascii)),
+            (b"\xef\xbb\xbf  aISO-1.0\n", sdf(Dialect::Iso1, Encoding::Ascii)),
+            (b"bISO-1.0sdfio", sdf(Dialect::Iso1, Encoding::Binary)),
+            (b"bISO-2.0sdfio", sdf(Dialect::Iso2, Encoding::Binary)),
+            (b"aBCR-1.0\r\n", sdf(Dialect::Bcr1, Encoding::Ascii)),
+            (b"BBCR-1.0", sdf(Dialect::Bcr1, Encoding::Binary)),
+            (b"GWYPGWYO", recognise(b"GWYP").map(Format::Instrument)),
             (b"\x93NUMPY\x01", Some(Format::Npy)),
             (b"1.0 2.0\n3.0 4.0\n", Some(Format::Text)),
             (b"", None),
-            (b"\x89PNG\r\n\x1a\n\0\0\0", None),
+            (b"\x89PNG\r\n\x1a\n\0\0\0", Some(Format::Png)),
             (b"\0\0\0\0", None),
         ] {
             assert_eq!(from_head(head), format, "{}", head.escape_ascii());

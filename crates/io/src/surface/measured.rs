@@ -1,12 +1,20 @@
 //! What a surface file holds, whatever its format.
 
+use std::fs::File;
+use std::io::BufReader;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use plateau_core::surface::{Length, Patch};
 
 use super::error::FileError;
 use super::format::{Format, detect};
-use super::{hdf5, sdf};
+use super::{hdf5, sdf, x3p};
+
+/// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
+const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
+/// Largest height or depth that is read, m; instruments with a far zero give up to 0.1.
+const HIGHEST: f64 = 1e3;
 
 /// What a user says of a file that the file itself does not.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -50,6 +58,21 @@ impl Measured {
         Some(Patch { columns, rows, column_pitch, row_pitch, heights })
     }
 
+    /// Refuses what is far from any surface: a damaged file, or numbers of another unit.
+    fn check(&self) -> Result<(), FileError> {
+        if let Some(pitch) = self.pitch.iter().flatten().find(|pitch| !PITCHES.contains(pitch)) {
+            let expected = format!("{:e} to {:e} m", PITCHES.start(), PITCHES.end());
+            return Err(FileError::Absurd { found: format!("a pitch of {pitch:e} m"), expected });
+        }
+        match self.heights.iter().find(|height| height.abs() > HIGHEST) {
+            None => Ok(()),
+            Some(height) => Err(FileError::Absurd {
+                found: format!("a height of {height:e} m"),
+                expected: format!("{:e} to {HIGHEST:e} m", -HIGHEST),
+            }),
+        }
+    }
+
     /// Size and pitch in words.
     pub fn describe(&self) -> String {
         let pitch = match self.pitch {
@@ -64,8 +87,14 @@ impl Measured {
 /// Reads a surface file; what it is, is told by its content.
 ///
 /// # Errors
-/// [`FileError`] when the file cannot be read exactly.
+/// [`FileError`] when the file cannot be read exactly, or holds what no surface has.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
+    let measured = read_format(path, options)?;
+    measured.check()?;
+    Ok(measured)
+}
+
+fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     let format = detect(path)?;
     if let (Some(dataset), false) = (&options.dataset, format == Format::Hdf5) {
         return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
@@ -77,12 +106,26 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
             let pitch = options.pitch;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
         }
-        Format::SdfAscii | Format::SdfBinary => {
-            let Patch { columns, rows, column_pitch, row_pitch, heights } = sdf::read(&std::fs::read(path)?)?;
-            let pitch = Some([column_pitch, row_pitch]);
-            let (notes, warnings) = (Vec::new(), Vec::new());
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+        Format::Sdf(_) => {
+            let file = File::open(path)?;
+            let length = file.metadata()?.len();
+            let sdf::Surface { patch, warnings } = sdf::read(BufReader::new(file), length)?;
+            Ok(from_instrument(format, patch, Vec::new(), warnings))
         }
-        other => Err(FileError::NotReadable(other)),
+        Format::X3p => {
+            let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(File::open(path)?))?;
+            Ok(from_instrument(format, patch, notes, warnings))
+        }
+        Format::Npy | Format::Npz => Err(FileError::NotReadable(format)),
+        Format::Png | Format::Tiff => Err(FileError::NotReadable(format)),
+        Format::Text => Err(FileError::NotReadable(format)),
+        Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
+}
+
+/// Heights of a file that states its pitch, with peaks positive.
+fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: Vec<String>) -> Measured {
+    let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
+    let pitch = Some([column_pitch, row_pitch]);
+    Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings }
 }

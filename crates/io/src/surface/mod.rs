@@ -4,12 +4,18 @@ mod error;
 mod format;
 mod hdf5;
 mod inputs;
+mod instrument;
 mod load;
 mod measured;
+mod profiles;
 pub mod sdf;
+mod writing;
+pub mod x3p;
 
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;
+pub use instrument::Instrument;
 pub use load::{Loaded, load};
 pub use measured::{Measured, ReadOptions, read};
+pub use writing::{WriteError, WriteOptions, write};

@@ -1,64 +1,93 @@
 //! ASCII SDF: lines "Name = Value", a line "*", heights, a line "*", trailer, a line "*".
+//!
+//! BCR-1.0 besides has comments, from ";" to the end of a line, and words for the codes of some fields.
+
+use std::io::BufRead;
 
 use plateau_core::surface::Patch;
 
+use super::Surface;
 use super::error::{Position, SdfError};
-use super::header::{DataType, Header, RawHeader};
+use super::header::{Header, RawHeader};
+use super::kind::{Dialect, Encoding, SdfKind};
+use super::lexer::Lexer;
 use crate::surface::format::without_margin;
 
-const MAGIC: &[u8] = b"aISO-1.0";
+/// Most fields of a header; the standard has 12.
+const MOST_FIELDS: usize = 100;
 
-pub(super) fn read(content: &[u8]) -> Result<Patch, SdfError> {
-    let mut lines = content.split(|byte| *byte == b'\n').enumerate().map(|(index, line)| (index + 1, line));
-    let first = lines.by_ref().map(|(_, line)| without_margin(line).trim_ascii_end()).find(|line| !line.is_empty());
-    if first != Some(MAGIC) {
-        let found = first.unwrap_or_default();
-        return Err(SdfError::Magic { found: found[..found.len().min(MAGIC.len() + 2)].escape_ascii().to_string() });
-    }
-    let header = read_header(&mut lines)?;
+pub(super) fn read(source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
+    let mut text = Lexer::new(source);
+    let dialect = read_magic(&mut text)?;
+    text.comment = (dialect == Dialect::Bcr1).then_some(b';');
+    let header = read_fields(&mut text, dialect)?.header()?;
     // A height takes at least two bytes: compared before anything is allocated.
-    if header.heights() > content.len() as u128 / 2 {
+    if header.heights() > u128::from(length) / 2 {
         return Err(SdfError::Truncated {
-            found: content.len(),
+            found: length,
             needed: 2 * header.heights(),
             what: format!("{} x {} heights", header.points, header.profiles),
         });
     }
-    let profiles = read_heights(&mut lines, &header)?;
-    Ok(super::patch(&header, &profiles))
+    let patch = read_heights(&mut text, &header)?;
+    Ok(Surface { patch, warnings: Vec::new() })
 }
 
-fn is_end(line: &[u8]) -> bool {
-    line.trim_ascii() == b"*"
-}
-
-fn read_header<'a>(lines: &mut impl Iterator<Item = (usize, &'a [u8])>) -> Result<Header, SdfError> {
-    let mut fields: Vec<(String, String, Position)> = Vec::new();
-    let mut last = 1;
-    for (number, line) in lines {
-        last = number;
-        let at = Position::Line(number);
-        if is_end(line) {
-            return Fields { fields, end: at }.header();
+fn read_magic(text: &mut Lexer<impl BufRead>) -> Result<Dialect, SdfError> {
+    while let Some((_, line)) = text.line()? {
+        let line = without_margin(line);
+        if !line.is_empty() {
+            return dialect(line);
         }
-        let text = String::from_utf8_lossy(line.trim_ascii());
-        if text.is_empty() {
+    }
+    Err(SdfError::Magic { found: String::new() })
+}
+
+/// The dialect that the first line names.
+fn dialect(line: &[u8]) -> Result<Dialect, SdfError> {
+    if let Some(SdfKind { dialect, encoding: Encoding::Ascii }) = SdfKind::from_magic(line) {
+        let rest = line[8..].trim_ascii();
+        if rest.is_empty() || (dialect == Dialect::Bcr1 && rest.starts_with(b";")) {
+            return Ok(dialect);
+        }
+    }
+    Err(SdfError::Magic { found: line[..line.len().min(10)].escape_ascii().to_string() })
+}
+
+fn read_fields(text: &mut Lexer<impl BufRead>, dialect: Dialect) -> Result<Fields, SdfError> {
+    let mut fields: Vec<(String, String, Position)> = Vec::new();
+    while let Some((number, line)) = text.line()? {
+        let at = Position::Line(number);
+        if line == b"*" {
+            return Ok(Fields { dialect, fields, end: at });
+        }
+        let line = String::from_utf8_lossy(line);
+        if line.is_empty() {
             continue;
         }
-        let Some((name, value)) = text.split_once('=') else {
-            let found = text.chars().take(40).collect();
-            return Err(SdfError::NotAField { at, found });
+        let (Some((name, value)), true) = (line.split_once('='), fields.len() < MOST_FIELDS) else {
+            return Err(SdfError::NotAField { at, found: short(line.as_bytes()) });
         };
         let name = name.trim();
         if fields.iter().any(|(known, ..)| known.eq_ignore_ascii_case(name)) {
-            return Err(SdfError::Twice { at, field: name.to_owned() });
+            return Err(SdfError::Twice { at, field: short(name.as_bytes()) });
         }
         fields.push((name.to_owned(), value.trim().to_owned(), at));
     }
-    Err(SdfError::Unclosed { record: "header", at: Position::Line(last) })
+    Err(SdfError::Unclosed { record: "header", at: Position::Line(text.number()) })
+}
+
+fn not(field: &'static str, value: &str, at: Position, expected: &'static str) -> SdfError {
+    SdfError::Field { at, field, found: format!("\"{}\"", short(value.as_bytes())), expected }
+}
+
+/// What is shown of a text.
+fn short(text: &[u8]) -> String {
+    text[..text.len().min(40)].escape_ascii().to_string()
 }
 
 struct Fields {
+    dialect: Dialect,
     fields: Vec<(String, String, Position)>,
     end: Position,
 }
@@ -66,93 +95,71 @@ struct Fields {
 impl Fields {
     fn header(&self) -> Result<Header, SdfError> {
         RawHeader {
-            points: self.integer("NumPoints")?,
-            profiles: self.integer("NumProfiles")?,
+            points: self.integer("NumPoints", &[])?,
+            profiles: self.integer("NumProfiles", &[])?,
             x_scale: self.real("Xscale")?,
             y_scale: self.real("Yscale")?,
             z_scale: self.real("Zscale")?,
-            compression: self.integer("Compression")?,
-            data_type: self.integer("DataType")?,
-            check_type: self.integer("CheckType")?,
+            compression: self.integer("Compression", &[("null", 0), ("none", 0), ("rll", 1)])?,
+            data_type: self.integer(
+                "DataType",
+                &[
+                    ("uchar", 0),
+                    ("uinteger", 1),
+                    ("ulongint", 2),
+                    ("float", 3),
+                    ("char", 4),
+                    ("integer", 5),
+                    ("longint", 6),
+                    ("double", 7),
+                ],
+            )?,
+            check_type: self.integer("CheckType", &[("null", 0), ("none", 0), ("uinttrace", 1)])?,
         }
-        .check()
+        .check(self.dialect)
     }
 
-    fn integer(&self, field: &'static str) -> Result<(i64, Position), SdfError> {
-        self.parse(field, "a whole number")
+    /// A whole number, for which BCR-1.0 may have one of the words.
+    fn integer(&self, field: &'static str, words: &[(&str, i64)]) -> Result<(i64, Position), SdfError> {
+        let (value, at) = self.field(field)?;
+        let word = words.iter().find(|(word, _)| self.dialect == Dialect::Bcr1 && word.eq_ignore_ascii_case(value));
+        let number = word.map(|(_, number)| *number).or_else(|| value.parse().ok());
+        number.map(|number| (number, at)).ok_or_else(|| not(field, value, at, "a whole number"))
     }
 
     fn real(&self, field: &'static str) -> Result<(f64, Position), SdfError> {
-        self.parse(field, "a positive, finite number")
+        let (value, at) = self.field(field)?;
+        value.parse().map(|number| (number, at)).map_err(|_| not(field, value, at, "a positive, finite number"))
     }
 
-    fn parse<T: std::str::FromStr>(
-        &self,
-        field: &'static str,
-        expected: &'static str,
-    ) -> Result<(T, Position), SdfError> {
-        let (_, value, at) = self
-            .fields
-            .iter()
-            .find(|(name, ..)| name.eq_ignore_ascii_case(field))
-            .ok_or(SdfError::MissingField { at: self.end, field })?;
-        match value.parse() {
-            Ok(number) => Ok((number, *at)),
-            Err(_) => Err(SdfError::Field { at: *at, field, found: format!("\"{value}\""), expected }),
-        }
+    fn field(&self, field: &'static str) -> Result<(&str, Position), SdfError> {
+        let found = self.fields.iter().find(|(name, ..)| name.eq_ignore_ascii_case(field));
+        found.map(|(_, value, at)| (value.as_str(), *at)).ok_or(SdfError::MissingField { at: self.end, field })
     }
 }
 
-fn read_heights<'a>(
-    lines: &mut impl Iterator<Item = (usize, &'a [u8])>,
-    header: &Header,
-) -> Result<Vec<f64>, SdfError> {
+fn read_heights(text: &mut Lexer<impl BufRead>, header: &Header) -> Result<Patch, SdfError> {
     let (points, profiles) = (header.points, header.profiles);
-    let expected = points * profiles;
-    let mut heights = Vec::with_capacity(expected);
-    let mut last = 1;
-    for (number, line) in lines {
-        last = number;
+    let mut heights = header.room();
+    while let Some((number, word)) = text.word()? {
         let at = Position::Line(number);
-        if is_end(line) {
-            if heights.len() < expected {
-                return Err(SdfError::Count { at, found: heights.len(), points, profiles });
-            }
-            return Ok(heights);
+        if word == b"*" {
+            return match heights.missing() {
+                0 => Ok(header.patch(heights)),
+                _ => Err(SdfError::Count { at, found: heights.len(), points, profiles }),
+            };
         }
-        for token in line.split(u8::is_ascii_whitespace).filter(|token| !token.is_empty()) {
-            if heights.len() == expected {
-                return Err(SdfError::TooMany { at, points, profiles });
-            }
-            let height = height(token, header).map_err(|expected| {
-                let found = token[..token.len().min(40)].escape_ascii().to_string();
-                SdfError::Height { at, found, expected }
-            })?;
-            heights.push(height);
+        if heights.missing() == 0 {
+            return Err(SdfError::TooMany { at, points, profiles });
         }
+        let wrong = |expected| SdfError::Height { at, found: short(word), expected };
+        let stored = header.data_type.parse(word, header.dialect).ok_or_else(|| wrong(header.data_type.name()))?;
+        let height = stored * header.z_scale;
+        if height.is_infinite() {
+            return Err(wrong("a finite number times Zscale, or BAD"));
+        }
+        heights.push(height);
     }
     // Without the closing line the last number might be cut short.
-    Err(SdfError::Unclosed { record: "data", at: Position::Line(last) })
-}
-
-/// One height, m, NaN for `BAD` (and for `NaN`, which some programs write); otherwise what was expected.
-fn height(token: &[u8], header: &Header) -> Result<f64, &'static str> {
-    if token.eq_ignore_ascii_case(b"BAD") || token.eq_ignore_ascii_case(b"NaN") {
-        return Ok(f64::NAN);
-    }
-    let data_type: DataType = header.data_type;
-    let wrong = data_type.name();
-    let text = std::str::from_utf8(token).map_err(|_| wrong)?;
-    let number = match data_type.integers() {
-        Some((smallest, largest)) => {
-            let integer: i64 = text.parse().map_err(|_| wrong)?;
-            if !(smallest..=largest).contains(&integer) {
-                return Err(wrong);
-            }
-            integer as f64
-        }
-        None => text.parse().map_err(|_| wrong)?,
-    };
-    let height = number * header.z_scale;
-    if height.is_finite() { Ok(height) } else { Err("a finite number times Zscale, or BAD") }
+    Err(SdfError::Unclosed { record: "data", at: Position::Line(text.number()) })
 }

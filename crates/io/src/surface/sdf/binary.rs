@@ -1,98 +1,113 @@
-//! Binary SDF: 81 bytes of header, little endian, then the data.
+//! Binary SDF: 81 bytes of header (85 in ISO-2.0), little endian, then the data.
 
-use plateau_core::surface::Patch;
+use std::io::{BufRead, ErrorKind, Read};
 
+use super::Surface;
 use super::error::{Position, SdfError};
-use super::header::{DataType, Header, RawHeader};
+use super::header::{Header, RawHeader};
+use super::kind::{Dialect, Encoding, SdfKind};
 
-const MAGIC: &[u8] = b"bISO-1.0";
-/// Magic 8, ManufacID 10, CreateDate 12, ModDate 12, NumPoints 2, NumProfiles 2, Xscale, Yscale, Zscale, Zresolution
-/// 8 each, Compression, DataType, CheckType 1 each.
-const HEADER: usize = 81;
+/// Bytes before the counts: magic 8, ManufacID 10, CreateDate 12, ModDate 12.
+const COUNTS: usize = 42;
+/// Bytes after the counts: Xscale, Yscale, Zscale, Zresolution 8 each, Compression, DataType, CheckType 1 each.
+const AFTER_COUNTS: usize = 35;
+/// Bytes that are read at once.
+const CHUNK: usize = 1 << 16;
+/// How much of a trailer is looked at.
+const TRAILER: u64 = 4096;
 
-pub(super) fn read(content: &[u8]) -> Result<Patch, SdfError> {
-    if !content.starts_with(MAGIC) {
-        let found = content[..content.len().min(MAGIC.len())].escape_ascii().to_string();
-        return Err(SdfError::Magic { found });
-    }
-    let Some((bytes, data)) = content.split_first_chunk::<HEADER>() else {
-        return Err(SdfError::Truncated {
-            found: content.len(),
-            needed: HEADER as u128,
-            what: "the header".to_owned(),
-        });
+pub(super) fn read(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
+    let start = take(&mut source, COUNTS)?;
+    let Some(SdfKind { dialect, encoding: Encoding::Binary }) = SdfKind::from_magic(&start) else {
+        return Err(SdfError::Magic { found: start[..start.len().min(8)].escape_ascii().to_string() });
     };
-    let header = header(bytes)?;
+    let truncated = |needed, what| SdfError::Truncated { found: length, needed, what };
+    let count_size = if dialect == Dialect::Iso2 { 4 } else { 2 };
+    let rest = take(&mut source, 2 * count_size + AFTER_COUNTS)?;
+    let header_size = COUNTS + 2 * count_size + AFTER_COUNTS;
+    if start.len() + rest.len() < header_size {
+        return Err(truncated(header_size as u128, "the header".to_owned()));
+    }
+    let header = header(&rest, count_size, dialect)?;
     let size = header.data_type.size();
     // Compared before anything is allocated: a header can promise more than any file holds.
-    let needed = header.heights() * size as u128;
-    if needed > data.len() as u128 {
-        return Err(SdfError::Truncated {
-            found: content.len(),
-            needed: HEADER as u128 + needed,
-            what: format!("{} x {} heights of {size} bytes", header.points, header.profiles),
-        });
+    let needed = header_size as u128 + header.heights() * size as u128;
+    let what = || format!("{} x {} heights of {size} bytes", header.points, header.profiles);
+    if needed > u128::from(length) {
+        return Err(truncated(needed, what()));
     }
-    // What follows the data is the trailer.
-    let data = &data[..needed as usize];
-    let mut profiles = Vec::with_capacity(data.len() / size);
-    for (index, raw) in data.chunks_exact(size).enumerate() {
-        let height = number(raw, header.data_type).map_or(f64::NAN, |number| number * header.z_scale);
-        if height.is_infinite() {
+
+    let mut heights = header.room();
+    let mut buffer = vec![0; CHUNK];
+    while heights.missing() > 0 {
+        let offset = header_size + heights.len() * size;
+        let chunk = &mut buffer[..CHUNK.min(heights.missing() * size)];
+        source.read_exact(chunk).map_err(|error| match error.kind() {
+            // The file has become shorter meanwhile.
+            ErrorKind::UnexpectedEof => truncated(needed, what()),
+            _ => error.into(),
+        })?;
+        let (mut index, mut infinite) = (0, None);
+        header.data_type.decode(chunk, dialect, |number| {
+            let height = number * header.z_scale;
+            if height.is_infinite() && infinite.is_none() {
+                infinite = Some((index, height));
+            }
+            index += 1;
+            heights.push(height);
+        });
+        if let Some((index, height)) = infinite {
             return Err(SdfError::Height {
-                at: Position::Byte(HEADER + index * size),
+                at: Position::Byte(offset + index * size),
                 found: height.to_string(),
                 expected: "a finite number times Zscale",
             });
         }
-        profiles.push(height);
     }
-    Ok(super::patch(&header, &profiles))
+    let mut trailer = Vec::new();
+    source.take(TRAILER).read_to_end(&mut trailer)?;
+    let warnings = trailer_warning(&trailer, needed, length).into_iter().collect();
+    Ok(Surface { patch: header.patch(heights), warnings })
 }
 
-fn header(bytes: &[u8; HEADER]) -> Result<Header, SdfError> {
-    let byte = |offset: usize| (i64::from(bytes[offset]), Position::Byte(offset));
-    let count =
-        |offset: usize| (i64::from(u16::from_le_bytes([bytes[offset], bytes[offset + 1]])), Position::Byte(offset));
-    let real = |offset: usize| {
+/// Up to `count` bytes, fewer only at the end of the file.
+fn take(source: &mut impl Read, count: usize) -> Result<Vec<u8>, SdfError> {
+    let mut bytes = Vec::with_capacity(count);
+    source.take(count as u64).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn header(bytes: &[u8], count_size: usize, dialect: Dialect) -> Result<Header, SdfError> {
+    let at = |offset: usize| Position::Byte(COUNTS + offset);
+    let array = |offset: usize, size: usize| {
         let mut raw = [0; 8];
-        raw.copy_from_slice(&bytes[offset..offset + 8]);
-        (f64::from_le_bytes(raw), Position::Byte(offset))
+        raw[..size].copy_from_slice(&bytes[offset..offset + size]);
+        raw
     };
+    let count = |offset: usize| (i64::from_le_bytes(array(offset, count_size)), at(offset));
+    let scales = 2 * count_size;
+    let real = |index: usize| (f64::from_le_bytes(array(scales + 8 * index, 8)), at(scales + 8 * index));
+    let code = |index: usize| (i64::from(bytes[scales + 32 + index]), at(scales + 32 + index));
     RawHeader {
-        points: count(42),
-        profiles: count(44),
-        x_scale: real(46),
-        y_scale: real(54),
-        z_scale: real(62),
-        compression: byte(78),
-        data_type: byte(79),
-        check_type: byte(80),
+        points: count(0),
+        profiles: count(count_size),
+        x_scale: real(0),
+        y_scale: real(1),
+        z_scale: real(2),
+        compression: code(0),
+        data_type: code(1),
+        check_type: code(2),
     }
-    .check()
+    .check(dialect)
 }
 
-/// One stored number; `None` where none was measured: the smallest number of the type (ISO 25178-71), or NaN, which
-/// some programs write.
-fn number(raw: &[u8], data_type: DataType) -> Option<f64> {
-    match (data_type, raw) {
-        (DataType::Int8, &[a]) => (a as i8 != i8::MIN).then_some(f64::from(a as i8)),
-        (DataType::Int16, &[a, b]) => {
-            let number = i16::from_le_bytes([a, b]);
-            (number != i16::MIN).then_some(f64::from(number))
-        }
-        (DataType::Int32, &[a, b, c, d]) => {
-            let number = i32::from_le_bytes([a, b, c, d]);
-            (number != i32::MIN).then_some(f64::from(number))
-        }
-        (DataType::Binary32, &[a, b, c, d]) => {
-            let number = f32::from_le_bytes([a, b, c, d]);
-            (!number.is_nan() && number != f32::MIN).then_some(f64::from(number))
-        }
-        (DataType::Binary64, &[a, b, c, d, e, f, g, h]) => {
-            let number = f64::from_le_bytes([a, b, c, d, e, f, g, h]);
-            (!number.is_nan() && number != f64::MIN).then_some(number)
-        }
-        _ => None,
-    }
+/// A trailer is text, filled up with zeros by some programs: bytes of another kind hint at a header that does not fit
+/// the data.
+fn trailer_warning(trailer: &[u8], start: u128, length: u64) -> Option<String> {
+    let odd = trailer.iter().position(|byte| byte.is_ascii_control() && !byte.is_ascii_whitespace() && *byte != 0)?;
+    let after = u128::from(length).saturating_sub(start);
+    Some(format!(
+        "the {after} bytes after the heights are no text (byte {}): do NumPoints, NumProfiles and DataType fit the data?",
+        start + odd as u128
+    ))
 }

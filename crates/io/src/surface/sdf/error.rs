@@ -1,6 +1,7 @@
 //! Why an SDF file cannot be read.
 
 use std::fmt;
+use std::io;
 
 use thiserror::Error;
 
@@ -23,10 +24,16 @@ impl fmt::Display for Position {
 }
 
 /// Why an SDF file cannot be read.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, Error)]
 pub enum SdfError {
-    /// It does not start as SDF ISO-1.0 does.
-    #[error("this is no SDF ISO-1.0 file: starts with \"{found}\", expected \"aISO-1.0\" or \"bISO-1.0\"")]
+    /// The operating system refused.
+    #[error("cannot be read: {0}")]
+    System(#[from] io::Error),
+    /// It does not start as an SDF file does.
+    #[error(
+        "this is no SDF file: starts with \"{found}\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same \
+         with \"b\""
+    )]
     Magic {
         /// First bytes.
         found: String,
@@ -35,7 +42,7 @@ pub enum SdfError {
     #[error("the file is truncated: ends at byte {found}, expected {needed} bytes for {what}")]
     Truncated {
         /// Bytes that are there.
-        found: usize,
+        found: u64,
         /// Bytes that are needed.
         needed: u128,
         /// What they are needed for.
@@ -50,7 +57,7 @@ pub enum SdfError {
         at: Position,
     },
     /// A line of the header is no field.
-    #[error("{at}: found \"{found}\", expected a header field \"Name = Value\" or the line \"*\"")]
+    #[error("{at}: found \"{found}\", expected a header field \"Name = Value\", one of up to 100, or the line \"*\"")]
     NotAField {
         /// Where.
         at: Position,

@@ -1,61 +1,11 @@
 //! What the header of an SDF file says, checked.
 
+use plateau_core::surface::Patch;
+
 use super::error::{Position, SdfError};
-
-/// Type of the stored numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum DataType {
-    Binary32,
-    Int8,
-    Int16,
-    Int32,
-    Binary64,
-}
-
-impl DataType {
-    /// ISO-1.0 itself has the codes 5 to 7; 3 and 4, which ISO-2.0 adds, mean the same wherever they occur. 0 to 2 are
-    /// the unsigned types of BCR-1.0, for which ISO-1.0 says nothing about points that were not measured.
-    fn from_code(code: i64) -> Option<Self> {
-        Some(match code {
-            3 => Self::Binary32,
-            4 => Self::Int8,
-            5 => Self::Int16,
-            6 => Self::Int32,
-            7 => Self::Binary64,
-            _ => return None,
-        })
-    }
-
-    /// Bytes of one number.
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::Int8 => 1,
-            Self::Int16 => 2,
-            Self::Binary32 | Self::Int32 => 4,
-            Self::Binary64 => 8,
-        }
-    }
-
-    /// Smallest and largest number of an integer type.
-    pub(super) fn integers(self) -> Option<(i64, i64)> {
-        match self {
-            Self::Int8 => Some((i8::MIN.into(), i8::MAX.into())),
-            Self::Int16 => Some((i16::MIN.into(), i16::MAX.into())),
-            Self::Int32 => Some((i32::MIN.into(), i32::MAX.into())),
-            Self::Binary32 | Self::Binary64 => None,
-        }
-    }
-
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Binary32 => "a binary32 number",
-            Self::Int8 => "an int8 number",
-            Self::Int16 => "an int16 number",
-            Self::Int32 => "an int32 number",
-            Self::Binary64 => "a binary64 number",
-        }
-    }
-}
+use super::kind::Dialect;
+use super::number::DataType;
+use crate::surface::profiles::Profiles;
 
 /// The numbers of a header as they stand in the file, with where they stand.
 pub(super) struct RawHeader {
@@ -72,6 +22,7 @@ pub(super) struct RawHeader {
 /// A header that can be.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
+    pub(super) dialect: Dialect,
     pub(super) points: usize,
     pub(super) profiles: usize,
     pub(super) x_scale: f64,
@@ -81,16 +32,17 @@ pub(super) struct Header {
 }
 
 impl RawHeader {
-    pub(super) fn check(&self) -> Result<Header, SdfError> {
-        let data_type = DataType::from_code(self.data_type.0).ok_or_else(|| SdfError::Field {
+    pub(super) fn check(&self, dialect: Dialect) -> Result<Header, SdfError> {
+        let data_type = DataType::from_code(self.data_type.0, dialect).ok_or_else(|| SdfError::Field {
             at: self.data_type.1,
             field: "DataType",
             found: self.data_type.0.to_string(),
-            expected: "3 (binary32), 4 (int8), 5 (int16), 6 (int32) or 7 (binary64)",
+            expected: DataType::codes(dialect),
         })?;
         zero("Compression", self.compression, "0: compressed data are not read")?;
         zero("CheckType", self.check_type, "0: data with check sums are not read")?;
         Ok(Header {
+            dialect,
             points: count("NumPoints", self.points)?,
             profiles: count("NumProfiles", self.profiles)?,
             x_scale: scale("Xscale", self.x_scale)?,
@@ -102,6 +54,25 @@ impl RawHeader {
 }
 
 impl Header {
+    /// Room for the heights in the order of the file. In BCR-1.0 the first profile has the largest y (so MountainsMap
+    /// shows such files, and so sdfio reads them; the document itself does not say), in ISO 25178-71 y is 0 there.
+    pub(super) fn room(&self) -> Profiles {
+        match self.dialect {
+            Dialect::Bcr1 => Profiles::downward(self.points, self.profiles),
+            Dialect::Iso1 | Dialect::Iso2 => Profiles::new(self.points, self.profiles),
+        }
+    }
+
+    pub(super) fn patch(&self, heights: Profiles) -> Patch {
+        Patch {
+            columns: self.points,
+            rows: self.profiles,
+            column_pitch: self.x_scale,
+            row_pitch: self.y_scale,
+            heights: heights.finish(),
+        }
+    }
+
     /// Heights that the header promises.
     pub(super) fn heights(&self) -> u128 {
         self.points as u128 * self.profiles as u128

@@ -1,37 +1,44 @@
-//! Surface data files, SDF ISO-1.0 (ISO 25178-71), ASCII and binary.
+//! Surface data files, SDF: ISO-1.0 and ISO-2.0 (ISO 25178-71) and their predecessor BCR-1.0, ASCII and binary.
 //!
 //! A file has three records: header, data, and a trailer of free text, which is not read. The data are `NumProfiles`
-//! profiles, y growing with their number, of `NumPoints` points, x growing; a height is the stored number times
-//! `Zscale`, in m. A point that was not measured is `BAD` in ASCII and the smallest number of the data type in binary.
+//! profiles, y growing with their number (falling in BCR-1.0), of `NumPoints` points, x growing; a height is the stored
+//! number times `Zscale`, in m. A point that was not measured is `BAD` in ASCII and the smallest number of the data
+//! type in binary; in BCR-1.0 it is the largest number of the data type in both.
 
 mod ascii;
 mod binary;
 mod error;
 mod header;
+mod kind;
+mod lexer;
+mod number;
+mod write;
 
 pub use error::{Position, SdfError};
+pub use kind::{Dialect, Encoding, SdfKind};
+pub(super) use write::{check, most_points, write};
+
+use std::io::BufRead;
 
 use plateau_core::surface::Patch;
 
-use header::Header;
+/// What an SDF file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// The heights.
+    pub patch: Patch,
+    /// What is odd about the file though its heights could be read.
+    pub warnings: Vec<String>,
+}
 
-/// Reads the whole content of an SDF ISO-1.0 file.
+/// Reads an SDF file of `length` bytes, from its start. Memory beyond the heights is a few profiles.
 ///
 /// # Errors
 /// [`SdfError`] with line or byte when the content is truncated, promises more than it holds, or holds what is no
 /// number, scale or count.
-pub fn read(content: &[u8]) -> Result<Patch, SdfError> {
-    if content.first() == Some(&b'b') { binary::read(content) } else { ascii::read(content) }
-}
-
-/// Heights in the order of the file, profile by profile, as a patch.
-fn patch(header: &Header, profiles: &[f64]) -> Patch {
-    let (columns, rows) = (header.points, header.profiles);
-    let mut heights = vec![f64::NAN; profiles.len()];
-    for (row, profile) in profiles.chunks_exact(columns).enumerate() {
-        for (column, height) in profile.iter().enumerate() {
-            heights[column * rows + row] = *height;
-        }
+pub fn read(mut source: impl BufRead, length: u64) -> Result<Surface, SdfError> {
+    match source.fill_buf()?.first() {
+        Some(b'b' | b'B') => binary::read(source, length),
+        _ => ascii::read(source, length),
     }
-    Patch { columns, rows, column_pitch: header.x_scale, row_pitch: header.y_scale, heights }
 }

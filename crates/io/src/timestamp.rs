@@ -3,12 +3,23 @@
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 /// ISO 8601 in UTC to the millisecond, for instance `2019-12-15T08:30:00.000Z`; times before 1970 count as its start.
-pub(super) fn iso_8601(time: SystemTime) -> String {
-    let since = time.duration_since(UNIX_EPOCH).unwrap_or(Duration::ZERO);
+pub(crate) fn iso_8601(time: SystemTime) -> String {
+    let since = since_1970(time);
     let seconds = since.as_secs();
     let (year, month, day) = civil_date(seconds / 86_400);
     let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{:03}Z", since.subsec_millis())
+}
+
+/// Day, month, year, hour and minute in UTC without anything between them, for instance `151220190830`.
+pub(crate) fn day_month_year(time: SystemTime) -> String {
+    let seconds = since_1970(time).as_secs();
+    let (year, month, day) = civil_date(seconds / 86_400);
+    format!("{day:02}{month:02}{year:04}{:02}{:02}", seconds / 3600 % 24, seconds / 60 % 60)
+}
+
+fn since_1970(time: SystemTime) -> Duration {
+    time.duration_since(UNIX_EPOCH).unwrap_or(Duration::ZERO)
 }
 
 /// Year, month and day, `days` after 1970-01-01 in the Gregorian calendar.
@@ -46,6 +57,12 @@ mod tests {
         ] {
             assert_eq!(iso_8601(UNIX_EPOCH + Duration::from_secs(seconds)), text);
         }
+    }
+
+    #[test]
+    fn day_month_and_year_without_anything_between() {
+        // date -u -d @1576398600 +%d%m%Y%H%M
+        assert_eq!(day_month_year(UNIX_EPOCH + Duration::from_secs(1_576_398_600)), "151220190830");
     }
 
     #[test]

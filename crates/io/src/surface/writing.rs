@@ -1,0 +1,174 @@
+//! Writing surfaces: the format by the ending, the file whole or not at all.
+
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::SystemTime;
+
+use plateau_core::surface::Patch;
+use thiserror::Error;
+
+use super::sdf::{self, Dialect, Encoding, SdfKind};
+use super::x3p;
+use crate::timestamp;
+
+/// How a surface is written.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct WriteOptions {
+    /// An existing file is replaced.
+    pub replace: bool,
+    /// Dialect and encoding of SDF. Without it ISO-1.0, or ISO-2.0 where a side has more than 65535 points; binary, or
+    /// ISO-1.0 ASCII where points are missing: every program knows the word for them, while some take their mark in
+    /// binary64 for a height (SurfaceTopography 1.27.1 does).
+    pub sdf: Option<SdfKind>,
+}
+
+/// Why a surface cannot be written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The ending names no format that is written.
+    #[error("{}: {found}, expected the ending {ENDINGS}", path.display())]
+    UnknownEnding {
+        /// The output path.
+        path: PathBuf,
+        /// What its ending is.
+        found: String,
+    },
+    /// There is a file already.
+    #[error("{} exists; give --force to replace it, or write elsewhere", path.display())]
+    Exists {
+        /// The output path.
+        path: PathBuf,
+    },
+    /// A folder, a device or the like.
+    #[error("{} is no regular file and is not replaced", path.display())]
+    NotAFile {
+        /// The output path.
+        path: PathBuf,
+    },
+    /// The surface is none, or the format has no room for it.
+    #[error("{}: {reason}", path.display())]
+    Unsuitable {
+        /// The output path.
+        path: PathBuf,
+        /// What does not fit.
+        reason: String,
+    },
+    /// The system refused; the file that was there before is as it was.
+    #[error("writing {} failed: {reason}", path.display())]
+    System {
+        /// The output path.
+        path: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
+}
+
+/// Endings that are written.
+const ENDINGS: &str = ".sdf or .x3p";
+
+/// Writes heights so that reading the file gives the same heights, bit for bit, missing points as missing points.
+///
+/// The format is that of the ending, .sdf or .x3p in small or large letters. The file appears at `path` when it is
+/// complete; whatever goes wrong, a file that was there before stays as it was.
+///
+/// # Errors
+/// [`WriteError`] when the ending is another, the file exists and is not to be replaced, the pitch is no positive number,
+/// a height is infinite, the format has no room for the heights, or the system refuses.
+pub fn write(path: &Path, patch: &Patch, options: &WriteOptions) -> Result<(), WriteError> {
+    check(patch).map_err(|reason| WriteError::Unsuitable { path: path.into(), reason })?;
+    let ending = path.extension().and_then(OsStr::to_str).unwrap_or_default().to_ascii_lowercase();
+    let now = SystemTime::now();
+    match ending.as_str() {
+        "sdf" => {
+            let kind = options.sdf.unwrap_or_else(|| default_kind(patch));
+            sdf::check(kind, patch)
+                .map_err(|reason| WriteError::Unsuitable { path: path.into(), reason: reason.to_string() })?;
+            let date = timestamp::day_month_year(now);
+            place(path, options.replace, |temporary| {
+                let mut out = BufWriter::new(File::create(temporary)?);
+                sdf::write(&mut out, kind, patch, &date)?;
+                out.flush()
+            })
+        }
+        "x3p" => place(path, options.replace, |temporary| {
+            x3p::write(BufWriter::new(File::create(temporary)?), patch, &timestamp::iso_8601(now))
+        }),
+        other => {
+            let found = if other.is_empty() { "no ending".to_owned() } else { format!("ending .{other}") };
+            Err(WriteError::UnknownEnding { path: path.into(), found })
+        }
+    }
+}
+
+fn check(patch: &Patch) -> Result<(), String> {
+    let Patch { columns, rows, column_pitch, row_pitch, ref heights } = *patch;
+    if columns == 0 || rows == 0 || columns.checked_mul(rows) != Some(heights.len()) {
+        return Err(format!("{} heights are not {columns} x {rows} points", heights.len()));
+    }
+    for pitch in [column_pitch, row_pitch] {
+        if !(pitch > 0.0 && pitch.is_finite()) {
+            return Err(format!("the pitch is {pitch} m, expected a positive, finite number"));
+        }
+    }
+    match heights.iter().position(|height| height.is_infinite()) {
+        None => Ok(()),
+        Some(index) => Err(format!("the height at (column {}, row {}) is infinite", index / rows, index % rows)),
+    }
+}
+
+fn default_kind(patch: &Patch) -> SdfKind {
+    if patch.missing() > 0 {
+        return SdfKind { dialect: Dialect::Iso1, encoding: Encoding::Ascii };
+    }
+    let kind = |dialect| SdfKind { dialect, encoding: Encoding::Binary };
+    let fits = patch.columns.max(patch.rows) as u64 <= sdf::most_points(kind(Dialect::Iso1));
+    kind(if fits { Dialect::Iso1 } else { Dialect::Iso2 })
+}
+
+/// Lets `fill` write a temporary file beside `path`, which is there and empty, and gives it its name when that is done.
+fn place(path: &Path, replace: bool, fill: impl FnOnce(&Path) -> io::Result<()>) -> Result<(), WriteError> {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let exists = || WriteError::Exists { path: path.into() };
+    let system = |reason| WriteError::System { path: path.into(), reason };
+    if path.file_name().is_none() {
+        return Err(WriteError::NotAFile { path: path.into() });
+    }
+    // A symbolic link stays one: the file that it points to is replaced.
+    let target = match fs::symlink_metadata(path) {
+        Ok(_) if !replace => return Err(exists()),
+        Ok(_) => fs::canonicalize(path).map_err(system)?,
+        Err(_) => path.to_owned(),
+    };
+    if fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
+        return Err(WriteError::NotAFile { path: path.into() });
+    }
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let temporary = Temporary(target.with_file_name(format!(".plateau-{}-{number}.tmp", std::process::id())));
+    File::create_new(&temporary.0).map_err(system)?;
+    fill(&temporary.0).map_err(system)?;
+    let published = if replace {
+        fs::rename(&temporary.0, &target)
+    } else {
+        // A link fails where a file has appeared meanwhile; a rename would replace it.
+        match fs::hard_link(&temporary.0, &target) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(exists()),
+            // Some file systems have no hard links.
+            Err(_) if fs::symlink_metadata(&target).is_err() => fs::rename(&temporary.0, &target),
+            other => other,
+        }
+    };
+    published.map_err(system)
+}
+
+/// A file that is removed when this is dropped.
+struct Temporary(PathBuf);
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        // Gone already where it was renamed; otherwise there is nobody left to tell.
+        let _ = fs::remove_file(&self.0);
+    }
+}

@@ -1,0 +1,168 @@
+//! Surfaces written and read again.
+
+use std::fs;
+use std::path::Path;
+
+use plateau_core::surface::Patch;
+use plateau_io::surface::sdf::{Dialect, Encoding, SdfKind};
+use plateau_io::surface::{Format, ReadOptions, WriteError, WriteOptions, read, write};
+
+/// Heights of every size and sign, missing points at the corners and in a row, pitches that decimals round.
+fn patch(columns: usize, rows: usize) -> Patch {
+    let mut heights: Vec<f64> = (0..columns * rows).map(|i| 1e-6 * (0.7 * i as f64).sin() / 3.0).collect();
+    for (index, height) in [-0.0, 5e-324, -1e-310, 1e3, -1e3, 0.1, 1.0 / 3.0].iter().enumerate() {
+        heights[index * 3 % (columns * rows)] = *height;
+    }
+    for index in [0, rows - 1, columns * rows - 1, columns * rows / 2, columns * rows / 2 + 1] {
+        heights[index % (columns * rows)] = f64::NAN;
+    }
+    Patch { columns, rows, column_pitch: 1e-6 / 3.0, row_pitch: 0.1, heights }
+}
+
+fn check_equal(found: &Patch, expected: &Patch) {
+    assert_eq!((found.columns, found.rows), (expected.columns, expected.rows));
+    assert_eq!((found.column_pitch, found.row_pitch), (expected.column_pitch, expected.row_pitch));
+    for (found, expected) in found.heights.iter().zip(&expected.heights) {
+        assert!(found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan()), "{found} {expected}");
+    }
+}
+
+fn read_patch(path: &Path) -> Patch {
+    let measured = read(path, &ReadOptions::default()).unwrap();
+    assert_eq!(measured.warnings, [""; 0]);
+    measured.into_patch().unwrap()
+}
+
+fn kinds() -> impl Iterator<Item = SdfKind> {
+    let dialects = [Dialect::Bcr1, Dialect::Iso1, Dialect::Iso2];
+    dialects
+        .into_iter()
+        .flat_map(|dialect| [Encoding::Ascii, Encoding::Binary].map(|encoding| SdfKind { dialect, encoding }))
+}
+
+/// Names of the files of a folder.
+fn names(folder: &Path) -> Vec<String> {
+    fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+#[test]
+fn what_was_written_is_read_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    for (columns, rows) in [(17, 40), (40, 17), (9, 1), (1, 9), (1, 1)] {
+        let patch = patch(columns, rows);
+        for kind in kinds() {
+            let path = folder.path().join("out.sdf");
+            write(&path, &patch, &WriteOptions { replace: true, sdf: Some(kind) }).unwrap();
+            assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
+            check_equal(&read_patch(&path), &patch);
+        }
+        let path = folder.path().join("out.X3P");
+        write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
+        check_equal(&read_patch(&path), &patch);
+    }
+}
+
+#[test]
+fn sdf_is_iso_1_and_binary_unless_there_are_too_many_points_or_some_are_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.sdf");
+    let options = WriteOptions { replace: true, ..WriteOptions::default() };
+    for (columns, missing, dialect, encoding) in [
+        (65_535, false, Dialect::Iso1, Encoding::Binary),
+        (65_536, true, Dialect::Iso1, Encoding::Ascii),
+        (65_536, false, Dialect::Iso2, Encoding::Binary),
+    ] {
+        let mut patch = patch(columns, 1);
+        if !missing {
+            patch.heights.iter_mut().filter(|height| height.is_nan()).for_each(|height| *height = 0.0);
+        }
+        write(&path, &patch, &options).unwrap();
+        let kind = SdfKind { dialect, encoding };
+        assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
+        check_equal(&read_patch(&path), &patch);
+    }
+    let before = fs::read(&path).unwrap();
+    for dialect in [Dialect::Iso1, Dialect::Bcr1] {
+        let sdf = Some(SdfKind { dialect, encoding: Encoding::Binary });
+        let found = write(&path, &patch(65_536, 1), &WriteOptions { sdf, ..options }).unwrap_err().to_string();
+        let expected = format!("SDF {dialect} binary holds up to 65535 points along each side, there are 65536 by 1");
+        assert!(found.ends_with(&expected), "{found}");
+    }
+    assert_eq!(fs::read(&path).unwrap(), before);
+}
+
+#[test]
+fn heights_that_would_be_read_as_missing_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.sdf");
+    for kind in kinds() {
+        let mark = match kind {
+            SdfKind { dialect: Dialect::Bcr1, .. } => 1.7e308,
+            SdfKind { encoding: Encoding::Binary, .. } => f64::MIN,
+            SdfKind { encoding: Encoding::Ascii, .. } => continue,
+        };
+        let patch = Patch { columns: 1, rows: 2, column_pitch: 1.0, row_pitch: 1.0, heights: vec![0.0, mark] };
+        let found = write(&path, &patch, &WriteOptions { replace: false, sdf: Some(kind) }).unwrap_err().to_string();
+        assert!(found.contains(&format!("SDF {kind} reads the height ")), "{found}");
+    }
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
+fn an_existing_file_is_replaced_only_when_that_is_asked_for_and_never_damaged() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("out.x3p");
+    fs::write(&path, "precious").unwrap();
+    let error = write(&path, &patch(4, 5), &WriteOptions::default()).unwrap_err();
+    assert!(matches!(error, WriteError::Exists { .. }));
+    let mut wrong = patch(4, 5);
+    wrong.heights[7] = f64::INFINITY;
+    let replace = WriteOptions { replace: true, ..WriteOptions::default() };
+    let found = write(&path, &wrong, &replace).unwrap_err().to_string();
+    assert!(found.ends_with("out.x3p: the height at (column 1, row 2) is infinite"), "{found}");
+    assert_eq!(fs::read(&path).unwrap(), b"precious");
+    write(&path, &patch(4, 5), &replace).unwrap();
+    check_equal(&read_patch(&path), &patch(4, 5));
+    assert_eq!(names(folder.path()), ["out.x3p"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link_and_a_folder_a_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, link) = (folder.path().join("file.sdf"), folder.path().join("link.sdf"));
+    fs::write(&file, "old").unwrap();
+    std::os::unix::fs::symlink("file.sdf", &link).unwrap();
+    let replace = WriteOptions { replace: true, ..WriteOptions::default() };
+    write(&link, &patch(3, 3), &replace).unwrap();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    check_equal(&read_patch(&file), &patch(3, 3));
+    let inner = folder.path().join("folder.sdf");
+    fs::create_dir(&inner).unwrap();
+    assert!(matches!(write(&inner, &patch(3, 3), &replace), Err(WriteError::NotAFile { .. })));
+}
+
+#[test]
+fn what_cannot_be_written_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let message = |name: &str, patch: &Patch| {
+        let path = folder.path().join(name);
+        let found = write(&path, patch, &WriteOptions::default()).unwrap_err().to_string();
+        found.replace(&folder.path().display().to_string(), "FOLDER")
+    };
+    let good = patch(3, 4);
+    let flat = Patch { row_pitch: 0.0, ..good.clone() };
+    let short = Patch { rows: 5, ..good.clone() };
+    let empty = Patch { rows: 0, heights: Vec::new(), ..good.clone() };
+    for (name, patch, expected) in [
+        ("a.csv", &good, "FOLDER/a.csv: ending .csv, expected the ending .sdf or .x3p"),
+        ("a", &good, "FOLDER/a: no ending, expected the ending .sdf or .x3p"),
+        ("a.sdf", &flat, "FOLDER/a.sdf: the pitch is 0 m, expected a positive, finite number"),
+        ("a.sdf", &short, "FOLDER/a.sdf: 12 heights are not 3 x 5 points"),
+        ("a.x3p", &empty, "FOLDER/a.x3p: 0 heights are not 3 x 0 points"),
+        ("no/a.sdf", &good, "writing FOLDER/no/a.sdf failed: No such file or directory (os error 2)"),
+    ] {
+        assert_eq!(message(name, patch), expected);
+    }
+    assert_eq!(names(folder.path()), [""; 0]);
+}
