@@ -12,7 +12,7 @@ use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
-use plateau_io::surface::{Loaded, load};
+use plateau_io::surface::{Loaded, ReadOptions, load};
 
 const ROWS: usize = 4;
 const DISC_COLUMNS: usize = 60;
@@ -70,7 +70,8 @@ fn scene() -> Scene {
 }
 
 fn file(path: &Path, dataset: Option<&str>) -> HeightSource {
-    HeightSource::File { path: path.to_owned(), dataset: dataset.map(str::to_owned) }
+    let options = ReadOptions { dataset: dataset.map(str::to_owned), ..ReadOptions::default() };
+    HeightSource::File { path: path.to_owned(), options }
 }
 
 fn afm() -> PathBuf {
@@ -242,10 +243,7 @@ fn unsuitable_hdf5_content_is_named() {
         ("cube", "dataset /cube has float64, shape (2, 3, 4), expected floating-point numbers and 2 dimensions"),
         ("pin/base", "dataset /pin/base has uint8, shape (6, 4), expected floating-point numbers"),
         ("text", "dataset /text has "),
-        (
-            "pin/height",
-            "dataset /pin/height has shape (6, 4), expected (60, 4) for the whole body; as a patch it needs",
-        ),
+        ("pin/height", "there are 6 columns and 4 rows, expected 60 and 4 for the whole body; as a patch they need"),
         ("promise", "dataset /promise has shape (1073741824, 1073741824), which is more than the 268435456 points"),
         ("disc/infinite", "1 of 240 heights in dataset /disc/infinite are infinite"),
     ] {
@@ -363,15 +361,22 @@ fn files_that_are_not_read_are_named() {
         (PathBuf::from("/dev/null"), "this is not a regular file".to_owned()),
         (write("empty.sdf", b""), format!("this is no surface file that is known (it is empty); {advice}")),
         (
-            write("a.sdf", b"\x89PNG\r\n\x1a\n\0\0"),
-            format!("this is no surface file that is known (it starts with \"\\x89PNG\\r\\n\\x1a\\n\"); {advice}"),
+            write("a.jpg", b"\xff\xd8\xff\xe0\0\x10JFIF"),
+            format!(
+                "this is no surface file that is known (it starts with \"\\xff\\xd8\\xff\\xe0\\x00\\x10JF\"); {advice}"
+            ),
         ),
         (
             write("a.x3p", b"PK\x03\x04"),
             format!("this is an X3P file (zip archive), which this version does not read; {advice}"),
         ),
-        (write("a.csv", b"1,2\n3,4\n"), format!("this is a text file, which this version does not read; {advice}")),
-        (write("a.npy", b"\x93NUMPY\x01\0"), "this is a NumPy array file (.npy), which this version".to_owned()),
+        (write("a.csv", b"1,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),
+        (write("utf16.txt", b"\xff\xfe1\0 \02\0"), "this is UTF-16 text, expected UTF-8: save it as UTF-8".to_owned()),
+        (
+            write("a.txt", b"# unit: um\n1 2\n3 4\n"),
+            "the file does not say the distance of its points: pitch = ".to_owned(),
+        ),
+        (write("a.npy", b"\x93NUMPY\x01\0"), "the header is damaged: ".to_owned()),
         (sample("iso2_surface_int8_binary.sdf"), "this is an SDF ISO-2.0 file, which this version".to_owned()),
         (sample("iso2_surface_int8_ascii.sdf"), "this is an SDF ISO-2.0 file, which this version".to_owned()),
         (sample("bcr1_surface_uint16_binary.sdf"), "this is an SDF BCR-1.0 file, which this version".to_owned()),

@@ -3,12 +3,16 @@
 use std::io;
 use std::path::PathBuf;
 
+use plateau_core::surface::micrograph::MicrographError;
 use plateau_core::surface::{FibreError, PreparationError, SynthesisError};
 use thiserror::Error;
 
 use super::format::Format;
 use super::hdf5::Hdf5Error;
+use super::image::ImageError;
+use super::npy::NpyError;
 use super::sdf::SdfError;
+use super::text::TextError;
 
 /// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
 #[derive(Debug, Error)]
@@ -69,6 +73,12 @@ pub enum FileError {
     /// It is known what it is, but this version does not read it.
     #[error("this is {0}, which this version does not read; {READABLE}")]
     NotReadable(Format),
+    /// `image` names something else.
+    #[error("this is {0}, expected an image: PNG or TIFF")]
+    NotAnImage(Format),
+    /// A picture cannot be written.
+    #[error("cannot be written as PNG: {0}")]
+    Write(#[from] png::EncodingError),
     /// A fibre map in a format of heights.
     #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
@@ -80,10 +90,24 @@ pub enum FileError {
         /// The dataset asked for.
         dataset: String,
     },
+    /// A key was given that the format has no use for.
+    #[error(
+        "this is {format}, for which {key} has no meaning: leave it out (pixel and scale in the prepare table read a \
+         file differently than it says)"
+    )]
+    Meaningless {
+        /// The format.
+        format: Format,
+        /// The key.
+        key: &'static str,
+    },
+    /// The pitch of measured heights is unknown.
+    #[error("the file does not say the distance of its points: pitch = \"50 um\" beside file does, for example")]
+    NoPitchOfFile,
     /// The shape is not that of the mesh and the pitch is unknown.
     #[error(
         "there are {} columns and {} rows, expected {} and {} for the whole body; as a patch they need a pitch: \
-         pixel = \"50 um\" in the prepare table, for example",
+         pitch = \"50 um\" beside file, for example",
         found.0, found.1, mesh.0, mesh.1
     )]
     NoPitch {
@@ -98,6 +122,18 @@ pub enum FileError {
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
     Hdf5(#[from] Hdf5Error),
+    /// A damaged or unsuitable NumPy file.
+    #[error(transparent)]
+    Npy(#[from] NpyError),
+    /// A damaged or unsuitable image.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// An image that gives no fibre map.
+    #[error(transparent)]
+    Micrograph(#[from] MicrographError),
+    /// Text that holds no surface.
+    #[error(transparent)]
+    Text(#[from] TextError),
 }
 
 /// What to do about a file that cannot be read.

@@ -6,6 +6,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::error::FileError;
+use super::text::{TextError, is_utf16};
 
 /// Formats of surface files that are told apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,9 +23,15 @@ pub enum Format {
     SdfBcr,
     /// X3P (ISO 25178-72) or another zip archive, not read yet.
     X3p,
-    /// NumPy array, not read yet.
+    /// NumPy array.
     Npy,
-    /// Table or list of numbers as text, not read yet.
+    /// Zip archive of NumPy arrays.
+    Npz,
+    /// PNG image.
+    Png,
+    /// TIFF image.
+    Tiff,
+    /// Matrix of numbers or list of points as text.
     Text,
 }
 
@@ -38,6 +45,9 @@ impl fmt::Display for Format {
             Self::SdfBcr => "an SDF BCR-1.0 file",
             Self::X3p => "an X3P file (zip archive)",
             Self::Npy => "a NumPy array file (.npy)",
+            Self::Npz => "a NumPy archive (.npz)",
+            Self::Png => "a PNG image",
+            Self::Tiff => "a TIFF image",
             Self::Text => "a text file",
         })
     }
@@ -57,6 +67,9 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     }
     let mut head = Vec::new();
     File::open(path)?.take(HEAD).read_to_end(&mut head)?;
+    if is_utf16(&head) {
+        return Err(TextError::Utf16.into());
+    }
     from_head(&head).ok_or_else(|| FileError::Unknown { found: describe(&head) })
 }
 
@@ -67,7 +80,14 @@ fn from_head(head: &[u8]) -> Option<Format> {
         return Some(Format::Hdf5);
     }
     if at(0, b"PK\x03\x04") {
-        return Some(Format::X3p);
+        return Some(if holds_array(head) { Format::Npz } else { Format::X3p });
+    }
+    if at(0, b"\x89PNG\r\n\x1a\n") {
+        return Some(Format::Png);
+    }
+    // The byte order, then 42, or 43 for files beyond 4 GiB.
+    if [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|signature| at(0, *signature)) {
+        return Some(Format::Tiff);
     }
     if at(0, b"\x93NUMPY") {
         return Some(Format::Npy);
@@ -89,6 +109,13 @@ fn from_head(head: &[u8]) -> Option<Format> {
     }
     let printable = |byte: &u8| !byte.is_ascii_control() || byte.is_ascii_whitespace();
     (text.iter().any(u8::is_ascii_digit) && head.iter().all(printable)).then_some(Format::Text)
+}
+
+/// Whether the first member of a zip archive is a NumPy array, by its name: 30 bytes of header, among them the length of
+/// the name at byte 26, then the name.
+fn holds_array(head: &[u8]) -> bool {
+    let length = head.get(26..28).map_or(0, |bytes| usize::from(bytes[0]) | usize::from(bytes[1]) << 8);
+    head.get(30..30 + length).is_some_and(|name| name.ends_with(b".npy"))
 }
 
 /// Text without a byte order mark and leading blanks.
@@ -123,7 +150,11 @@ mod tests {
             (b"\x93NUMPY\x01", Some(Format::Npy)),
             (b"1.0 2.0\n3.0 4.0\n", Some(Format::Text)),
             (b"", None),
-            (b"\x89PNG\r\n\x1a\n\0\0\0", None),
+            (b"PK\x03\x04\x14\0\0\0\0\0\0\0!\0\0\0\0\0\0\0\0\0\0\0\0\0\x05\0\0\0a.npy\x93", Some(Format::Npz)),
+            (b"\x89PNG\r\n\x1a\n\0\0\0", Some(Format::Png)),
+            (b"II*\0\x08\0\0\0", Some(Format::Tiff)),
+            (b"MM\0*\0\0\0\x08", Some(Format::Tiff)),
+            (b"\xff\xd8\xff\xe0\0", None),
             (b"\0\0\0\0", None),
         ] {
             assert_eq!(from_head(head), format, "{}", head.escape_ascii());

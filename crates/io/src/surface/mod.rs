@@ -2,14 +2,23 @@
 
 mod error;
 mod format;
-mod hdf5;
+pub mod hdf5;
+mod image;
 mod inputs;
+mod limits;
 mod load;
 mod measured;
+pub mod npy;
+mod preview;
 pub mod sdf;
+mod text;
 
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;
+pub use image::ImageError;
 pub use load::{Loaded, load};
 pub use measured::{Measured, ReadOptions, read};
+pub use npy::NpyError;
+pub use preview::write_base_preview;
+pub use text::TextError;

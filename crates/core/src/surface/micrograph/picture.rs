@@ -46,9 +46,12 @@ mod tests {
     fn turns_counterclockwise() {
         // numpy.rot90([[1, 2, 3], [4, 5, 6]], k)
         let picture = Picture { width: 3, height: 2, pixels: vec![1, 2, 3, 4, 5, 6] };
-        for (quarters, width, pixels) in
-            [(0, 3, [1, 2, 3, 4, 5, 6]), (1, 2, [3, 6, 2, 5, 1, 4]), (2, 3, [6, 5, 4, 3, 2, 1]), (3, 2, [4, 1, 5, 2, 6, 3])]
-        {
+        for (quarters, width, pixels) in [
+            (0, 3, [1, 2, 3, 4, 5, 6]),
+            (1, 2, [3, 6, 2, 5, 1, 4]),
+            (2, 3, [6, 5, 4, 3, 2, 1]),
+            (3, 2, [4, 1, 5, 2, 6, 3]),
+        ] {
             let turned = picture.clone().turned(quarters);
             assert_eq!((turned.width, turned.height), (width, 6 / width));
             assert_eq!(turned.pixels, pixels, "{quarters}");

@@ -110,7 +110,9 @@ fn what_makes_no_sense_is_refused() {
     assert_eq!(recipe().fibre_map(grey.clone(), &mesh()), Err(MicrographError::Uniform));
     let all = Micrograph { threshold: Threshold::Level(0.4), ..recipe() }.fibre_map(grey, &mesh()).unwrap();
     assert!(all.base.iter().all(|base| *base == Base::Primary));
-    for (width, height, level) in [(160, 119, 0.5), (usize::MAX, 2, 0.5), (0, 0, 0.5), (160, 120, f32::NAN), (160, 120, 1.1)] {
+    for (width, height, level) in
+        [(160, 119, 0.5), (usize::MAX, 2, 0.5), (0, 0, 0.5), (160, 120, f32::NAN), (160, 120, 1.1)]
+    {
         let grey = Picture { width, height, pixels: vec![level; 160 * 120] };
         assert!(matches!(recipe().fibre_map(grey, &mesh()), Err(MicrographError::Picture { .. })));
     }
