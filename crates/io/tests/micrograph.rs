@@ -141,6 +141,18 @@ fn every_step_is_reported_and_the_cells_lie_where_the_picture_shows_them() {
 }
 
 #[test]
+fn the_example_has_the_fibres_it_was_drawn_with() {
+    // data/surfaces/README.md: 25.11 % of the picture is fibre by construction. Fillers and uneven light keep Otsu's
+    // level from the middle between fibre and resin, where a smoothed edge stays in place: a quarter of the smoothing's
+    // standard deviation of one pixel is granted, on both sides of fibres that are six wide.
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/micrograph.toml");
+    let report = load(&scene::load(&path, &[]).unwrap()).unwrap().report;
+    let line = report.iter().find(|line| line.contains("removed, fibre fraction of the picture then ")).unwrap();
+    let found: f64 = line.rsplit(' ').next().unwrap().parse().unwrap();
+    assert!((found - 0.2511).abs() < 0.2511 * 2.0 * 0.25 / 6.0, "{line}");
+}
+
+#[test]
 fn mirror_and_rotation_turn_the_picture() {
     let (_folder, scene) = grey("pixel = \"20 um\"\nmirror = true");
     let mirrored = load(&scene).unwrap();

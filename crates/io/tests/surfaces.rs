@@ -371,7 +371,10 @@ fn files_that_are_not_read_are_named() {
             format!("this is an X3P file (zip archive), which this version does not read; {advice}"),
         ),
         (write("a.csv", b"1,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),
-        (write("utf16.txt", b"\xff\xfe1\0 \02\0"), "this is UTF-16 text, expected UTF-8: save it as UTF-8".to_owned()),
+        (
+            write("utf16.txt", b"\xff\xfe1\x00 \x002\x00"),
+            "this is UTF-16 text, expected UTF-8: save it as UTF-8".to_owned(),
+        ),
         (
             write("a.txt", b"# unit: um\n1 2\n3 4\n"),
             "the file does not say the distance of its points: pitch = ".to_owned(),

@@ -124,13 +124,13 @@ impl Settings {
             "title" => Some(Setting::Text(stem.into_owned())),
             "output.file" => Some(Setting::Text(format!("{stem}.h5"))),
             "output.maps" => Some(Setting::Maps(Map::ALL.to_vec())),
-            // Beside an image, but not without one.
-            "pin.base.rotate" | "pin.base.threshold" | "pin.base.fibres" => {
-                let (_, word) = [("rotate", "0 deg"), ("threshold", "otsu"), ("fibres", "bright")]
-                    .into_iter()
-                    .find(|(name, _)| path.ends_with(name))?;
-                entries.contains_key("pin.base.image").then(|| Setting::Text(word.to_owned()))
+            // They have a meaning only beside an image.
+            "pin.base.rotate" | "pin.base.threshold" | "pin.base.fibres" if !entries.contains_key("pin.base.image") => {
+                None
             }
+            "pin.base.rotate" => Some(Setting::Text("0 deg".to_owned())),
+            "pin.base.threshold" => Some(Setting::Text("otsu".to_owned())),
+            "pin.base.fibres" => Some(Setting::Text("bright".to_owned())),
             // One column a step: a revolution has as many steps as the ring has columns.
             "output.sample_every_steps" if !entries.contains_key("output.sample_every") => {
                 self.get("mesh.disc_columns").cloned()

@@ -54,13 +54,11 @@ pub enum Hdf5Error {
         shape: (usize, usize),
     },
     /// An attribute that says something else.
-    #[error("dataset {dataset} has the attribute {name} = {found}, expected {expected}")]
+    #[error("dataset {dataset} has the attribute {found}, expected {expected}")]
     Attribute {
         /// The dataset.
         dataset: String,
-        /// The attribute.
-        name: &'static str,
-        /// Its value.
+        /// The attribute and its value.
         found: String,
         /// What can be.
         expected: &'static str,
@@ -167,8 +165,8 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
     if ["m", "metre", "metres", "meter", "meters"].contains(&found.as_str()) {
         return Ok(());
     }
-    let found = format!("\"{}\"", found.escape_debug());
-    Err(Hdf5Error::Attribute { dataset: dataset.name(), name: "units", found, expected: "\"m\"" })
+    let found = format!("units = \"{}\"", found.escape_debug());
+    Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
 }
 
 /// An attribute that is one text of any kind, if there is one.
@@ -205,8 +203,7 @@ fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
         [x, y] if x > 0.0 && y > 0.0 && x.is_finite() && y.is_finite() => Ok(Some([x, y])),
         _ => Err(Hdf5Error::Attribute {
             dataset: dataset.name(),
-            name: "pitch",
-            found: format!("{lengths:?}"),
+            found: format!("pitch = {lengths:?}"),
             expected: "the distance of points along x and y in m, positive and finite",
         }),
     }

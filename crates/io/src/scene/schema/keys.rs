@@ -98,16 +98,16 @@ pub(super) fn all() -> Vec<Key> {
     table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
     table.key("image", InputFile, OneOf, "micrograph of the pin: .png .tif");
     table.key("pixel", length("um", Range::POSITIVE), Optional, "distance of the image's pixels; required beside it");
-    table.key("rotate", Choice(ROTATIONS), Computed("\"0 deg\""), "how far the image is turned, counterclockwise");
+    table.key("rotate", Choice(ROTATIONS), Computed("`\"0 deg\"`"), "how far the image is turned, counterclockwise");
     table.key("smooth", length("um", Range::NOT_NEGATIVE), Optional, "standard deviation of a Gaussian over the image");
     let threshold = NumberOr(Range::FRACTION, "otsu");
     table.key(
         "threshold",
         threshold,
-        Computed("\"otsu\""),
+        Computed("`\"otsu\"`"),
         "grey level, black 0 to white 1, that parts fibre and resin",
     );
-    table.key("fibres", Choice(&["bright", "dark"]), Computed("\"bright\""), "which side of the threshold is fibre");
+    table.key("fibres", Choice(&["bright", "dark"]), Computed("`\"bright\"`"), "which side of the threshold is fibre");
     let area = Kind::Quantity { dimension: Area, unit: "um^2", range: Range::NOT_NEGATIVE };
     table.key("despeckle", area, Optional, "area below which specks of fibre, then holes in it, are removed");
     table.key("file", InputFile, OneOf, "HDF5 file with the fibre map");
