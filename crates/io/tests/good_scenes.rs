@@ -1,6 +1,7 @@
 //! Scenes that are accepted: the values they give, how layers combine, and that a resolved scene reads back alike.
 
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use plateau_core::material::Material;
@@ -197,6 +198,35 @@ fn set_overrides_the_scene() {
     let synthesis = HeightSynthesis { seed: 9, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
     assert_eq!(scene.pin_surface.source, HeightSource::Synthetic(synthesis));
     assert_eq!(scene.disc_surface.source, HeightSource::Flat);
+}
+
+#[test]
+fn what_a_scene_says_of_a_file_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let minimal = good("minimal.toml").canonicalize().unwrap();
+    let path = folder.path().join("scene.toml");
+    let text = format!(
+        "extends = {minimal:?}\n[disc.surface]\nfile = \"a.txt\"\nunit = \"nm\"\npitch = [\"50 um\", \"25 um\"]\n\
+         [pin.surface]\nfile = \"a.png\"\npitch = \"10 um\"\nheight_range = [\"3 um\", \"-0.1 um\"]\n"
+    );
+    fs::write(&path, text).unwrap();
+    let scene = scene::load(&path, &[]).unwrap();
+    let options = |source: &HeightSource| match source {
+        HeightSource::File { options, .. } => options.clone(),
+        other => panic!("{other:?}"),
+    };
+    let nothing = ReadOptions::default();
+    let disc = ReadOptions { unit: Some(1e-9), pitch: Some([50e-6, 25e-6]), ..nothing.clone() };
+    let pin = ReadOptions { pitch: Some([1e-5; 2]), height_range: Some([3e-6, -1e-7]), ..nothing };
+    assert_eq!(options(&scene.disc_surface.source), disc);
+    assert_eq!(options(&scene.pin_surface.source), pin);
+    fs::write(&path, &scene.resolved).unwrap();
+    let again = scene::load(&path, &["pin.surface.unit=0.5 um".to_owned()]).unwrap();
+    assert_eq!(options(&again.disc_surface.source), disc);
+    assert_eq!(options(&again.pin_surface.source), ReadOptions { unit: Some(5e-7), ..pin });
+    // Another source takes them along.
+    let flat = scene::load(&path, &["disc.surface.flat=true".to_owned()]).unwrap();
+    assert!(flat.resolved.contains("[disc.surface]\nflat = true\nmirror"), "{}", flat.resolved);
 }
 
 #[test]

@@ -45,8 +45,8 @@ impl Raster {
     pub(super) fn png(content: &[u8]) -> Result<Self, ImageError> {
         let bytes = content.len();
         // What is not the picture (texts, profiles) is left out.
-        let mut decoder =
-            png::Decoder::new_with_limits(Cursor::new(content), png::Limits { bytes: inflated(bytes.min(1 << 20)) });
+        let limits = png::Limits { bytes: inflated(bytes).saturating_add(1 << 20) };
+        let mut decoder = png::Decoder::new_with_limits(Cursor::new(content), limits);
         decoder.set_ignore_text_chunk(true);
         decoder.set_ignore_iccp_chunk(true);
         decoder.set_transformations(Transformations::EXPAND);
@@ -55,7 +55,6 @@ impl Raster {
         let bits = header.bits_per_pixel() as u64;
         let line = width.saturating_mul(bits).div_ceil(8);
         refuse_promise(width, height, line.saturating_mul(height), inflated(bytes), bytes)?;
-        decoder.set_limits(png::Limits { bytes: usize::MAX });
         let mut reader = decoder.read_info()?;
         let size = reader.output_buffer_size().ok_or(ImageError::TooLarge { width, height, bytes })?;
         let mut buffer = vec![0; size];

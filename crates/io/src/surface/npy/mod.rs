@@ -134,8 +134,11 @@ fn inflate(archive: &mut ZipArchive<Cursor<&[u8]>>, index: usize, bytes: u64) ->
 /// format has no place for the pitch.
 ///
 /// # Errors
-/// What the operating system says.
+/// What the operating system says, or that the patch has other than columns times rows heights.
 pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
+    if patch.columns.checked_mul(patch.rows) != Some(patch.heights.len()) {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "the patch has other than columns times rows heights"));
+    }
     let mut dictionary =
         format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", patch.columns, patch.rows);
     // The data start at a multiple of 64 bytes; the header ends with a line feed.

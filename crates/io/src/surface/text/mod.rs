@@ -52,22 +52,27 @@ pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<T
         Err(_) => Cow::Owned(content.iter().map(|byte| char::from(*byte)).collect()),
     };
     let numbers = Numbers::read(&text)?;
-    match (&numbers.header.names, numbers.columns) {
-        (Some(names), _) => list(&numbers, names, options),
-        (None, 3) => {
-            let names = Names { line: numbers.lines[0], count: 3, columns: [0, 1, 2], units: [None; 3] };
-            if xyz || numbers.points(&names).is_ok_and(|points| points.look_gridded()) {
-                list(&numbers, &names, options)
-            } else if numbers.lines.len() > THREE_COLUMNS {
-                Err(TextError::ThreeColumns { lines: numbers.lines.len() })
-            } else {
-                let mut table = matrix(&numbers, options)?;
-                table.warnings.push("three columns on no grid: read as a matrix, not as a list x, y, z".to_owned());
-                Ok(table)
-            }
-        }
-        (None, _) => matrix(&numbers, options),
+    if let Some(names) = &numbers.header.names {
+        return list(&numbers, names, options);
     }
+    let first_three = Names {
+        line: numbers.first_line(),
+        count: if xyz { numbers.columns.max(3) } else { 3 },
+        columns: [0, 1, 2],
+        units: [None; 3],
+    };
+    let three = numbers.columns == 3;
+    if xyz || three && numbers.points(&first_three).is_ok_and(|points| points.look_gridded()) {
+        return list(&numbers, &first_three, options);
+    }
+    if three && numbers.lines.len() > THREE_COLUMNS {
+        return Err(TextError::ThreeColumns { lines: numbers.lines.len() });
+    }
+    let mut table = matrix(&numbers, options)?;
+    if three {
+        table.warnings.push("three columns on no grid: read as a matrix, not as a list x, y, z".to_owned());
+    }
+    Ok(table)
 }
 
 /// Whether a text has two bytes a character, by its byte order mark.
@@ -123,10 +128,15 @@ impl Numbers {
         Ok(numbers)
     }
 
+    /// The first line of numbers.
+    fn first_line(&self) -> usize {
+        self.lines.first().copied().unwrap_or(1)
+    }
+
     /// The columns of a list.
     fn points(&self, names: &Names) -> Result<Points, TextError> {
         if self.columns != names.count {
-            let (line, found) = (self.lines[0], self.columns);
+            let (line, found) = (self.first_line(), self.columns);
             return Err(TextError::Ragged { line, found, expected: names.count, first: names.line });
         }
         let column = |name: usize| -> Vec<f64> {
@@ -151,9 +161,11 @@ impl Numbers {
     fn scale(&self, heights: &mut [f64], unit: f64) -> Result<(), TextError> {
         heights.iter_mut().for_each(|height| *height *= unit);
         match heights.iter().find(|height| height.is_infinite()) {
-            Some(height) => {
-                Err(TextError::Infinite { line: self.lines[0], column: 1, found: format!("a height of {height} m") })
-            }
+            Some(height) => Err(TextError::Infinite {
+                line: self.first_line(),
+                column: 1,
+                found: format!("a height of {height} m"),
+            }),
             None => Ok(()),
         }
     }

@@ -78,6 +78,10 @@ fn a_list_in_any_order_with_holes() {
     }
     let other = read(points.join("\n").as_bytes(), true, &options(Some(1e-6), Some([1e-3, 2e-3]))).unwrap();
     assert_eq!((shape(&other).as_str(), other.pitch), ("1 2 3/4 5 -", Some([1e-3, 2e-3])));
+    let intensity = points.map(|point| format!("{point} 255")).join("\n");
+    assert_eq!(shape(&read(intensity.as_bytes(), true, &options(Some(1e-6), None)).unwrap()), "1 2 3/4 5 -");
+    let pairs = read(b"1 2\n3 4\n", true, &options(Some(1e-6), None)).unwrap_err().to_string();
+    assert_eq!(pairs, "line 1 has 2 numbers, expected 3 as in line 1");
     // Rounded coordinates, a whole grid line that is not there, other columns, units of their own.
     let named = "x [mm], i, y [mm], z [um]\n0.333,9,1,1\n0.667,9,1,2\n1.333,9,1,4\n0.333,9,2,5\n1.333,9,2,8";
     let table = read(named.as_bytes(), false, &options(None, None)).unwrap();
