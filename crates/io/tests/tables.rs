@@ -99,6 +99,11 @@ fn every_file_of_the_corpus_gives_the_heights_it_was_made_of() {
 fn what_is_needed_or_of_no_use_is_told() {
     for (name, options, expected) in [
         ("list.csv", ReadOptions { unit: Some(1e-3), ..options() }, "the file states a unit of 1 um, the scene 1 mm: "),
+        (
+            "pitch.h5",
+            ReadOptions { pitch: Some([5e-5; 2]), ..options() },
+            "the file states a pitch of 25 um, the scene 50 um: leave out pitch (",
+        ),
         ("grey8.png", options(), "an image does not say its heights: height_range = "),
         ("grey8.png", um(), "the pixels are grey levels, so unit has no meaning"),
         ("decimal.tif", options(), "the pixels are decimal heights of an unknown unit: unit = "),

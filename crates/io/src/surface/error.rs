@@ -12,6 +12,7 @@ use super::hdf5::Hdf5Error;
 use super::image::ImageError;
 use super::npy::NpyError;
 use super::sdf::SdfError;
+use super::stated::Disagreement;
 use super::text::TextError;
 
 /// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
@@ -101,6 +102,9 @@ pub enum FileError {
         /// The key.
         key: &'static str,
     },
+    /// File and scene disagree.
+    #[error(transparent)]
+    Disagree(#[from] Disagreement),
     /// The pitch of measured heights is unknown.
     #[error("the file does not say the distance of its points: pitch = \"50 um\" beside file does, for example")]
     NoPitchOfFile,

@@ -6,6 +6,7 @@ use plateau_core::surface::{Length, Patch};
 
 use super::error::FileError;
 use super::format::{Format, detect};
+use super::stated::agreed_pitch;
 use super::{hdf5, image, npy, sdf, text};
 
 /// What a user says of a file that the file itself does not.
@@ -74,7 +75,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
             let hdf5::Heights { dataset, columns, rows, pitch, heights } =
                 hdf5::heights(path, options.dataset.as_deref())?;
             let notes = vec![format!("dataset {dataset}")];
-            let pitch = options.pitch.or(pitch);
+            let pitch = agreed_pitch(pitch, options.pitch)?;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
         }
         Format::SdfAscii | Format::SdfBinary => {

@@ -11,6 +11,7 @@ mod measured;
 pub mod npy;
 mod preview;
 pub mod sdf;
+mod stated;
 mod text;
 
 pub use error::{FileError, SurfaceError};
@@ -21,4 +22,5 @@ pub use load::{Loaded, load};
 pub use measured::{Measured, ReadOptions, read};
 pub use npy::NpyError;
 pub use preview::write_base_preview;
+pub use stated::Disagreement;
 pub use text::TextError;

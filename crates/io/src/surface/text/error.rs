@@ -1,7 +1,8 @@
 //! Why a text file gives no surface.
 
-use plateau_core::surface::Length;
 use thiserror::Error;
+
+use crate::surface::stated::Disagreement;
 
 /// Why a text file gives no surface. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -85,19 +86,8 @@ pub enum TextError {
         found: usize,
     },
     /// File and scene disagree.
-    #[error(
-        "the file states a {key} of {}, the scene {}: leave out {key} (pixel and scale in the prepare table read a file \
-         differently than it says)",
-        Length(*file), Length(*scene)
-    )]
-    Disagree {
-        /// Key of the scene.
-        key: &'static str,
-        /// What the file says, m.
-        file: f64,
-        /// What the scene says, m.
-        scene: f64,
-    },
+    #[error(transparent)]
+    Disagree(#[from] Disagreement),
     /// Three columns that are neither list nor matrix.
     #[error(
         "{lines} lines of three numbers, the first two on no grid: a list of points needs x and y on a regular grid, a \

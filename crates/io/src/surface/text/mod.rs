@@ -18,13 +18,10 @@ use header::{Header, Names};
 use list::Points;
 
 use super::measured::ReadOptions;
+use super::stated::{agreed, agreed_pitch};
 
 /// A matrix of three columns and more lines than this is more likely a list of points off a grid.
 const THREE_COLUMNS: usize = 100;
-
-/// Pitch or unit of file and scene that differ by no more than this fraction are the same; the scene's is taken, for
-/// headers are printed with few digits.
-const SAME: f64 = 0.01;
 
 /// Heights of a text file, m, column by column.
 #[derive(Debug)]
@@ -204,23 +201,6 @@ fn list(numbers: &Numbers, names: &Names, options: &ReadOptions) -> Result<Table
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("list of {} points, 1 stands for {unit:e} m", numbers.lines.len())];
     Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, heights, notes, warnings: Vec::new() })
-}
-
-fn agreed_pitch(file: Option<[f64; 2]>, scene: Option<[f64; 2]>) -> Result<Option<[f64; 2]>, TextError> {
-    for axis in 0..2 {
-        agreed("pitch", file.map(|pitch| pitch[axis]), scene.map(|pitch| pitch[axis]))?;
-    }
-    Ok(scene.or(file))
-}
-
-/// What file or scene state, if they do not contradict each other.
-fn agreed(key: &'static str, file: Option<f64>, scene: Option<f64>) -> Result<Option<f64>, TextError> {
-    match (file, scene) {
-        (Some(file), Some(scene)) if (file - scene).abs() > SAME * scene => {
-            Err(TextError::Disagree { key, file, scene })
-        }
-        _ => Ok(scene.or(file)),
-    }
 }
 
 fn is_comment(line: &str) -> bool {
