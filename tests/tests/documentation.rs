@@ -26,7 +26,14 @@ fn expect_table(document: &str, name: &str, table: &str) {
 fn kind(key: &Key) -> String {
     match key.kind {
         Kind::Quantity { unit, .. } => format!("quantity, such as `\"1 {unit}\"`"),
+        Kind::Lengths { single, count, unit, .. } => {
+            let list =
+                format!("list of {count} quantities, such as `[{}]`", vec![format!("\"1 {unit}\""); count].join(", "));
+            if single { format!("quantity, such as `\"1 {unit}\"`, or {list}") } else { list }
+        }
+        Kind::LengthUnit => "unit of length, such as `\"um\"`, or quantity".into(),
         Kind::Number(_) => "number".into(),
+        Kind::NumberOr(_, word) => format!("number, or `\"{word}\"`"),
         Kind::Integer(least) => format!("integer, at least {least}"),
         Kind::Bool => "`true`, `false`".into(),
         Kind::True => "`true`".into(),

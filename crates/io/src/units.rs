@@ -27,6 +27,8 @@ pub enum Dimension {
     RotationalSpeed,
     /// 1/Pa = m³/(N·m): worn volume per force and sliding distance.
     SpecificWearRate,
+    /// m².
+    Area,
 }
 
 /// Powers of length, mass, time and plane angle.
@@ -66,6 +68,7 @@ impl Dimension {
             Self::Speed => [1, 0, -1, 0],
             Self::RotationalSpeed => [0, 0, -1, 1],
             Self::SpecificWearRate => [1, -1, 2, 0],
+            Self::Area => [2, 0, 0, 0],
         }
     }
 
@@ -79,6 +82,7 @@ impl Dimension {
             Self::Speed => "m/s",
             Self::RotationalSpeed => "rad/s",
             Self::SpecificWearRate => "1/Pa",
+            Self::Area => "m^2",
         }
     }
 
@@ -92,6 +96,7 @@ impl Dimension {
             Self::Speed => "2 m/s",
             Self::RotationalSpeed => "850 rpm",
             Self::SpecificWearRate => "5e-14 1/Pa",
+            Self::Area => "2000 um^2",
         }
     }
 
@@ -105,6 +110,7 @@ impl Dimension {
             Self::Speed => "m/s, mm/s, km/h",
             Self::RotationalSpeed => "rpm, rad/s",
             Self::SpecificWearRate => "1/Pa, m^2/N, mm^3/(N m)",
+            Self::Area => "m^2, mm^2, um^2",
         }
     }
 }

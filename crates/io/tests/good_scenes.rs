@@ -1,6 +1,7 @@
 //! Scenes that are accepted: the values they give, how layers combine, and that a resolved scene reads back alike.
 
 use std::f64::consts::TAU;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use plateau_core::material::Material;
@@ -11,6 +12,7 @@ use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene, Workers};
 use plateau_io::scene::{self, memory_estimate};
+use plateau_io::surface::ReadOptions;
 
 fn good(name: &str) -> PathBuf {
     Path::new("tests/scenes/good").join(name)
@@ -57,7 +59,7 @@ fn the_example_of_the_format_gives_its_values() {
 
     let preparation =
         Preparation { level: Level::Plane, pixel: Some(50e-6), cutoff: Some(3e-6), repeat: true, ..NO_PREPARATION };
-    let source = HeightSource::File { path: input("cermet.sdf"), dataset: None };
+    let source = HeightSource::File { path: input("cermet.sdf"), options: ReadOptions::default() };
     assert_eq!(scene.disc_surface, HeightRecipe { source, mirror: false, preparation });
     let synthesis = HeightSynthesis { seed: 3, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
     let source = HeightSource::Synthetic(synthesis);
@@ -115,7 +117,8 @@ fn the_scenes_of_the_reference_vectors_give_their_values() {
         assert_eq!(parameters.load_tolerance, 1e-12);
         let file = |dataset: &str| (input("init.h5"), Some(dataset.to_owned()));
         let (path, dataset) = file("/disc/height");
-        assert_eq!(scene.disc_surface.source, HeightSource::File { path, dataset });
+        let options = ReadOptions { dataset, ..ReadOptions::default() };
+        assert_eq!(scene.disc_surface.source, HeightSource::File { path, options });
         let (path, dataset) = file("/pin/base");
         assert_eq!(scene.pin_base, BaseSource::File { path, dataset });
         assert_eq!(scene.output.sample_every, SampleEvery::Steps(1));
@@ -143,12 +146,15 @@ fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() 
     assert_eq!(
         scene.disc_surface,
         HeightRecipe {
-            source: HeightSource::File { path: input("parts/../surfaces/cermet.sdf"), dataset: None },
+            source: HeightSource::File { path: input("parts/../surfaces/cermet.sdf"), options: ReadOptions::default() },
             mirror: true,
             preparation: Preparation { level: Level::Mean, fill_missing: true, repeat: true, ..NO_PREPARATION },
         }
     );
-    assert_eq!(scene.pin_surface.source, HeightSource::File { path: input("pin.npy"), dataset: None });
+    assert_eq!(
+        scene.pin_surface.source,
+        HeightSource::File { path: input("pin.npy"), options: ReadOptions::default() }
+    );
     let fibres = FibreSynthesis { seed: 0, fibre_fraction: 0.3, fibre_length: 4e-4, fibre_width: 1e-4 };
     assert_eq!((scene.pin_base, scene.pin_base_mirror), (BaseSource::Synthetic(fibres), true));
     assert_eq!(scene.workers, Workers::Auto);
@@ -182,8 +188,8 @@ fn set_overrides_the_scene() {
     let parameters = &scene.parameters;
     assert_eq!((parameters.mesh.rows(), parameters.steps), (5, 7));
     assert_eq!((parameters.normal_force, parameters.foundation_height), (30.0, 6e-5));
-    let dataset = Some("/height".to_owned());
-    assert_eq!(scene.disc_surface.source, HeightSource::File { path: input("other.sdf"), dataset });
+    let options = ReadOptions { dataset: Some("/height".to_owned()), ..ReadOptions::default() };
+    assert_eq!(scene.disc_surface.source, HeightSource::File { path: input("other.sdf"), options });
     assert_eq!(scene.pin_base, BaseSource::Uniform(Base::None));
     assert_eq!(scene.seeds, [("pin.surface.synthetic.seed".to_owned(), u64::MAX)]);
     assert_eq!((scene.output.maps.len(), scene.output.sample_every), (0, SampleEvery::Steps(3)));
@@ -192,6 +198,35 @@ fn set_overrides_the_scene() {
     let synthesis = HeightSynthesis { seed: 9, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
     assert_eq!(scene.pin_surface.source, HeightSource::Synthetic(synthesis));
     assert_eq!(scene.disc_surface.source, HeightSource::Flat);
+}
+
+#[test]
+fn what_a_scene_says_of_a_file_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let minimal = good("minimal.toml").canonicalize().unwrap();
+    let path = folder.path().join("scene.toml");
+    let text = format!(
+        "extends = {minimal:?}\n[disc.surface]\nfile = \"a.txt\"\nunit = \"nm\"\npitch = [\"50 um\", \"25 um\"]\n\
+         [pin.surface]\nfile = \"a.png\"\npitch = \"10 um\"\nheight_range = [\"3 um\", \"-0.1 um\"]\n"
+    );
+    fs::write(&path, text).unwrap();
+    let scene = scene::load(&path, &[]).unwrap();
+    let options = |source: &HeightSource| match source {
+        HeightSource::File { options, .. } => options.clone(),
+        other => panic!("{other:?}"),
+    };
+    let nothing = ReadOptions::default();
+    let disc = ReadOptions { unit: Some(1e-9), pitch: Some([50e-6, 25e-6]), ..nothing.clone() };
+    let pin = ReadOptions { pitch: Some([1e-5; 2]), height_range: Some([3e-6, -1e-7]), ..nothing };
+    assert_eq!(options(&scene.disc_surface.source), disc);
+    assert_eq!(options(&scene.pin_surface.source), pin);
+    fs::write(&path, &scene.resolved).unwrap();
+    let again = scene::load(&path, &["pin.surface.unit=0.5 um".to_owned()]).unwrap();
+    assert_eq!(options(&again.disc_surface.source), disc);
+    assert_eq!(options(&again.pin_surface.source), ReadOptions { unit: Some(5e-7), ..pin });
+    // Another source takes them along.
+    let flat = scene::load(&path, &["disc.surface.flat=true".to_owned()]).unwrap();
+    assert!(flat.resolved.contains("[disc.surface]\nflat = true\nmirror"), "{}", flat.resolved);
 }
 
 #[test]

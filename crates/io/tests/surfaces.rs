@@ -12,7 +12,7 @@ use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
-use plateau_io::surface::{Loaded, load};
+use plateau_io::surface::{Loaded, ReadOptions, load};
 
 const ROWS: usize = 4;
 const DISC_COLUMNS: usize = 60;
@@ -70,7 +70,8 @@ fn scene() -> Scene {
 }
 
 fn file(path: &Path, dataset: Option<&str>) -> HeightSource {
-    HeightSource::File { path: path.to_owned(), dataset: dataset.map(str::to_owned) }
+    let options = ReadOptions { dataset: dataset.map(str::to_owned), ..ReadOptions::default() };
+    HeightSource::File { path: path.to_owned(), options }
 }
 
 fn afm() -> PathBuf {
@@ -359,16 +360,26 @@ fn files_that_are_not_read_are_named() {
         (PathBuf::from("/dev/null"), "this is not a regular file".to_owned()),
         (write("empty.sdf", b""), format!("this is no surface file that is known (it is empty); {advice}")),
         (
-            write("a.sdf", b"\x89PNX\r\n\x1a\n\0\0"),
-            format!("this is no surface file that is known (it starts with \"\\x89PNX\\r\\n\\x1a\\n\"); {advice}"),
+            write("a.jpg", b"\xff\xd8\xff\xe0\0\x10JFIF"),
+            format!(
+                "this is no surface file that is known (it starts with \"\\xff\\xd8\\xff\\xe0\\x00\\x10JF\"); {advice}"
+            ),
         ),
         (write("a.x3p", b"PK\x03\x04"), "this is a damaged zip archive: ".to_owned()),
         (
             write("a.al3d", b"AliconaImaging\0\r\n"),
             "this is an Alicona file (.al3d), which is not read; convert".to_owned(),
         ),
-        (write("a.csv", b"1,2\n3,4\n"), format!("this is a text file, which this version does not read; {advice}")),
-        (write("a.npy", b"\x93NUMPY\x01\0"), "this is a NumPy array file (.npy), which this version".to_owned()),
+        (write("a.csv", b"1,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),
+        (
+            write("utf16.txt", b"\xff\xfe1\x00 \x002\x00"),
+            "this is UTF-16 text, expected UTF-8: save it as UTF-8".to_owned(),
+        ),
+        (
+            write("a.txt", b"# unit: um\n1 2\n3 4\n"),
+            "the file does not say the distance of its points: pitch = ".to_owned(),
+        ),
+        (write("a.npy", b"\x93NUMPY\x01\0"), "the header is damaged: ".to_owned()),
     ] {
         let found = error(&path);
         assert!(found.starts_with(&expected), "{found}\nexpected {expected}");

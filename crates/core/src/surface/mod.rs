@@ -1,10 +1,11 @@
-//! Initial surfaces: measured patches and their preparation, synthetic heights and fibre maps.
+//! Initial surfaces: measured patches and their preparation, synthetic heights, fibre maps and micrographs.
 
 mod body;
 mod fft;
 mod fibre;
 mod length;
 mod level;
+pub mod micrograph;
 mod patch;
 mod prepare;
 mod random;

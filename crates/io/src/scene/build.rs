@@ -7,13 +7,16 @@ use plateau_core::mesh::{Mesh, MeshError};
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
+use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
 
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
 use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
+use super::schema::ROTATIONS;
 use super::settings::Settings;
 use super::{later, memory, resolved};
+use crate::surface::ReadOptions;
 
 /// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
 const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
@@ -172,7 +175,7 @@ fn heights(settings: &Settings, body: &str) -> Result<HeightRecipe, Problem> {
     let surface = |name: &str| format!("{body}.surface.{name}");
     let prepare = |name: &str| format!("{body}.prepare.{name}");
     let source = if let Some((path, dataset)) = file(settings, &format!("{body}.surface")) {
-        HeightSource::File { path, dataset }
+        HeightSource::File { path, options: read_options(settings, &surface, dataset)? }
     } else if settings.get(&surface("flat")).is_some() {
         HeightSource::Flat
     } else {
@@ -202,6 +205,9 @@ fn base(settings: &Settings) -> Result<BaseSource, Problem> {
     if let Some((path, dataset)) = file(settings, "pin.base") {
         return Ok(BaseSource::File { path, dataset });
     }
+    if let Ok(path) = settings.text("pin.base.image") {
+        return Ok(BaseSource::Image { path: path.into(), recipe: micrograph(settings)? });
+    }
     if settings.get("pin.base.uniform").is_some() {
         return Ok(BaseSource::Uniform(match settings.text("pin.base.uniform")? {
             "primary" => Base::Primary,
@@ -220,6 +226,50 @@ fn base(settings: &Settings) -> Result<BaseSource, Problem> {
         return Err(Problem::new(&settings.origin(key), key, message));
     }
     Ok(BaseSource::Synthetic(synthesis))
+}
+
+/// What the scene says of a file of heights; `key` makes the path of a key from its name.
+fn read_options(
+    settings: &Settings,
+    key: &impl Fn(&str) -> String,
+    dataset: Option<String>,
+) -> Result<ReadOptions, Problem> {
+    let height_range = settings.optional_pair(&key("height_range"))?;
+    if let Some([black, white]) = height_range
+        && black == white
+    {
+        let message = "black and white have the same height, expected two that differ";
+        return Err(Problem::new(&settings.origin(&key("height_range")), &key("height_range"), message));
+    }
+    Ok(ReadOptions {
+        dataset,
+        unit: settings.optional_number(&key("unit"))?,
+        pitch: settings.optional_pair(&key("pitch"))?,
+        height_range,
+    })
+}
+
+fn micrograph(settings: &Settings) -> Result<Micrograph, Problem> {
+    let Some(pixel) = settings.optional_number("pin.base.pixel")? else {
+        let message = "an image does not say how large it is: give pixel = \"10 um\", the distance of its pixels";
+        return Err(Problem::new(&settings.origin("pin.base.image"), "pin.base.image", message));
+    };
+    let rotation = settings.text("pin.base.rotate")?;
+    let quarters = ROTATIONS.iter().position(|known| *known == rotation).unwrap_or(0);
+    Ok(Micrograph {
+        pixel,
+        quarters: quarters as u8,
+        smooth: settings.optional_number("pin.base.smooth")?,
+        threshold: match settings.get("pin.base.threshold") {
+            Some(Setting::Number(level)) => Threshold::Level(*level),
+            _ => Threshold::Otsu,
+        },
+        fibres: match settings.text("pin.base.fibres")? {
+            "dark" => Fibres::Dark,
+            _ => Fibres::Bright,
+        },
+        despeckle: settings.optional_number("pin.base.despeckle")?,
+    })
 }
 
 /// Input file and dataset of a source.

@@ -24,6 +24,11 @@ pub(super) enum Setting {
 pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> Result<Setting, Problem> {
     match (kind, &entry.value) {
         (Kind::Times, Value::Array(list)) => list.iter().map(time).collect::<Result<_, _>>().map(Setting::Numbers),
+        (Kind::Lengths { count, range, .. }, Value::Array(list)) if list.len() == count => list
+            .iter()
+            .map(|entry| quantity(&entry.value, Dimension::Length, range).map_err(at(entry)))
+            .collect::<Result<_, _>>()
+            .map(Setting::Numbers),
         (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
         (Kind::InputFile, Value::Text(text)) => {
             not_empty(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
@@ -41,8 +46,15 @@ fn at(entry: &Entry) -> impl Fn(String) -> (Origin, String) {
 fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
     match (kind, value) {
         (Kind::Quantity { dimension, range, .. }, _) => quantity(value, dimension, range).map(Setting::Number),
-        (Kind::Number(range), Value::Integer(integer)) => in_range(*integer as f64, value, range),
-        (Kind::Number(range), Value::Float(float)) => in_range(*float, value, range),
+        (Kind::Lengths { count, single: true, range, .. }, Value::Text(_)) => {
+            quantity(value, Dimension::Length, range).map(|length| Setting::Numbers(vec![length; count]))
+        }
+        (Kind::LengthUnit, Value::Text(text)) => length_unit(text, value).map(Setting::Number),
+        (Kind::NumberOr(_, word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
+        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Integer(integer)) => {
+            in_range(*integer as f64, value, range)
+        }
+        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Float(float)) => in_range(*float, value, range),
         (Kind::Integer(least), Value::Integer(integer)) => count(*integer, least),
         (Kind::CountOr(_), Value::Integer(integer)) => count(*integer, 1),
         (Kind::CountOr(word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
@@ -60,7 +72,13 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
 fn expectation(kind: Kind) -> String {
     match kind {
         Kind::Quantity { dimension, .. } => dimension.to_string(),
+        Kind::Lengths { single, count, range, .. } => {
+            let one = if single { format!("{} or ", Dimension::Length) } else { String::new() };
+            format!("{one}a list of {count} lengths, each {range}")
+        }
+        Kind::LengthUnit => "a unit of length such as \"um\", or a length such as \"0.5 um\"".to_owned(),
         Kind::Number(range) => format!("a number, {range}"),
+        Kind::NumberOr(range, word) => format!("a number, {range}, or \"{word}\""),
         Kind::Integer(least) => format!("an integer, at least {least}"),
         Kind::Bool => "true or false".to_owned(),
         Kind::True => "true; leave the key out to choose another source".to_owned(),
@@ -86,6 +104,13 @@ fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, St
     } else {
         Err(format!("{} is out of range, expected {range} {}", value.text(), dimension.si_unit()))
     }
+}
+
+/// "um" is short for "1 um".
+fn length_unit(text: &str, value: &Value) -> Result<f64, String> {
+    let short = text.trim_start().starts_with(char::is_alphabetic);
+    let full = if short { Value::Text(format!("1 {text}")) } else { value.clone() };
+    quantity(&full, Dimension::Length, Range::POSITIVE)
 }
 
 fn in_range(number: f64, value: &Value, range: Range) -> Result<Setting, String> {

@@ -15,11 +15,6 @@ const LATER: &[Later] = &[
         "this version cannot choose the acceleration itself: give a number",
     ),
     (
-        "pin.base.image",
-        |_| true,
-        "this version does not read images: give file with a map in HDF5, synthetic, or uniform",
-    ),
-    (
         "output.roughness",
         |value| *value == Value::Bool(true),
         "this version does not compute roughness: leave the key out and record the maps disc_height and pin_height",

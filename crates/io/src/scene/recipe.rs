@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use plateau_core::observe::Map;
 use plateau_core::parameters::Parameters;
 use plateau_core::schedule::SampleEvery;
+use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
+
+use crate::surface::ReadOptions;
 
 /// A scene, read, checked and resolved.
 #[derive(Debug, Clone)]
@@ -24,7 +27,7 @@ pub struct Scene {
     pub resin_recess: f64,
     /// Fibre map of the pin.
     pub pin_base: BaseSource,
-    /// The fibre map is a view of the pin's face: x is mirrored.
+    /// The fibre map is a view of the pin's face: x is mirrored, whatever the map comes from.
     pub pin_base_mirror: bool,
     /// Threads.
     pub workers: Workers,
@@ -58,8 +61,8 @@ pub enum HeightSource {
     File {
         /// The file.
         path: PathBuf,
-        /// Dataset in an HDF5 file.
-        dataset: Option<String>,
+        /// What the scene says of the file.
+        options: ReadOptions,
     },
     /// A Gaussian random field.
     Synthetic(HeightSynthesis),
@@ -76,6 +79,13 @@ pub enum BaseSource {
         path: PathBuf,
         /// Dataset in the file.
         dataset: Option<String>,
+    },
+    /// A micrograph, PNG or TIFF.
+    Image {
+        /// The file.
+        path: PathBuf,
+        /// How it becomes a fibre map.
+        recipe: Micrograph,
     },
     /// Random capsules.
     Synthetic(FibreSynthesis),

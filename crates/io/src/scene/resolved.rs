@@ -26,12 +26,16 @@ fn value(key: &Key, setting: &Setting) -> String {
     match setting {
         Setting::Number(number) => match key.kind {
             Kind::Quantity { dimension, unit, .. } => string(&units::format(*number, unit, dimension)),
+            Kind::LengthUnit => string(&units::format(*number, "m", Dimension::Length)),
             _ => format!("{number:?}"),
         },
         Setting::Integer(integer) => integer.to_string(),
         Setting::Bool(value) => value.to_string(),
         Setting::Text(text) => string(text),
-        Setting::Numbers(times) => list(times, |time| units::format(*time, "s", Dimension::Time)),
+        Setting::Numbers(numbers) => match key.kind {
+            Kind::Lengths { unit, .. } => list(numbers, |length| units::format(*length, unit, Dimension::Length)),
+            _ => list(numbers, |time| units::format(*time, "s", Dimension::Time)),
+        },
         Setting::Maps(maps) => list(maps, |map: &Map| map.name().to_owned()),
     }
 }

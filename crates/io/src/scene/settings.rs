@@ -84,6 +84,15 @@ impl Settings {
         self.get(path).map(|_| self.number(path)).transpose()
     }
 
+    /// A list of two numbers (SI units) that may be absent.
+    pub(super) fn optional_pair(&self, path: &str) -> Result<Option<[f64; 2]>, Problem> {
+        match self.get(path) {
+            None => Ok(None),
+            Some(Setting::Numbers(numbers)) if numbers.len() == 2 => Ok(Some([numbers[0], numbers[1]])),
+            other => Err(self.unlike(path, "two numbers", other)),
+        }
+    }
+
     fn unlike(&self, path: &str, expected: &str, found: Option<&Setting>) -> Problem {
         let found = found.map_or("nothing".to_owned(), |setting| format!("{setting:?}"));
         Problem::new(&self.origin(path), path, format!("found {found}, expected {expected}"))
@@ -115,6 +124,13 @@ impl Settings {
             "title" => Some(Setting::Text(stem.into_owned())),
             "output.file" => Some(Setting::Text(format!("{stem}.h5"))),
             "output.maps" => Some(Setting::Maps(Map::ALL.to_vec())),
+            // They have a meaning only beside an image.
+            "pin.base.rotate" | "pin.base.threshold" | "pin.base.fibres" if !entries.contains_key("pin.base.image") => {
+                None
+            }
+            "pin.base.rotate" => Some(Setting::Text("0 deg".to_owned())),
+            "pin.base.threshold" => Some(Setting::Text("otsu".to_owned())),
+            "pin.base.fibres" => Some(Setting::Text("bright".to_owned())),
             // One column a step: a revolution has as many steps as the ring has columns.
             "output.sample_every_steps" if !entries.contains_key("output.sample_every") => {
                 self.get("mesh.disc_columns").cloned()

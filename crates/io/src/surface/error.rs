@@ -3,13 +3,18 @@
 use std::io;
 use std::path::PathBuf;
 
+use plateau_core::surface::micrograph::MicrographError;
 use plateau_core::surface::{FibreError, PreparationError, SynthesisError};
 use thiserror::Error;
 
 use super::format::Format;
 use super::hdf5::Hdf5Error;
+use super::image::ImageError;
 use super::instrument::Instrument;
+use super::npy::NpyError;
 use super::sdf::SdfError;
+use super::stated::Disagreement;
+use super::text::TextError;
 use super::x3p::X3pError;
 
 /// Why the initial surfaces of a scene cannot be made; `key` is the scene's table that asked for it.
@@ -68,15 +73,18 @@ pub enum FileError {
         /// What the file starts with.
         found: String,
     },
-    /// It is known what it is, but this version does not read it.
-    #[error("this is {0}, which this version does not read; {READABLE}")]
-    NotReadable(Format),
     /// An instrument's own format.
     #[error("this is {}, which is not read; convert it to SDF: {}", .0.name, .0.conversion)]
     Instrument(Instrument),
     /// A zip archive that cannot be opened.
     #[error("this is a damaged zip archive: {0}")]
     Zip(String),
+    /// `image` names something else.
+    #[error("this is {0}, expected an image: PNG or TIFF")]
+    NotAnImage(Format),
+    /// A picture cannot be written.
+    #[error("cannot be written as PNG: {0}")]
+    Write(#[from] png::EncodingError),
     /// A fibre map in a format of heights.
     #[error("this is {0}, expected an HDF5 file with integers 0 = none and 1 = primary")]
     NotABase(Format),
@@ -96,10 +104,27 @@ pub enum FileError {
         /// The dataset asked for.
         dataset: String,
     },
+    /// A key was given that the format has no use for.
+    #[error(
+        "this is {format}, for which {key} has no meaning: leave it out (pixel and scale in the prepare table read a \
+         file differently than it says)"
+    )]
+    Meaningless {
+        /// The format.
+        format: Format,
+        /// The key.
+        key: &'static str,
+    },
+    /// File and scene disagree.
+    #[error(transparent)]
+    Disagree(#[from] Disagreement),
+    /// The pitch of measured heights is unknown.
+    #[error("the file does not say the distance of its points: pitch = \"50 um\" beside file does, for example")]
+    NoPitchOfFile,
     /// The shape is not that of the mesh and the pitch is unknown.
     #[error(
         "{what}there are {} columns and {} rows, expected {} and {} for the whole body; as a patch they need a pitch: \
-         pixel = \"50 um\" in the prepare table, for example",
+         pitch = \"50 um\" beside file, for example",
         found.0, found.1, mesh.0, mesh.1
     )]
     NoPitch {
@@ -119,6 +144,18 @@ pub enum FileError {
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
     Hdf5(#[from] Hdf5Error),
+    /// A damaged or unsuitable NumPy file.
+    #[error(transparent)]
+    Npy(#[from] NpyError),
+    /// A damaged or unsuitable image.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// An image that gives no fibre map.
+    #[error(transparent)]
+    Micrograph(#[from] MicrographError),
+    /// Text that holds no surface.
+    #[error(transparent)]
+    Text(#[from] TextError),
 }
 
 impl From<X3pError> for FileError {

@@ -10,6 +10,7 @@ use zip::ZipArchive;
 use super::error::FileError;
 use super::instrument::{Instrument, PLUX, recognise};
 use super::sdf::SdfKind;
+use super::text::{TextError, is_utf16};
 
 /// Formats of surface files that are told apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +29,7 @@ pub enum Format {
     Png,
     /// TIFF image.
     Tiff,
-    /// Table or list of numbers as text.
+    /// Matrix of numbers or list of points as text.
     Text,
     /// An instrument's own format; such files are not read.
     Instrument(Instrument),
@@ -67,6 +68,9 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     file.by_ref().take(HEAD).read_to_end(&mut head)?;
     if head.starts_with(b"PK\x03\x04") {
         return from_archive(file);
+    }
+    if is_utf16(&head) {
+        return Err(TextError::Utf16.into());
     }
     from_head(&head).ok_or_else(|| FileError::Unknown { found: describe(&head) })
 }
@@ -160,6 +164,9 @@ mod tests {
             (b"1.0 2.0\n3.0 4.0\n", Some(Format::Text)),
             (b"", None),
             (b"\x89PNG\r\n\x1a\n\0\0\0", Some(Format::Png)),
+            (b"II*\0\x08\0\0\0", Some(Format::Tiff)),
+            (b"MM\0*\0\0\0\x08", Some(Format::Tiff)),
+            (b"\xff\xd8\xff\xe0\0", None),
             (b"\0\0\0\0", None),
         ] {
             assert_eq!(from_head(head), format, "{}", head.escape_ascii());

@@ -1,11 +1,15 @@
-//! Heights and fibre maps in HDF5 files.
+//! Heights and fibre maps in HDF5 files: shape (columns, rows), heights in m.
 
 use std::path::Path;
 
-use hdf5::types::TypeDescriptor;
+use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, Group};
+use ndarray::ArrayView2;
 use plateau_core::state::Base;
+use plateau_core::surface::Patch;
 use thiserror::Error;
+
+use super::limits::MOST_POINTS;
 
 /// Why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
@@ -49,6 +53,16 @@ pub enum Hdf5Error {
         /// Its shape.
         shape: (usize, usize),
     },
+    /// An attribute that says something else.
+    #[error("dataset {dataset} has the attribute {found}, expected {expected}")]
+    Attribute {
+        /// The dataset.
+        dataset: String,
+        /// The attribute and its value.
+        found: String,
+        /// What can be.
+        expected: &'static str,
+    },
     /// Infinite heights.
     #[error(
         "{count} of {points} heights in dataset {dataset} are infinite, expected heights in m, NaN for a missing point"
@@ -75,8 +89,6 @@ pub enum Hdf5Error {
     },
 }
 
-/// Points of the largest dataset that is read (2 GiB of heights): a shape can promise more than any memory holds.
-const MOST_POINTS: usize = 1 << 28;
 /// How deep groups are searched, for links may run in a circle.
 const DEPTH: usize = 8;
 /// Datasets named in a message.
@@ -124,23 +136,99 @@ pub(super) struct Heights {
     pub(super) dataset: String,
     pub(super) columns: usize,
     pub(super) rows: usize,
+    /// Distance of neighbouring points along x and y, m, if the dataset states it.
+    pub(super) pitch: Option<[f64; 2]>,
     pub(super) heights: Vec<f64>,
 }
 
 /// Reads heights, m: floating-point numbers with 2 dimensions (columns, rows), NaN where there is none. Without a name
-/// the file's only suitable dataset is taken.
+/// the file's only suitable dataset is taken. Its attribute `units` may say that, `pitch` the distance of the points.
 ///
 /// # Errors
 /// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
 pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf5Error> {
     let dataset = find(path, dataset, Wanted::Heights)?;
     let (name, (columns, rows)) = (dataset.name(), bounded_shape(&dataset)?);
+    refuse_other_units(&dataset)?;
+    let pitch = pitch(&dataset)?;
     let heights = dataset.read_raw::<f64>()?;
     let count = heights.iter().filter(|height| height.is_infinite()).count();
     if count > 0 {
         return Err(Hdf5Error::Infinite { dataset: name, count, points: heights.len() });
     }
-    Ok(Heights { dataset: name, columns, rows, heights })
+    Ok(Heights { dataset: name, columns, rows, pitch, heights })
+}
+
+/// Refuses heights that say of themselves that they are not in m.
+fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
+    let Some(found) = text_attribute(dataset, "units") else { return Ok(()) };
+    if ["m", "metre", "metres", "meter", "meters"].contains(&found.as_str()) {
+        return Ok(());
+    }
+    let found = format!("units = \"{}\"", found.escape_debug());
+    Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
+}
+
+/// An attribute that is one text of any kind, if there is one.
+fn text_attribute(dataset: &Dataset, name: &str) -> Option<String> {
+    let attribute = dataset.attr(name).ok().filter(|attribute| attribute.size() == 1)?;
+    match attribute.dtype().ok()?.to_descriptor().ok()? {
+        TypeDescriptor::VarLenUnicode => attribute.read_scalar::<VarLenUnicode>().ok().map(|text| text.to_string()),
+        TypeDescriptor::VarLenAscii => {
+            attribute.read_scalar::<hdf5::types::VarLenAscii>().ok().map(|text| text.to_string())
+        }
+        TypeDescriptor::FixedAscii(_) => {
+            attribute.read_scalar::<hdf5::types::FixedAscii<64>>().ok().map(|text| text.to_string())
+        }
+        TypeDescriptor::FixedUnicode(_) => {
+            attribute.read_scalar::<hdf5::types::FixedUnicode<64>>().ok().map(|text| text.to_string())
+        }
+        _ => None,
+    }
+}
+
+/// The attribute `pitch`, m: one length, or those along x and y.
+fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
+    let Ok(attribute) = dataset.attr("pitch") else { return Ok(None) };
+    let number = attribute.dtype()?.to_descriptor()?;
+    let lengths = match (number, attribute.size()) {
+        (TypeDescriptor::Float(_) | TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_), 1 | 2) => {
+            attribute.read_raw::<f64>()?
+        }
+        _ => Vec::new(),
+    };
+    // One length is that along both.
+    let lengths = if let [both] = lengths[..] { vec![both; 2] } else { lengths };
+    match lengths[..] {
+        [x, y] if x > 0.0 && y > 0.0 && x.is_finite() && y.is_finite() => Ok(Some([x, y])),
+        _ => Err(Hdf5Error::Attribute {
+            dataset: dataset.name(),
+            found: format!("pitch = {lengths:?}"),
+            expected: "the distance of points along x and y in m, positive and finite",
+        }),
+    }
+}
+
+/// Writes the heights of a patch as the dataset `/height` of a new file: float64, shape (columns, rows), m, NaN where a
+/// point is missing, with the attributes `units` and `pitch` (m, along x and y).
+///
+/// # Errors
+/// [`Hdf5Error::Library`] when the file cannot be written, or the patch has other than columns times rows heights.
+pub fn write(path: &Path, patch: &Patch) -> Result<(), Hdf5Error> {
+    let shape = (patch.columns, patch.rows);
+    let heights =
+        ArrayView2::from_shape(shape, &patch.heights).map_err(|error| hdf5::Error::from(error.to_string()))?;
+    let file = hdf5::File::create(path)?;
+    let dataset = file.new_dataset_builder().with_data(heights).create("height")?;
+    for (name, text) in [("units", "m"), ("long_name", "height, columns along the sliding direction, rows outward")] {
+        let text: VarLenUnicode = text.parse().map_err(|error| hdf5::Error::from(format!("{error}")))?;
+        dataset.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&text)?;
+    }
+    let pitch = [patch.column_pitch, patch.row_pitch];
+    dataset.new_attr::<f64>().shape(2).create("pitch")?.write_raw(&pitch)?;
+    drop(dataset);
+    file.close()?;
+    Ok(())
 }
 
 /// Reads a fibre map: integers of shape (columns, rows), 0 = none and 1 = primary. Gives the dataset's name too.

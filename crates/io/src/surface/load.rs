@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::mesh::Mesh;
 use plateau_core::state::{Base, InitialSurfaces};
+use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{Body, Length, Patch, RawHeights, fibre_fraction};
 
 use super::error::{FileError, SurfaceError};
 use super::format::{Format, detect};
-use super::hdf5;
 use super::inputs::Inputs;
 use super::measured::{ReadOptions, read};
+use super::{hdf5, image};
 use crate::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene};
 
 /// The surfaces of a scene, ready for the first step.
@@ -26,8 +27,9 @@ pub struct Loaded {
 
 /// Reads or makes the initial surfaces of a scene and prepares them.
 ///
-/// Heights of the pin that come from an instrument (SDF) are negated after their preparation: an instrument's peaks
-/// are positive, while the pin's z grows away from the disc. HDF5 and synthetic heights are taken as they are.
+/// Heights of the pin that come from an instrument (SDF, text, images) are negated after their preparation: an
+/// instrument's peaks are positive, while the pin's z grows away from the disc. HDF5, NumPy and synthetic heights are
+/// taken as they are.
 ///
 /// # Errors
 /// [`SurfaceError`], which names the scene's table and the file.
@@ -35,7 +37,7 @@ pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     let mut loader = Loader { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new() };
     let disc_height = loader.heights(&scene.disc_surface, Body::Disc)?;
     let mut pin_height = loader.heights(&scene.pin_surface, Body::Pin)?;
-    let pin_base = loader.base(&scene.pin_base)?;
+    let pin_base = loader.base(&scene.pin_base, scene.pin_base_mirror)?;
     if scene.resin_recess != 0.0 {
         let resin = pin_height.iter_mut().zip(&pin_base).filter(|(_, base)| **base == Base::None);
         resin.for_each(|(height, _)| *height += scene.resin_recess);
@@ -96,10 +98,10 @@ impl Loader<'_> {
                 ));
                 (RawHeights::OnMesh(heights), false)
             }
-            HeightSource::File { path, dataset } => {
+            HeightSource::File { path, options } => {
                 let pixel = recipe.preparation.pixel;
                 let (raw, instrument) = self
-                    .file_heights(path, dataset.as_deref(), body, pixel)
+                    .file_heights(path, options, body, pixel)
                     .map_err(|reason| SurfaceError::File { key: surface, path: path.clone(), reason })?;
                 (raw, instrument && body == Body::Pin)
             }
@@ -122,33 +124,35 @@ impl Loader<'_> {
     fn file_heights(
         &mut self,
         path: &Path,
-        dataset: Option<&str>,
+        options: &ReadOptions,
         body: Body,
         pixel: Option<f64>,
     ) -> Result<(RawHeights, bool), FileError> {
-        let options = ReadOptions { dataset: dataset.map(str::to_owned), ..ReadOptions::default() };
-        let measured = read(path, &options)?;
+        let measured = read(path, options)?;
         self.inputs.add(path)?;
         let notes = measured.notes.iter().map(|note| format!("{note}, ")).collect::<String>();
         let surface = surface_key(body);
         self.report.push(format!("{surface}: {}, {notes}{}", path.display(), measured.describe()));
+        self.report.extend(measured.warnings.iter().map(|warning| format!("{surface}: warning: {warning}")));
         let instrument = measured.instrument;
         let mesh = (body.columns(self.mesh), self.mesh.rows());
         let found = (measured.columns, measured.rows);
-        let raw = if !instrument && measured.pitch.or(pixel.map(|pixel| [pixel; 2])).is_none() && found == mesh {
-            RawHeights::OnMesh(measured.heights)
-        } else {
-            let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
-            let [column_pitch, row_pitch] = pitch.ok_or(FileError::NoPitch { what: notes, found, mesh })?;
-            let (columns, rows) = found;
-            RawHeights::Patch(Patch { columns, rows, column_pitch, row_pitch, heights: measured.heights })
+        let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
+        let raw = match pitch {
+            Some([column_pitch, row_pitch]) => {
+                let (columns, rows) = found;
+                RawHeights::Patch(Patch { columns, rows, column_pitch, row_pitch, heights: measured.heights })
+            }
+            None if instrument => return Err(FileError::NoPitchOfFile),
+            None if found == mesh => RawHeights::OnMesh(measured.heights),
+            None => return Err(FileError::NoPitch { what: notes, found, mesh }),
         };
         Ok((raw, instrument))
     }
 
-    fn base(&mut self, source: &BaseSource) -> Result<Vec<Base>, SurfaceError> {
+    fn base(&mut self, source: &BaseSource, mirror: bool) -> Result<Vec<Base>, SurfaceError> {
         let key = "pin.base";
-        let base = match source {
+        let mut base = match source {
             BaseSource::Uniform(base) => {
                 self.report.push(format!("{key}: uniform"));
                 vec![*base; self.mesh.pin_cells()]
@@ -165,9 +169,31 @@ impl Loader<'_> {
             BaseSource::File { path, dataset } => self
                 .file_base(path, dataset.as_deref())
                 .map_err(|reason| SurfaceError::File { key, path: path.clone(), reason })?,
+            BaseSource::Image { path, recipe } => {
+                let map = self.fibre_map(path, recipe).map_err(|reason| SurfaceError::File {
+                    key,
+                    path: path.clone(),
+                    reason,
+                })?;
+                self.report.extend(map.report.iter().map(|step| format!("{key}: {step}")));
+                map.base
+            }
         };
+        if mirror {
+            let columns: Vec<&[Base]> = base.chunks_exact(self.mesh.rows()).rev().collect();
+            base = columns.concat();
+            self.report.push(format!("{key}: mirrored along the sliding direction"));
+        }
         self.report.push(format!("{key}: fibre fraction {:.4}", fibre_fraction(&base, self.mesh)));
         Ok(base)
+    }
+
+    fn fibre_map(&mut self, path: &Path, recipe: &Micrograph) -> Result<FibreMap, FileError> {
+        let (map, picture) = fibre_map(path, recipe, self.mesh)?;
+        self.inputs.add(path)?;
+        let pixel = Length(recipe.pixel);
+        self.report.push(format!("pin.base: {}, {picture}, {pixel} a pixel", path.display()));
+        Ok(map)
     }
 
     fn file_base(&mut self, path: &Path, dataset: Option<&str>) -> Result<Vec<Base>, FileError> {
@@ -180,6 +206,16 @@ impl Loader<'_> {
         self.report.push(format!("pin.base: {}, dataset {name}", path.display()));
         Ok(base)
     }
+}
+
+/// Makes the fibre map of an image file; says what the image is besides.
+pub(super) fn fibre_map(path: &Path, recipe: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
+    let format = detect(path)?;
+    if !matches!(format, Format::Png | Format::Tiff) {
+        return Err(FileError::NotAnImage(format));
+    }
+    let (grey, picture) = image::grey(&std::fs::read(path)?, format)?;
+    Ok((recipe.fibre_map(grey, mesh)?, picture))
 }
 
 /// Root-mean-square deviation from the mean, lowest and highest of the heights.

@@ -9,7 +9,8 @@ use plateau_core::surface::{Length, Patch};
 
 use super::error::FileError;
 use super::format::{Format, detect};
-use super::{hdf5, sdf, x3p};
+use super::stated::agreed_pitch;
+use super::{hdf5, image, npy, sdf, text, x3p};
 
 /// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
 const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
@@ -21,7 +22,8 @@ const HIGHEST: f64 = 1e3;
 pub struct ReadOptions {
     /// Dataset in an HDF5 file, or array in an .npz archive.
     pub dataset: Option<String>,
-    /// What the number 1 stands for, m; for text that does not state its unit.
+    /// What the number 1 stands for, m; for text that does not state its unit, for NumPy arrays in another unit than m
+    /// and for images of decimal heights.
     pub unit: Option<f64>,
     /// Distance of neighbouring points along x and y, m; for files that do not state it.
     pub pitch: Option<[f64; 2]>,
@@ -96,14 +98,13 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
 
 fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
     let format = detect(path)?;
-    if let (Some(dataset), false) = (&options.dataset, format == Format::Hdf5) {
-        return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
-    }
+    options.refuse_meaningless(format)?;
     match format {
         Format::Hdf5 => {
-            let hdf5::Heights { dataset, columns, rows, heights } = hdf5::heights(path, options.dataset.as_deref())?;
+            let hdf5::Heights { dataset, columns, rows, pitch, heights } =
+                hdf5::heights(path, options.dataset.as_deref())?;
             let notes = vec![format!("dataset {dataset}")];
-            let pitch = options.pitch;
+            let pitch = agreed_pitch(pitch, options.pitch)?;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
         }
         Format::Sdf(_) => {
@@ -116,9 +117,26 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(File::open(path)?))?;
             Ok(from_instrument(format, patch, notes, warnings))
         }
-        Format::Npy | Format::Npz => Err(FileError::NotReadable(format)),
-        Format::Png | Format::Tiff => Err(FileError::NotReadable(format)),
-        Format::Text => Err(FileError::NotReadable(format)),
+        Format::Npy => Ok(array(format, npy::read(&std::fs::read(path)?, options.unit.unwrap_or(1.0))?, options)),
+        Format::Npz => {
+            let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));
+            let (name, read) = npy::read_archive(&std::fs::read(path)?, dataset, unit)?;
+            let mut measured = array(format, read, options);
+            measured.notes.insert(0, format!("array {name}"));
+            Ok(measured)
+        }
+        Format::Png | Format::Tiff => {
+            let image::HeightMap { columns, rows, heights, notes, warnings } =
+                image::heights(&std::fs::read(path)?, format, options)?;
+            let pitch = options.pitch;
+            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+        }
+        Format::Text => {
+            let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
+            let text::Table { columns, rows, pitch, heights, notes, warnings } =
+                text::read(&std::fs::read(path)?, xyz, options)?;
+            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+        }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
 }
@@ -128,4 +146,35 @@ fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: V
     let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
     let pitch = Some([column_pitch, row_pitch]);
     Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings }
+}
+
+/// A NumPy array: heights of the model, as those of an HDF5 file.
+fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
+    let npy::Array { columns, rows, heights, descr, integers } = array;
+    let mut warnings = Vec::new();
+    if integers && options.unit.is_none() {
+        warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
+    }
+    let (pitch, notes) = (options.pitch, vec![format!("type {descr}")]);
+    Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings }
+}
+
+impl ReadOptions {
+    /// Refuses what would silently not be used.
+    fn refuse_meaningless(&self, format: Format) -> Result<(), FileError> {
+        use Format::{Hdf5, Npy, Npz, Png, Text, Tiff};
+        if let (Some(dataset), false) = (&self.dataset, matches!(format, Hdf5 | Npz)) {
+            return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
+        }
+        for (key, given, meaningful) in [
+            ("unit", self.unit.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff)),
+            ("pitch", self.pitch.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff | Hdf5)),
+            ("height_range", self.height_range.is_some(), matches!(format, Png | Tiff)),
+        ] {
+            if given && !meaningful {
+                return Err(FileError::Meaningless { format, key });
+            }
+        }
+        Ok(())
+    }
 }

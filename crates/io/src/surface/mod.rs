@@ -2,20 +2,31 @@
 
 mod error;
 mod format;
-mod hdf5;
+pub mod hdf5;
+mod image;
 mod inputs;
 mod instrument;
+mod limits;
 mod load;
 mod measured;
+pub mod npy;
+mod preview;
 mod profiles;
 pub mod sdf;
+mod stated;
+mod text;
 mod writing;
 pub mod x3p;
 
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;
+pub use image::ImageError;
 pub use instrument::Instrument;
 pub use load::{Loaded, load};
 pub use measured::{Measured, ReadOptions, read};
+pub use npy::NpyError;
+pub use preview::write_base_preview;
+pub use stated::Disagreement;
+pub use text::TextError;
 pub use writing::{WriteError, WriteOptions, write};

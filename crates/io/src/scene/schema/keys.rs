@@ -1,11 +1,13 @@
 //! The table of keys.
 
 use super::{Group, Key, Kind, Need, Range};
-use crate::units::Dimension::{Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
-use Kind::{Bool, Choice, CountOr, InputFile, Integer, Maps, Number, Text, Times, True};
+use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
+use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Text, Times, True};
 use Need::{Computed, Default, OneOf, Optional, Required, SameAs};
 
-const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", &["dataset"]), ("synthetic", &[]), ("flat", &[])];
+const HEIGHT_SOURCES: &[(&str, &[&str])] =
+    &[("file", &["dataset", "unit", "pitch", "height_range"]), ("synthetic", &[]), ("flat", &[])];
+const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
 
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
@@ -14,12 +16,15 @@ pub const GROUPS: &[Group] = &[
     Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true },
     Group {
         section: "pin.base",
-        members: &[("synthetic", &[]), ("image", &["threshold", "pixel"]), ("file", &["dataset"]), ("uniform", &[])],
+        members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
         required: true,
     },
     Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true },
     Group { section: "output", members: &[("sample_every", &[]), ("sample_every_steps", &[])], required: false },
 ];
+
+/// Quarters of a turn, in order.
+pub(crate) const ROTATIONS: &[&str] = &["0 deg", "90 deg", "180 deg", "270 deg"];
 
 const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
 const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
@@ -91,9 +96,20 @@ pub(super) fn all() -> Vec<Key> {
     table.key("synthetic.fibre_fraction", Number(Range::FRACTION), Required, "area fraction that is fibre");
     table.key("synthetic.fibre_length", length("um", Range::POSITIVE), Required, "length of a fibre from end to end");
     table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
-    table.key("image", InputFile, OneOf, "image of the pin, fibres bright");
-    table.key("threshold", Text, Optional, "how the image is parted into fibre and resin");
-    table.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch of the image");
+    table.key("image", InputFile, OneOf, "micrograph of the pin: .png .tif");
+    table.key("pixel", length("um", Range::POSITIVE), Optional, "distance of the image's pixels; required beside it");
+    table.key("rotate", Choice(ROTATIONS), Computed("`\"0 deg\"`"), "how far the image is turned, counterclockwise");
+    table.key("smooth", length("um", Range::NOT_NEGATIVE), Optional, "standard deviation of a Gaussian over the image");
+    let threshold = NumberOr(Range::FRACTION, "otsu");
+    table.key(
+        "threshold",
+        threshold,
+        Computed("`\"otsu\"`"),
+        "grey level, black 0 to white 1, that parts fibre and resin",
+    );
+    table.key("fibres", Choice(&["bright", "dark"]), Computed("`\"bright\"`"), "which side of the threshold is fibre");
+    let area = Kind::Quantity { dimension: Area, unit: "um^2", range: Range::NOT_NEGATIVE };
+    table.key("despeckle", area, Optional, "area below which specks of fibre, then holes in it, are removed");
     table.key("file", InputFile, OneOf, "HDF5 file with the fibre map");
     table.key("dataset", Text, Optional, "dataset in the file: integers, 0 none, 1 primary, shape (pin_columns, rows)");
     table.key("uniform", Choice(&["primary", "none"]), OneOf, "all cells alike: fibre or resin");
@@ -174,8 +190,18 @@ impl Table {
     }
 
     fn heights(&mut self) {
-        self.key("file", InputFile, OneOf, "measured heights: .sdf .x3p .txt .xyz .csv .npy .h5");
-        self.key("dataset", Text, Optional, "dataset in an HDF5 file: metres, shape (columns, rows)");
+        self.key("file", InputFile, OneOf, "measured heights: .sdf .x3p .txt .xyz .csv .npy .npz .h5 .png .tif");
+        self.key("dataset", Text, Optional, "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows)");
+        self.key("unit", LengthUnit, Optional, "what the number 1 stands for, for text, .npy and decimal images");
+        let pitch = Kind::Lengths { count: 2, single: true, unit: "um", range: Range::POSITIVE };
+        self.key(
+            "pitch",
+            pitch,
+            Optional,
+            "distance of points, or those along x and y, for files that do not state it",
+        );
+        let range = Kind::Lengths { count: 2, single: false, unit: "um", range: Range::ANY };
+        self.key("height_range", range, Optional, "heights of black and white, for images");
         self.key("synthetic.seed", Integer(0), Default("0"), "seed of the heights");
         self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
         let positive = length("um", Range::POSITIVE);

@@ -12,6 +12,7 @@ use std::sync::LazyLock;
 use crate::units::Dimension;
 
 pub use keys::GROUPS;
+pub(crate) use keys::ROTATIONS;
 pub(crate) use suggest::{nearest, unknown};
 
 /// One key of a scene.
@@ -53,8 +54,23 @@ pub enum Kind {
         /// Accepted values, in SI units.
         range: Range,
     },
+    /// One length, or as many as this in a list.
+    Lengths {
+        /// How many the list has.
+        count: usize,
+        /// Whether one length may stand for all.
+        single: bool,
+        /// The unit in which the resolved scene is written.
+        unit: &'static str,
+        /// Accepted values, in m.
+        range: Range,
+    },
+    /// A unit of length, or a length.
+    LengthUnit,
     /// A plain number.
     Number(Range),
+    /// A plain number, or this word.
+    NumberOr(Range, &'static str),
     /// An integer, at least this.
     Integer(u64),
     /// true or false.

@@ -1,0 +1,111 @@
+//! Lists of points: x, y and z of one point a line, in any order, on a regular grid.
+
+use super::error::TextError;
+
+/// A point is off the grid if it is farther from it than this, in steps of the grid; coordinates are printed with few
+/// digits.
+const OFF_GRID: f64 = 0.02;
+
+/// A list fills at least one in so many points of its grid.
+const SPARSEST: usize = 16;
+
+/// Coordinates that differ by less than this, in units of their range, are the same.
+const SAME: f64 = 1e-9;
+
+/// Points with the lines that they stand in.
+pub(super) struct Points {
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    pub(super) lines: Vec<usize>,
+}
+
+/// Points on a grid, in the file's unit.
+pub(super) struct Gridded {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    pub(super) steps: [f64; 2],
+    /// Column by column; NaN where the list has no point.
+    pub(super) heights: Vec<f64>,
+}
+
+impl Points {
+    /// Whether x and y look like coordinates: their values make a grid of which the points fill at least half.
+    pub(super) fn look_gridded(&self) -> bool {
+        let (columns, rows) = (distinct(&self.x).len(), distinct(&self.y).len());
+        let points = self.z.len();
+        let grid = columns.saturating_mul(rows);
+        columns >= 2 && rows >= 2 && points >= 4 && points <= grid && grid <= 2 * points
+    }
+
+    /// Puts the points on their grid.
+    pub(super) fn grid(&self) -> Result<Gridded, TextError> {
+        let x = Axis::find('x', &self.x, &self.lines)?;
+        let y = Axis::find('y', &self.y, &self.lines)?;
+        let (columns, rows, points) = (x.count, y.count, self.z.len());
+        let places = columns.checked_mul(rows).filter(|places| *places <= points.saturating_mul(SPARSEST));
+        let Some(places) = places else { return Err(TextError::Sparse { points, grid: (columns, rows) }) };
+        let place = |point: usize| x.index(self.x[point]) * rows + y.index(self.y[point]);
+        let mut heights = vec![f64::NAN; places];
+        let mut taken = vec![false; places];
+        for (point, (height, line)) in self.z.iter().zip(&self.lines).enumerate() {
+            let at = place(point);
+            if taken[at] {
+                let first = (0..point).find(|other| place(*other) == at).unwrap_or(point);
+                return Err(TextError::Twice { line: *line, first: self.lines[first] });
+            }
+            taken[at] = true;
+            heights[at] = *height;
+        }
+        Ok(Gridded { columns, rows, steps: [x.step, y.step], heights })
+    }
+}
+
+/// The values in increasing order, each once.
+fn distinct(values: &[f64]) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let range = sorted.last().zip(sorted.first()).map_or(0.0, |(last, first)| last - first);
+    sorted.dedup_by(|a, b| *a - *b <= SAME * range);
+    sorted
+}
+
+/// Equidistant coordinates.
+struct Axis {
+    first: f64,
+    step: f64,
+    count: usize,
+}
+
+impl Axis {
+    fn find(name: char, values: &[f64], lines: &[usize]) -> Result<Self, TextError> {
+        let sorted = distinct(values);
+        let (Some(&first), Some(&last), true) = (sorted.first(), sorted.last(), sorted.len() >= 2) else {
+            return Err(TextError::Profile { axis: name });
+        };
+        let mut gaps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        gaps.sort_unstable_by(f64::total_cmp);
+        // All lines of the grid are there, or most neighbours, or at least one pair of neighbours. The whole range tells
+        // the step best.
+        let steps = [(sorted.len() - 1) as f64, (last - first) / gaps[gaps.len() / 2], (last - first) / gaps[0]];
+        let most = values.len().saturating_mul(SPARSEST);
+        for count in steps.map(f64::round) {
+            let axis = Self { first, step: (last - first) / count, count: (count as usize).saturating_add(1) };
+            if axis.count <= most && sorted.iter().all(|value| axis.holds(*value)) {
+                return Ok(axis);
+            }
+        }
+        let axis = Self { first, step: gaps[gaps.len() / 2], count: 0 };
+        let off = values.iter().position(|value| !axis.holds(*value)).unwrap_or(0);
+        Err(TextError::Irregular { line: lines[off], axis: name, found: values[off], first, step: axis.step })
+    }
+
+    fn holds(&self, value: f64) -> bool {
+        let place = (value - self.first) / self.step;
+        (place - place.round()).abs() <= OFF_GRID
+    }
+
+    fn index(&self, value: f64) -> usize {
+        (((value - self.first) / self.step).round() as usize).min(self.count - 1)
+    }
+}

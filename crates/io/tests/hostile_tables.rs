@@ -1,0 +1,204 @@
+//! Tables, arrays and images that are damaged, or promise more than they hold: an error each, and bounded memory.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
+
+use plateau_io::surface::{ReadOptions, read};
+use proptest::prelude::*;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+fn corpus(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
+}
+
+fn options() -> ReadOptions {
+    ReadOptions::default()
+}
+
+fn um() -> ReadOptions {
+    ReadOptions { unit: Some(1e-6), ..options() }
+}
+
+fn black_to_white(height: f64) -> ReadOptions {
+    ReadOptions { height_range: Some([0.0, height]), ..options() }
+}
+
+fn message(path: &Path, options: &ReadOptions) -> String {
+    read(path, options).unwrap_err().to_string()
+}
+
+/// A version 1.0 header with this dictionary and this much data.
+fn array(dictionary: &str, data: usize) -> Vec<u8> {
+    let mut content = b"\x93NUMPY\x01\x00".to_vec();
+    content.extend((dictionary.len() as u16).to_le_bytes());
+    content.extend(dictionary.as_bytes());
+    content.extend(vec![0; data]);
+    content
+}
+
+#[test]
+fn npy_headers_that_promise_or_hold_something_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npy");
+    let case = |content: &[u8]| {
+        fs::write(&path, content).unwrap();
+        read(&path, &options()).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let dictionary =
+        |descr: &str, shape: &str| format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}}}\n");
+    assert_eq!(case(&array(&dictionary("'<f8'", "(2, 3L)"), 48)), Ok(()));
+    for (descr, shape, data, expected) in [
+        ("'<f8'", "(2, 3)", 47, "the data have 47 bytes, expected 48 for shape (2, 3)"),
+        ("'<f8'", "(2, 3)", 49, "the data have 49 bytes, expected 48"),
+        ("'<f8'", "(2147483648, 2)", 9, "the array has shape (2147483648, 2), which is more than the 268435456 points"),
+        ("'<f8'", "(18446744073709551615, 18446744073709551615)", 9, "the array has shape (18446744073709551615, "),
+        ("'<f8'", "(99999999999999999999, 1)", 9, "the header is damaged: found "),
+        ("'<f8'", "(6,)", 48, "the array has shape (6), expected 2 dimensions"),
+        ("'<f8'", "()", 48, "the array has shape (), expected 2 dimensions"),
+        ("'<f8'", "(0, 3)", 0, "the array has shape (0, 3), expected 2 dimensions (columns, rows), none of them 0"),
+        ("'<f8'", "(-2, 3)", 48, "the header is damaged: found \"-2, 3)}\", expected a size of 64 bits"),
+        ("'|O'", "(2, 3)", 48, "the array has type \"|O\", expected floating-point numbers or integers"),
+        ("'<c16'", "(2, 3)", 96, "the array has type \"<c16\""),
+        ("[('z', '<f8')]", "(2, 3)", 48, "the array has type record"),
+        ("(((((((", "(2, 3)", 48, "the header is damaged: "),
+    ] {
+        let found = case(&array(&dictionary(descr, shape), data)).unwrap_err();
+        assert!(found.starts_with(expected), "{found}\nexpected {expected}");
+    }
+    let mut long = b"\x93NUMPY\x02\x00\xff\xff\xff\xff".to_vec();
+    long.extend(b"{'descr'");
+    assert!(case(&long).unwrap_err().ends_with("expected a header of at most 10000 bytes"));
+    let mut infinite = array(&dictionary("'<f4'", "(1, 2)"), 8);
+    let at = infinite.len() - 4;
+    infinite[at..].copy_from_slice(&f32::INFINITY.to_le_bytes());
+    assert!(case(&infinite).unwrap_err().starts_with("1 of 2 heights are infinite"));
+}
+
+#[test]
+fn zip_bombs_and_lies_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.npz");
+    let case = |arrays: &[(&str, &[u8])], method: CompressionMethod| {
+        let mut zip = ZipWriter::new(fs::File::create(&path).unwrap());
+        for (name, content) in arrays {
+            zip.start_file(*name, SimpleFileOptions::default().compression_method(method)).unwrap();
+            zip.write_all(content).unwrap();
+        }
+        zip.finish().unwrap();
+        read(&path, &options()).map_err(|error| error.to_string())
+    };
+    let shape =
+        |columns: u64, rows: u64| format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({columns}, {rows})}}");
+    // 64 MiB of zeros in 64 KiB: what deflate can do is read.
+    let large = array(&shape(4096, 2048), 8 << 23);
+    let zeros = case(&[("z.npy", &large)], CompressionMethod::Deflated).unwrap();
+    assert_eq!(zeros.heights.len(), 4096 * 2048);
+    // A promise beyond that, and one that the member does not keep.
+    let found = case(&[("z.npy", &array(&shape(16384, 16384), 8))], CompressionMethod::Deflated).unwrap_err();
+    assert!(found.starts_with("array \"z\": the array has shape (16384, 16384), which is more than the "), "{found}");
+    for method in [CompressionMethod::Stored, CompressionMethod::Deflated] {
+        let found = case(&[("z.npy", &array(&shape(5, 4), 159))], method).unwrap_err();
+        assert_eq!(found, "array \"z\": the data have 159 bytes, expected 160 for shape (5, 4)");
+        let found = case(&[("z.npy", &array(&shape(5, 4), 1 << 22))], method).unwrap_err();
+        assert_eq!(found, "array \"z\": the data have 161 bytes, expected 160 for shape (5, 4)");
+    }
+    // The checksum of the archive.
+    let mut content = fs::read(corpus("one_of_two.npz")).unwrap();
+    let at = content.windows(8).position(|part| part == 19.0_f64.to_le_bytes()).unwrap();
+    content[at + 7] ^= 1;
+    fs::write(&path, &content).unwrap();
+    assert_eq!(message(&path, &options()), "array \"z\": cannot be decompressed: Invalid checksum");
+}
+
+#[test]
+fn images_that_promise_more_than_they_hold() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    // An image of 2^31 - 1 lines: the checksum of the header is made to fit.
+    let mut content = fs::read(corpus("grey8.png")).unwrap();
+    content[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+    let crc = crc32(&content[12..29]).to_be_bytes();
+    content[29..33].copy_from_slice(&crc);
+    fs::write(&path, &content).unwrap();
+    let found = message(&path, &black_to_white(1.0));
+    assert!(found.starts_with("the image has 2147483647 x 2147483647 pixels, which a file of 79 bytes"), "{found}");
+    content[16..24].copy_from_slice(&[0, 0, 0x20, 0, 0, 0, 0x20, 0]);
+    let crc = crc32(&content[12..29]).to_be_bytes();
+    content[29..33].copy_from_slice(&crc);
+    fs::write(&path, &content).unwrap();
+    let found = message(&path, &black_to_white(1.0));
+    assert!(found.starts_with("the image has 8192 x 8192 pixels, which a file of 79 bytes"), "{found}");
+}
+
+/// ISO 3309, the checksum of PNG chunks.
+fn crc32(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, byte: &u8| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 })
+    };
+    !bytes.iter().fold(!0, step)
+}
+
+/// The files of the corpus that this test can read, each with what is needed to read it.
+fn readable() -> Vec<(PathBuf, ReadOptions)> {
+    let mut files: Vec<PathBuf> = fs::read_dir(corpus("")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    let options = files.into_iter().map(|path| {
+        let dataset = path.ends_with("two.npz").then(|| "a".to_owned());
+        let options = match path.extension().and_then(|ending| ending.to_str()) {
+            Some("png") => black_to_white(1e-6),
+            Some("tif") if !path.ends_with("decimal.tif") => black_to_white(1e-6),
+            Some("tif" | "npy" | "npz") => ReadOptions { dataset, ..um() },
+            _ => ReadOptions::default(),
+        };
+        (path, options)
+    });
+    options.filter(|(path, options)| read(path, options).is_ok()).collect()
+}
+
+#[test]
+fn a_file_cut_at_any_byte_is_an_error_or_a_smaller_text() {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, options) in readable() {
+        let ending = path.extension().unwrap_or_default();
+        if ending == "h5" || ending == "sdf" || ending == "x3p" {
+            continue;
+        }
+        let cut = folder.path().join("cut").with_extension(ending);
+        let content = fs::read(&path).unwrap();
+        for length in 0..content.len() {
+            fs::write(&cut, &content[..length]).unwrap();
+            let result = read(&cut, &options);
+            let text = ["txt", "csv", "xyz"].iter().any(|known| ending == *known);
+            assert!(result.is_err() || text, "{} cut at {length}: {result:?}", path.display());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
+    #[test]
+    fn a_damaged_file_gets_an_answer(
+        file in any::<prop::sample::Index>(),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        static FILES: LazyLock<Vec<(PathBuf, ReadOptions)>> = LazyLock::new(readable);
+        let (path, options) = &FILES[file.index(FILES.len())];
+        // A damaged HDF5 file is the library's matter: crates/io/tests/surfaces.rs.
+        prop_assume!(path.extension().is_none_or(|ending| ending != "h5"));
+        let mut content = fs::read(path).unwrap();
+        for (at, byte) in damage {
+            let at = at.index(content.len());
+            content[at] = byte;
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let damaged = folder.path().join("damaged").with_extension(path.extension().unwrap_or_default());
+        fs::write(&damaged, content).unwrap();
+        if let Ok(measured) = read(&damaged, options) {
+            prop_assert_eq!(measured.heights.len(), measured.columns * measured.rows);
+            prop_assert!(measured.heights.iter().all(|height| !height.is_infinite()));
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! Text, NumPy arrays, images and what we write: read through the door through which every surface file comes in.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use plateau_core::surface::Patch;
+use plateau_io::surface::{Format, Measured, ReadOptions, hdf5, npy, read};
+
+fn corpus(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
+}
+
+/// Files that are handed to developers and not part of the repository.
+fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/surfaces").join(name);
+    if path.is_file() {
+        return Some(path);
+    }
+    println!("skipped: {} is not there", path.display());
+    None
+}
+
+fn options() -> ReadOptions {
+    ReadOptions::default()
+}
+
+fn um() -> ReadOptions {
+    ReadOptions { unit: Some(1e-6), ..options() }
+}
+
+fn black_to_white(height: f64) -> ReadOptions {
+    ReadOptions { height_range: Some([0.0, height]), ..options() }
+}
+
+/// The heights in µm of 5 x 4 points, which are 4 x + y where none is missing.
+fn expect(measured: &Measured, missing: &[usize]) {
+    assert_eq!((measured.columns, measured.rows), (5, 4), "{measured:?}");
+    for (n, height) in measured.heights.iter().enumerate() {
+        if missing.contains(&n) {
+            assert!(height.is_nan(), "{n} in {measured:?}");
+        } else {
+            // A product and a quotient are rounded once each.
+            assert!((height * 1e6 - n as f64).abs() <= n as f64 * 4.0 * f64::EPSILON, "{n}: {height}");
+        }
+    }
+}
+
+fn message(path: &Path, options: &ReadOptions) -> String {
+    read(path, options).unwrap_err().to_string()
+}
+
+#[test]
+fn every_file_of_the_corpus_gives_the_heights_it_was_made_of() {
+    // The formula of make_tables.py.
+    for (name, options, format, missing, pitch) in [
+        ("f2.npy", um(), Format::Npy, &[][..], None),
+        ("f4be.npy", um(), Format::Npy, &[], None),
+        ("f8.npy", um(), Format::Npy, &[], None),
+        ("i1.npy", um(), Format::Npy, &[], None),
+        ("u2be.npy", um(), Format::Npy, &[], None),
+        ("i8.npy", ReadOptions { pitch: Some([1e-5; 2]), ..um() }, Format::Npy, &[], Some([1e-5; 2])),
+        ("fortran_holed.npy", um(), Format::Npy, &[9], None),
+        ("one_of_two.npz", um(), Format::Npz, &[9], None),
+        ("two.npz", ReadOptions { dataset: Some("a".to_owned()), ..um() }, Format::Npz, &[], None),
+        ("pitch.h5", options(), Format::Hdf5, &[], Some([5e-5, 2.5e-5])),
+        ("matrix.txt", options(), Format::Text, &[], Some([5e-5, 2.5e-5])),
+        ("gwyddion.txt", options(), Format::Text, &[], Some([250e-6 / 5.0, 100e-6 / 4.0])),
+        ("holographic.txt", options(), Format::Text, &[], Some([5e-5; 2])),
+        ("list.csv", options(), Format::Text, &[9], Some([5e-5, 2.5e-5])),
+        ("list.xyz", options(), Format::Text, &[9, 3], Some([5e-5, 2.5e-5])),
+        ("grey8.png", black_to_white(25.5e-6), Format::Png, &[], None),
+        ("grey16.png", black_to_white(21.845e-6), Format::Png, &[], None),
+        ("grey8.tif", black_to_white(25.5e-6), Format::Tiff, &[], None),
+        ("white_is_zero.tif", black_to_white(25.5e-6), Format::Tiff, &[], None),
+        ("grey8deflate.tif", black_to_white(25.5e-6), Format::Tiff, &[], None),
+        ("grey16be.tif", black_to_white(21.845e-6), Format::Tiff, &[], None),
+        ("grey16big.tif", black_to_white(21.845e-6), Format::Tiff, &[], None),
+        ("grey16lzw.tif", black_to_white(21.845e-6), Format::Tiff, &[], None),
+        ("decimal.tif", um(), Format::Tiff, &[9], None),
+    ] {
+        let measured = read(&corpus(name), &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+        println!("{name}: {}", measured.describe());
+        expect(&measured, missing);
+        assert_eq!(measured.format, format, "{name}");
+        match (measured.pitch, pitch) {
+            (Some(found), Some(pitch)) => {
+                assert!(found.iter().zip(pitch).all(|(f, p)| (f - p).abs() < 1e-15), "{name}: {found:?}");
+            }
+            (found, pitch) => assert_eq!(found, pitch, "{name}"),
+        }
+        let model = matches!(format, Format::Npy | Format::Npz | Format::Hdf5);
+        assert_eq!(measured.instrument, !model, "{name}");
+    }
+    let levels = read(&corpus("grey1.png"), &black_to_white(1.0)).unwrap().heights;
+    assert!(levels.iter().enumerate().all(|(n, level)| *level == (n % 2) as f64));
+}
+
+#[test]
+fn what_is_needed_or_of_no_use_is_told() {
+    for (name, options, expected) in [
+        ("list.csv", ReadOptions { unit: Some(1e-3), ..options() }, "the file states a unit of 1 um, the scene 1 mm: "),
+        (
+            "pitch.h5",
+            ReadOptions { pitch: Some([5e-5; 2]), ..options() },
+            "the file states a pitch of 25 um, the scene 50 um: leave out pitch (",
+        ),
+        ("grey8.png", options(), "an image does not say its heights: height_range = "),
+        ("grey8.png", um(), "the pixels are grey levels, so unit has no meaning"),
+        ("decimal.tif", options(), "the pixels are decimal heights of an unknown unit: unit = "),
+        ("f8.npy", black_to_white(1.0), "this is a NumPy array file (.npy), for which height_range has no meaning"),
+        ("pitch.h5", um(), "this is an HDF5 file, for which unit has no meaning: leave it out"),
+        (
+            "f8.npy",
+            ReadOptions { dataset: Some("a".to_owned()), ..options() },
+            "this is a NumPy array file (.npy), which has no datasets: leave out dataset = \"a\"",
+        ),
+        (
+            "two.npz",
+            options(),
+            "expected one array of two dimensions: name it with dataset = \"...\"; it has a (<f8, shape (5, 4)), b (",
+        ),
+        (
+            "two.npz",
+            ReadOptions { dataset: Some("c".to_owned()), ..options() },
+            "the archive has no one array \"c\"; it has a (<f8",
+        ),
+        (
+            "one_of_two.npz",
+            ReadOptions { dataset: Some("pitch".to_owned()), ..options() },
+            "array \"pitch\": the array has shape (2), expected 2 dimensions (columns, rows)",
+        ),
+    ] {
+        let found = message(&corpus(name), &options);
+        assert!(found.starts_with(expected), "{name}: {found}\nexpected {expected}");
+    }
+    let integers = read(&corpus("i8.npy"), &options()).unwrap();
+    assert_eq!((integers.heights[7], integers.warnings.len()), (7.0, 1));
+    // Black may be the higher one.
+    let turned = read(&corpus("grey8.png"), &ReadOptions { height_range: Some([1e-6, -1e-6]), ..options() }).unwrap();
+    assert_eq!(turned.heights[0], 1e-6);
+    assert!((turned.heights[19] - (1e-6 - 2e-6 * 190.0 / 255.0)).abs() < 1e-20);
+}
+
+/// Sa, Sq, Ssk, Sku and Sz (µm) after least squares planes are taken out, by the definitions of ISO 25178-2.
+fn parameters(measured: &Measured) -> [f64; 5] {
+    let (columns, rows) = (measured.columns, measured.rows);
+    let mean = |values: &dyn Fn(usize) -> f64| (0..columns * rows).map(values).sum::<f64>() / (columns * rows) as f64;
+    let mut z: Vec<f64> = measured.heights.iter().map(|height| height * 1e6).collect();
+    let x = |at: usize| (at / rows) as f64 - 0.5 * (columns - 1) as f64;
+    let y = |at: usize| (at % rows) as f64 - 0.5 * (rows - 1) as f64;
+    // On a full grid the centred coordinates are orthogonal.
+    let (offset, slope_x, slope_y) = (
+        mean(&|at| z[at]),
+        mean(&|at| z[at] * x(at)) / mean(&|at| x(at) * x(at)),
+        mean(&|at| z[at] * y(at)) / mean(&|at| y(at) * y(at)),
+    );
+    z.iter_mut().enumerate().for_each(|(at, z)| *z -= offset + slope_x * x(at) + slope_y * y(at));
+    let moment = |power: i32| mean(&|at| z[at].powi(power));
+    let sq = moment(2).sqrt();
+    let (low, high) = z.iter().fold((f64::MAX, f64::MIN), |(low, high), z| (low.min(*z), high.max(*z)));
+    [mean(&|at| z[at].abs()), sq, moment(3) / sq.powi(3), moment(4) / sq.powi(4), high - low]
+}
+
+#[test]
+fn the_holographic_example_has_the_peers_parameters() {
+    let Some(path) = shared("dhm_grooves_75x305.txt") else { return };
+    let measured = read(&path, &options()).unwrap();
+    assert_eq!((measured.columns, measured.rows, measured.pitch), (75, 305, Some([3.69862e-7; 2])));
+    // values.json of that folder, example B: surfalize 0.19.2, slippy 0.5.2 and SurfaceTopography 1.27.1 agree.
+    let expected = [
+        ("Sa", 0.06228928227153677),
+        ("Sq", 0.07373059301217377),
+        ("Ssk", -0.35178659796875766),
+        ("Sku", 2.252749530566431),
+        ("Sz", 0.37206866066006117),
+    ];
+    for ((name, expected), found) in expected.into_iter().zip(parameters(&measured)) {
+        assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{name}: {found}, expected {expected}");
+    }
+}
+
+fn patch() -> Patch {
+    let heights = (0..35).map(|n| if n == 11 { f64::NAN } else { 1e-6 * (n as f64).sin() }).collect();
+    Patch { columns: 7, rows: 5, column_pitch: 50e-6, row_pitch: 1e-6 / 3.0, heights }
+}
+
+fn bits(heights: &[f64]) -> Vec<u64> {
+    heights.iter().map(|height| height.to_bits()).collect()
+}
+
+#[test]
+fn what_is_written_reads_back_bit_for_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let patch = patch();
+    let path = folder.path().join("a.h5");
+    hdf5::write(&path, &patch).unwrap();
+    let back = read(&path, &options()).unwrap();
+    assert_eq!(bits(&back.heights), bits(&patch.heights));
+    assert_eq!((back.columns, back.rows, back.pitch), (7, 5, Some([50e-6, 1e-6 / 3.0])));
+    let path = folder.path().join("a.npy");
+    npy::write(&path, &patch).unwrap();
+    let back = read(&path, &options()).unwrap();
+    assert_eq!((bits(&back.heights), back.columns, back.rows), (bits(&patch.heights), 7, 5));
+    assert_eq!(fs::read(&path).unwrap().len(), 128 + 35 * 8, "data start at a multiple of 64");
+    assert!(hdf5::write(&folder.path().join("b.h5"), &Patch { rows: 6, ..patch }).is_err());
+}
+
+#[test]
+fn attributes_that_say_otherwise_are_refused() {
+    use ::hdf5::types::VarLenUnicode;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.h5");
+    let case = |units: &str, pitch: &[f64]| {
+        let file = ::hdf5::File::create(&path).unwrap();
+        let dataset = file.new_dataset_builder().with_data(&ndarray::arr2(&[[1.0, 2.0]])).create("z").unwrap();
+        let units: VarLenUnicode = units.parse().unwrap();
+        dataset.new_attr::<VarLenUnicode>().create("units").unwrap().write_scalar(&units).unwrap();
+        dataset.new_attr::<f64>().shape(pitch.len()).create("pitch").unwrap().write_raw(pitch).unwrap();
+        file.close().unwrap();
+        read(&path, &options())
+    };
+    assert_eq!(case("m", &[1e-5]).unwrap().pitch, Some([1e-5; 2]));
+    let found = case("um", &[1e-5]).unwrap_err().to_string();
+    assert_eq!(found, "dataset /z has the attribute units = \"um\", expected \"m\"");
+    for pitch in [&[1e-5, 0.0][..], &[f64::NAN], &[1.0, 2.0, 3.0], &[-1.0], &[f64::INFINITY, 1.0]] {
+        let found = case("m", pitch).unwrap_err().to_string();
+        assert!(found.starts_with("dataset /z has the attribute pitch = ["), "{found}");
+    }
+}
+
+#[test]
+fn images_that_are_no_heights() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    let case = |colour: png::ColorType, depth: png::BitDepth, data: &[u8]| {
+        let mut encoder = png::Encoder::new(fs::File::create(&path).unwrap(), 2, 1);
+        encoder.set_color(colour);
+        encoder.set_depth(depth);
+        if colour == png::ColorType::Indexed {
+            encoder.set_palette(vec![0, 0, 0, 255, 0, 0]);
+        }
+        encoder.write_header().unwrap().write_image_data(data).unwrap();
+        read(&path, &black_to_white(1.0)).map_err(|error| error.to_string())
+    };
+    use png::{BitDepth, ColorType};
+    let expected = "expected grey pixels without transparency: colours are no heights, save the image as grey levels";
+    for (colour, data, found) in [
+        (ColorType::Rgb, &[0; 6][..], "colours"),
+        (ColorType::Rgba, &[0; 8], "colours"),
+        (ColorType::Indexed, &[0, 1], "colours"),
+        (ColorType::GrayscaleAlpha, &[0; 4], "transparency"),
+    ] {
+        assert_eq!(case(colour, BitDepth::Eight, data).unwrap_err(), format!("the image has {found}, {expected}"));
+    }
+    assert_eq!(
+        case(ColorType::Grayscale, BitDepth::Sixteen, &[0xff, 0xff, 0, 1]).unwrap().heights,
+        [1.0, 1.0 / 65535.0]
+    );
+}
