@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use plateau_core::mesh::Mesh;
-use plateau_core::surface::{Body, Level, Patch, Preparation, PreparationError, RawHeights};
+use plateau_core::surface::{Body, Fill, Level, Patch, Preparation, PreparationError, RawHeights};
 
 /// Cells of 1 mm by 1 mm at the mean radius.
 fn ring(columns: usize, rows: usize, pin_columns: usize) -> Mesh {
@@ -65,7 +65,7 @@ fn a_plane_is_taken_out_whatever_its_offset() {
     // Missing points take no part: those that are left follow the plane exactly, and the filled ones get the mean 0.
     let mut holed = patch(32, 32, 1e-3, |column, row| 76e-3 + 3e-4 * column as f64 - 2e-4 * row as f64);
     holed.heights[5..300].fill(f64::NAN);
-    let preparation = Preparation { fill_missing: true, ..preparation };
+    let preparation = Preparation { fill: Some(Fill::Level), ..preparation };
     let heights = apply(preparation, RawHeights::OnMesh(holed.heights), Body::Pin, &mesh).unwrap();
     close(&heights, &[0.0; 1024], 5e-17);
 }
@@ -74,7 +74,7 @@ fn a_plane_is_taken_out_whatever_its_offset() {
 fn points_on_one_line_are_levelled_along_it() {
     let mesh = ring(40, 4, 4);
     let diagonal = patch(4, 4, 1e-3, |column, row| if column == row { 1.0 + column as f64 } else { f64::NAN });
-    let preparation = Preparation { level: Level::Plane, fill_missing: true, ..Preparation::default() };
+    let preparation = Preparation { level: Level::Plane, fill: Some(Fill::Level), ..Preparation::default() };
     close(&apply(preparation, RawHeights::Patch(diagonal), Body::Pin, &mesh).unwrap(), &[0.0; 16], 1e-15);
 }
 
@@ -190,9 +190,10 @@ fn missing_points_are_an_error_that_says_how_many() {
     let error = apply(Preparation::default(), raw.clone(), Body::Pin, &mesh).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "2 of 8 points are missing; fill = \"level\" gives them the mean of the levelled surface"
+        "2 of 8 points are missing; fill = \"level\" gives them the mean of the levelled surface, \
+         fill = \"interpolate\" heights between those around them"
     );
-    let filled = Preparation { fill_missing: true, ..Preparation::default() };
+    let filled = Preparation { fill: Some(Fill::Level), ..Preparation::default() };
     let mean = 22.0 / 6.0;
     let found = apply(filled, raw, Body::Pin, &mesh).unwrap();
     close(&found, &[mean, 2.0, 3.0, 6.0, mean, 2.0, 3.0, 6.0], 1e-15);
@@ -236,12 +237,23 @@ fn refuses_numbers_that_make_no_sense() {
         let preparation = Preparation { pixel: Some(pixel), ..nothing };
         assert!(matches!(error(preparation, good()), PreparationError::Value { key: "pixel", .. }));
     }
+    for outliers in [0.0, -3.0, f64::NAN, f64::INFINITY] {
+        let preparation = Preparation { outliers: Some(outliers), ..nothing };
+        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "outliers", .. }));
+    }
+    // Four heights, three of them alike: their median absolute deviation is 0.
+    let alike = RawHeights::OnMesh(vec![1.0, 1.0, 1.0, 2.0]);
+    let preparation = Preparation { outliers: Some(5.0), ..nothing };
+    assert_eq!(error(preparation, alike), PreparationError::NoDeviation);
     let preparation = Preparation { cutoff: Some(f64::NAN), ..nothing };
     assert!(matches!(error(preparation, good()), PreparationError::Value { key: "cutoff", .. }));
     let preparation = Preparation { scale: f64::INFINITY, ..nothing };
     assert!(matches!(error(preparation, good()), PreparationError::Value { key: "scale", .. }));
-    let infinite = RawHeights::OnMesh(vec![1.0, f64::INFINITY, 1.0, 1.0]);
-    assert!(matches!(error(nothing, infinite), PreparationError::NotFinite { count: 1, .. }));
+    for level in [Level::None, Level::Plane] {
+        let infinite = RawHeights::OnMesh(vec![1.0, f64::INFINITY, 1.0, 1.0]);
+        let preparation = Preparation { level, ..nothing };
+        assert!(matches!(error(preparation, infinite), PreparationError::NotFinite { count: 1, .. }));
+    }
     let short = RawHeights::OnMesh(vec![1.0; 3]);
     assert!(matches!(error(nothing, short), PreparationError::Grid { points: 3, .. }));
     let empty = Patch { columns: 0, rows: 0, column_pitch: 1.0, row_pitch: 1.0, heights: vec![] };

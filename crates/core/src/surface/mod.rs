@@ -3,9 +3,12 @@
 mod body;
 mod fft;
 mod fibre;
+mod fill;
 mod length;
 mod level;
+mod outliers;
 mod patch;
+mod preparation_error;
 mod prepare;
 mod random;
 mod resample;
@@ -13,6 +16,7 @@ mod synthesis;
 
 pub use body::Body;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction};
+pub use fill::Fill;
 pub use length::Length;
 pub use patch::Patch;
 pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};

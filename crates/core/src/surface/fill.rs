@@ -1,0 +1,91 @@
+//! Heights for missing points.
+
+use super::Patch;
+use super::level::mean;
+
+/// What missing points get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// The mean of the other points.
+    Level,
+    /// A membrane spanned over the gaps from the points around them.
+    Interpolate,
+}
+
+/// Fills the missing points (NaN) of a patch that has at least one height; with `closed` its columns run round a ring.
+pub(super) fn fill(patch: &mut Patch, fill: Fill, closed: bool) {
+    let mean = mean(&patch.heights);
+    let gaps: Vec<usize> = (0..patch.heights.len()).filter(|index| patch.heights[*index].is_nan()).collect();
+    gaps.iter().for_each(|gap| patch.heights[*gap] = mean);
+    if fill == Fill::Interpolate {
+        let across = (patch.column_pitch / patch.row_pitch) * (patch.column_pitch / patch.row_pitch);
+        let grid = Grid { columns: patch.columns, rows: patch.rows, across, closed };
+        span(&grid, &gaps, &mut patch.heights);
+    }
+}
+
+/// Residual of the equations at which a membrane is taken as spanned, relative to that of the start.
+const RESIDUAL: f64 = 1e-10;
+/// Iterations per point of the grid's half circumference after which a membrane is left as it is: conjugate gradients
+/// need as many iterations as a gap has points from side to side, times half the logarithm of 2/RESIDUAL.
+const ITERATIONS: usize = 24;
+
+/// Neighbours of points and their weights.
+struct Grid {
+    columns: usize,
+    rows: usize,
+    /// Weight of neighbours in the same column; those in the same row have 1.
+    across: f64,
+    closed: bool,
+}
+
+impl Grid {
+    /// Up to four neighbours of a point with their weights.
+    fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, f64)> {
+        let (column, row) = (index / self.rows, index % self.rows);
+        let ring = self.columns * self.rows;
+        let before = if column > 0 { Some(index - self.rows) } else { self.closed.then(|| index + ring - self.rows) };
+        let last = column + 1 == self.columns;
+        let after = if last { self.closed.then(|| index + self.rows - ring) } else { Some(index + self.rows) };
+        let inside = (row > 0).then(|| index - 1);
+        let outside = (row + 1 < self.rows).then(|| index + 1);
+        let weigh = |point: Option<usize>, weight: f64| point.map(|point| (point, weight));
+        [weigh(before, 1.0), weigh(after, 1.0), weigh(inside, self.across), weigh(outside, self.across)]
+            .into_iter()
+            .flatten()
+    }
+
+    /// Σ w (z − z of the neighbour).
+    fn tension(&self, index: usize, heights: &[f64]) -> f64 {
+        self.neighbours(index).map(|(neighbour, weight)| weight * (heights[index] - heights[neighbour])).sum()
+    }
+}
+
+/// Makes every gap the weighted mean of its neighbours, Σ w (z − z of the neighbour) = 0 with w one over the square of
+/// their distance: Laplace's equation, free at the edges of the grid. Conjugate gradients (Hestenes and Stiefel 1952).
+fn span(grid: &Grid, gaps: &[usize], heights: &mut [f64]) {
+    let square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+    let mut residual: Vec<f64> = gaps.iter().map(|gap| -grid.tension(*gap, heights)).collect();
+    // Zero where there is no gap.
+    let mut direction = vec![0.0; heights.len()];
+    gaps.iter().zip(&residual).for_each(|(gap, residual)| direction[*gap] = *residual);
+    let start = square(&residual);
+    let mut size = start;
+    for _ in 0..ITERATIONS * (grid.columns + grid.rows) {
+        // Written so that NaN ends the search too.
+        if !(size > RESIDUAL * RESIDUAL * start) {
+            return;
+        }
+        let tension: Vec<f64> = gaps.iter().map(|gap| grid.tension(*gap, &direction)).collect();
+        let curvature: f64 = gaps.iter().zip(&tension).map(|(gap, tension)| direction[*gap] * tension).sum();
+        let step = size / curvature;
+        for ((gap, residual), tension) in gaps.iter().zip(&mut residual).zip(&tension) {
+            heights[*gap] += step * direction[*gap];
+            *residual -= step * tension;
+        }
+        let next = square(&residual);
+        let share = next / size;
+        gaps.iter().zip(&residual).for_each(|(gap, residual)| direction[*gap] = residual + share * direction[*gap]);
+        size = next;
+    }
+}
