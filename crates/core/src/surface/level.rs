@@ -89,8 +89,7 @@ impl<'a> Form<'a> {
         for i in 0..self.terms.len() {
             let whole = self.factors[i][i];
             for j in 0..=i {
-                let earlier: f64 =
-                    (0..j).map(|k| self.factors[i][k] * self.factors[j][k] * self.factors[k][k]).sum();
+                let earlier: f64 = (0..j).map(|k| self.factors[i][k] * self.factors[j][k] * self.factors[k][k]).sum();
                 self.factors[i][j] -= earlier;
                 if j < i {
                     let pivot = self.factors[j][j];

@@ -20,4 +20,4 @@ pub use fill::Fill;
 pub use length::Length;
 pub use patch::Patch;
 pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};
-pub use synthesis::{HeightSynthesis, SynthesisError};
+pub use synthesis::{HeightSynthesis, SynthesisError, Texture};

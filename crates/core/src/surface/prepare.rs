@@ -45,15 +45,7 @@ pub struct Preparation {
 impl Default for Preparation {
     /// Nothing is done.
     fn default() -> Self {
-        Self {
-            level: Level::None,
-            outliers: None,
-            fill: None,
-            pixel: None,
-            cutoff: None,
-            repeat: false,
-            scale: 1.0,
-        }
+        Self { level: Level::None, outliers: None, fill: None, pixel: None, cutoff: None, repeat: false, scale: 1.0 }
     }
 }
 
@@ -178,8 +170,7 @@ impl Preparation {
         let mut outliers = 0;
         if let Some(limit) = self.outliers {
             let before = rms(&patch.heights);
-            let (count, distance) =
-                remove_outliers(&mut patch.heights, limit).ok_or(PreparationError::NoDeviation)?;
+            let (count, distance) = remove_outliers(&mut patch.heights, limit).ok_or(PreparationError::NoDeviation)?;
             outliers = count;
             report.push(format!(
                 "outliers: {count} of {points} points lie more than {} from the median ({limit} robust standard \
@@ -202,7 +193,8 @@ impl Preparation {
             Fill::Level => "got the mean of the others",
             Fill::Interpolate => "were interpolated from those around them",
         };
-        report.push(format!("{missing} of {points} points were missing and {what}: {}", change(before, &patch.heights)));
+        report
+            .push(format!("{missing} of {points} points were missing and {what}: {}", change(before, &patch.heights)));
         Ok(())
     }
 

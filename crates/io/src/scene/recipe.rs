@@ -61,7 +61,7 @@ pub enum HeightSource {
         /// Dataset in an HDF5 file.
         dataset: Option<String>,
     },
-    /// A Gaussian random field.
+    /// A random field.
     Synthetic(HeightSynthesis),
     /// All heights zero.
     Flat,
