@@ -200,6 +200,21 @@ fn a_membrane_over_gaps_is_harmonic() {
 }
 
 #[test]
+fn a_membrane_over_a_wide_gap_comes_near_the_harmonic_one() {
+    // A gap of 300 by 300 points in a saddle from -2 to 2, more than the iterations on the finest grid reach. Without the
+    // coarser grids the middle of the gap would stay where it started.
+    let mesh = ring(4000, 401, 401);
+    let place = |index: usize| index as f64 / 200.0 - 1.0;
+    let saddle = patch(401, 401, 1e-3, |column, row| 2.0 * place(column) * place(row)).heights;
+    let mut holed = saddle.clone();
+    (50..350).for_each(|column| holed[column * 401 + 50..column * 401 + 350].fill(f64::NAN));
+    let preparation = Preparation { fill: Some(Fill::Interpolate), ..Preparation::default() };
+    let filled = apply(preparation, RawHeights::OnMesh(holed), Body::Pin, &mesh).unwrap();
+    let largest = filled.iter().zip(&saddle).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(largest < 1e-3, "{largest}");
+}
+
+#[test]
 fn a_membrane_closes_with_the_ring_and_is_free_at_the_edges() {
     // Every second column of a ring is missing, the last one too: halfway between its neighbours. Whole rows at the edge
     // get what lies next to them.

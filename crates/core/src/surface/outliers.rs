@@ -14,8 +14,7 @@ pub(super) fn remove_outliers(heights: &mut [f64], limit: f64) -> Option<(usize,
     let median = median(&mut sorted)?;
     sorted.iter_mut().for_each(|height| *height = (*height - median).abs());
     let distance = limit * NORMAL * self::median(&mut sorted)?;
-    // Written so that NaN is refused too.
-    if !(distance > 0.0) {
+    if distance == 0.0 {
         return None;
     }
     let mut count = 0;
