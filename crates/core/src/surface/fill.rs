@@ -28,8 +28,8 @@ pub(super) fn fill(patch: &mut Patch, fill: Fill, closed: bool) {
 
 /// Spans a membrane over the gaps of a grid, starting from that of a grid of half as many columns and rows.
 ///
-/// The coarser grids carry what is wider than the iterations on a finer one reach (the cascadic method of Bornemann and
-/// Deuflhard 1996, doi:10.1007/s002110050234), so that the cost grows as the number of points.
+/// The coarser grids carry what is wider than the iterations on a finer one reach (the cascadic multigrid
+/// method of Bornemann and Deuflhard, Numerische Mathematik 75, 1996), so that the cost grows as the number of points.
 fn interpolate(grid: &Grid, heights: &mut [f64]) {
     let gaps: Vec<usize> = (0..heights.len()).filter(|index| heights[*index].is_nan()).collect();
     if gaps.is_empty() {

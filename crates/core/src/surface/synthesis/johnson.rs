@@ -141,7 +141,7 @@ fn lognormal_kurtosis(omega: f64) -> f64 {
 
 /// |γ| and δ of the unbounded distribution with |skewness| and kurtosis.
 ///
-/// With ω = exp(1/δ²), Ω = γ/δ and C = cosh 2Ω the moments are (Johnson 1949, equation 37)
+/// With ω = exp(1/δ²), Ω = γ/δ and C = cosh 2Ω the moments are (Johnson 1949)
 ///
 /// ```text
 /// skewness² = ω (ω − 1) sinh²Ω (ω (ω + 2)(2C + 1) + 3)² / (2 (ωC + 1)³)
