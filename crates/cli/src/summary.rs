@@ -12,12 +12,13 @@ use crate::failure::Failure;
 use crate::machine;
 use crate::message;
 use crate::number;
-use crate::table::table;
+use crate::table::{list, table};
 
 /// What a finished run tells its user.
 #[derive(Debug, Serialize)]
 pub struct Summary {
     title: String,
+    surfaces: Vec<String>,
     file: PathBuf,
     file_size: u64,
     steps: u64,
@@ -43,9 +44,10 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Puts together what the last sample, the drive and the writer tell.
+    /// Puts together what was done for the surfaces and what the last sample, the drive and the writer tell.
     pub fn new(
         scene: &Scene,
+        surfaces: Vec<String>,
         file: &Path,
         last: &Sample,
         course: Course,
@@ -54,6 +56,7 @@ impl Summary {
     ) -> Self {
         Self {
             title: scene.title.clone(),
+            surfaces,
             file: file.to_owned(),
             file_size: report.bytes,
             steps: last.step,
@@ -146,6 +149,6 @@ impl Summary {
             rows.push(("peak memory", number::bytes(bytes)));
         }
         rows.push(("run file", format!("{} ({})", self.file.display(), number::bytes(self.file_size))));
-        table(&self.title, &rows)
+        format!("{}\n{}", table(&self.title, &rows), list("Surfaces", &self.surfaces))
     }
 }

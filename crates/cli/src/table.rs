@@ -29,3 +29,9 @@ pub fn table(heading: &str, rows: &[(impl AsRef<str>, String)]) -> String {
     }
     text
 }
+
+/// A heading and lines below it.
+pub fn list(heading: &str, lines: &[String]) -> String {
+    let lines: String = lines.iter().map(|line| format!("  {line}\n")).collect();
+    format!("{heading}\n{lines}")
+}

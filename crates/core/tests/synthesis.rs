@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use plateau_core::mesh::Mesh;
-use plateau_core::surface::{Body, HeightSynthesis, SynthesisError};
+use plateau_core::surface::{Body, HeightSynthesis, SynthesisError, Texture};
 
 /// Ring of mean radius 1 whose cells are as wide as 2π/columns and as high as that times `aspect`.
 fn ring(columns: usize, rows: usize, pin_columns: usize, aspect: f64) -> Mesh {
@@ -12,7 +12,7 @@ fn ring(columns: usize, rows: usize, pin_columns: usize, aspect: f64) -> Mesh {
 }
 
 fn synthesis(seed: u64, correlation_length: f64) -> HeightSynthesis {
-    HeightSynthesis { seed, rms_height: 1.0, correlation_length, patch: None }
+    HeightSynthesis::gaussian(seed, 1.0, correlation_length)
 }
 
 /// Mean over the field of h(column, row) h(column + columns, row + rows); round the ring if it closes.
@@ -28,20 +28,21 @@ fn correlation(field: &[f64], rows: usize, lag: (usize, usize), closed: bool) ->
     sum / count
 }
 
-/// The mean over 20 seeds must be exp(−(ρ/ℓ)²).
+/// The mean over 20 seeds must be exp(−(x/ℓx)² − (y/ℓy)²).
 ///
 /// Error of one field of N cells: Bartlett's variance Σ (C² + C(ρ+τ)C(ρ−τ))/N ≤ 2 Σ C²/N, in which Σ C² over the cells
 /// is π (ℓx ℓy)/2 in cells for long ℓ and at least 1; taking out the mean lowers C by Σ C/N = π ℓx ℓy/N. The bound holds
 /// 4 standard errors of the mean over the seeds, for a third of the cells at the largest lag.
-fn check_autocorrelation(body: Body, mesh: &Mesh, length: f64) {
+fn check_autocorrelation(body: Body, mesh: &Mesh, along: f64, across: f64) {
     let (width, height) = (mesh.column_width(), mesh.row_height());
     let cells = (body.columns(mesh) * mesh.rows()) as f64;
-    let patch = PI * length * length / (width * height);
+    let patch = PI * along * across / (width * height);
     let seeds = 20;
     let lags = [(0, 0), (1, 0), (2, 0), (4, 0), (0, 1), (0, 2), (0, 4), (2, 2), (3, 1), (12, 0), (0, 12)];
     let mut means = [0.0; 11];
     for seed in 0..seeds {
-        let field = synthesis(seed, length).field(body, mesh).unwrap();
+        let recipe = HeightSynthesis { texture: Texture::Correlation { along, across }, ..synthesis(seed, along) };
+        let field = recipe.field(body, mesh).unwrap();
         for (mean, lag) in means.iter_mut().zip(lags) {
             *mean += correlation(&field, mesh.rows(), lag, body == Body::Disc) / seeds as f64;
         }
@@ -49,7 +50,7 @@ fn check_autocorrelation(body: Body, mesh: &Mesh, length: f64) {
     let error = (patch.max(2.0) / (cells / 3.0) / seeds as f64).sqrt();
     for (mean, (columns, rows)) in means.iter().zip(lags) {
         let (x, y) = (columns as f64 * width, rows as f64 * height);
-        let expected = (-(x * x + y * y) / (length * length)).exp();
+        let expected = (-(x * x) / (along * along) - (y * y) / (across * across)).exp();
         let tolerance = 4.0 * error + patch / cells;
         assert!(
             (mean - expected).abs() < tolerance,
@@ -61,20 +62,32 @@ fn check_autocorrelation(body: Body, mesh: &Mesh, length: f64) {
 #[test]
 fn autocorrelation_on_the_disc() {
     let mesh = ring(1000, 128, 10, 0.8);
-    check_autocorrelation(Body::Disc, &mesh, 3.0 * mesh.column_width());
+    let length = 3.0 * mesh.column_width();
+    check_autocorrelation(Body::Disc, &mesh, length, length);
 }
 
 #[test]
 fn autocorrelation_on_the_pin() {
     let mesh = ring(2000, 128, 500, 1.25);
-    check_autocorrelation(Body::Pin, &mesh, 3.0 * mesh.column_width());
+    let length = 3.0 * mesh.column_width();
+    check_autocorrelation(Body::Pin, &mesh, length, length);
+}
+
+#[test]
+fn autocorrelation_with_a_lay() {
+    // Ground along the sliding direction on the disc, across it on the pin.
+    let mesh = ring(2000, 128, 500, 1.0);
+    let width = mesh.column_width();
+    check_autocorrelation(Body::Disc, &mesh, 8.0 * width, 2.0 * width);
+    check_autocorrelation(Body::Pin, &mesh, 1.5 * width, 6.0 * width);
 }
 
 #[test]
 fn autocorrelation_of_a_length_of_one_cell_and_below() {
     let mesh = ring(1000, 128, 10, 1.0);
     for cells in [1.0, 0.7, 0.5] {
-        check_autocorrelation(Body::Disc, &mesh, cells * mesh.column_width());
+        let length = cells * mesh.column_width();
+        check_autocorrelation(Body::Disc, &mesh, length, length);
     }
 }
 
@@ -168,6 +181,28 @@ fn refuses_what_is_no_field() {
     for length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(field(synthesis(1, length), Body::Disc), SynthesisError::CorrelationLength { .. }));
     }
+    for across in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let recipe = HeightSynthesis { texture: Texture::Correlation { along: 0.1, across }, ..synthesis(1, 0.1) };
+        let key = "correlation_length_across";
+        assert!(
+            matches!(field(recipe, Body::Disc), SynthesisError::CorrelationLength { key: found, .. } if found == key)
+        );
+    }
+    let power_law = |hurst, roll_off, short_cutoff| {
+        let texture = Texture::PowerLaw { hurst, roll_off, short_cutoff };
+        field(HeightSynthesis { texture, ..synthesis(1, 0.1) }, Body::Disc)
+    };
+    for hurst in [-0.1, 1.1, f64::NAN] {
+        assert!(matches!(power_law(hurst, 1.0, None), SynthesisError::Hurst { .. }));
+    }
+    for roll_off in [0.0, 0.4, 7.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(power_law(0.8, roll_off, None), SynthesisError::RollOff { .. }));
+    }
+    for short_cutoff in [0.0, 0.4, 2.1, f64::NAN] {
+        assert!(matches!(power_law(0.8, 2.0, Some(short_cutoff)), SynthesisError::ShortCutoff { .. }));
+    }
+    let recipe = HeightSynthesis { skewness: 1.0, kurtosis: 1.9, ..synthesis(1, 0.1) };
+    assert!(matches!(field(recipe, Body::Disc), SynthesisError::Kurtosis { .. }));
     for rms_height in [-1.0, f64::NAN, f64::INFINITY] {
         let recipe = HeightSynthesis { rms_height, ..synthesis(1, 0.1) };
         assert!(matches!(field(recipe, Body::Disc), SynthesisError::RmsHeight { .. }));

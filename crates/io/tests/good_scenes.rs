@@ -9,7 +9,7 @@ use plateau_core::observe::Map;
 use plateau_core::parameters::{DebrisPool, Integrator};
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
-use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
+use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene, Workers};
 use plateau_io::scene::{self, memory_estimate};
 use plateau_io::surface::ReadOptions;
@@ -28,8 +28,15 @@ fn input(name: &str) -> PathBuf {
     std::path::absolute(good(name)).unwrap()
 }
 
-const NO_PREPARATION: Preparation =
-    Preparation { level: Level::None, fill_missing: false, pixel: None, cutoff: None, repeat: false, scale: 1.0 };
+const NO_PREPARATION: Preparation = Preparation {
+    level: Level::None,
+    outliers: None,
+    fill: None,
+    pixel: None,
+    cutoff: None,
+    repeat: false,
+    scale: 1.0,
+};
 
 #[test]
 fn the_example_of_the_format_gives_its_values() {
@@ -61,7 +68,7 @@ fn the_example_of_the_format_gives_its_values() {
         Preparation { level: Level::Plane, pixel: Some(50e-6), cutoff: Some(3e-6), repeat: true, ..NO_PREPARATION };
     let source = HeightSource::File { path: input("cermet.sdf"), options: ReadOptions::default() };
     assert_eq!(scene.disc_surface, HeightRecipe { source, mirror: false, preparation });
-    let synthesis = HeightSynthesis { seed: 3, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
+    let synthesis = HeightSynthesis::gaussian(3, 0.5e-6, 100e-6);
     let source = HeightSource::Synthetic(synthesis);
     assert_eq!(scene.pin_surface, HeightRecipe { source, mirror: false, preparation: NO_PREPARATION });
     assert_eq!(scene.resin_recess, 8e-6);
@@ -148,7 +155,7 @@ fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() 
         HeightRecipe {
             source: HeightSource::File { path: input("parts/../surfaces/cermet.sdf"), options: ReadOptions::default() },
             mirror: true,
-            preparation: Preparation { level: Level::Mean, fill_missing: true, repeat: true, ..NO_PREPARATION },
+            preparation: Preparation { level: Level::Mean, fill: Some(Fill::Level), repeat: true, ..NO_PREPARATION },
         }
     );
     assert_eq!(
@@ -195,7 +202,7 @@ fn set_overrides_the_scene() {
     assert_eq!((scene.output.maps.len(), scene.output.sample_every), (0, SampleEvery::Steps(3)));
     // A key of a table leaves the others of it.
     let scene = load("full.toml", &["pin.surface.synthetic.seed=9", "disc.surface.flat=true"]);
-    let synthesis = HeightSynthesis { seed: 9, rms_height: 0.5e-6, correlation_length: 100e-6, patch: None };
+    let synthesis = HeightSynthesis::gaussian(9, 0.5e-6, 100e-6);
     assert_eq!(scene.pin_surface.source, HeightSource::Synthetic(synthesis));
     assert_eq!(scene.disc_surface.source, HeightSource::Flat);
 }
@@ -230,6 +237,34 @@ fn what_a_scene_says_of_a_file_is_kept() {
 }
 
 #[test]
+fn synthetic_heights_have_one_texture_and_the_moments_of_a_normal_distribution_unless_told() {
+    let synthesis = |sets: &[&str]| match load("full.toml", sets).pin_surface.source {
+        HeightSource::Synthetic(synthesis) => synthesis,
+        other => panic!("{other:?}"),
+    };
+    let plain = synthesis(&[]);
+    assert_eq!((plain.skewness, plain.kurtosis), (0.0, 3.0));
+    let lay = synthesis(&["pin.surface.synthetic.correlation_length_across=20 um"]);
+    assert_eq!(lay.texture, Texture::Correlation { along: 100e-6, across: 20e-6 });
+    // A power law takes the place of the correlation lengths, and the other way round.
+    let power_law = ["pin.surface.synthetic.roll_off=0.5 mm", "pin.surface.synthetic.hurst=0.8"];
+    let found = synthesis(&power_law);
+    assert_eq!(found.texture, Texture::PowerLaw { hurst: 0.8, roll_off: 5e-4, short_cutoff: None });
+    assert_eq!((found.seed, found.rms_height), (plain.seed, plain.rms_height));
+    let moments = synthesis(&["pin.surface.synthetic.skewness=-1", "pin.surface.synthetic.kurtosis=5.5"]);
+    assert_eq!(moments, HeightSynthesis { skewness: -1.0, kurtosis: 5.5, ..plain });
+}
+
+#[test]
+fn the_preparation_is_read() {
+    let sets = ["disc.prepare.level=quadratic", "disc.prepare.outliers=6", "disc.prepare.fill=interpolate"];
+    let found = load("minimal.toml", &sets).disc_surface.preparation;
+    let expected =
+        Preparation { level: Level::Quadratic, outliers: Some(6.0), fill: Some(Fill::Interpolate), ..NO_PREPARATION };
+    assert_eq!(found, expected);
+}
+
+#[test]
 fn a_duration_of_whole_steps_is_not_rounded_up() {
     // One revolution in 1 s and 100 columns: a step lasts 0.01 s, which no double is.
     let steps = |duration: &str| {
@@ -252,6 +287,14 @@ fn a_resolved_scene_reads_back_alike() {
         ("minimal.toml", &["operation.sliding_speed=0.1 km/h", "contact.load_tolerance=1e-13", "output.maps=[]"]),
         ("minimal.toml", &["title='quoted \" and \\ µ'", "disc.prepare.scale=-0.1", "pin.prepare.cutoff=0.3 um"]),
         ("extending.toml", &["operation.rotational_speed=123.456 rpm", "numerics.workers=3"]),
+        ("full.toml", &["pin.surface.synthetic.correlation_length_across=20 um", "disc.prepare.outliers=4.5"]),
+        (
+            "full.toml",
+            &[
+                "pin.surface.synthetic={ rms_height = '1 um', roll_off = '0.3 mm', hurst = 1, short_cutoff = '0.2 mm' }",
+                "pin.surface.synthetic.skewness=-0.5",
+            ],
+        ),
         ("vector-flat.toml", &[]),
         ("vector-rough.toml", &[]),
         ("vector-track.toml", &["operation.duration=0.1 min"]),

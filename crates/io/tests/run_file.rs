@@ -28,6 +28,7 @@ fn header(rows: usize, disc_columns: usize, pin_columns: usize, maps: &[Map]) ->
         instruction_set: "baseline".into(),
         seeds: vec![("disc.surface.synthetic.seed".into(), u64::MAX)],
         inputs: vec![InputFile { path: "scene.toml".into(), sha256: "ab".repeat(32) }],
+        surfaces: vec!["disc.surface: flat".into(), "pin.surface: flat".into()],
     }
 }
 
@@ -179,6 +180,7 @@ fn the_attributes_say_where_the_run_comes_from() {
     assert!(file.attr("wall_time").unwrap().read_scalar::<f64>().unwrap() >= 0.02);
     let inputs: serde_json::Value = serde_json::from_str(&text(&file, "inputs")).unwrap();
     assert_eq!(inputs, serde_json::json!([{ "path": "scene.toml", "sha256": "ab".repeat(32) }]));
+    assert_eq!(text(&file, "surfaces"), "disc.surface: flat\npin.surface: flat");
     let seeds: serde_json::Value = serde_json::from_str(&text(&file, "seeds")).unwrap();
     assert_eq!(seeds, serde_json::json!({ "disc.surface.synthetic.seed": u64::MAX }));
     assert!(text(&file, "start_time") <= text(&file, "end_time"));

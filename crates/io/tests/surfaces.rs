@@ -10,7 +10,7 @@ use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
-use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
+use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
 use plateau_io::surface::{Loaded, ReadOptions, load};
 
@@ -126,7 +126,7 @@ fn flat_and_uniform() {
 #[test]
 fn synthetic_sources_and_the_resin_recess() {
     let mut scene = scene();
-    let synthesis = HeightSynthesis { seed: 1, rms_height: 3e-6, correlation_length: 5e-3, patch: None };
+    let synthesis = HeightSynthesis::gaussian(1, 3e-6, 5e-3);
     scene.disc_surface.source = HeightSource::Synthetic(synthesis);
     scene.pin_surface.source = HeightSource::Synthetic(HeightSynthesis { rms_height: 5e-7, ..synthesis });
     scene.pin_base =
@@ -253,13 +253,14 @@ fn unsuitable_hdf5_content_is_named() {
     assert_eq!(
         disc("disc/holed", nothing),
         format!(
-            "disc.prepare: {}: 2 of 240 points are missing; fill = \"level\" gives them the mean of the levelled surface",
+            "disc.prepare: {}: 2 of 240 points are missing; fill = \"level\" gives them the mean of the levelled surface, \
+             fill = \"interpolate\" heights between those around them",
             path.display()
         )
     );
     let mut filled = scene();
     filled.disc_surface.source = file(&path, Some("disc/holed"));
-    filled.disc_surface.preparation.fill_missing = true;
+    filled.disc_surface.preparation.fill = Some(Fill::Level);
     assert!(load(&filled).unwrap().surfaces.disc_height.iter().all(|height| height.is_finite()));
 
     let base = |dataset: &str| {

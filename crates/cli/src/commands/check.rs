@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::message;
 use crate::number;
 use crate::stability;
-use crate::table::{print, table};
+use crate::table::{list, print, table};
 
 /// How long the trial that the estimated time rests on may take.
 const TRIAL: Duration = Duration::from_millis(300);
@@ -166,14 +166,11 @@ impl Check {
             ("estimated time", format!("{} (from a short trial)", number::duration(self.estimated_time))),
         ];
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
-        text.push_str("Surfaces\n");
-        for line in &self.surfaces {
-            // Writing to a String cannot fail.
-            let _ = writeln!(text, "  {line}");
-        }
+        // Writing to a String cannot fail.
         let _ = write!(
             text,
-            "\n{}\n{}\n{}",
+            "{}\n{}\n{}\n{}",
+            list("Surfaces", &self.surfaces),
             table("Run", &rows),
             table("Needed", &reasons(&self.needed)),
             table("Left out", &reasons(&self.left_out))

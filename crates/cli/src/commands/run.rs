@@ -44,11 +44,11 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
-    let Loaded { surfaces, inputs, .. } = loaded;
+    let Loaded { surfaces, inputs, report: surface_report } = loaded;
     let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
     let execution = execution.map_err(Failure::run)?;
     let mut simulation = job.simulation(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
-    let header = header(&scene, &simulation, &inputs, schedule.samples())?;
+    let header = header(&scene, &simulation, &inputs, &surface_report, schedule.samples())?;
     job.compare(
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
     )?;
@@ -83,7 +83,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         }
     }
     let report = writer.finish(&End::Finished).map_err(Failure::run)?;
-    let summary = Summary::new(&scene, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
+    let summary =
+        Summary::new(&scene, surface_report, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
     summary.warn();
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
 }
@@ -106,6 +107,7 @@ fn header(
     scene: &Scene,
     simulation: &Simulation,
     surface_files: &[(PathBuf, String)],
+    surfaces: &[String],
     expected_samples: u64,
 ) -> Result<Header, Failure> {
     let mut inputs = InputFile::read_all(&scene.files)
@@ -129,6 +131,7 @@ fn header(
         instruction_set: simulation.execution().instructions.name().into(),
         seeds: scene.seeds.clone(),
         inputs,
+        surfaces: surfaces.to_vec(),
     })
 }
 

@@ -3,10 +3,13 @@
 mod body;
 mod fft;
 mod fibre;
+mod fill;
 mod length;
 mod level;
 pub mod micrograph;
+mod outliers;
 mod patch;
+mod preparation_error;
 mod prepare;
 mod random;
 mod resample;
@@ -14,7 +17,8 @@ mod synthesis;
 
 pub use body::Body;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction};
+pub use fill::Fill;
 pub use length::Length;
 pub use patch::Patch;
 pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};
-pub use synthesis::{HeightSynthesis, SynthesisError};
+pub use synthesis::{HeightSynthesis, SynthesisError, Texture};

@@ -1,8 +1,9 @@
 //! The preparation chain of a surface.
 
-use thiserror::Error;
-
-use super::level::{level, mean};
+use super::fill::{Fill, fill};
+use super::level::{level, mean, rms};
+use super::outliers::remove_outliers;
+pub use super::preparation_error::PreparationError;
 use super::resample::resample;
 use super::{Body, Length, Patch};
 use crate::mesh::Mesh;
@@ -16,6 +17,9 @@ pub enum Level {
     Mean,
     /// The least-squares plane; of heights that cover the whole ring only the mean and the radial slope.
     Plane,
+    /// The least-squares surface of second order; of heights that cover the whole ring only the mean, the radial slope
+    /// and the radial curvature.
+    Quadratic,
 }
 
 /// The preparation chain; a step that is absent is not done. Applied in the order of the fields.
@@ -23,8 +27,11 @@ pub enum Level {
 pub struct Preparation {
     /// Levelling; missing points do not take part.
     pub level: Level,
-    /// Whether missing points get the levelled surface's mean; without it they are an error.
-    pub fill_missing: bool,
+    /// Takes out points further than this many robust standard deviations from the median of the levelled surface,
+    /// which then is levelled once more without them.
+    pub outliers: Option<f64>,
+    /// What missing points and outliers get; without it they are an error.
+    pub fill: Option<Fill>,
     /// Reinterprets the distance of the points, m.
     pub pixel: Option<f64>,
     /// Cuts what stands higher than this above the mean, m (along the Abbott-Firestone curve).
@@ -38,7 +45,7 @@ pub struct Preparation {
 impl Default for Preparation {
     /// Nothing is done.
     fn default() -> Self {
-        Self { level: Level::None, fill_missing: false, pixel: None, cutoff: None, repeat: false, scale: 1.0 }
+        Self { level: Level::None, outliers: None, fill: None, pixel: None, cutoff: None, repeat: false, scale: 1.0 }
     }
 }
 
@@ -56,107 +63,13 @@ pub enum RawHeights {
 pub struct Prepared {
     /// One height for every cell of the body, m, column by column.
     pub heights: Vec<f64>,
-    /// What was done, one step a line, for people.
+    /// What was done, one step a line, for people, with the rms height (about the mean) that it left.
     pub report: Vec<String>,
 }
 
-/// Why a surface cannot be prepared.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum PreparationError {
-    /// The grid is none.
-    #[error(
-        "a grid of {columns} columns and {rows} rows with {points} heights, pitch {} by {}: expected columns times \
-         rows heights, at least one, and pitches that are positive and finite",
-        Length(*column_pitch), Length(*row_pitch)
-    )]
-    Grid {
-        /// Columns.
-        columns: usize,
-        /// Rows.
-        rows: usize,
-        /// Heights.
-        points: usize,
-        /// Pitch along x, m.
-        column_pitch: f64,
-        /// Pitch along y, m.
-        row_pitch: f64,
-    },
-    /// Points without a height.
-    #[error("{missing} of {points} points are missing; fill = \"level\" gives them the mean of the levelled surface")]
-    Missing {
-        /// Points without a height.
-        missing: usize,
-        /// All points.
-        points: usize,
-    },
-    /// No point has a height.
-    #[error("all {points} points are missing")]
-    AllMissing {
-        /// All points.
-        points: usize,
-    },
-    /// A number of the chain makes no sense.
-    #[error("{key} is {found}, expected {expected}")]
-    Value {
-        /// Key of the preparation table.
-        key: &'static str,
-        /// What was asked for, SI units.
-        found: f64,
-        /// What can be.
-        expected: &'static str,
-    },
-    /// The patch does not cover the track.
-    #[error(
-        "the patch is {} wide in r, the track {}: a pixel of at least {} lets its {rows} rows cover the track",
-        Length(*patch), Length(*track), Length(*pixel)
-    )]
-    Narrow {
-        /// Extent of the patch in r, m.
-        patch: f64,
-        /// Width of the track, m.
-        track: f64,
-        /// Smallest pitch that covers the track, m.
-        pixel: f64,
-        /// Rows of the patch.
-        rows: usize,
-    },
-    /// The patch does not cover the body along the sliding direction.
-    #[error(
-        "the patch is {} long, the {body} {} at the mean radius: repeat = true tiles the patch without a step at \
-         the seams",
-        Length(*patch), Length(*length)
-    )]
-    Short {
-        /// Length of the patch, m.
-        patch: f64,
-        /// Name of the body.
-        body: &'static str,
-        /// Length of the body, m.
-        length: f64,
-    },
-    /// Not even one column is covered.
-    #[error("the patch is {} long, one column {} at the mean radius: a larger pixel is needed", Length(*patch), Length(*column))]
-    ShorterThanColumn {
-        /// Length of the patch, m.
-        patch: f64,
-        /// Arc length of a column, m.
-        column: f64,
-    },
-    /// Heights that are no numbers.
-    #[error("{count} of {points} prepared heights are not finite: the heights or the scale of {scale} are too large")]
-    NotFinite {
-        /// Heights that are not finite.
-        count: usize,
-        /// All heights.
-        points: usize,
-        /// Factor of the preparation.
-        scale: f64,
-    },
-}
-
 impl Preparation {
-    /// Brings heights onto every cell of `body`: mirrored along x if asked for, levelled, filled, read with another
-    /// pitch, cut, repeated, scaled.
+    /// Brings heights onto every cell of `body`: mirrored along x if asked for, levelled, freed of outliers, filled,
+    /// read with another pitch, cut, brought onto the mesh, repeated, scaled.
     ///
     /// Heights that are already on the mesh come through bit for bit when nothing is asked for. With `pixel` they are
     /// taken as a patch of that pitch; `repeat` alone leaves them alone, for they cover the whole body.
@@ -169,6 +82,8 @@ impl Preparation {
         let mut report = Vec::new();
         let (mut patch, on_mesh) = self.as_patch(raw, body, mesh);
         check_grid(&patch)?;
+        // Missing points are told and filled; what is infinite was never measured.
+        self.refuse_heights(&patch.heights, |height| height.is_infinite())?;
         let closed = on_mesh && body == Body::Disc;
         if mirror {
             let columns: Vec<&[f64]> = patch.heights.chunks_exact(patch.rows).rev().collect();
@@ -181,36 +96,46 @@ impl Preparation {
             report.push(format!("pixel pitch taken as {}", Length(pixel)));
         }
         if let Some(cutoff) = self.cutoff {
+            let before = rms(&patch.heights);
             let cut = cut(&mut patch.heights, cutoff);
-            report.push(format!("cut at {} above the mean: {:.3} % of points", Length(cutoff), 100.0 * cut));
+            let step = format!("cut at {} above the mean: {:.3} % of points", Length(cutoff), 100.0 * cut);
+            report.push(format!("{step}, {}", change(before, &patch.heights)));
         }
         let mut heights = if on_mesh {
             patch.heights
         } else {
             let heights = resample(&patch, self.repeat, body, mesh)?;
-            report.push(self.describe_resampling(&patch, body, mesh));
+            let step = self.describe_resampling(&patch, body, mesh);
+            report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
             heights
         };
         if self.scale != 1.0 {
+            let before = rms(&heights);
             heights.iter_mut().for_each(|height| *height *= self.scale);
-            report.push(format!("heights times {}", self.scale));
+            report.push(format!("heights times {}: {}", self.scale, change(before, &heights)));
         }
-        let count = heights.iter().filter(|height| !height.is_finite()).count();
-        if count > 0 {
-            return Err(PreparationError::NotFinite { count, points: heights.len(), scale: self.scale });
-        }
+        self.refuse_heights(&heights, |height| !height.is_finite())?;
         Ok(Prepared { heights, report })
     }
 
     fn check(&self) -> Result<(), PreparationError> {
-        let refuse = |key, found, expected| Err(PreparationError::Value { key, found, expected });
-        match (self.pixel, self.cutoff) {
-            (Some(pixel), _) if !(pixel > 0.0 && pixel.is_finite()) => {
-                refuse("pixel", pixel, "a positive, finite length in m")
-            }
-            (_, Some(cutoff)) if !cutoff.is_finite() => refuse("cutoff", cutoff, "a finite length in m"),
-            _ if !self.scale.is_finite() => refuse("scale", self.scale, "a finite number"),
+        let positive = |number: f64| number > 0.0 && number.is_finite();
+        let checks = [
+            ("outliers", self.outliers, self.outliers.is_none_or(positive), "a positive, finite number"),
+            ("pixel", self.pixel, self.pixel.is_none_or(positive), "a positive, finite length in m"),
+            ("cutoff", self.cutoff, self.cutoff.is_none_or(f64::is_finite), "a finite length in m"),
+            ("scale", Some(self.scale), self.scale.is_finite(), "a finite number"),
+        ];
+        match checks.into_iter().find(|(_, _, good, _)| !good) {
+            Some((key, Some(found), _, expected)) => Err(PreparationError::Value { key, found, expected }),
             _ => Ok(()),
+        }
+    }
+
+    fn refuse_heights(&self, heights: &[f64], refused: impl Fn(f64) -> bool) -> Result<(), PreparationError> {
+        match heights.iter().filter(|height| refused(**height)).count() {
+            0 => Ok(()),
+            count => Err(PreparationError::NotFinite { count, points: heights.len(), scale: self.scale }),
         }
     }
 
@@ -237,31 +162,64 @@ impl Preparation {
         closed: bool,
         report: &mut Vec<String>,
     ) -> Result<(), PreparationError> {
-        let (missing, points) = (patch.missing(), patch.heights.len());
-        if missing == points {
+        let points = patch.heights.len();
+        if patch.missing() == points {
             return Err(PreparationError::AllMissing { points });
         }
-        if missing > 0 && !self.fill_missing {
-            return Err(PreparationError::Missing { missing, points });
+        self.level(patch, closed, report);
+        let mut outliers = 0;
+        if let Some(limit) = self.outliers {
+            let before = rms(&patch.heights);
+            let (count, distance) = remove_outliers(&mut patch.heights, limit).ok_or(PreparationError::NoDeviation)?;
+            outliers = count;
+            report.push(format!(
+                "outliers: {count} of {points} points lie more than {} from the median ({limit} robust standard \
+                 deviations): {}",
+                Length(distance),
+                change(before, &patch.heights)
+            ));
+            if outliers > 0 {
+                self.level(patch, closed, report);
+            }
         }
-        level(&mut patch.heights, patch.rows, self.level, closed);
-        match self.level {
-            Level::None => {}
-            Level::Mean => report.push("levelled by the mean".to_owned()),
-            Level::Plane if closed => report.push("levelled by the mean and the radial slope".to_owned()),
-            Level::Plane => report.push("levelled by the least-squares plane".to_owned()),
+        let missing = patch.missing();
+        if missing == 0 {
+            return Ok(());
         }
-        if missing > 0 {
-            let mean = mean(&patch.heights);
-            patch.heights.iter_mut().filter(|height| height.is_nan()).for_each(|height| *height = mean);
-            report.push(format!("{missing} of {points} points were missing and got the mean of the others"));
-        }
+        let how = self.fill.ok_or(PreparationError::Missing { missing, outliers, points })?;
+        let before = rms(&patch.heights);
+        fill(patch, how, closed);
+        let what = match how {
+            Fill::Level => "got the mean of the others",
+            Fill::Interpolate => "were interpolated from those around them",
+        };
+        report
+            .push(format!("{missing} of {points} points were missing and {what}: {}", change(before, &patch.heights)));
         Ok(())
     }
 
+    fn level(&self, patch: &mut Patch, closed: bool, report: &mut Vec<String>) {
+        let what = match (self.level, closed) {
+            (Level::None, _) => return,
+            (Level::Mean, _) => "the mean",
+            (Level::Plane, true) => "the mean and the radial slope",
+            (Level::Plane, false) => "the least-squares plane",
+            (Level::Quadratic, true) => "the mean, the radial slope and the radial curvature",
+            (Level::Quadratic, false) => "the least-squares surface of second order",
+        };
+        let before = rms(&patch.heights);
+        level(&mut patch.heights, patch.rows, self.level, closed);
+        report.push(format!("levelled by {what}: {}", change(before, &patch.heights)));
+    }
+
+    /// How the patch came onto the mesh, in words.
     fn describe_resampling(&self, patch: &Patch, body: Body, mesh: &Mesh) -> String {
+        let way = |pitch: f64, cell: f64| if pitch > cell { "interpolated" } else { "averaged" };
+        let along = way(patch.column_pitch, mesh.column_width());
+        let across = way(patch.row_pitch, mesh.row_height());
+        let ways = if along == across { along.to_owned() } else { format!("{along} along, {across} across sliding") };
         let size = format!("patch of {} by {}", Length(patch.length()), Length(patch.height()));
-        match (self.repeat, body) {
+        let laid = match (self.repeat, body) {
             (true, Body::Disc) => {
                 let times = body.length(mesh) / patch.length();
                 format!("{size} repeated {times:.2} times round the ring, mirrored at the seams")
@@ -272,8 +230,20 @@ impl Preparation {
                  (repeat = true leaves none)"
             ),
             (false, Body::Pin) => format!("{size} laid over the pin"),
-        }
+        };
+        format!(
+            "{laid}; {ways} from pixels of {} by {} to cells of {} by {}",
+            Length(patch.column_pitch),
+            Length(patch.row_pitch),
+            Length(mesh.column_width()),
+            Length(mesh.row_height())
+        )
     }
+}
+
+/// What a step made of the rms height.
+fn change(before: f64, heights: &[f64]) -> String {
+    format!("rms {} -> {}", Length(before), Length(rms(heights)))
 }
 
 fn check_grid(patch: &Patch) -> Result<(), PreparationError> {

@@ -10,9 +10,13 @@ const SAME_LENGTH: f64 = 1e-9;
 /// Heights of every cell of `body` from a patch.
 ///
 /// Cell (row i, column c) has its centre at x = (c + ½) column_width from the patch's first edge and
-/// y = (i + ½) Δr − rows Δr/2 from the middle of the patch. Between the centres of the pixels the heights are bilinear,
-/// beyond the outermost centres constant. Where pixels are finer than cells a cell takes the mean over k × k points,
-/// k = ceil(cell/pitch) in either direction.
+/// y = (i + ½) Δr − rows Δr/2 from the middle of the patch. It takes the mean of the patch over a window about its
+/// centre, where a pixel has one height all over; the window is as wide as the cell or as a pixel, whichever is wider,
+/// in either direction.
+///
+/// Where pixels are finer than cells this is the exact mean over the cell: wavelengths that the mesh cannot carry are
+/// taken out (a wave of length λ by sin(πw/λ)/(πw/λ), w the cell's width) and the mean over all cells is the mean over
+/// the part of the patch that they cover. Where pixels are coarser it is linear interpolation between their centres.
 ///
 /// With `repeat` the patch is continued by its mirror image, that by the patch, and so on: T(x) with the period of two
 /// patches and no step at a seam. The ring is besides folded about its middle so that it closes without a step:
@@ -20,21 +24,17 @@ const SAME_LENGTH: f64 = 1e-9;
 pub(super) fn resample(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<Vec<f64>, PreparationError> {
     fits(patch, repeat, body, mesh)?;
     let (columns, rows) = (body.columns(mesh), mesh.rows());
-    let along_x = Axis { points: patch.columns, pitch: patch.column_pitch, cell: mesh.column_width() };
-    let along_y = Axis { points: patch.rows, pitch: patch.row_pitch, cell: mesh.row_height() };
-    let fold = |x: f64| match (repeat, body) {
-        (false, _) => x,
-        (true, Body::Pin) => mirrored(x * along_x.cell, patch.length()) / along_x.cell,
-        (true, Body::Disc) => mirrored(x.min(columns as f64 - x) * along_x.cell, patch.length()) / along_x.cell,
-    };
+    let along_x = Axis { pixels: patch.columns, pitch: patch.column_pitch, cell: mesh.column_width() };
+    let along_y = Axis { pixels: patch.rows, pitch: patch.row_pitch, cell: mesh.row_height() };
+    let fold = (repeat && body == Body::Disc).then(|| 0.5 * body.length(mesh));
     // The middle of the track lies on the middle of the patch.
-    let margin = 0.5 * (patch.height() / along_y.cell - rows as f64);
-    let row_weights: Vec<Weights> = (0..rows).map(|row| along_y.weights(row, |y| y + margin)).collect();
+    let margin = 0.5 * (patch.height() - rows as f64 * along_y.cell);
+    let row_weights: Vec<Weights> = (0..rows).map(|row| along_y.weights(row, margin, None)).collect();
 
     let mut heights = Vec::with_capacity(columns * rows);
     let mut profile = vec![0.0; patch.rows];
     for column in 0..columns {
-        let column_weights = along_x.weights(column, fold);
+        let column_weights = along_x.weights(column, 0.0, fold);
         profile.fill(0.0);
         for (weight, pixels) in column_weights.pairs(patch.heights.chunks_exact(patch.rows)) {
             profile.iter_mut().zip(pixels).for_each(|(height, pixel)| *height += weight * pixel);
@@ -66,39 +66,46 @@ fn fits(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<(), Prep
     Ok(())
 }
 
-/// Place in the patch of length `period` that lies at `x` ≥ 0 in the mirrored tiling.
-fn mirrored(x: f64, period: f64) -> f64 {
-    let x = x % (2.0 * period);
-    x.min(2.0 * period - x)
-}
-
 /// One direction of patch and mesh.
 struct Axis {
-    points: usize,
+    pixels: usize,
     pitch: f64,
     cell: f64,
 }
 
 impl Axis {
-    /// Weights of the pixels in cell number `index`; `place` maps a coordinate in cells to one in the patch, in cells.
-    fn weights(&self, index: usize, place: impl Fn(f64) -> f64) -> Weights {
-        // A cell as large as a pixel takes one point, however the division rounds. `fits` keeps this below `points`.
-        let samples = (libm::ceil(self.cell / self.pitch - SAME_LENGTH) as usize).max(1);
-        let share = 1.0 / samples as f64;
-        let last = self.points - 1;
-        let mut pixels: Vec<(usize, f64)> = Vec::with_capacity(2 * samples);
-        for sample in 0..samples {
-            let cells = index as f64 + (sample as f64 + 0.5) * share;
-            let pixel = (place(cells) * self.cell / self.pitch - 0.5).clamp(0.0, last as f64);
-            let lower = pixel as usize;
-            let fraction = pixel - lower as f64;
-            pixels.push((lower, share * (1.0 - fraction)));
-            if lower < last {
-                pixels.push((lower + 1, share * fraction));
-            }
+    /// Weights of the pixels in cell number `index`, the first cell beginning at `margin`; with `fold` the line is
+    /// first reflected there and at 0.
+    fn weights(&self, index: usize, margin: f64, fold: Option<f64>) -> Weights {
+        let window = self.cell.max(self.pitch);
+        let start = (index as f64 + 0.5) * self.cell - 0.5 * window + margin;
+        let mut pieces = vec![(start, start + window)];
+        if let Some(fold) = fold {
+            pieces = pieces.into_iter().flat_map(|piece| reflected(piece, fold)).collect();
         }
-        Weights::new(&pixels)
+        let length = self.pixels as f64 * self.pitch;
+        let pieces: Vec<_> = pieces.into_iter().flat_map(|piece| reflected(piece, length)).collect();
+        Weights::new(&pieces, self, window)
     }
+}
+
+/// The pieces of a line between 0 and `length` onto which an interval falls, the line being reflected at both ends over
+/// and over.
+fn reflected((start, end): (f64, f64), length: f64) -> Vec<(f64, f64)> {
+    let first = libm::floor(start / length);
+    let last = libm::floor(end / length);
+    let mut pieces = Vec::with_capacity(2);
+    let mut turn = first;
+    while turn <= last {
+        let (low, high) = (turn * length, (turn + 1.0) * length);
+        let (low_cut, high_cut) = (start.max(low), end.min(high));
+        if low_cut < high_cut {
+            let even = turn % 2.0 == 0.0;
+            pieces.push(if even { (low_cut - low, high_cut - low) } else { (high - high_cut, high - low_cut) });
+        }
+        turn += 1.0;
+    }
+    pieces
 }
 
 /// Weights of neighbouring pixels.
@@ -108,11 +115,19 @@ struct Weights {
 }
 
 impl Weights {
-    fn new(pixels: &[(usize, f64)]) -> Self {
-        let first = pixels.iter().map(|(pixel, _)| *pixel).min().unwrap_or(0);
-        let last = pixels.iter().map(|(pixel, _)| *pixel).max().unwrap_or(0);
+    /// The share of each pixel of `axis` in pieces that together are as long as `window`.
+    fn new(pieces: &[(f64, f64)], axis: &Axis, window: f64) -> Self {
+        let last_pixel = axis.pixels - 1;
+        let pixel = |place: f64| ((place / axis.pitch) as usize).min(last_pixel);
+        let first = pieces.iter().map(|(start, _)| pixel(*start)).min().unwrap_or(0);
+        let last = pieces.iter().map(|(_, end)| pixel(*end)).max().unwrap_or(0);
         let mut weights = vec![0.0; last - first + 1];
-        pixels.iter().for_each(|(pixel, weight)| weights[pixel - first] += weight);
+        for (start, end) in pieces {
+            for index in pixel(*start)..=pixel(*end) {
+                let (low, high) = (index as f64 * axis.pitch, (index + 1) as f64 * axis.pitch);
+                weights[index - first] += (end.min(high) - start.max(low)).max(0.0) / window;
+            }
+        }
         Self { first, weights }
     }
 

@@ -40,6 +40,8 @@ pub struct Header {
     pub seeds: Vec<(String, u64)>,
     /// Every file that was read.
     pub inputs: Vec<InputFile>,
+    /// What was read, made and done for the initial surfaces, one step a line.
+    pub surfaces: Vec<String>,
 }
 
 impl Header {

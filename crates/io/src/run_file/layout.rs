@@ -104,6 +104,7 @@ fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Re
     write_text(file, "source_revision", &header.source_revision)?;
     write_text(file, "scene", &header.scene)?;
     write_text(file, "inputs", &inputs)?;
+    write_text(file, "surfaces", &header.surfaces.join("\n"))?;
     write_text(file, "seeds", &serde_json::Value::from(seeds).to_string())?;
     write_text(file, "host", &header.host)?;
     write_number(file, "workers", header.workers as i64)?;

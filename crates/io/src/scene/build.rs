@@ -8,7 +8,7 @@ use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules}
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
-use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Level, Preparation};
+use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
 
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
@@ -179,26 +179,55 @@ fn heights(settings: &Settings, body: &str) -> Result<HeightRecipe, Problem> {
     } else if settings.get(&surface("flat")).is_some() {
         HeightSource::Flat
     } else {
-        HeightSource::Synthetic(HeightSynthesis {
-            seed: settings.integer(&surface("synthetic.seed"))?,
-            rms_height: settings.number(&surface("synthetic.rms_height"))?,
-            correlation_length: settings.number(&surface("synthetic.correlation_length"))?,
-            patch: settings.optional_number(&surface("synthetic.patch"))?,
-        })
+        HeightSource::Synthetic(synthesis(settings, &surface("synthetic"))?)
     };
     let preparation = Preparation {
         level: match settings.text(&prepare("level"))? {
+            "quadratic" => Level::Quadratic,
             "plane" => Level::Plane,
             "mean" => Level::Mean,
             _ => Level::None,
         },
-        fill_missing: settings.get(&prepare("fill")).is_some(),
+        outliers: settings.optional_number(&prepare("outliers"))?,
+        fill: settings.get(&prepare("fill")).map(|_| settings.text(&prepare("fill"))).transpose()?.map(
+            |fill| match fill {
+                "interpolate" => Fill::Interpolate,
+                _ => Fill::Level,
+            },
+        ),
         pixel: settings.optional_number(&prepare("pixel"))?,
         cutoff: settings.optional_number(&prepare("cutoff"))?,
         repeat: settings.bool(&prepare("repeat"))?,
         scale: settings.number(&prepare("scale"))?,
     };
     Ok(HeightRecipe { source, mirror: settings.bool(&surface("mirror"))?, preparation })
+}
+
+/// The recipe of synthetic heights in this inline table.
+fn synthesis(settings: &Settings, table: &str) -> Result<HeightSynthesis, Problem> {
+    let path = |name: &str| format!("{table}.{name}");
+    let texture = match settings.optional_number(&path("correlation_length"))? {
+        Some(along) => {
+            let across = settings.optional_number(&path("correlation_length_across"))?;
+            Texture::Correlation { along, across: across.unwrap_or(along) }
+        }
+        None => {
+            let roll_off = settings.number(&path("roll_off"))?;
+            let hurst = settings.optional_number(&path("hurst"))?.ok_or_else(|| {
+                let message = "a power law needs its Hurst exponent too: give hurst, from 0 (rough) to 1 (smooth)";
+                Problem::new(&settings.origin(&path("roll_off")), &path("roll_off"), message)
+            })?;
+            Texture::PowerLaw { hurst, roll_off, short_cutoff: settings.optional_number(&path("short_cutoff"))? }
+        }
+    };
+    Ok(HeightSynthesis {
+        seed: settings.integer(&path("seed"))?,
+        rms_height: settings.number(&path("rms_height"))?,
+        texture,
+        skewness: settings.number(&path("skewness"))?,
+        kurtosis: settings.number(&path("kurtosis"))?,
+        patch: settings.optional_number(&path("patch"))?,
+    })
 }
 
 fn base(settings: &Settings) -> Result<BaseSource, Problem> {

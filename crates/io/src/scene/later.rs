@@ -19,13 +19,7 @@ const LATER: &[Later] = &[
         |value| *value == Value::Bool(true),
         "this version does not compute roughness: leave the key out and record the maps disc_height and pin_height",
     ),
-    ("disc.surface.synthetic.skewness", |_| true, ONLY_GAUSSIAN),
-    ("disc.surface.synthetic.kurtosis", |_| true, ONLY_GAUSSIAN),
-    ("pin.surface.synthetic.skewness", |_| true, ONLY_GAUSSIAN),
-    ("pin.surface.synthetic.kurtosis", |_| true, ONLY_GAUSSIAN),
 ];
-const ONLY_GAUSSIAN: &str =
-    "this version makes Gaussian heights only: leave the key out, or give file with heights of your own";
 
 /// Refuses what would silently not be done.
 pub(super) fn refuse(entries: &Entries, problems: &mut Vec<Problem>) {

@@ -64,7 +64,7 @@ pub enum HeightSource {
         /// What the scene says of the file.
         options: ReadOptions,
     },
-    /// A Gaussian random field.
+    /// A random field.
     Synthetic(HeightSynthesis),
     /// All heights zero.
     Flat,

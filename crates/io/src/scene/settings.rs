@@ -170,6 +170,7 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
         let keys = schema::keys().iter().filter(|key| key.section == section && key.need == Need::Required);
         let keys = keys.filter(|key| !given(section, key.name) && applies(key, entries));
         let groups = schema::GROUPS.iter().filter(|group| group.section == section && group.required);
+        let groups = groups.filter(|group| group.applies(|path| entries.contains_key(path)));
         let groups = groups.filter(|group| !group.members.iter().any(|(name, _)| given(section, name)));
 
         let names: Vec<String> = keys

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::mesh::Mesh;
 use plateau_core::state::{Base, InitialSurfaces};
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
-use plateau_core::surface::{Body, Length, Patch, RawHeights, fibre_fraction};
+use plateau_core::surface::{Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction};
 
 use super::error::{FileError, SurfaceError};
 use super::format::{Format, detect};
@@ -90,12 +90,7 @@ impl Loader<'_> {
                 let heights = synthesis
                     .field(body, self.mesh)
                     .map_err(|reason| SurfaceError::Synthesis { key: surface, reason })?;
-                self.report.push(format!(
-                    "{surface}: synthetic, seed {}, rms height {}, correlation length {}",
-                    synthesis.seed,
-                    Length(synthesis.rms_height),
-                    Length(synthesis.correlation_length)
-                ));
+                self.report.push(format!("{surface}: synthetic, {}", describe(synthesis)));
                 (RawHeights::OnMesh(heights), false)
             }
             HeightSource::File { path, options } => {
@@ -218,11 +213,34 @@ pub(super) fn fibre_map(path: &Path, recipe: &Micrograph, mesh: &Mesh) -> Result
     Ok((recipe.fibre_map(grey, mesh)?, picture))
 }
 
-/// Root-mean-square deviation from the mean, lowest and highest of the heights.
+/// What synthetic heights were asked for, in words.
+fn describe(synthesis: &HeightSynthesis) -> String {
+    let HeightSynthesis { seed, rms_height, texture, skewness, kurtosis, patch } = *synthesis;
+    let texture = match texture {
+        Texture::Correlation { along, across } if along == across => format!("correlation length {}", Length(along)),
+        Texture::Correlation { along, across } => {
+            format!("correlation length {} along and {} across sliding", Length(along), Length(across))
+        }
+        Texture::PowerLaw { hurst, roll_off, short_cutoff } => {
+            let cutoff = short_cutoff.map(|cutoff| format!(", cut off at {}", Length(cutoff))).unwrap_or_default();
+            format!("power law with Hurst exponent {hurst} below {}{cutoff}", Length(roll_off))
+        }
+    };
+    let normal = skewness == 0.0 && kurtosis == 3.0;
+    let moments = if normal { String::new() } else { format!(", skewness {skewness}, kurtosis {kurtosis}") };
+    let patch = patch.map(|patch| format!(", repeated about every {}", Length(patch))).unwrap_or_default();
+    format!("seed {seed}, rms height {}, {texture}{moments}{patch}", Length(rms_height))
+}
+
+/// Lowest and highest of the heights, their root-mean-square deviation from the mean, skewness and kurtosis.
 fn spread(heights: &[f64]) -> String {
-    let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-    let square = heights.iter().map(|height| (height - mean) * (height - mean)).sum::<f64>() / heights.len() as f64;
+    let count = heights.len() as f64;
+    let mean = heights.iter().sum::<f64>() / count;
+    let moment = |power: i32| heights.iter().map(|height| (height - mean).powi(power)).sum::<f64>() / count;
+    let rms = moment(2).sqrt();
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    format!("heights from {} to {}, rms {}", Length(lowest), Length(highest), Length(square.sqrt()))
+    let (skewness, kurtosis) = (moment(3) / rms.powi(3), moment(4) / rms.powi(4));
+    let shape = if rms > 0.0 { format!(", skewness {skewness:.3}, kurtosis {kurtosis:.3}") } else { String::new() };
+    format!("heights from {} to {}, rms {}{shape}", Length(lowest), Length(highest), Length(rms))
 }

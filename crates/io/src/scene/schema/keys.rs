@@ -9,17 +9,24 @@ const HEIGHT_SOURCES: &[(&str, &[&str])] =
     &[("file", &["dataset", "unit", "pitch", "height_range"]), ("synthetic", &[]), ("flat", &[])];
 const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
 
+const TEXTURES: &[(&str, &[&str])] = &[
+    ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
+    ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
+];
+
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
     Group { section: "operation", members: &[("rotational_speed", &[]), ("sliding_speed", &[])], required: true },
     Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true },
     Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true },
+    Group { section: "disc.surface", members: TEXTURES, required: true },
     Group {
         section: "pin.base",
         members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
         required: true,
     },
     Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true },
+    Group { section: "pin.surface", members: TEXTURES, required: true },
     Group { section: "output", members: &[("sample_every", &[]), ("sample_every_steps", &[])], required: false },
 ];
 
@@ -28,6 +35,7 @@ pub(crate) const ROTATIONS: &[&str] = &["0 deg", "90 deg", "180 deg", "270 deg"]
 
 const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
 const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
+const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
 const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
 
 const fn length(unit: &'static str, range: Range) -> Kind {
@@ -205,17 +213,31 @@ impl Table {
         self.key("synthetic.seed", Integer(0), Default("0"), "seed of the heights");
         self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
         let positive = length("um", Range::POSITIVE);
-        self.key("synthetic.correlation_length", positive, Required, "length l of the autocorrelation exp(-(r/l)^2)");
+        self.key("synthetic.correlation_length", positive, OneOf, "length l of the autocorrelation exp(-(r/l)^2)");
+        let across = "another length l across the sliding direction: a lay";
+        self.key("synthetic.correlation_length_across", positive, Optional, across);
+        self.key("synthetic.roll_off", positive, OneOf, "wavelength from which down the spectrum falls as a power law");
+        self.key(
+            "synthetic.hurst",
+            Number(Range::FRACTION),
+            Optional,
+            "Hurst exponent of the power law, with roll_off",
+        );
+        self.key("synthetic.short_cutoff", positive, Optional, "wavelength at which the power law ends");
         self.key("synthetic.patch", length("mm", Range::POSITIVE), Optional, "length after which the heights repeat");
-        self.key("synthetic.skewness", Number(Range::ANY), Optional, "skewness of the heights");
-        self.key("synthetic.kurtosis", Number(Range::POSITIVE), Optional, "kurtosis of the heights");
+        self.key("synthetic.skewness", Number(Range::ANY), Default("0"), "skewness of the heights");
+        self.key("synthetic.kurtosis", Number(ABOVE_1), Default("3"), "kurtosis of the heights, 3 for normal ones");
         self.key("flat", True, OneOf, "all heights zero");
         self.key("mirror", Bool, Default("false"), "whether the heights are a view of the face, to be mirrored");
     }
 
     fn preparation(&mut self) {
-        self.key("level", Choice(&["plane", "mean", "none"]), Default("\"none\""), "what is taken out first");
-        self.key("fill", Choice(&["level"]), Optional, "what missing points get; without it they are an error");
+        let levels = Choice(&["quadratic", "plane", "mean", "none"]);
+        self.key("level", levels, Default("\"none\""), "what is taken out first");
+        let outliers = "robust standard deviations from the median beyond which points are taken out";
+        self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
+        let fills = Choice(&["level", "interpolate"]);
+        self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
         self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
         self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
         self.key("repeat", Bool, Default("false"), "whether the patch is tiled round the ring");

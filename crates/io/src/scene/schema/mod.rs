@@ -120,6 +120,13 @@ pub struct Group {
 }
 
 impl Group {
+    /// Whether one is to be chosen at all: alternatives in an inline table mean nothing where that is not given.
+    pub fn applies(&self, given: impl Fn(&str) -> bool) -> bool {
+        self.members
+            .iter()
+            .all(|(name, _)| name.rsplit_once('.').is_none_or(|(table, _)| given(&join(self.section, table))))
+    }
+
     /// The alternatives as a list: `file, synthetic, flat`.
     pub fn names(&self) -> String {
         self.members.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")

@@ -1,0 +1,125 @@
+//! Heights for missing points.
+
+use super::Patch;
+use super::level::mean;
+
+/// What missing points get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// The mean of the other points.
+    Level,
+    /// A membrane spanned over the gaps from the points around them.
+    Interpolate,
+}
+
+/// Fills the missing points (NaN) of a patch that has at least one height; with `closed` its columns run round a ring.
+pub(super) fn fill(patch: &mut Patch, fill: Fill, closed: bool) {
+    match fill {
+        Fill::Level => {
+            let mean = mean(&patch.heights);
+            patch.heights.iter_mut().filter(|height| height.is_nan()).for_each(|height| *height = mean);
+        }
+        Fill::Interpolate => {
+            let across = (patch.column_pitch / patch.row_pitch) * (patch.column_pitch / patch.row_pitch);
+            interpolate(&Grid { columns: patch.columns, rows: patch.rows, across, closed }, &mut patch.heights);
+        }
+    }
+}
+
+/// Spans a membrane over the gaps of a grid, starting from that of a grid of half as many columns and rows.
+///
+/// The coarser grids carry what is wider than the iterations on a finer one reach (the cascadic multigrid
+/// method of Bornemann and Deuflhard, Numerische Mathematik 75, 1996), so that the cost grows as the number of points.
+fn interpolate(grid: &Grid, heights: &mut [f64]) {
+    let gaps: Vec<usize> = (0..heights.len()).filter(|index| heights[*index].is_nan()).collect();
+    if gaps.is_empty() {
+        return;
+    }
+    let (coarse, mut coarse_heights) = grid.halved(heights);
+    interpolate(&coarse, &mut coarse_heights);
+    gaps.iter().for_each(|gap| heights[*gap] = coarse_heights[grid.block(*gap, &coarse)]);
+    span(grid, &gaps, heights);
+}
+
+/// Residual of the equations at which a membrane is taken as spanned, relative to that of the start.
+const RESIDUAL: f64 = 1e-10;
+/// Most iterations on one grid, enough for gaps of some 30 points across; wider ones start from a coarser grid that is
+/// good enough.
+const ITERATIONS: usize = 100;
+
+/// Neighbours of points and their weights.
+struct Grid {
+    columns: usize,
+    rows: usize,
+    /// Weight of neighbours in the same column; those in the same row have 1.
+    across: f64,
+    closed: bool,
+}
+
+impl Grid {
+    /// The grid of half as many columns and rows, with the means of the heights that there are.
+    fn halved(&self, heights: &[f64]) -> (Self, Vec<f64>) {
+        let coarse = Self { columns: self.columns.div_ceil(2), rows: self.rows.div_ceil(2), ..*self };
+        let mut sums = vec![(0.0, 0.0); coarse.columns * coarse.rows];
+        for (index, height) in heights.iter().enumerate().filter(|(_, height)| !height.is_nan()) {
+            let (sum, count) = &mut sums[self.block(index, &coarse)];
+            (*sum, *count) = (*sum + height, *count + 1.0);
+        }
+        // Without any height this is NaN: a gap of the coarse grid.
+        let means = sums.into_iter().map(|(sum, count)| sum / count).collect();
+        (coarse, means)
+    }
+
+    /// The point of the halved grid that stands for this one.
+    fn block(&self, index: usize, coarse: &Self) -> usize {
+        (index / self.rows / 2) * coarse.rows + index % self.rows / 2
+    }
+
+    /// Up to four neighbours of a point with their weights.
+    fn neighbours(&self, index: usize) -> impl Iterator<Item = (usize, f64)> {
+        let (column, row) = (index / self.rows, index % self.rows);
+        let ring = self.columns * self.rows;
+        let before = if column > 0 { Some(index - self.rows) } else { self.closed.then(|| index + ring - self.rows) };
+        let last = column + 1 == self.columns;
+        let after = if last { self.closed.then(|| index + self.rows - ring) } else { Some(index + self.rows) };
+        let inside = (row > 0).then(|| index - 1);
+        let outside = (row + 1 < self.rows).then(|| index + 1);
+        let weigh = |point: Option<usize>, weight: f64| point.map(|point| (point, weight));
+        [weigh(before, 1.0), weigh(after, 1.0), weigh(inside, self.across), weigh(outside, self.across)]
+            .into_iter()
+            .flatten()
+    }
+
+    /// Σ w (z − z of the neighbour).
+    fn tension(&self, index: usize, heights: &[f64]) -> f64 {
+        self.neighbours(index).map(|(neighbour, weight)| weight * (heights[index] - heights[neighbour])).sum()
+    }
+}
+
+/// Makes every gap the weighted mean of its neighbours, Σ w (z − z of the neighbour) = 0 with w one over the square of
+/// their distance: Laplace's equation, free at the edges of the grid. Conjugate gradients (Hestenes and Stiefel 1952).
+fn span(grid: &Grid, gaps: &[usize], heights: &mut [f64]) {
+    let square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
+    let mut residual: Vec<f64> = gaps.iter().map(|gap| -grid.tension(*gap, heights)).collect();
+    // Zero where there is no gap.
+    let mut direction = vec![0.0; heights.len()];
+    gaps.iter().zip(&residual).for_each(|(gap, residual)| direction[*gap] = *residual);
+    let start = square(&residual);
+    let mut size = start;
+    for _ in 0..ITERATIONS {
+        if size <= RESIDUAL * RESIDUAL * start {
+            return;
+        }
+        let tension: Vec<f64> = gaps.iter().map(|gap| grid.tension(*gap, &direction)).collect();
+        let curvature: f64 = gaps.iter().zip(&tension).map(|(gap, tension)| direction[*gap] * tension).sum();
+        let step = size / curvature;
+        for ((gap, residual), tension) in gaps.iter().zip(&mut residual).zip(&tension) {
+            heights[*gap] += step * direction[*gap];
+            *residual -= step * tension;
+        }
+        let next = square(&residual);
+        let share = next / size;
+        gaps.iter().zip(&residual).for_each(|(gap, residual)| direction[*gap] = residual + share * direction[*gap]);
+        size = next;
+    }
+}

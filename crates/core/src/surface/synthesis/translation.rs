@@ -1,0 +1,176 @@
+//! How the autocorrelation of a Gaussian field changes when its heights are given another distribution.
+//!
+//! A field T(g) of a Gaussian field g of unit variance and autocorrelation r has the autocorrelation
+//!
+//! ```text
+//! f(r) = Σ_{k ≥ 1} a_k² r^k / Σ_{k ≥ 1} a_k²,        a_k = E[T(x) He_k(x)] / √k!,   x standard normal
+//! ```
+//!
+//! (Grigoriu 1984, doi:10.1061/(ASCE)0733-9399(1984)110:4(610); by Mehler's expansion). So that T(g) has the
+//! autocorrelation asked for, g is given its inverse f⁻¹.
+
+use super::johnson::Johnson;
+use super::quadrature::normal_nodes;
+
+/// Most terms of the series.
+const MOST_TERMS: usize = 64;
+/// Share that the powers of r beyond the last may have without being looked at.
+const NEGLECTED: f64 = 1e-14;
+
+/// The map f of autocorrelations.
+#[derive(Debug)]
+pub(super) struct Translation {
+    /// Share of each power of r, from r¹ on; together 1.
+    shares: Vec<f64>,
+}
+
+impl Translation {
+    pub(super) fn new(distribution: Johnson) -> Self {
+        // The product of He_k and the normal density falls as exp(−x²/4) beyond 2√k; T grows as exp(x/δ).
+        let reach = 12.0 + 2.0 * (MOST_TERMS as f64).sqrt() + 2.0 / distribution.delta();
+        let step = (0.5 * distribution.delta()).min(0.0625);
+        let (mut mean, mut square, mut coefficients) = (0.0, 0.0, [0.0; MOST_TERMS]);
+        for (x, weight) in normal_nodes(step, reach) {
+            let height = weight * distribution.height(x);
+            mean += height;
+            square += height * distribution.height(x);
+            // He_k/√k! by its recurrence.
+            let (mut before, mut hermite) = (1.0, x);
+            for (k, coefficient) in coefficients.iter_mut().enumerate() {
+                *coefficient += height * hermite;
+                let k = (k + 1) as f64;
+                (before, hermite) = (hermite, (x * hermite - k.sqrt() * before) / (k + 1.0).sqrt());
+            }
+        }
+        let variance = square - mean * mean;
+        let mut shares = Vec::with_capacity(MOST_TERMS);
+        let mut rest = 1.0;
+        for coefficient in coefficients {
+            let share = coefficient * coefficient / variance;
+            shares.push(share);
+            rest -= share;
+            if rest < NEGLECTED {
+                break;
+            }
+        }
+        // Powers beyond the last count as the last, so that f(1) = 1.
+        if let Some(last) = shares.last_mut() {
+            *last += rest.max(0.0);
+        }
+        Self { shares }
+    }
+
+    /// f and its derivative at r.
+    fn value(&self, r: f64) -> (f64, f64) {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for share in self.shares.iter().rev() {
+            slope = slope * r + value;
+            value = value * r + share;
+        }
+        // So far Σ c_k r^(k−1).
+        (value * r, slope * r + value)
+    }
+
+    /// Autocorrelation that the Gaussian field must have; f increases from f(−1) to 1.
+    ///
+    /// An autocorrelation below f(−1), which the distribution cannot have, gives −1.
+    pub(super) fn inverse(&self, autocorrelation: f64) -> f64 {
+        let (mut low, mut high) = (-1.0, 1.0);
+        let mut r = autocorrelation.clamp(low, high);
+        // Newton's method, kept between bounds that close in.
+        for _ in 0..100 {
+            let (value, slope) = self.value(r);
+            if value < autocorrelation {
+                low = r;
+            } else {
+                high = r;
+            }
+            let newton = r - (value - autocorrelation) / slope;
+            let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
+            if (next - r).abs() <= f64::EPSILON * r.abs() {
+                break;
+            }
+            r = next;
+        }
+        r
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// For u and v normal with variance c = 1/δ² and covariance cr about −Ω, E[e^u e^v] = e^(−2Ω + c(1 + r)); so
+    /// f(r) = (cosh 2Ω (e^(cr) − 1) + 1 − e^(−cr)) / (cosh 2Ω (e^c − 1) + 1 − e^(−c)), lognormal for Ω → ∞.
+    fn closed_form(distribution: Johnson, r: f64) -> f64 {
+        let (hyperbolic, delta) = match distribution {
+            Johnson::Unbounded { gamma, delta } => ((2.0 * gamma / delta).cosh(), delta),
+            Johnson::Lognormal { delta, .. } => (1e300, delta),
+            _ => panic!("no closed form"),
+        };
+        let c = 1.0 / (delta * delta);
+        let value = |r: f64| hyperbolic * (c * r).exp_m1() - (-c * r).exp_m1();
+        value(r) / value(1.0)
+    }
+
+    #[test]
+    fn the_series_agrees_with_the_closed_forms() {
+        for distribution in [
+            Johnson::Unbounded { gamma: 0.0, delta: 0.9 },
+            Johnson::Unbounded { gamma: 1.0, delta: 2.0 },
+            Johnson::Unbounded { gamma: -2.0, delta: 1.5 },
+            Johnson::Lognormal { sign: 1.0, delta: 1.1 },
+            Johnson::Lognormal { sign: -1.0, delta: 4.0 },
+        ] {
+            let translation = Translation::new(distribution);
+            for step in -10..=10 {
+                let r = f64::from(step) / 10.0;
+                let (found, expected) = (translation.value(r).0, closed_form(distribution, r));
+                assert!((found - expected).abs() < 1e-12, "{distribution:?}: f({r}) = {found}, expected {expected}");
+            }
+        }
+    }
+
+    /// The definition, E[T(x) T(y)] with y = rx + √(1 − r²) w and w independent of x.
+    #[test]
+    fn the_series_of_bounded_distributions_agrees_with_the_double_integral() {
+        for (gamma, delta) in [(0.0, 0.3), (0.8, 1.0), (-1.5, 0.5)] {
+            let distribution = Johnson::Bounded { gamma, delta };
+            let translation = Translation::new(distribution);
+            let nodes: Vec<(f64, f64)> = normal_nodes(0.05, 9.0).collect();
+            let mean: f64 = nodes.iter().map(|(x, weight)| weight * distribution.height(*x)).sum();
+            let covariance = |r: f64| -> f64 {
+                let other = |x: f64, w: f64| distribution.height(r * x + (1.0 - r * r).sqrt() * w) - mean;
+                let inner = |x: f64| nodes.iter().map(|(w, weight)| weight * other(x, *w)).sum::<f64>();
+                nodes.iter().map(|(x, weight)| weight * (distribution.height(*x) - mean) * inner(*x)).sum()
+            };
+            let variance = covariance(1.0);
+            for r in [-0.7, 0.2, 0.5, 0.8] {
+                let (found, expected) = (translation.value(r).0, covariance(r) / variance);
+                // Powers beyond the 64th, 1e-6 of f(1) at δ = 0.3, times 0.8^64; then rounding of sums of 361² terms.
+                assert!((found - expected).abs() < 1e-11, "γ {gamma}, δ {delta}: f({r}) = {found}, not {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_is_one() {
+        for distribution in [
+            Johnson::Bounded { gamma: 0.8, delta: 0.3 },
+            Johnson::Bounded { gamma: 0.0, delta: 0.2 },
+            Johnson::Unbounded { gamma: 1.0, delta: 1.2 },
+            Johnson::Lognormal { sign: 1.0, delta: 1.1 },
+        ] {
+            let translation = Translation::new(distribution);
+            for step in -100..=100 {
+                let r = f64::from(step) / 100.0;
+                let (value, slope) = translation.value(r);
+                let found = translation.inverse(value);
+                assert!((found - r).abs() < 1e-14 * (1.0 + 1.0 / slope), "{distribution:?}: {found} for {r}");
+            }
+            assert_eq!(translation.inverse(0.0), 0.0);
+            assert_eq!(translation.inverse(-2.0), -1.0);
+            assert!((translation.inverse(1e-300) / 1e-300 * translation.shares[0] - 1.0).abs() < 1e-12);
+        }
+    }
+}
