@@ -7,7 +7,7 @@ use super::prepare::Level;
 ///
 /// Stored column by column. With `closed` the columns run round a ring: a plane then is the mean and a slope along the
 /// rows only, for a slope round the ring would leave a step where it closes.
-pub(super) fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
+pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
     let (slope_x, slope_y) = match level {
         Level::None => return,
         Level::Mean => (false, false),

@@ -1,6 +1,8 @@
-//! Initial surfaces: measured patches and their preparation, synthetic heights and fibre maps.
+//! Surfaces: measured patches and their preparation, synthetic heights and fibre maps, and the parameters that describe
+//! them.
 
 mod body;
+pub mod describe;
 mod fft;
 mod fibre;
 mod length;
@@ -14,6 +16,7 @@ mod synthesis;
 pub use body::Body;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction};
 pub use length::Length;
+pub use level::level;
 pub use patch::Patch;
 pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};
 pub use synthesis::{HeightSynthesis, SynthesisError};
