@@ -2,14 +2,16 @@
 
 use std::fmt;
 
-use plateau_core::observe::{Map, MapValues, QUANTITIES, Sample};
+use plateau_core::observe::{self, Map, MapValues, QUANTITIES, Sample};
+use plateau_core::roughness::BothRoughness;
 use plateau_core::simulation::Simulation;
 
 /// Steps between two comparisons; where one fails, the steps before it are taken once more, one by one.
 const STEPS_BETWEEN: u64 = 100;
 
 // A sample is its step, its time and the quantities: none of its numbers is left out of a comparison.
-const _: () = assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2));
+const _: () =
+    assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + size_of::<Option<BothRoughness>>());
 
 /// The first step after which two simulations differ, and in what.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,12 +100,13 @@ impl Moment {
     fn reach(simulation: &mut Simulation, step: u64) -> Result<Self, String> {
         let mut told = || {
             simulation.advance_to(step)?;
-            Ok((simulation.sample()?, simulation.snapshot(&Map::ALL)?))
+            let roughness = Some(simulation.roughness()?);
+            Ok((Sample { roughness, ..simulation.sample()? }, simulation.snapshot(&Map::ALL)?))
         };
         let (sample, snapshot) =
             told().map_err(|error: plateau_core::simulation::SimulationError| error.to_string())?;
         let mut quantities = vec![("step", sample.step as f64), ("time", sample.time)];
-        quantities.extend(QUANTITIES.iter().map(|quantity| (quantity.name, (quantity.value)(&sample))));
+        quantities.extend(observe::quantities(true).map(|quantity| (quantity.name, (quantity.value)(&sample))));
         let numbers = |values| match values {
             MapValues::Float(values) => values,
             MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),

@@ -83,7 +83,13 @@ fn dump() {
             let own = value(&description, parameter.symbol);
             let peer = |name: &str| peers[name][parameter.symbol].as_f64();
             let surfalize = peer("surfalize").unwrap_or(f64::NAN);
-            println!("  {:6} {own:14.8} {surfalize:14.8} {:+.1e}  {:?} {:?}", parameter.symbol, own / surfalize - 1.0, peer("own"), peer("exact_sk").map(|v| (v, own/v-1.0)));
+            println!(
+                "  {:6} {own:14.8} {surfalize:14.8} {:+.1e}  {:?} {:?}",
+                parameter.symbol,
+                own / surfalize - 1.0,
+                peer("own"),
+                peer("exact_sk").map(|v| (v, own / v - 1.0))
+            );
         }
         println!("  {:?}", description.autocorrelation);
     }

@@ -19,11 +19,6 @@ const LATER: &[Later] = &[
         |_| true,
         "this version does not read images: give file with a map in HDF5, synthetic, or uniform",
     ),
-    (
-        "output.roughness",
-        |value| *value == Value::Bool(true),
-        "this version does not compute roughness: leave the key out and record the maps disc_height and pin_height",
-    ),
     ("disc.surface.synthetic.skewness", |_| true, ONLY_GAUSSIAN),
     ("disc.surface.synthetic.kurtosis", |_| true, ONLY_GAUSSIAN),
     ("pin.surface.synthetic.skewness", |_| true, ONLY_GAUSSIAN),

@@ -93,7 +93,9 @@ fn square_along_x(harmonics: &mut Vec<Complex<f64>>, columns: usize, width: usiz
         |(line, scratch), band| {
             for harmonic in 0..BAND {
                 line[columns..].fill(Complex::default());
-                line.iter_mut().zip(band.iter().skip(harmonic).step_by(BAND)).for_each(|(place, value)| *place = *value);
+                line.iter_mut()
+                    .zip(band.iter().skip(harmonic).step_by(BAND))
+                    .for_each(|(place, value)| *place = *value);
                 forward.process_with_scratch(line, scratch);
                 line.iter_mut().for_each(|value| *value = value.norm_sqr().into());
                 backward.process_with_scratch(line, scratch);
