@@ -45,27 +45,21 @@ pub type Place = (f64, f64);
 pub enum Anchor {
     /// Below it, in its middle.
     Below,
-    /// Above it, in its middle.
-    Above,
     /// To its left.
     Left,
     /// To its right.
     Right,
     /// Below it, to its right.
     BelowRight,
-    /// Below it, to its left.
-    BelowLeft,
 }
 
 impl Anchor {
     fn position(self) -> Pos {
         let (horizontal, vertical) = match self {
             Self::Below => (HPos::Center, VPos::Top),
-            Self::Above => (HPos::Center, VPos::Bottom),
             Self::Left => (HPos::Right, VPos::Center),
             Self::Right => (HPos::Left, VPos::Center),
             Self::BelowRight => (HPos::Left, VPos::Top),
-            Self::BelowLeft => (HPos::Right, VPos::Top),
         };
         Pos::new(horizontal, vertical)
     }
@@ -114,6 +108,9 @@ impl<B: DrawingBackend> Canvas<B> {
     /// A text.
     pub fn text(&self, text: &str, place: Place, anchor: Anchor, size: u32) -> Result<(), FigureError> {
         let style = (FONT_NAME, size).into_font().color(&INK).pos(anchor.position());
+        // Centred is the line with the room above its letters; the letters themselves shall be.
+        let beside = matches!(anchor, Anchor::Left | Anchor::Right);
+        let place = (place.0, if beside { place.1 + 0.12 * f64::from(size) } else { place.1 });
         self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
     }
 

@@ -8,26 +8,38 @@ use plateau_core::surface::describe::{CoreHeight, Description, Grid};
 use plotters::prelude::{BitMapBackend, DrawingBackend};
 
 use super::axes::{Axes, Axis, Frame};
-use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT, TITLE, failed};
+use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT, TITLE, failed};
 use super::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT, MISSING};
 use super::colour_bar::ColourBar;
 use super::histogram::Histogram;
 use super::raster::Raster;
 use super::unit::AxisUnit;
 
-/// Width and height of the part of a page that shows one surface, pixels: printed 90 mm wide, letters are of 6 points.
-const BLOCK: [f64; 2] = [1440.0, 1560.0];
+/// Width of the part of a page that shows one surface, pixels: printed 90 mm wide, letters are of 6 points.
+const WIDTH: f64 = 1440.0;
 /// Room for the numbers and the label of an axis on the left.
 const LEFT: f64 = 170.0;
-/// Room for the map.
-const MAP: Frame = Frame { x: [LEFT, 1170.0], y: [150.0, 850.0] };
-/// The histogram, and beside it, with the same axis, the curve.
-const HISTOGRAM: Frame = Frame { x: [LEFT, 620.0], y: [1000.0, 1430.0] };
-const CURVE: Frame = Frame { x: [660.0, 1400.0], y: HISTOGRAM.y };
+/// Left and right end of the map, and its largest height.
+const MAP: ([f64; 2], f64) = ([LEFT, 1170.0], 700.0);
+/// Left and right end of the histogram, and of the curve beside it, which shares its axis.
+const HISTOGRAM: [f64; 2] = [LEFT, 620.0];
+const CURVE: [f64; 2] = [660.0, 1400.0];
+/// Their height.
+const CHART: f64 = 430.0;
+/// Room for the title above the map, and for the numbers and the label of an axis below a box.
+const HEAD: f64 = 150.0;
+const FOOT: f64 = 120.0;
+/// Room for the lines of text above a chart, and their distance.
+const CAPTION: f64 = 3.0 * SPACING + 10.0;
+const SPACING: f64 = 1.25 * TEXT as f64;
 /// A map that is longer than this many times its width is stretched, or nothing could be seen on it.
 const MOST_ELONGATED: f64 = 4.0;
+/// Heights farther than this many times the interquartile range outside the quartiles do not widen axes and colours.
+const FENCE: f64 = 5.0;
 /// Classes of the histogram.
-const CLASSES: usize = 72;
+const CLASSES: usize = 64;
+/// Distance of the places that a curve is drawn through, pixels: rounded to pixels, nearer ones would make it ragged.
+const STEP: f64 = 8.0;
 
 /// What a picture shows of the heights themselves.
 #[derive(Debug, Clone)]
@@ -68,12 +80,14 @@ pub fn surfaces(figures: &[SurfaceFigure]) -> Result<Vec<u8>, FigureError> {
         _ => 3,
     };
     let down = figures.len().div_ceil(across).max(1);
-    let size = [BLOCK[0] as u32 * across as u32, BLOCK[1] as u32 * down as u32];
+    let map_height = figures.iter().map(|figure| figure.map_size()[1]).fold(0.0, f64::max);
+    let height = HEAD + map_height + FOOT + CAPTION + CHART + FOOT;
+    let size = [(WIDTH * across as f64) as u32, (height * down as f64) as u32];
     let mut image = RgbImage::new(size[0], size[1]);
     let canvas = Canvas::new(BitMapBackend::with_buffer(&mut image, (size[0], size[1])))?;
     for (index, figure) in figures.iter().enumerate() {
-        let origin = [(index % across) as f64 * BLOCK[0], (index / across) as f64 * BLOCK[1]];
-        figure.draw(&canvas, origin)?;
+        let origin = [(index % across) as f64 * WIDTH, (index / across) as f64 * height];
+        figure.draw(&canvas, origin, map_height)?;
     }
     canvas.finish()?;
     let mut png = Cursor::new(Vec::new());
@@ -82,35 +96,68 @@ pub fn surfaces(figures: &[SurfaceFigure]) -> Result<Vec<u8>, FigureError> {
 }
 
 impl SurfaceFigure<'_> {
-    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, origin: [f64; 2]) -> Result<(), FigureError> {
-        let moved = |frame: Frame| Frame { x: frame.x.map(|x| x + origin[0]), y: frame.y.map(|y| y + origin[1]) };
-        self.draw_title(canvas, origin)?;
-        self.draw_map(canvas, moved(MAP))?;
+    /// Draws the surface with the upper left corner there, below a map of up to that height.
+    fn draw<B: DrawingBackend>(
+        &self,
+        canvas: &Canvas<B>,
+        [x, y]: [f64; 2],
+        map_height: f64,
+    ) -> Result<(), FigureError> {
+        self.draw_title(canvas, [x + LEFT, y])?;
+        let ([left, _], [width, height]) = (MAP.0, self.map_size());
+        self.draw_map(canvas, Frame { x: [x + left, x + left + width], y: [y + HEAD, y + HEAD + height] })?;
+        let top = y + HEAD + map_height + FOOT + CAPTION;
+        let chart = |ends: [f64; 2]| Frame { x: ends.map(|end| x + end), y: [top, top + CHART] };
         let unit = self.height_unit();
         let range = scaled(&self.drawn.histogram.range, unit);
-        self.draw_histogram(canvas, moved(HISTOGRAM), &range, unit)?;
-        self.draw_curve(canvas, moved(CURVE), &range, unit)
+        self.draw_histogram(canvas, chart(HISTOGRAM), &range, unit)?;
+        self.draw_curve(canvas, chart(CURVE), &range, unit)
     }
 
+    /// The name, and what is to know of the map.
     fn draw_title<B: DrawingBackend>(&self, canvas: &Canvas<B>, [x, y]: [f64; 2]) -> Result<(), FigureError> {
-        let room = BLOCK[0] - LEFT - 40.0;
-        canvas.text(&shortened(canvas, &self.title, room), (x + LEFT, y + 30.0), Anchor::BelowRight, TITLE)?;
+        canvas.text(&shortened(canvas, &self.title, WIDTH - LEFT - 40.0), (x, y + 30.0), Anchor::BelowRight, TITLE)?;
+        let (middle, mut begin) = (y + 106.0, x);
         let missing = 1.0 - self.description.measured as f64 / (self.points[0] * self.points[1]) as f64;
         if missing > 0.0 {
-            let box_end = [x + LEFT + 34.0, y + 92.0 + 26.0];
-            let key = Frame { x: [x + LEFT, box_end[0]], y: [y + 92.0, box_end[1]] };
+            let key = Frame { x: [begin, begin + 34.0], y: [middle - 13.0, middle + 13.0] };
             canvas.area(&key.corners(), MISSING)?;
             let text = format!("no height: {} %", percent(missing));
-            canvas.text(&text, (box_end[0] + 12.0, 0.5 * (key.y[0] + key.y[1])), Anchor::Right, TEXT)?;
+            canvas.text(&text, (key.x[1] + 12.0, middle), Anchor::Right, TEXT)?;
+            begin = key.x[1] + 12.0 + canvas.text_width(&text, TEXT) + 40.0;
+        }
+        let [stretched_x, stretched_y] = self.stretch();
+        for (axis, stretched) in [("x", stretched_x), ("y", stretched_y)] {
+            if stretched > 1.0 {
+                let text = format!("{axis} stretched {} times", number(stretched));
+                canvas.text(&text, (begin, middle), Anchor::Right, TEXT)?;
+            }
         }
         Ok(())
     }
 
-    fn draw_map<B: DrawingBackend>(&self, canvas: &Canvas<B>, room: Frame) -> Result<(), FigureError> {
-        let points = self.points.map(|points| points as f64);
+    /// Extent along x and y, m or points.
+    fn extent(&self) -> [f64; 2] {
         let pitch = self.pitch.unwrap_or([1.0; 2]);
-        let extent = [points[0] * pitch[0], points[1] * pitch[1]];
-        let frame = fitted(room, extent);
+        [self.points[0] as f64 * pitch[0], self.points[1] as f64 * pitch[1]]
+    }
+
+    /// Width and height of the map, pixels.
+    fn map_size(&self) -> [f64; 2] {
+        let [x, y] = self.extent();
+        let proportion = (x / y).clamp(1.0 / MOST_ELONGATED, MOST_ELONGATED);
+        let width = (MAP.0[1] - MAP.0[0]).min(MAP.1 * proportion).floor();
+        [width, (width / proportion).floor()]
+    }
+
+    /// How many times larger than in proportion the map is along x and y.
+    fn stretch(&self) -> [f64; 2] {
+        let [x, y] = self.extent();
+        [y / x / MOST_ELONGATED, x / y / MOST_ELONGATED]
+    }
+
+    fn draw_map<B: DrawingBackend>(&self, canvas: &Canvas<B>, frame: Frame) -> Result<(), FigureError> {
+        let extent = self.extent();
         let axis = |extent: f64, name: &str| {
             let unit = if self.pitch.is_some() { AxisUnit::for_length(extent) } else { AxisUnit::POINTS };
             let label = format!("{name}, {}", unit.symbol);
@@ -136,8 +183,7 @@ impl SurfaceFigure<'_> {
         let fractions = &self.drawn.histogram.fractions;
         let largest = fractions.iter().copied().fold(0.0, f64::max).max(1e-6);
         let y = Axis { range: range.clone(), label: format!("height, {}", unit.symbol), numbered: true };
-        // The text has its place beyond the longest bars.
-        let x = Axis { range: 0.0..=125.0 * largest, label: "points per class, %".to_owned(), numbered: true };
+        let x = Axis { range: 0.0..=105.0 * largest, label: "points per class, %".to_owned(), numbered: true };
         let axes = Axes { frame, x, y };
         let class = (range.end() - range.start()) / fractions.len() as f64;
         let end = |class_number: usize| range.start() + class_number as f64 * class;
@@ -152,13 +198,15 @@ impl SurfaceFigure<'_> {
             .flat_map(|(number, fraction)| [end(number), end(number + 1)].map(|y| axes.place(100.0 * fraction, y)));
         canvas.line(&outline.collect::<Vec<_>>(), DATA, LINE)?;
         axes.draw(canvas)?;
-        let heights = &self.description.heights;
-        let lines = [
+        let (heights, outside) = (&self.description.heights, self.drawn.histogram.outside);
+        let mut lines = vec![
             format!("Sq {}", self.height(heights.root_mean_square_height, unit)),
-            format!("Ssk {}", number(heights.skewness)),
-            format!("Sku {}", number(heights.kurtosis)),
+            format!("Ssk {}   Sku {}", number(heights.skewness), number(heights.kurtosis)),
         ];
-        write_in_corner(canvas, &frame, &lines)
+        if outside > 0.0 {
+            lines.push(format!("beyond the axis: {} %", percent(outside)));
+        }
+        write_above(canvas, &frame, &lines)
     }
 
     fn draw_curve<B: DrawingBackend>(
@@ -187,17 +235,16 @@ impl SurfaceFigure<'_> {
         let curve = &self.description.material_curve;
         let classes = curve.len().saturating_sub(1).max(1) as f64;
         let places = curve.iter().enumerate().map(|(class, height)| place(class as f64 / classes, *height));
-        canvas.line(&places.collect::<Vec<_>>(), DATA, LINE + 2)?;
+        canvas.line(&apart(&places.collect::<Vec<_>>()), DATA, LINE + 2)?;
         axes.draw(canvas)?;
-        let ratio = |ratio: f64| format!("{} %", percent(ratio));
+        let [core, peak, dale] =
+            [core_height, reduced_peak_height, reduced_dale_depth].map(|height| self.height(height, unit));
         let lines = [
-            format!("Sk {}", self.height(core_height, unit)),
-            format!("Spk {}", self.height(reduced_peak_height, unit)),
-            format!("Svk {}", self.height(reduced_dale_depth, unit)),
-            format!("Smr1 {}", ratio(peak_ratio)),
-            format!("Smr2 {}", ratio(dale_ratio)),
+            format!("Sk {core}"),
+            format!("Spk {peak}   Svk {dale}"),
+            format!("Smr1 {} %   Smr2 {} %", percent(peak_ratio), percent(dale_ratio)),
         ];
-        write_in_corner(canvas, &frame, &lines)
+        write_above(canvas, &frame, &lines)
     }
 
     /// The unit of heights.
@@ -211,42 +258,57 @@ impl SurfaceFigure<'_> {
     }
 }
 
-/// Lines of text in the upper right corner of a box.
-fn write_in_corner<B: DrawingBackend>(canvas: &Canvas<B>, frame: &Frame, lines: &[String]) -> Result<(), FigureError> {
-    let spacing = 1.25 * f64::from(TEXT);
+/// Lines of text above a box.
+fn write_above<B: DrawingBackend>(canvas: &Canvas<B>, frame: &Frame, lines: &[String]) -> Result<(), FigureError> {
     for (line, text) in lines.iter().enumerate() {
-        let place = (frame.x[1] - 16.0, frame.y[0] + 14.0 + line as f64 * spacing);
-        canvas.text(text, place, Anchor::BelowLeft, TEXT)?;
+        let place = (frame.x[0], frame.y[0] - 10.0 - (lines.len() - line) as f64 * SPACING);
+        canvas.text(text, place, Anchor::BelowRight, TEXT)?;
     }
     Ok(())
 }
 
-/// The largest frame of these proportions in the room; stretched where it would be a line.
-fn fitted(room: Frame, [length, height]: [f64; 2]) -> Frame {
-    let proportion = (length / height).clamp(1.0 / MOST_ELONGATED, MOST_ELONGATED);
-    let width = room.width().min(room.height() * proportion).floor();
-    let height = (width / proportion).floor();
-    Frame { x: [room.x[0], room.x[0] + width], y: [room.y[1] - height, room.y[1]] }
+/// The first, the last and of the places between them those that are not too near to each other.
+fn apart(places: &[Place]) -> Vec<Place> {
+    let mut kept: Vec<Place> = Vec::new();
+    for place in places {
+        if kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) >= STEP) {
+            kept.push(*place);
+        }
+    }
+    kept.extend(places.last());
+    kept
 }
 
-/// Heights between the material ratios 99.9 % and 0.1 %, with the ends of the core, and a margin, m above the mean.
-fn height_range(description: &Description) -> RangeInclusive<f64> {
+/// Heights between two material ratios, as far as they are not far out, m above the mean.
+fn central_heights(description: &Description, [low, high]: [f64; 2]) -> [f64; 2] {
     let curve = &description.material_curve;
-    let classes = curve.len().saturating_sub(1);
-    let at = |class: usize| curve.get(class).copied().unwrap_or(0.0);
+    let at = |ratio: f64| {
+        let class = (ratio * curve.len().saturating_sub(1) as f64).round() as usize;
+        curve.get(class).copied().unwrap_or(0.0)
+    };
+    let quartiles = [at(0.75), at(0.25)];
+    let fence = FENCE * (quartiles[1] - quartiles[0]);
+    // More than half of the heights may be equal.
+    if fence > 0.0 {
+        [at(high).max(quartiles[0] - fence), at(low).min(quartiles[1] + fence)]
+    } else {
+        [at(high), at(low)]
+    }
+}
+
+/// Heights that histogram and curve show: nearly all, with the ends of the core, and a margin, m above the mean.
+fn height_range(description: &Description) -> RangeInclusive<f64> {
+    let [low, high] = central_heights(description, [0.001, 0.999]);
     let CoreHeight { upper, lower, .. } = description.core;
-    let (low, high) = (at(classes - classes / 1000).min(lower), at(classes / 1000).max(upper));
-    let margin = 0.06 * (high - low).max(1e-9);
+    let (low, high) = (low.min(lower), high.max(upper));
+    let margin = (0.06 * (high - low)).max(1e-10);
     low - margin..=high + margin
 }
 
-/// Heights that the colour map spans: between the material ratios 99.5 % and 0.5 %, m above the mean.
+/// Heights that the colour map spans, m above the mean.
 fn colour_range(description: &Description) -> RangeInclusive<f64> {
-    let curve = &description.material_curve;
-    let classes = curve.len().saturating_sub(1);
-    let at = |class: usize| curve.get(class).copied().unwrap_or(0.0);
-    let (low, high) = (at(classes - classes / 200), at(classes / 200));
-    if high > low { low..=high } else { low - 1e-9..=high + 1e-9 }
+    let [low, high] = central_heights(description, [0.005, 0.995]);
+    if high > low { low..=high } else { low - 1e-10..=high + 1e-10 }
 }
 
 fn scaled(range: &RangeInclusive<f64>, unit: AxisUnit) -> RangeInclusive<f64> {

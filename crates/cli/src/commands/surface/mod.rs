@@ -86,7 +86,6 @@ fn convert(path: &Path, measured: Measured, to: &Path, arguments: &SurfaceArgume
         return Err(named(path, "the distance of its points is unknown, which --to needs: give --pitch"));
     };
     surface::write(to, &patch, &WriteOptions { replace: arguments.force }).map_err(Failure::input)?;
-    message::note(format_args!("wrote {}", to.display()));
     let measured = Measured {
         format,
         columns: patch.columns,
@@ -108,7 +107,7 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
     }
     let Loaded { surfaces, report, .. } = surface::load(&scene).map_err(Failure::input)?;
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
-    Subject::of_scene(mesh, surfaces, &report, level, draws(arguments))
+    Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))
 }
 
 /// An error of a file.
@@ -122,7 +121,11 @@ fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failur
         let figures: Vec<SurfaceFigure> = subjects.iter().filter_map(Subject::figure).collect();
         let picture = figure::surfaces(&figures).map_err(Failure::run)?;
         output::write(plot, &picture, arguments.force)?;
-        message::note(format_args!("wrote {}", plot.display()));
     }
-    print(&if arguments.json { document::document(subjects)? } else { text::text(subjects) })
+    if arguments.json {
+        return print(&document::document(subjects)?);
+    }
+    let written = arguments.to.iter().chain(&arguments.plot);
+    let written: String = written.map(|path| format!("\nwrote {}\n", path.display())).collect();
+    print(&(text::text(subjects) + &written))
 }

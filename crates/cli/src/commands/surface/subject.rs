@@ -61,6 +61,7 @@ impl Subject {
 
     /// The disc and the pin of a scene, peaks positive on both.
     pub fn of_scene(
+        scene: &Path,
         mesh: &Mesh,
         surfaces: InitialSurfaces,
         report: &[String],
@@ -77,7 +78,7 @@ impl Subject {
             let own = |line: &&String| line.starts_with(&format!("{name}."));
             Ok(Self {
                 name: name.to_owned(),
-                origin: format!("the {} of the scene", body.name()),
+                origin: format!("prepared by {}", scene.display()),
                 columns,
                 rows,
                 pitch,
