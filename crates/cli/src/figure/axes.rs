@@ -13,7 +13,7 @@ const TICK: f64 = 10.0;
 /// Room between a tick and its label, pixels.
 const GAP: f64 = 6.0;
 /// Pixels along an axis for one tick, at least.
-const PER_TICK: [f64; 2] = [120.0, 90.0];
+pub const PER_TICK: [f64; 2] = [100.0, 70.0];
 
 /// A rectangle of the page, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use plotters::prelude::DrawingBackend;
 
-use super::axes::{Frame, most_ticks};
+use super::axes::{Frame, PER_TICK, most_ticks};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
 use super::colour::{INK, viridis};
 use super::ticks::ticks;
@@ -47,7 +47,7 @@ impl ColourBar {
         ];
         canvas.line(&outline, INK, LINE)?;
         let mut widest = 0.0_f64;
-        for (value, label) in ticks(&self.range, most_ticks(self.frame.height(), 90.0)) {
+        for (value, label) in ticks(&self.range, most_ticks(self.frame.height(), PER_TICK[1])) {
             let part = (value - self.range.start()) / (self.range.end() - self.range.start());
             let y = bottom - part * self.frame.height();
             canvas.line(&[(right, y), (right + 8.0, y)], INK, LINE)?;

@@ -26,8 +26,9 @@ const HISTOGRAM: [f64; 2] = [LEFT, 620.0];
 const CURVE: [f64; 2] = [660.0, 1400.0];
 /// Their height.
 const CHART: f64 = 430.0;
-/// Room for the title above the map, and for the numbers and the label of an axis below a box.
-const HEAD: f64 = 150.0;
+/// Room for the title, for the line of remarks above the map, and for the numbers and the label of an axis below a box.
+const HEAD: f64 = 100.0;
+const REMARKS: f64 = 50.0;
 const FOOT: f64 = 120.0;
 /// Room for the lines of text above a chart, and their distance.
 const CAPTION: f64 = 3.0 * SPACING + 10.0;
@@ -72,6 +73,13 @@ pub struct SurfaceFigure<'a> {
     pub description: &'a Description,
 }
 
+/// Room that all surfaces of a page have, pixels: above the map, and for the map.
+#[derive(Debug, Clone, Copy)]
+struct Room {
+    head: f64,
+    map: f64,
+}
+
 /// Draws surfaces beside and below each other; gives the picture as PNG.
 pub fn surfaces(figures: &[SurfaceFigure]) -> Result<Vec<u8>, FigureError> {
     let across = match figures.len() {
@@ -80,14 +88,16 @@ pub fn surfaces(figures: &[SurfaceFigure]) -> Result<Vec<u8>, FigureError> {
         _ => 3,
     };
     let down = figures.len().div_ceil(across).max(1);
-    let map_height = figures.iter().map(|figure| figure.map_size()[1]).fold(0.0, f64::max);
-    let height = HEAD + map_height + FOOT + CAPTION + CHART + FOOT;
+    let remarks = if figures.iter().any(SurfaceFigure::has_remarks) { REMARKS } else { 0.0 };
+    let room =
+        Room { head: HEAD + remarks, map: figures.iter().map(|figure| figure.map_size()[1]).fold(0.0, f64::max) };
+    let height = room.head + room.map + FOOT + CAPTION + CHART + FOOT;
     let size = [(WIDTH * across as f64) as u32, (height * down as f64) as u32];
     let mut image = RgbImage::new(size[0], size[1]);
     let canvas = Canvas::new(BitMapBackend::with_buffer(&mut image, (size[0], size[1])))?;
     for (index, figure) in figures.iter().enumerate() {
         let origin = [(index % across) as f64 * WIDTH, (index / across) as f64 * height];
-        figure.draw(&canvas, origin, map_height)?;
+        figure.draw(&canvas, origin, room)?;
     }
     canvas.finish()?;
     let mut png = Cursor::new(Vec::new());
@@ -96,17 +106,13 @@ pub fn surfaces(figures: &[SurfaceFigure]) -> Result<Vec<u8>, FigureError> {
 }
 
 impl SurfaceFigure<'_> {
-    /// Draws the surface with the upper left corner there, below a map of up to that height.
-    fn draw<B: DrawingBackend>(
-        &self,
-        canvas: &Canvas<B>,
-        [x, y]: [f64; 2],
-        map_height: f64,
-    ) -> Result<(), FigureError> {
+    /// Draws the surface with the upper left corner there.
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, [x, y]: [f64; 2], room: Room) -> Result<(), FigureError> {
         self.draw_title(canvas, [x + LEFT, y])?;
         let ([left, _], [width, height]) = (MAP.0, self.map_size());
-        self.draw_map(canvas, Frame { x: [x + left, x + left + width], y: [y + HEAD, y + HEAD + height] })?;
-        let top = y + HEAD + map_height + FOOT + CAPTION;
+        let top = y + room.head;
+        self.draw_map(canvas, Frame { x: [x + left, x + left + width], y: [top, top + height] })?;
+        let top = top + room.map + FOOT + CAPTION;
         let chart = |ends: [f64; 2]| Frame { x: ends.map(|end| x + end), y: [top, top + CHART] };
         let unit = self.height_unit();
         let range = scaled(&self.drawn.histogram.range, unit);
@@ -134,6 +140,11 @@ impl SurfaceFigure<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether there is anything to know of the map.
+    fn has_remarks(&self) -> bool {
+        self.description.measured < self.points[0] * self.points[1] || self.stretch().iter().any(|times| *times > 1.0)
     }
 
     /// Extent along x and y, m or points.
