@@ -28,7 +28,7 @@ pub enum Command {
     /// Check a scene without running it: what it resolves to, needs and costs
     #[command(after_help = "Example:\n  plateau check data/scenes/cermet.toml")]
     Check(CheckArguments),
-    /// Describe surface files by the parameters of ISO 25178-2, convert them, or show what a scene makes of them
+    /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),

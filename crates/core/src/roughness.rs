@@ -47,11 +47,10 @@ impl Roughness {
             sums.map(|sum| sum / area)
         };
         let [first, ..] = mean_of(&|height| [height, 0.0, 0.0, 0.0]);
-        // What rounding left of the mean the first time.
+        // What rounding left of the mean the first time; not added to it, which would round it again.
         let [rest, ..] = mean_of(&|height| [height - first, 0.0, 0.0, 0.0]);
-        let mean = first + rest;
         let [absolute, square, cube, fourth] = mean_of(&|height| {
-            let z = height - mean;
+            let z = (height - first) - rest;
             [z.abs(), z * z, z * z * z, z * z * z * z]
         });
         let root_mean_square_height = square.sqrt();

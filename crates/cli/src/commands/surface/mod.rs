@@ -73,6 +73,10 @@ fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> 
         height_range: arguments.height_range.map(|range| range.0),
     };
     let measured = surface::read(path, &options).map_err(|reason| named(path, reason))?;
+    if options.pitch.is_some() && options.pitch != measured.pitch {
+        let own = measured.describe();
+        message::warning(format_args!("{} has {own} of its own: --pitch is not used", path.display()));
+    }
     for warning in &measured.warnings {
         message::warning(format_args!("{}: {warning}", path.display()));
     }

@@ -28,12 +28,14 @@ impl HeightParameters {
         if count == 0.0 {
             return None;
         }
-        // What rounding left of a large offset is taken out by the mean of the differences.
+        // What rounding left of a large offset is taken out by the mean of the differences; added to the first mean for
+        // those who need one number, but not here, for that rounds it again.
         let first = sum / count;
-        let [rest] = sums(heights, |z| [z - first]);
-        let mean = first + rest / count;
+        let rest = sums(heights, |z| [z - first])[0] / count;
+        let mean = first + rest;
         let moments = sums(heights, |z| {
-            let [height, square] = [z - mean, (z - mean) * (z - mean)];
+            let height = (z - first) - rest;
+            let square = height * height;
             [height.abs(), square, square * height, square * square]
         });
         let measured = || heights.iter().filter(|height| !height.is_nan());
