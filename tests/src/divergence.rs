@@ -219,12 +219,19 @@ mod tests {
             *height = f64::from_bits(height.to_bits() + 1);
             start((parameters, surfaces))
         };
-        let divergence = first_divergence(|| start(scene()), other).expect("a difference");
+        let mut divergence = first_divergence(|| start(scene()), other).expect("a difference");
         let height = scene().1.disc_height[11 * 23 + 4];
         let values = [height, f64::from_bits(height.to_bits() + 1)];
         let cells = |map| Difference::Cells { map, count: [1, 440], first: (4, 23), values };
         let expected =
             Divergence { step: 0, repeatable: true, differences: vec![cells("disc_height"), cells("disc_substrate")] };
+        // After the maps there may be the roughness of that disc, as far as its last bits tell.
+        let is_roughness = |difference: &Difference| match difference {
+            Difference::Quantity { name, .. } => name.starts_with("disc_s"),
+            _ => false,
+        };
+        assert!(divergence.differences.iter().skip(2).all(is_roughness), "{divergence}");
+        divergence.differences.truncate(2);
         assert_eq!(divergence, expected);
         let text = divergence.to_string();
         assert!(

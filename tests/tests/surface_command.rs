@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository};
+use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, quick_scene_with, repository};
 use serde_json::Value;
 
 /// The measured surface that comes with the project: an AFM scan, of which `values.json` of the shared surfaces has the
@@ -104,10 +104,12 @@ fn level_decides_what_is_taken_out() {
 fn without_a_pitch_what_needs_none_is_given() {
     let directory = WorkingDirectory::new();
     let heights: Vec<f64> = (0..12 * 10).map(|point| 1e-6 * f64::from(point * point % 17)).collect();
+    let starting = no_open_hdf5_file();
     let file = hdf5::File::create(directory.path("heights.h5")).unwrap();
     let heights = ndarray::ArrayView2::from_shape((12, 10), &heights).unwrap();
     file.new_dataset_builder().with_data(heights).create("height").unwrap();
-    drop(file);
+    file.close().unwrap();
+    drop(starting);
     let without = json(directory.plateau(["surface", "heights.h5", "--dataset", "height", "--json"]));
     let with =
         json(directory.plateau(["surface", "heights.h5", "--dataset", "height", "--json", "--pitch", "2 um, 0.5 um"]));

@@ -10,13 +10,10 @@ pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
         return Vec::new();
     }
     let power = (length / most as f64).log10().floor() as i32;
-    // The last of these exceeds the length over the number of ticks however that is rounded.
-    let steps = [(1.0, power), (2.0, power), (5.0, power), (1.0, power + 1), (2.0, power + 1)];
     let count = |step: f64| ((high / step + 1e-9).floor() - (low / step - 1e-9).ceil() + 1.0) as usize;
-    let chosen = steps.iter().map(|(digit, power)| (digit * 10_f64.powi(*power), *power));
-    let Some((step, power)) = chosen.clone().find(|(step, _)| count(*step) <= most).or(chosen.last()) else {
-        return Vec::new();
-    };
+    let steps = [(1.0, power), (2.0, power), (5.0, power), (1.0, power + 1), (2.0, power + 1)];
+    let mut steps = steps.into_iter().map(|(digit, power)| (digit * 10_f64.powi(power), power));
+    let Some((step, power)) = steps.find(|(step, _)| count(*step) <= most) else { return Vec::new() };
     let decimals = (-power).max(0) as usize;
     let first = (low / step - 1e-9).ceil();
     let tick = |index: usize| {
