@@ -1,4 +1,4 @@
-//! Roughness of disc and pin while they wear: height parameters of their cells (ISO 25178-2:2021, 4.3).
+//! Roughness of disc and pin while they wear: height parameters of their cells (ISO 25178-2:2021, 4.2).
 
 use crate::mesh::Mesh;
 

@@ -1,4 +1,4 @@
-//! Autocorrelation length and aspect ratio (ISO 25178-2:2021, 4.3.6 and 4.3.7, spatial parameters).
+//! Autocorrelation length and aspect ratio (ISO 25178-2:2021, 4.3.2 and 4.3.3, spatial parameters).
 
 use rayon::prelude::*;
 

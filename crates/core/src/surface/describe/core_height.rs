@@ -1,4 +1,4 @@
-//! The core of the Abbott-Firestone curve (ISO 25178-2:2021, 4.4.3 and annex B; ISO 13565-2:1996, clause 4).
+//! The core of the Abbott-Firestone curve (ISO 25178-2:2021, 4.5 and B.1; ISO 13565-2:1996, clause 4).
 
 use super::MaterialCurve;
 use super::blocks::sums;

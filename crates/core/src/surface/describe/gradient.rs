@@ -1,4 +1,4 @@
-//! Slopes and developed area (ISO 25178-2:2021, 4.3.9 and 4.3.10, hybrid parameters).
+//! Slopes and developed area: hybrid parameters (ISO 25178-2:2021, 4.4).
 
 use rayon::prelude::*;
 

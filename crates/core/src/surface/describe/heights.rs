@@ -1,4 +1,4 @@
-//! Height parameters (ISO 25178-2:2021, 4.3).
+//! Height parameters (ISO 25178-2:2021, 4.2).
 
 use super::blocks::sums;
 

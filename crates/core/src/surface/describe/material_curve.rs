@@ -1,4 +1,4 @@
-//! The Abbott-Firestone curve: areal material ratio against height (ISO 25178-2:2021, 4.4).
+//! The Abbott-Firestone curve: areal material ratio against height (ISO 25178-2:2021, 4.5).
 
 use rayon::prelude::*;
 

@@ -56,8 +56,8 @@ pub struct Description {
 impl Description {
     /// Describes heights from which form was taken out. None if no point has a height.
     ///
-    /// Takes at most one and a half times the memory of the heights besides them. The numbers do not depend on how many
-    /// threads share the work.
+    /// Takes one and a half times the memory of the heights besides them, and a quarter more where points are missing. The
+    /// numbers do not depend on how many threads share the work.
     pub fn of(grid: &Grid) -> Option<Self> {
         let heights = HeightParameters::of(grid.heights)?;
         let curve = MaterialCurve::of(grid.heights, heights.mean);

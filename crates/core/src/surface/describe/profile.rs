@@ -1,4 +1,4 @@
-//! Profile parameters (ISO 21920-2:2021, 4.3; ISO 4287:1997, 4.2), mean over all profiles of one direction.
+//! Profile parameters (ISO 4287:1997, 4.2; ISO 21920-2:2021), mean over all profiles of one direction.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Volume parameters (ISO 25178-2:2021, 4.4.4), per area.
+//! Volume parameters (ISO 25178-2:2021, 4.5), per area.
 
 use super::MaterialCurve;
 
