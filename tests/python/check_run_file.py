@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Checks a finished run file against formats.md with h5py, netCDF4 and xarray.
 
-    check_run_file.py RUN.h5 [--maps disc_height,pressure,...]
+    check_run_file.py RUN.h5 [--maps disc_height,pressure,...] [--roughness]
 
 Names, units and dimensions are written down here once more, from the text of the format and not from the program, so
-that a change of the program shows. Without --maps all seven maps are expected.
+that a change of the program shows. Without --maps all seven maps are expected, with --roughness its series too.
 """
 
 import argparse
@@ -51,6 +51,8 @@ SERIES = {
     "load_residual": "1",
     "balance_residual": "1",
 }
+ROUGHNESS = {f"{body}_{name}": unit for body in ("disc", "pin") for name, unit in
+             {"sa": "m", "sq": "m", "ssk": "1", "sku": "1"}.items()}
 ON_DISC = ("map_time", "disc_angle", "radius")
 ON_PIN = ("map_time", "pin_angle", "radius")
 # Name in a scene: (path, unit, dimensions); a status has no unit of its own.
@@ -87,10 +89,11 @@ def same(found, expected, what):
     check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
 
 
-def expected_datasets(maps):
-    """Path: (unit, dimensions) of every dataset of a file with these maps."""
+def expected_datasets(maps, roughness):
+    """Path: (unit, dimensions) of every dataset of a file with these maps, with or without roughness."""
     datasets = {name: (unit, (name,)) for name, unit in COORDINATES.items() if maps or name != "map_time"}
-    datasets |= {f"series/{name}": (unit, ("time",)) for name, unit in SERIES.items()}
+    series = SERIES | (ROUGHNESS if roughness else {})
+    datasets |= {f"series/{name}": (unit, ("time",)) for name, unit in series.items()}
     datasets |= {path: (unit, dimensions) for path, unit, dimensions in (MAPS[name] for name in maps)}
     datasets["pin/base"] = ("1", ("pin_angle", "radius"))
     return datasets
@@ -151,6 +154,23 @@ def check_coordinates(file):
     check((radius > 0).all() and np.allclose(np.diff(radius, 2), 0, atol=1e-12 * radius[-1]), "radius not equally spaced")
     for name in filter(file.__contains__, UNLIMITED):
         check((np.diff(file[name][...]) > 0).all(), f"{name} does not grow")
+
+
+def check_roughness(file):
+    """The series end with the area-weighted moments of the last maps, peaks positive on both bodies."""
+    weights = file["radius"][...] / file["radius"][...].sum()
+    for body, sign in (("disc", 1.0), ("pin", -1.0)):
+        heights = sign * file[f"{body}/height"][-1]
+
+        def mean(values):
+            return (values * weights).sum() / len(heights)
+
+        z = heights - mean(heights)
+        sq = np.sqrt(mean(z**2))
+        expected = {"sa": mean(abs(z)), "sq": sq, "ssk": mean(z**3) / sq**3, "sku": mean(z**4) / sq**4}
+        for name, value in expected.items():
+            found = file[f"series/{body}_{name}"][-1]
+            check(np.isclose(found, value, rtol=1e-11), f"{body}_{name}: found {found!r}, expected {value!r}")
 
 
 def check_attributes(attributes):
@@ -215,12 +235,13 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file")
     parser.add_argument("--maps", default=",".join(MAPS), help="maps that the scene asks for, separated by commas")
+    parser.add_argument("--roughness", action="store_true", help="the scene asks for roughness")
     arguments = parser.parse_args()
     maps = [name for name in arguments.maps.split(",") if name]
     unknown = set(maps) - set(MAPS)
     if unknown:
         parser.error(f"unknown maps {sorted(unknown)}, expected any of {list(MAPS)}")
-    datasets = expected_datasets(maps)
+    datasets = expected_datasets(maps, arguments.roughness)
     warnings.simplefilter("error")
 
     with h5py.File(arguments.file, "r") as file:
@@ -228,6 +249,8 @@ def main():
         check_attributes(dict(file.attrs))
         check_h5py(file, datasets)
         check_coordinates(file)
+        if arguments.roughness:
+            check_roughness(file)
         print(f"h5py {h5py.__version__}: attributes, {len(datasets)} datasets, {file['time'].size} samples")
         check_netcdf4(arguments.file, datasets, file)
         print(f"netCDF4 {netCDF4.__version__}: dimensions, enumeration, units, values of {len(datasets)} variables")

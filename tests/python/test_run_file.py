@@ -52,6 +52,11 @@ class RunFile(unittest.TestCase):
         subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)
         self.script("check_run_file.py", "--maps", "pressure")
 
+    def test_roughness_is_that_of_the_maps(self):
+        changes = ["output.roughness=true", 'operation.duration="1 s"']
+        subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)
+        self.script("check_run_file.py", "--roughness")
+
     def test_a_reader_follows_a_run(self):
         # Long enough for several batches, whatever the machine; the follower ends with the run.
         changes = ["operation.steps=400000", 'output.sample_every="0.05 s"']

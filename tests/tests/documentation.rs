@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use plateau_core::observe::QUANTITIES;
+use plateau_core::observe::{QUANTITIES, Quantity, ROUGHNESS_QUANTITIES};
 use plateau_io::scene::schema::{self, Key, Kind, Need};
 
 /// The text between the two marks of a table in a document is this, or is made so.
@@ -67,11 +67,16 @@ fn every_key_of_a_scene_is_documented() {
     expect_table("scenes.md", "keys", &table);
 }
 
-#[test]
-fn every_series_is_documented() {
+fn series(quantities: &[Quantity]) -> String {
     let mut table = String::from("| series | unit | meaning |\n|---|---|---|\n");
-    for quantity in QUANTITIES {
+    for quantity in quantities {
         let _ = writeln!(table, "| `{}` | {} | {} |", quantity.name, quantity.unit, quantity.long_name);
     }
-    expect_table("run-file.md", "series", &table);
+    table
+}
+
+#[test]
+fn every_series_is_documented() {
+    expect_table("run-file.md", "series", &series(QUANTITIES));
+    expect_table("run-file.md", "roughness series", &series(ROUGHNESS_QUANTITIES));
 }

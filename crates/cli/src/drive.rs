@@ -2,9 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use plateau_core::observe::{Map, Sample, Snapshot};
+use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_io::scene::recipe::OutputRecipe;
 
 /// Time between two looks at progress and signals.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
@@ -35,16 +36,17 @@ pub trait Sink {
     }
 }
 
-/// Runs all steps; samples and maps go to `sink`.
+/// Runs all steps; the samples and maps that `output` asks for go to `sink`.
 ///
 /// # Errors
 /// When a step fails or the sink does.
 pub fn drive<S: Sink>(
     simulation: &mut Simulation,
     schedule: &Schedule,
-    maps: &[Map],
+    output: &OutputRecipe,
     sink: &mut S,
 ) -> Result<(), S::Error> {
+    let OutputRecipe { maps, roughness, .. } = output;
     let last = simulation.parameters().steps;
     let mut steps_per_look = 1;
     if schedule.has_maps(0) && !maps.is_empty() {
@@ -62,7 +64,9 @@ pub fn drive<S: Sink>(
             steps_per_look = sink.look(simulation, adapted(steps_per_look, start.elapsed()))?;
         }
         if sampled {
-            sink.sample(simulation.sample()?)?;
+            let mut sample = simulation.sample()?;
+            sample.roughness = roughness.then(|| simulation.roughness()).transpose()?;
+            sink.sample(sample)?;
         }
         if schedule.has_maps(event) && !maps.is_empty() {
             sink.snapshot(simulation.snapshot(maps)?)?;

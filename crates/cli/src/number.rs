@@ -26,6 +26,22 @@ pub fn short(number: f64) -> String {
     }
 }
 
+/// A number with so many significant digits; very large and very small ones with an exponent.
+pub fn significant(number: f64, digits: usize) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return format!("{number}");
+    }
+    // As it is rounded: 9.9996 has another exponent with four digits.
+    let scientific = format!("{number:.*e}", digits.saturating_sub(1));
+    let exponent = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
+    if (-5..7).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        format!("{number:.decimals$}")
+    } else {
+        scientific
+    }
+}
+
 /// A duration given in seconds.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
@@ -59,6 +75,11 @@ mod tests {
         assert_eq!(short(0.012_345_6), "0.01235");
         assert_eq!(short(123.456), "123.5");
         assert_eq!(short(1.5e-14), "1.500e-14");
+        assert_eq!(significant(9.9996, 4), "10.00");
+        assert_eq!(significant(0.230_196_108, 6), "0.230196");
+        assert_eq!(significant(-1_234_567.0, 6), "-1234567");
+        assert_eq!(significant(1.5e-14, 3), "1.50e-14");
+        assert_eq!(significant(0.0, 3), "0");
         assert_eq!(duration(0.25), "250 ms");
         assert_eq!(duration(119.9), "1 min 59 s");
         assert_eq!(bytes(2_500_000), "2.5 MB");

@@ -23,7 +23,7 @@
 //! | 4.4 formation | d = min(γ, s), s = M/S | [`debris::Debris::spread`], [`plateau`] |
 //! | 4.5 debris balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
 //! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance_to`] |
-//! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`] |
+//! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::roughness`] |
 //!
 //! `worker` takes these in turn. Rules 4.2 to 4.4 of eight cells are one function, `kernel::cells::update`.
 //!
@@ -58,6 +58,7 @@ pub mod pair;
 pub mod parameters;
 pub mod parts;
 pub mod plateau;
+pub mod roughness;
 pub mod schedule;
 pub mod sector;
 pub mod simulation;

@@ -1,5 +1,7 @@
 //! What a simulation reports: samples of its quantities and maps of its fields (model section 5).
 
+use crate::roughness::BothRoughness;
+
 /// The reported quantities at the end of one step, in SI units.
 ///
 /// Displacement, contact area and pressures are those of that step's load balance, everything else is the state after
@@ -56,6 +58,8 @@ pub struct Sample {
     pub load_residual: f64,
     /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
     pub balance_residual: f64,
+    /// Roughness of disc and pin, if it was asked for ([`crate::simulation::Simulation::roughness`]).
+    pub roughness: Option<BothRoughness>,
 }
 
 /// Name, unit and meaning of one reported quantity, and where a [`Sample`] keeps it.
@@ -82,7 +86,7 @@ macro_rules! quantities {
     };
 }
 
-/// Every series of a run file but the time, in the order in which they are reported.
+/// Every series that each run file has, but the time, in the order in which they are reported.
 pub const QUANTITIES: &[Quantity] = quantities! {
     displacement, "m", "displacement of the rigid pin";
     contact_area, "m2", "contact area";
@@ -108,6 +112,34 @@ pub const QUANTITIES: &[Quantity] = quantities! {
     load_residual, "1", "relative residual of the load balance";
     balance_residual, "1", "relative residual of the debris balance";
 };
+
+macro_rules! roughness_quantities {
+    ($($name:literal, $body:ident.$field:ident, $unit:literal, $long_name:literal;)*) => {
+        &[$(Quantity {
+            name: $name,
+            unit: $unit,
+            long_name: $long_name,
+            value: |sample| sample.roughness.map_or(f64::NAN, |roughness| roughness.$body.$field),
+        }),*]
+    };
+}
+
+/// The series that a run file has besides if roughness is asked for; NaN in a sample without it.
+pub const ROUGHNESS_QUANTITIES: &[Quantity] = roughness_quantities! {
+    "disc_sa", disc.arithmetical_mean_height, "m", "arithmetical mean height Sa of the disc";
+    "disc_sq", disc.root_mean_square_height, "m", "root-mean-square height Sq of the disc";
+    "disc_ssk", disc.skewness, "1", "skewness Ssk of the disc heights";
+    "disc_sku", disc.kurtosis, "1", "kurtosis Sku of the disc heights";
+    "pin_sa", pin.arithmetical_mean_height, "m", "arithmetical mean height Sa of the pin";
+    "pin_sq", pin.root_mean_square_height, "m", "root-mean-square height Sq of the pin";
+    "pin_ssk", pin.skewness, "1", "skewness Ssk of the pin heights, peaks toward the disc";
+    "pin_sku", pin.kurtosis, "1", "kurtosis Sku of the pin heights";
+};
+
+/// The series of a run file but the time, with or without roughness.
+pub fn quantities(roughness: bool) -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES.iter().chain(if roughness { ROUGHNESS_QUANTITIES } else { &[] })
+}
 
 /// A field that can be recorded as a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

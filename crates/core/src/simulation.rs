@@ -15,6 +15,7 @@ use crate::kernel::InstructionSet;
 use crate::mesh::Mesh;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::parameters::Parameters;
+use crate::roughness::{BothRoughness, Roughness};
 use crate::sector::Partition;
 use crate::state::{Base, Disc, InitialSurfaces, Pin};
 use crate::strips::PinStrips;
@@ -259,6 +260,16 @@ impl Simulation {
     pub fn pin(&mut self) -> Result<Pin, SimulationError> {
         let [height, substrate] = self.heights([Map::PinHeight, Map::PinSubstrate])?;
         Ok(Pin { height, substrate, base: self.pin_base.clone() })
+    }
+
+    /// The roughness of disc and pin as they are now. It takes about as long as a map of either.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn roughness(&mut self) -> Result<BothRoughness, SimulationError> {
+        let [disc, pin] = self.heights([Map::DiscHeight, Map::PinHeight])?;
+        let mesh = &self.parameters.mesh;
+        Ok(BothRoughness { disc: Roughness::of(mesh, &disc), pin: Roughness::of_pin(mesh, &pin) })
     }
 
     fn heights(&mut self, maps: [Map; 2]) -> Result<[Vec<f64>; 2], SimulationError> {

@@ -19,6 +19,7 @@ fn header(rows: usize, disc_columns: usize, pin_columns: usize, maps: &[Map]) ->
         pin_base: (0..mesh.pin_cells()).map(|cell| if cell % 3 == 0 { Base::Primary } else { Base::None }).collect(),
         mesh,
         maps: maps.to_vec(),
+        roughness: false,
         expected_samples: 1000,
         scene: "version = 1\n".into(),
         program: "plateau 0.1.0".into(),
@@ -65,6 +66,7 @@ fn sample(step: u64) -> Sample {
         filled_fraction: t + 0.21,
         load_residual: t + 0.22,
         balance_residual: t + 0.23,
+        roughness: None,
     }
 }
 

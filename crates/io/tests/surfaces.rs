@@ -57,6 +57,7 @@ fn scene() -> Scene {
         pin_base_mirror: false,
         workers: Workers::Count(1),
         output: OutputRecipe {
+            roughness: false,
             file: PathBuf::from("test.h5"),
             sample_every: SampleEvery::Steps(1),
             maps_at: Vec::new(),

@@ -155,8 +155,8 @@ fn what_cannot_be_written_is_named() {
     let short = Patch { rows: 5, ..good.clone() };
     let empty = Patch { rows: 0, heights: Vec::new(), ..good.clone() };
     for (name, patch, expected) in [
-        ("a.csv", &good, "FOLDER/a.csv: ending .csv, expected the ending .sdf or .x3p"),
-        ("a", &good, "FOLDER/a: no ending, expected the ending .sdf or .x3p"),
+        ("a.csv", &good, "FOLDER/a.csv: ending .csv, expected the ending .sdf, .x3p, .npy or .h5"),
+        ("a", &good, "FOLDER/a: no ending, expected the ending .sdf, .x3p, .npy or .h5"),
         ("a.sdf", &flat, "FOLDER/a.sdf: the pitch is 0 m, expected a positive, finite number"),
         ("a.sdf", &short, "FOLDER/a.sdf: 12 heights are not 3 x 5 points"),
         ("a.x3p", &empty, "FOLDER/a.x3p: 0 heights are not 3 x 0 points"),

@@ -99,6 +99,9 @@ impl Check {
             let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
             (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })
         }));
+        let roughness = scene.output.roughness;
+        let reason = format!("output.roughness = {roughness}");
+        reasoned.push((roughness, Reasoned { part: "roughness with every sample".into(), reason }));
         let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
         let stiffness_number = parameters.stiffness_number();
         Self {

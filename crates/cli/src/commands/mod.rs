@@ -2,6 +2,7 @@
 
 mod check;
 mod run;
+mod surface;
 
 use plateau_io::scene::{self, recipe::Scene};
 
@@ -14,6 +15,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Surface(arguments) => surface::surface(&arguments),
     }
 }
 

@@ -59,7 +59,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let start = Instant::now();
     let progress = Progress::new(scene.parameters.steps, job.leads());
     let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default() };
-    let result = drive(&mut simulation, &schedule, &scene.output.maps, &mut recorder);
+    let result = drive(&mut simulation, &schedule, &scene.output, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
     let Some(writer) = writer else {
@@ -122,6 +122,7 @@ fn header(
         mesh: scene.parameters.mesh.clone(),
         pin_base: simulation.pin_base().to_vec(),
         maps: scene.output.maps.clone(),
+        roughness: scene.output.roughness,
         expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),

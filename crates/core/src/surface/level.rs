@@ -6,7 +6,7 @@ use super::prepare::Level;
 ///
 /// Stored column by column. With `closed` the columns run round a ring and only what closes is taken out: the mean, a
 /// slope and a curvature along the rows. A slope round the ring would leave a step where it closes.
-pub(super) fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
+pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
     let terms: &[Term] = match (level, closed) {
         (Level::None, _) => return,
         (Level::Mean, _) => &[Term(0, 0)],

@@ -1,6 +1,8 @@
-//! Initial surfaces: measured patches and their preparation, synthetic heights, fibre maps and micrographs.
+//! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs, and the parameters that
+//! describe them.
 
 mod body;
+pub mod describe;
 mod fft;
 mod fibre;
 mod fill;
@@ -19,6 +21,7 @@ pub use body::Body;
 pub use fibre::{FibreError, FibreSynthesis, fibre_fraction};
 pub use fill::Fill;
 pub use length::Length;
+pub use level::level;
 pub use patch::Patch;
 pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};
 pub use synthesis::{HeightSynthesis, SynthesisError, Texture};

@@ -7,7 +7,7 @@ use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Datatype, Extent, File, H5Type, Location, SimpleExtents};
 use plateau_core::mesh::Mesh;
-use plateau_core::observe::{Map, QUANTITIES};
+use plateau_core::observe::{Map, quantities};
 
 use super::Header;
 use super::dimension::Dimensions;
@@ -81,7 +81,7 @@ pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime) -> hdf5::
     write_provenance(file, header, start)?;
     let mut layout = Layout::new(file, header)?;
     layout.coordinates(!header.maps.is_empty())?;
-    for quantity in QUANTITIES {
+    for quantity in quantities(header.roughness) {
         layout.series(quantity.name, quantity.unit, quantity.long_name)?;
     }
     for map in Map::ALL.into_iter().filter(|map| header.maps.contains(map)) {

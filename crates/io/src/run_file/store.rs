@@ -9,7 +9,7 @@ use std::time::{Instant, SystemTime};
 use hdf5::file::{File, FileBuilder};
 use hdf5::{Dataset, H5Type};
 use ndarray::{ArrayView2, s};
-use plateau_core::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
+use plateau_core::observe::{Map, MapValues, Quantity, Sample, Snapshot, quantities};
 
 use super::dimension::EMPTY_FILE;
 use super::layout::{self, MAP_TIME, TIME};
@@ -114,7 +114,7 @@ impl Store {
 /// The datasets that grow.
 struct Datasets {
     time: Dataset,
-    series: Vec<Dataset>,
+    series: Vec<(&'static Quantity, Dataset)>,
     /// Present where there are maps.
     map_time: Option<Dataset>,
     maps: Vec<(Map, Dataset)>,
@@ -128,7 +128,9 @@ impl Datasets {
         let maps = Map::ALL.into_iter().filter(|map| header.maps.contains(map));
         Ok(Self {
             time: file.dataset(TIME)?,
-            series: QUANTITIES.iter().map(|q| file.dataset(&layout::series_path(q.name))).collect::<Result<_, _>>()?,
+            series: quantities(header.roughness)
+                .map(|quantity| Ok((quantity, file.dataset(&layout::series_path(quantity.name))?)))
+                .collect::<hdf5::Result<_>>()?,
             map_time: if header.maps.is_empty() { None } else { Some(file.dataset(MAP_TIME)?) },
             maps: maps.map(|map| Ok((map, file.dataset(layout::map_path(map))?))).collect::<hdf5::Result<_>>()?,
             rows: header.mesh.rows(),
@@ -144,7 +146,7 @@ impl Datasets {
             dataset.resize(new)?;
             dataset.write_slice(&values, s![old..new])
         };
-        for (quantity, series) in QUANTITIES.iter().zip(&self.series) {
+        for (quantity, series) in &self.series {
             append(series, &quantity.value)?;
         }
         file.flush()?;

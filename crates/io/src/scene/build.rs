@@ -107,7 +107,7 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let needed = memory::estimate(counts, maps);
+        let needed = memory::estimate(counts, maps, settings.bool("output.roughness")?);
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
                 "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",
@@ -324,7 +324,8 @@ fn output(
     maps.dedup();
     settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
     let file = PathBuf::from(settings.text("output.file")?);
-    Ok(OutputRecipe { file, sample_every, maps_at: map_times(settings, parameters, warnings), maps })
+    let roughness = settings.bool("output.roughness")?;
+    Ok(OutputRecipe { file, sample_every, maps_at: map_times(settings, parameters, warnings), maps, roughness })
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.

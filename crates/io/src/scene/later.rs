@@ -5,30 +5,14 @@ use super::error::Problem;
 use super::interpret::Setting;
 use super::settings::Settings;
 
-/// Path, whether a value asks for what is not there yet, what to do.
-type Later = (&'static str, fn(&Value) -> bool, &'static str);
-
-const LATER: &[Later] = &[
-    (
-        "numerics.time_acceleration",
-        |value| *value == Value::Table,
-        "this version cannot choose the acceleration itself: give a number",
-    ),
-    (
-        "output.roughness",
-        |value| *value == Value::Bool(true),
-        "this version does not compute roughness: leave the key out and record the maps disc_height and pin_height",
-    ),
-];
+/// Acceleration that the run chooses itself.
+const ADAPTIVE: &str = "numerics.time_acceleration";
 
 /// Refuses what would silently not be done.
 pub(super) fn refuse(entries: &Entries, problems: &mut Vec<Problem>) {
-    for (path, asks, advice) in LATER {
-        if let Some(entry) = entries.get(*path)
-            && asks(&entry.value)
-        {
-            problems.push(Problem::new(&entry.origin, path, *advice));
-        }
+    if let Some(entry) = entries.get(ADAPTIVE).filter(|entry| entry.value == Value::Table) {
+        let advice = "this version cannot choose the acceleration itself: give a number";
+        problems.push(Problem::new(&entry.origin, ADAPTIVE, advice));
     }
 }
 

@@ -20,11 +20,11 @@ const STATUS: u128 = size_of::<u8>() as u128;
 pub fn memory_estimate(scene: &Scene) -> u64 {
     let mesh = &scene.parameters.mesh;
     let counts = [mesh.rows(), mesh.disc_columns(), mesh.pin_columns()].map(|count| count as u64);
-    estimate(counts, &scene.output.maps)
+    estimate(counts, &scene.output.maps, scene.output.roughness)
 }
 
 /// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
-pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map]) -> u64 {
+pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map], roughness: bool) -> u64 {
     let cells = |columns: u64| u128::from(rows) * u128::from(columns);
     let (disc, pin) = (cells(disc_columns), cells(pin_columns));
     let sum = |parts: &[(u128, u128)]| {
@@ -37,8 +37,11 @@ pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map]
         let bytes = if map.is_status() { STATUS } else { FLOAT };
         (if map.on_disc() { disc } else { pin }, SNAPSHOTS * bytes)
     };
-    let maps = sum(&maps.iter().map(size).collect::<Vec<_>>());
-    u64::try_from(state.saturating_add(surfaces.max(maps))).unwrap_or(u64::MAX)
+    // Roughness gathers the heights: those of one worker and those of all.
+    let gathered = if roughness { 2 * FLOAT } else { 0 };
+    let maps = maps.iter().map(size).chain([(disc, gathered), (pin, gathered)]);
+    let output = sum(&maps.collect::<Vec<_>>());
+    u64::try_from(state.saturating_add(surfaces.max(output))).unwrap_or(u64::MAX)
 }
 
 /// Bytes that this process can have; `None` where the system does not say.
@@ -84,10 +87,12 @@ mod tests {
         // By hand, 2 rows, 10 disc and 3 pin columns (20 and 6 cells): state 20·16 + 6·(32 + 1) + 2·16 = 550,
         // surfaces 20·16 + 6·18 = 428; maps: two snapshots of disc height and pin status 2·(20·8 + 6) = 332.
         let maps = [Map::DiscHeight, Map::PinStatus];
-        assert_eq!(estimate([2, 10, 3], &maps), 550 + 428);
+        assert_eq!(estimate([2, 10, 3], &maps, false), 550 + 428);
         // All seven: disc 20·17, pin 6·(17 + 8), twice.
-        assert_eq!(estimate([2, 10, 3], &Map::ALL), 550 + 2 * (20 * 17 + 6 * 25));
-        assert_eq!(estimate([u64::MAX; 3], &maps), u64::MAX);
+        assert_eq!(estimate([2, 10, 3], &Map::ALL, false), 550 + 2 * (20 * 17 + 6 * 25));
+        // With the heights of both, own and gathered.
+        assert_eq!(estimate([2, 10, 3], &Map::ALL, true), 550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6));
+        assert_eq!(estimate([u64::MAX; 3], &maps, true), u64::MAX);
     }
 
     #[test]

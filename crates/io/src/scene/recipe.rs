@@ -113,4 +113,6 @@ pub struct OutputRecipe {
     pub maps_at: Vec<f64>,
     /// The maps that are written.
     pub maps: Vec<Map>,
+    /// Whether the roughness of disc and pin is written with every sample.
+    pub roughness: bool,
 }

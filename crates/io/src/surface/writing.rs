@@ -11,7 +11,7 @@ use plateau_core::surface::Patch;
 use thiserror::Error;
 
 use super::sdf::{self, Dialect, Encoding, SdfKind};
-use super::x3p;
+use super::{hdf5, npy, x3p};
 use crate::timestamp;
 
 /// How a surface is written.
@@ -67,11 +67,12 @@ pub enum WriteError {
 }
 
 /// Endings that are written.
-const ENDINGS: &str = ".sdf or .x3p";
+const ENDINGS: &str = ".sdf, .x3p, .npy or .h5";
 
 /// Writes heights so that reading the file gives the same heights, bit for bit, missing points as missing points.
 ///
-/// The format is that of the ending, .sdf or .x3p in small or large letters. The file appears at `path` when it is
+/// The format is that of the ending, .sdf, .x3p, .npy or .h5 in small or large letters. An .npy file has no place for the
+/// pitch. The file appears at `path` when it is
 /// complete; whatever goes wrong, a file that was there before stays as it was.
 ///
 /// # Errors
@@ -96,6 +97,8 @@ pub fn write(path: &Path, patch: &Patch, options: &WriteOptions) -> Result<(), W
         "x3p" => place(path, options.replace, |temporary| {
             x3p::write(BufWriter::new(File::create(temporary)?), patch, &timestamp::iso_8601(now))
         }),
+        "npy" => place(path, options.replace, |temporary| npy::write(temporary, patch)),
+        "h5" => place(path, options.replace, |temporary| hdf5::write(temporary, patch).map_err(io::Error::other)),
         other => {
             let found = if other.is_empty() { "no ending".to_owned() } else { format!("ending .{other}") };
             Err(WriteError::UnknownEnding { path: path.into(), found })

@@ -1,0 +1,76 @@
+//! Surfaces as JSON.
+
+use plateau_core::surface::describe::{PARAMETERS, Parameter, Unit};
+use serde::Serialize;
+use serde::ser::{SerializeMap as _, Serializer};
+
+use super::subject::Subject;
+use crate::failure::Failure;
+
+/// An object for one surface, an array of such for several.
+pub fn document(subjects: &[Subject]) -> Result<String, Failure> {
+    let documents: Vec<Document> = subjects.iter().map(Document).collect();
+    let text = match documents.as_slice() {
+        [one] => serde_json::to_string_pretty(one),
+        several => serde_json::to_string_pretty(several),
+    };
+    text.map(|text| text + "\n").map_err(Failure::run)
+}
+
+/// What a parameter is given in, and by how much its SI value is multiplied.
+pub fn scale(parameter: &Parameter) -> (&'static str, f64) {
+    match parameter.unit {
+        Unit::Height | Unit::Length => ("um", 1e6),
+        Unit::Number => ("1", 1.0),
+        Unit::Percent => ("%", 100.0),
+    }
+}
+
+/// A surface: what it is, its parameters by their symbols, and their units.
+///
+/// What the heights do not determine is null; what needs a pitch that is unknown is not there.
+struct Document<'a>(&'a Subject);
+
+impl Serialize for Document<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(subject) = self;
+        let micrometres = |pair: [f64; 2]| pair.map(|length| length * 1e6);
+        let counts = [subject.columns as f64, subject.rows as f64];
+        let size = subject.pitch.map(|pitch| [counts[0] * pitch[0], counts[1] * pitch[1]]);
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("name", &subject.name)?;
+        map.serialize_entry("format", &subject.origin)?;
+        map.serialize_entry("columns", &subject.columns)?;
+        map.serialize_entry("rows", &subject.rows)?;
+        map.serialize_entry("pitch", &subject.pitch.map(micrometres))?;
+        map.serialize_entry("size", &size.map(micrometres))?;
+        map.serialize_entry("points", &subject.points())?;
+        map.serialize_entry("measured", &subject.description.measured)?;
+        map.serialize_entry("coverage", &subject.coverage())?;
+        map.serialize_entry("level", subject.level)?;
+        map.serialize_entry("notes", &subject.notes)?;
+        map.serialize_entry("warnings", &subject.warnings)?;
+        for parameter in PARAMETERS {
+            if let Some(value) = (parameter.value)(&subject.description) {
+                map.serialize_entry(parameter.symbol, &(value * scale(parameter).1))?;
+            }
+        }
+        if let Some(spatial) = subject.description.autocorrelation {
+            map.serialize_entry("Str_below", &spatial.aspect_ratio_below)?;
+        }
+        map.serialize_entry("units", &Units)?;
+        map.end()
+    }
+}
+
+/// The unit of every number of a [`Document`] that has one.
+struct Units;
+
+impl Serialize for Units {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let lengths = ["pitch", "size"].map(|name| (name, "um"));
+        let numbers = ["coverage", "Str_below"].map(|name| (name, "1"));
+        let parameters = PARAMETERS.iter().map(|parameter| (parameter.symbol, scale(parameter).0));
+        serializer.collect_map(lengths.into_iter().chain(numbers).chain(parameters))
+    }
+}

@@ -1,0 +1,134 @@
+//! `plateau surface`: what measured and prepared surfaces are like.
+
+mod document;
+mod subject;
+mod text;
+
+use std::path::{Path, PathBuf};
+
+use plateau_core::surface::Level;
+use plateau_io::scene;
+use plateau_io::surface::{self, Loaded, Measured, ReadOptions, WriteError, WriteOptions};
+
+use crate::arguments::SurfaceArguments;
+use crate::failure::Failure;
+use crate::figure::{self, SurfaceFigure};
+use crate::message;
+use crate::output;
+use crate::table::print;
+use subject::Subject;
+
+/// More surfaces make no legible picture.
+const MOST_PLOTTED: usize = 12;
+
+/// Describes, converts and draws surfaces.
+pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    refuse_impossible(arguments)?;
+    let mut subjects = Vec::new();
+    for path in &arguments.files {
+        let measured = read(path, arguments)?;
+        if let Some(to) = &arguments.to {
+            return convert(path, measured, to, arguments).and_then(|subject| tell(&[subject], arguments));
+        }
+        subjects.push(Subject::of_file(path, measured, arguments.level.unwrap_or(Level::Plane), draws(arguments))?);
+    }
+    if let Some(path) = &arguments.prepare {
+        subjects.extend(prepared(path, arguments)?);
+    }
+    tell(&subjects, arguments)
+}
+
+fn draws(arguments: &SurfaceArguments) -> bool {
+    arguments.plot.is_some()
+}
+
+/// Refuses what cannot be done, before anything is read.
+fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let SurfaceArguments { files, plot, to, prepare, force, .. } = arguments;
+    if to.is_some() && (files.len() != 1 || prepare.is_some()) {
+        return Err(Failure::input("--to converts one FILE: leave out the others and --prepare"));
+    }
+    let surfaces = files.len() + 2 * usize::from(prepare.is_some());
+    if plot.is_some() && surfaces > MOST_PLOTTED {
+        return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
+    }
+    if let Some(plot) = plot {
+        if !plot.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+            return Err(Failure::input(format_args!("--plot {}: expected the ending .png", plot.display())));
+        }
+        if to.as_ref() == Some(plot) {
+            return Err(Failure::input("--plot and --to name the same file"));
+        }
+    }
+    let inputs: Vec<PathBuf> = files.iter().chain(prepare).cloned().collect();
+    plot.iter().chain(to).try_for_each(|path| output::check(path, *force, &inputs))
+}
+
+/// Reads a file as the arguments say.
+fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> {
+    let options = ReadOptions {
+        dataset: arguments.dataset.clone(),
+        unit: arguments.unit,
+        pitch: arguments.pitch.map(|pitch| pitch.0),
+        height_range: arguments.height_range.map(|range| range.0),
+    };
+    let measured = surface::read(path, &options).map_err(|reason| named(path, reason))?;
+    for warning in &measured.warnings {
+        message::warning(format_args!("{}: {warning}", path.display()));
+    }
+    Ok(measured)
+}
+
+/// Writes the heights of a file into another, and describes them.
+fn convert(path: &Path, measured: Measured, to: &Path, arguments: &SurfaceArguments) -> Result<Subject, Failure> {
+    let (format, instrument, notes) = (measured.format, measured.instrument, measured.notes.clone());
+    let Some(patch) = measured.into_patch() else {
+        return Err(named(path, "the distance of its points is unknown, which --to needs: give --pitch"));
+    };
+    surface::write(to, &patch, &WriteOptions { replace: arguments.force, sdf: None }).map_err(|error| match error {
+        WriteError::System { .. } => Failure::run(error),
+        _ => Failure::input(error),
+    })?;
+    let measured = Measured {
+        format,
+        columns: patch.columns,
+        rows: patch.rows,
+        pitch: Some([patch.column_pitch, patch.row_pitch]),
+        heights: patch.heights,
+        instrument,
+        notes,
+        warnings: Vec::new(),
+    };
+    Subject::of_file(path, measured, arguments.level.unwrap_or(Level::Plane), draws(arguments))
+}
+
+/// What a scene makes of its disc and pin.
+fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], Failure> {
+    let scene = scene::load(path, &[]).map_err(Failure::input)?;
+    for warning in &scene.warnings {
+        message::warning(warning);
+    }
+    let Loaded { surfaces, report, .. } = surface::load(&scene).map_err(Failure::input)?;
+    let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
+    Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))
+}
+
+/// An error of a file.
+fn named(path: &Path, reason: impl std::fmt::Display) -> Failure {
+    Failure::input(format_args!("{}: {reason}", path.display()))
+}
+
+/// Draws and prints.
+fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failure> {
+    if let Some(plot) = &arguments.plot {
+        let figures: Vec<SurfaceFigure> = subjects.iter().filter_map(Subject::figure).collect();
+        let picture = figure::surfaces(&figures).map_err(Failure::run)?;
+        output::write(plot, &picture, arguments.force)?;
+    }
+    if arguments.json {
+        return print(&document::document(subjects)?);
+    }
+    let written = arguments.to.iter().chain(&arguments.plot);
+    let written: String = written.map(|path| format!("\nwrote {}\n", path.display())).collect();
+    print(&(text::text(subjects) + &written))
+}

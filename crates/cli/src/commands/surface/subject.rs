@@ -1,0 +1,130 @@
+//! One surface with what there is to tell of it.
+
+use std::path::Path;
+
+use plateau_core::mesh::Mesh;
+use plateau_core::state::InitialSurfaces;
+use plateau_core::surface::describe::{Description, Grid};
+use plateau_core::surface::{Body, Level, level};
+use plateau_io::surface::Measured;
+
+use super::named;
+use crate::failure::Failure;
+use crate::figure::{Drawn, SurfaceFigure};
+
+/// A surface that was read or prepared, described.
+pub struct Subject {
+    /// The file, or the body of the scene.
+    pub name: String,
+    /// What the file is, or that a scene made it.
+    pub origin: String,
+    /// Points along x.
+    pub columns: usize,
+    /// Points along y.
+    pub rows: usize,
+    /// Distance of the points along x and y, m, if known.
+    pub pitch: Option<[f64; 2]>,
+    /// The form that was taken out.
+    pub level: &'static str,
+    /// What the file says of itself, or what the scene did.
+    pub notes: Vec<String>,
+    /// What is wrong with the file.
+    pub warnings: Vec<String>,
+    /// Its parameters.
+    pub description: Description,
+    /// Its heights as a picture shows them; none unless one is drawn.
+    drawn: Option<Drawn>,
+}
+
+impl Subject {
+    /// A file, with the form taken out.
+    pub fn of_file(path: &Path, measured: Measured, form: Level, draws: bool) -> Result<Self, Failure> {
+        let Measured { format, columns, rows, pitch, mut heights, notes, warnings, .. } = measured;
+        level(&mut heights, rows, form, false);
+        let grid = Grid { columns, rows, pitch, heights: &heights };
+        let points = heights.len();
+        let none = || named(path, format_args!("none of its {points} points has a height"));
+        let description = Description::of(&grid).ok_or_else(none)?;
+        Ok(Self {
+            name: path.display().to_string(),
+            origin: format.to_string(),
+            columns,
+            rows,
+            pitch,
+            level: level_name(form, false),
+            notes,
+            warnings,
+            drawn: draws.then(|| Drawn::of(&grid, &description)),
+            description,
+        })
+    }
+
+    /// The disc and the pin of a scene, peaks positive on both.
+    pub fn of_scene(
+        scene: &Path,
+        mesh: &Mesh,
+        surfaces: InitialSurfaces,
+        report: &[String],
+        form: Level,
+        draws: bool,
+    ) -> Result<[Self; 2], Failure> {
+        let of_body = |body: Body, name: &str, mut heights: Vec<f64>| {
+            let closed = body == Body::Disc;
+            level(&mut heights, mesh.rows(), form, closed);
+            let (columns, rows) = (body.columns(mesh), mesh.rows());
+            let pitch = Some([mesh.column_width(), mesh.row_height()]);
+            let grid = Grid { columns, rows, pitch, heights: &heights };
+            let description = Description::of(&grid).ok_or_else(|| Failure::input("the mesh has no cells"))?;
+            let own = |line: &&String| line.starts_with(&format!("{name}."));
+            Ok(Self {
+                name: name.to_owned(),
+                origin: format!("prepared by {}", scene.display()),
+                columns,
+                rows,
+                pitch,
+                level: level_name(form, closed),
+                notes: report.iter().filter(own).cloned().collect(),
+                warnings: Vec::new(),
+                drawn: draws.then(|| Drawn::of(&grid, &description)),
+                description,
+            })
+        };
+        // The pin's z grows away from the disc.
+        let pin_height = surfaces.pin_height.into_iter().map(|height| -height).collect();
+        Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
+    }
+
+    /// Points that the grid has.
+    pub fn points(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Fraction of the points that have a height.
+    pub fn coverage(&self) -> f64 {
+        self.description.measured as f64 / self.points() as f64
+    }
+
+    /// What is drawn of it, if anything is.
+    pub fn figure(&self) -> Option<SurfaceFigure<'_>> {
+        let title = Path::new(&self.name).file_name().map_or(self.name.clone(), |name| name.to_string_lossy().into());
+        Some(SurfaceFigure {
+            title,
+            points: [self.columns, self.rows],
+            pitch: self.pitch,
+            drawn: self.drawn.as_ref()?,
+            description: &self.description,
+        })
+    }
+}
+
+/// The form that is taken out of a surface, or of one that closes round the ring.
+fn level_name(level: Level, closed: bool) -> &'static str {
+    match (level, closed) {
+        (Level::None, _) => "nothing",
+        (Level::Mean, _) => "mean",
+        (Level::Plane, false) => "least-squares plane",
+        (Level::Plane, true) => "mean and radial slope",
+        (Level::Quadratic, false) => "least-squares quadric",
+        (Level::Quadratic, true) => "mean, radial slope and curvature",
+    }
+}

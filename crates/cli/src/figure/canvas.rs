@@ -1,0 +1,133 @@
+//! A page and what is put on it, in pixels from the upper left corner.
+
+use std::fmt;
+use std::sync::Once;
+
+use plotters::coord::Shift;
+use plotters::element::{BitMapElement, PathElement, Polygon};
+use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea as _, IntoFont as _, Text};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontStyle, FontTransform, RGBColor, ShapeStyle, WHITE, register_font};
+
+use super::colour::INK;
+
+/// DejaVu Sans, which has the letters of most names that files have; its licence is beside it.
+const FONT: &[u8] = include_bytes!("../../fonts/DejaVuSans.ttf");
+const FONT_NAME: &str = "figure";
+
+/// Height of the letters of numbers and words, pixels.
+pub const TEXT: u32 = 34;
+/// Height of the letters of titles, pixels.
+pub const TITLE: u32 = 38;
+/// Width of lines, pixels.
+pub const LINE: u32 = 3;
+
+/// Why a figure cannot be drawn.
+#[derive(Debug)]
+pub struct FigureError(String);
+
+impl fmt::Display for FigureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the figure cannot be drawn: {}", self.0)
+    }
+}
+
+/// Makes an error of whatever a drawing backend says.
+pub fn failed(error: impl fmt::Display) -> FigureError {
+    FigureError(error.to_string())
+}
+
+/// A place on the page, pixels.
+pub type Place = (f64, f64);
+
+/// Where a text stands about its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// Below it, in its middle.
+    Below,
+    /// To its left.
+    Left,
+    /// To its right.
+    Right,
+    /// Below it, to its right.
+    BelowRight,
+}
+
+impl Anchor {
+    fn position(self) -> Pos {
+        let (horizontal, vertical) = match self {
+            Self::Below => (HPos::Center, VPos::Top),
+            Self::Left => (HPos::Right, VPos::Center),
+            Self::Right => (HPos::Left, VPos::Center),
+            Self::BelowRight => (HPos::Left, VPos::Top),
+        };
+        Pos::new(horizontal, vertical)
+    }
+}
+
+/// A page of any backend.
+pub struct Canvas<B: DrawingBackend> {
+    area: DrawingArea<B, Shift>,
+}
+
+impl<B: DrawingBackend> Canvas<B> {
+    /// A white page.
+    pub fn new(backend: B) -> Result<Self, FigureError> {
+        static FONT_ONCE: Once = Once::new();
+        // A font that is part of the program is a font; where it were not, drawing text would fail with a reason.
+        FONT_ONCE.call_once(|| drop(register_font(FONT_NAME, FontStyle::Normal, FONT)));
+        let area = backend.into_drawing_area();
+        area.fill(&WHITE).map_err(failed)?;
+        Ok(Self { area })
+    }
+
+    /// Finishes the page.
+    pub fn finish(self) -> Result<(), FigureError> {
+        self.area.present().map_err(failed)
+    }
+
+    /// A line through places.
+    pub fn line(&self, places: &[Place], colour: RGBColor, width: u32) -> Result<(), FigureError> {
+        let style = ShapeStyle { color: colour.into(), filled: false, stroke_width: width };
+        let places: Vec<_> = places.iter().map(pixels).collect();
+        self.area.draw(&PathElement::new(places, style)).map_err(failed)
+    }
+
+    /// A filled polygon.
+    pub fn area(&self, places: &[Place], colour: RGBColor) -> Result<(), FigureError> {
+        let places: Vec<_> = places.iter().map(pixels).collect();
+        self.area.draw(&Polygon::new(places, colour)).map_err(failed)
+    }
+
+    /// A bitmap with its upper left corner there; three bytes a pixel, row by row.
+    pub fn bitmap(&self, place: Place, size: (u32, u32), bytes: Vec<u8>) -> Result<(), FigureError> {
+        let element = BitMapElement::with_owned_buffer(pixels(&place), size, bytes);
+        self.area.draw(&element.ok_or_else(|| failed("a bitmap of another size"))?).map_err(failed)
+    }
+
+    /// A text.
+    pub fn text(&self, text: &str, place: Place, anchor: Anchor, size: u32) -> Result<(), FigureError> {
+        let style = (FONT_NAME, size).into_font().color(&INK).pos(anchor.position());
+        // Centred is the line with the room above its letters; the letters themselves shall be.
+        let beside = matches!(anchor, Anchor::Left | Anchor::Right);
+        let place = (place.0, if beside { place.1 + 0.12 * f64::from(size) } else { place.1 });
+        self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
+    }
+
+    /// A text that is read upward, in the middle of its place.
+    pub fn upward_text(&self, text: &str, place: Place, size: u32) -> Result<(), FigureError> {
+        let font = (FONT_NAME, size).into_font().transform(FontTransform::Rotate270);
+        let style = font.color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
+        self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
+    }
+
+    /// Width of a text, pixels.
+    pub fn text_width(&self, text: &str, size: u32) -> f64 {
+        let style = (FONT_NAME, size).into_font().color(&INK);
+        self.area.estimate_text_size(text, &style).map_or(0.0, |(width, _)| f64::from(width))
+    }
+}
+
+fn pixels(place: &Place) -> (i32, i32) {
+    (place.0.round() as i32, place.1.round() as i32)
+}

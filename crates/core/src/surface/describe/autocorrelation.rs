@@ -1,0 +1,143 @@
+//! Autocorrelation length and aspect ratio (ISO 25178-2:2021, 4.3.2 and 4.3.3, spatial parameters).
+
+use rayon::prelude::*;
+
+use super::Grid;
+use super::correlate::{Lags, correlate};
+
+/// s: value to which the autocorrelation decays.
+pub const CORRELATION_THRESHOLD: f64 = 0.2;
+
+/// Spatial parameters, from the autocorrelation for lags up to half the grid's extent in either direction.
+///
+/// The autocorrelation is ⟨z(x, y) z(x + s, y + t)⟩ over all pairs of measured points that are that far apart, over its
+/// value at no lag; z is measured from the mean. So nothing is said of what lies beyond the edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Autocorrelation {
+    /// Sal, m: the shortest distance over which the autocorrelation decays to s; NaN if it does so in no direction.
+    pub length: f64,
+    /// Str: Sal over the longest such distance of any direction; NaN if it does not decay in every direction.
+    pub aspect_ratio: f64,
+    /// What Str is less than where it is NaN for that reason: Sal over half the extent in the direction that does not decay.
+    pub aspect_ratio_below: f64,
+}
+
+impl Autocorrelation {
+    /// That of a grid of known pitch, with heights measured from `mean`.
+    ///
+    /// Along straight lines from no lag to every lag on the edge of the window, the autocorrelation is linear between the
+    /// lines of the grid of lags; the distance is that at which it first falls to s.
+    pub fn of(grid: &Grid, mean: f64) -> Option<Self> {
+        let pitch = grid.pitch?;
+        let lags = Lags::of(grid.columns, grid.rows);
+        let columns: Vec<&[f64]> = grid.column_slices().collect();
+        let none = Self { length: f64::NAN, aspect_ratio: f64::NAN, aspect_ratio_below: f64::NAN };
+        if lags.x == 0 || lags.y == 0 || columns.len() != grid.columns {
+            return Some(none);
+        }
+        let field = Field::of(&columns, mean, lags, pitch);
+        let reaches: Vec<Reach> = lags.edge().into_par_iter().map(|end| field.follow(end)).collect();
+        let (mut shortest, mut longest, mut beyond) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        for reach in reaches {
+            match reach {
+                Reach::Decays(distance) => {
+                    (shortest, longest) = (shortest.min(distance), longest.max(distance));
+                }
+                Reach::Beyond(distance) => beyond = beyond.max(distance),
+            }
+        }
+        Some(match (shortest.is_finite(), beyond > 0.0) {
+            (false, _) => none,
+            (true, false) => Self { length: shortest, aspect_ratio: shortest / longest, ..none },
+            (true, true) => Self { length: shortest, aspect_ratio_below: shortest / beyond.max(longest), ..none },
+        })
+    }
+}
+
+impl Lags {
+    /// The lags on the edge of the half plane s ≥ 0, of which one is enough: the other half mirrors it.
+    fn edge(self) -> Vec<(usize, isize)> {
+        let (x, y) = (self.x, self.y as isize);
+        let ends = (0..x).flat_map(|s| [(s, -y), (s, y)]);
+        ends.chain((-y..=y).map(|t| (x, t))).collect()
+    }
+}
+
+/// How far the autocorrelation reaches in one direction, m.
+enum Reach {
+    /// It falls to s there.
+    Decays(f64),
+    /// It is above s up to there, where it ends.
+    Beyond(f64),
+}
+
+/// The autocorrelation for all lags; NaN where no two measured points are that far apart.
+struct Field {
+    values: Vec<f64>,
+    lags: Lags,
+    pitch: [f64; 2],
+}
+
+impl Field {
+    fn of(columns: &[&[f64]], mean: f64, lags: Lags, pitch: [f64; 2]) -> Self {
+        let rows = columns.first().map_or(0, |column| column.len());
+        let is_complete = columns.par_iter().all(|column| column.iter().all(|height| !height.is_nan()));
+        // Pairs first: they need half the memory of sums.
+        let pairs = (!is_complete).then(|| {
+            let measured = |height: f64| if height.is_nan() { 0.0 } else { 1.0 };
+            correlate(columns, measured, |pairs| pairs.round() as u32)
+        });
+        let deviation = |height: f64| if height.is_nan() { 0.0 } else { height - mean };
+        let mut values = correlate(columns, deviation, |sum| sum);
+        let pairs_of = |place: usize| match &pairs {
+            Some(pairs) => f64::from(pairs[place]),
+            None => {
+                let (x, y) = (place / lags.height(), (place % lags.height()).abs_diff(lags.y));
+                ((columns.len() - x) * (rows - y)) as f64
+            }
+        };
+        let origin = lags.place(0, 0);
+        let variance = values[origin] / pairs_of(origin);
+        values.par_iter_mut().enumerate().for_each(|(place, value)| *value /= pairs_of(place) * variance);
+        Self { values, lags, pitch }
+    }
+
+    /// Follows the straight line from no lag to `end` until the autocorrelation falls to s.
+    fn follow(&self, (x, y): (usize, isize)) -> Reach {
+        let steps = x.max(y.unsigned_abs());
+        let length = (x as f64 * self.pitch[0]).hypot(y as f64 * self.pitch[1]);
+        let mut before = 1.0;
+        for step in 1..=steps {
+            let along = |end: f64| step as f64 * end / steps as f64;
+            let value = if x == steps {
+                let (below, part) = whole_and_part(along(y as f64));
+                self.between([(step, below), (step, below + 1)], part)
+            } else {
+                let (below, part) = whole_and_part(along(x as f64));
+                let y = step as isize * y.signum();
+                self.between([(below as usize, y), (below as usize + 1, y)], part)
+            };
+            if value.is_nan() {
+                return Reach::Beyond(length * (step - 1) as f64 / steps as f64);
+            }
+            if value <= CORRELATION_THRESHOLD {
+                let part = (before - CORRELATION_THRESHOLD) / (before - value);
+                return Reach::Decays(length * ((step - 1) as f64 + part) / steps as f64);
+            }
+            before = value;
+        }
+        Reach::Beyond(length)
+    }
+
+    /// Linear between two neighbouring lags, so far from the first to the second.
+    fn between(&self, [first, second]: [(usize, isize); 2], part: f64) -> f64 {
+        let at = |(x, y)| self.values.get(self.lags.place(x, y)).copied().unwrap_or(f64::NAN);
+        // On the edge there is no second.
+        if part == 0.0 { at(first) } else { at(first) + part * (at(second) - at(first)) }
+    }
+}
+
+fn whole_and_part(place: f64) -> (isize, f64) {
+    let whole = place.floor();
+    (whole as isize, place - whole)
+}

@@ -1,0 +1,82 @@
+//! What a surface is like: the parameters of ISO 25178-2 and ISO 21920-2 for heights on a grid.
+//!
+//! Form is taken out before ([`level`](super::level)); no wavelength is filtered out. Missing points (NaN) take no part.
+//! `docs/surfaces-describe.md` has every definition with its formula and standard.
+
+mod autocorrelation;
+mod blocks;
+mod core_height;
+mod correlate;
+mod gradient;
+mod grid;
+mod heights;
+mod material_curve;
+mod parameter;
+mod profile;
+mod volume;
+
+pub use autocorrelation::{Autocorrelation, CORRELATION_THRESHOLD};
+pub use core_height::CoreHeight;
+pub use gradient::Gradient;
+pub use grid::Grid;
+pub use heights::HeightParameters;
+pub use material_curve::MaterialCurve;
+pub use parameter::{Group, PARAMETERS, Parameter, Unit};
+pub use profile::{Direction, ProfileParameters};
+pub use volume::Volumes;
+
+/// Classes of the Abbott-Firestone curve that a [`Description`] keeps: 0, 0.1, …, 100 %.
+const CURVE_CLASSES: usize = 1000;
+
+/// The parameters of a surface. A number that the heights do not determine is NaN.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Description {
+    /// Points that have a height.
+    pub measured: usize,
+    /// Moments and extremes of the heights.
+    pub heights: HeightParameters,
+    /// The core of the Abbott-Firestone curve and what stands out of it.
+    pub core: CoreHeight,
+    /// Volumes of material and void.
+    pub volumes: Volumes,
+    /// Sxp, m: height between the material ratios 2.5 % and 50 %.
+    pub extreme_peak_height: f64,
+    /// Heights above the mean at the material ratios 0, 0.1, …, 100 %, m: the Abbott-Firestone curve.
+    pub material_curve: Vec<f64>,
+    /// Slopes and developed area; none without a pitch.
+    pub gradient: Option<Gradient>,
+    /// Autocorrelation length and aspect ratio; none without a pitch.
+    pub autocorrelation: Option<Autocorrelation>,
+    /// Profiles along x, the sliding direction.
+    pub along: ProfileParameters,
+    /// Profiles along y, across it.
+    pub across: ProfileParameters,
+}
+
+impl Description {
+    /// Describes heights from which form was taken out. None if no point has a height.
+    ///
+    /// Takes one and a half times the memory of the heights besides them, and a quarter more where points are missing. The
+    /// numbers do not depend on how many threads share the work.
+    pub fn of(grid: &Grid) -> Option<Self> {
+        let heights = HeightParameters::of(grid.heights)?;
+        let curve = MaterialCurve::of(grid.heights, heights.mean);
+        let ratio = |class| class as f64 / CURVE_CLASSES as f64;
+        Some(Self {
+            measured: curve.points(),
+            core: CoreHeight::of(&curve),
+            volumes: Volumes::of(&curve),
+            extreme_peak_height: curve.height(0.025) - curve.height(0.5),
+            material_curve: (0..=CURVE_CLASSES).map(|class| curve.height(ratio(class))).collect(),
+            gradient: {
+                // The sorted heights are as large as the heights: gone before the next large array is made.
+                drop(curve);
+                Gradient::of(grid)
+            },
+            autocorrelation: Autocorrelation::of(grid, heights.mean),
+            along: ProfileParameters::of(grid, Direction::Along),
+            across: ProfileParameters::of(grid, Direction::Across),
+            heights,
+        })
+    }
+}

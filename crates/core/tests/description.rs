@@ -1,0 +1,291 @@
+//! Parameters of surfaces of which they are known in closed form.
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+use plateau_core::surface::describe::{
+    Autocorrelation, CoreHeight, Description, Direction, Gradient, Grid, HeightParameters, MaterialCurve,
+    ProfileParameters, Volumes,
+};
+
+/// A grid of heights z(x, y) over the indices of column and row.
+fn heights(columns: usize, rows: usize, z: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    (0..columns * rows).map(|point| z((point / rows) as f64, (point % rows) as f64)).collect()
+}
+
+fn grid(columns: usize, rows: usize, heights: &[f64]) -> Grid<'_> {
+    Grid { columns, rows, pitch: Some([2e-6, 5e-7]), heights }
+}
+
+#[track_caller]
+fn near(found: f64, expected: f64, relative: f64) {
+    assert!((found / expected - 1.0).abs() <= relative, "{found}, expected {expected} within {relative:e}");
+}
+
+/// Height at which the Gaussian distribution function is `p`, by Newton's method from the height of a neighbouring p.
+fn gaussian_quantile(p: f64, start: f64) -> f64 {
+    let mut x = start;
+    for _ in 0..60 {
+        let error = 0.5 * libm::erfc(-x / SQRT_2) - p;
+        let step = (error * TAU.sqrt() * (0.5 * x * x).exp()).clamp(-0.5, 0.5);
+        x -= step;
+        if step.abs() < 1e-14 {
+            break;
+        }
+    }
+    x
+}
+
+/// Sk, Spk, Svk, Smr1 and Smr2 (%) of Gaussian heights of unit variance, N → ∞: the shared folder of surfaces.
+const GAUSSIAN: [f64; 5] = [2.57395, 0.9450, 0.9450, 9.905, 90.095];
+
+fn core(heights: &[f64]) -> [f64; 5] {
+    let mean = HeightParameters::of(heights).expect("heights").mean;
+    let core = CoreHeight::of(&MaterialCurve::of(heights, mean));
+    let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, .. } = core;
+    [core_height, reduced_peak_height, reduced_dale_depth, 100.0 * peak_ratio, 100.0 * dale_ratio]
+}
+
+#[test]
+fn the_core_of_the_gaussian_distribution() {
+    // Heights at equal steps of the distribution function: no sampling error, but half of the last digit printed, and
+    // what lies beyond the outermost of the 10^6 quantiles.
+    let count = 1_000_000;
+    let mut last = -4.9;
+    let heights: Vec<f64> = (0..count)
+        .map(|index| {
+            last = gaussian_quantile((f64::from(index) + 0.5) / f64::from(count), last);
+            last
+        })
+        .collect();
+    let tolerances = [5e-6, 5e-5, 5e-5, 5e-4, 5e-4].map(|half_digit| half_digit * 1.2 + 2e-6);
+    for ((found, expected), tolerance) in core(&heights).into_iter().zip(GAUSSIAN).zip(tolerances) {
+        assert!((found - expected).abs() < tolerance, "{found}, expected {expected} ± {tolerance}");
+    }
+}
+
+/// Independent Gaussian numbers: SplitMix64 (Steele, Lea and Flood 2014) and the method of Box and Muller.
+fn gaussian_sample(seed: u64, count: usize) -> Vec<f64> {
+    let mut state = seed;
+    let mut uniform = || {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 + 0.5
+    };
+    let scale = 0.5_f64.powi(53);
+    (0..count).map(|_| (-2.0 * (uniform() * scale).ln()).sqrt() * (TAU * uniform() * scale).cos()).collect()
+}
+
+#[test]
+fn the_core_of_gaussian_heights_is_within_the_sampling_error() {
+    // Twenty samples of 512 x 512 independent heights. The error of the mean over them is their scatter over √20; three of
+    // them hold 99.5 % of Student's distribution with 19 degrees of freedom, four 99.96 %. The sampling error of one sample
+    // is at least that of the slope at the median, by which Sk is σ √(2π)/√N of its 2.57 (0.2 %), and not many times it.
+    let samples: Vec<[f64; 5]> = (1..=20).map(|seed| core(&gaussian_sample(seed, 512 * 512))).collect();
+    for (index, expected) in GAUSSIAN.into_iter().enumerate() {
+        let values = || samples.iter().map(|sample| sample[index]);
+        let mean = values().sum::<f64>() / 20.0;
+        let scatter = (values().map(|value| (value - mean).powi(2)).sum::<f64>() / 19.0).sqrt();
+        println!("{expected}: {mean} ± {scatter}");
+        assert!((mean - expected).abs() < 4.0 * scatter / 20_f64.sqrt(), "{mean} ± {scatter}, expected {expected}");
+        assert!(scatter < 0.01 * expected, "{scatter}");
+    }
+}
+
+#[test]
+fn a_uniform_distribution() {
+    // Heights (i + ½)/n in any order: the curve is the straight line from 1 to 0, and all of it is core. Sa = 1/4,
+    // Sq = 1/√12, Sku = 9/5 (each to 1/n²); Vm(p) = p²/2, Vv(p) = (1 − p)²/2 (to 1/n).
+    let count = 90_000;
+    let heights: Vec<f64> = (0..count).map(|index| ((index * 7919 % count) as f64 + 0.5) / count as f64).collect();
+    let description = Description::of(&grid(300, 300, &heights)).expect("heights");
+    near(description.heights.mean, 0.5, 1e-12);
+    near(description.heights.arithmetical_mean_height, 0.25, 1e-9);
+    near(description.heights.root_mean_square_height, 1.0 / 12_f64.sqrt(), 1e-9);
+    near(description.heights.kurtosis, 1.8, 1e-9);
+    assert!(description.heights.skewness.abs() < 1e-10);
+    near(description.heights.maximum_height(), 1.0 - 1.0 / count as f64, 1e-12);
+    let [sk, spk, svk, smr1, smr2] = core(&heights);
+    near(sk, 1.0, 1e-9);
+    assert!(spk < 1e-4 && svk < 1e-4 && smr1 < 2e-3 && smr2 > 99.998, "{spk} {svk} {smr1} {smr2}");
+    let Volumes { peak_material, core_material, core_void, dale_void } = description.volumes;
+    for (found, expected) in [
+        (peak_material, 0.005),
+        (core_material, 0.32 - 0.005),
+        (core_void, 0.405 - 0.02),
+        (dale_void, 0.02),
+        (description.volumes.material(), 0.32),
+        (description.volumes.void(), 0.405),
+        (description.extreme_peak_height, 0.475),
+    ] {
+        near(found, expected, 12.0 / count as f64 / 0.1);
+    }
+}
+
+#[test]
+fn material_ratio_and_height_are_inverse() {
+    // By hand: heights 3, 2, 2, 1 less their mean 2.
+    let heights = [2.0, f64::NAN, 1.0, 3.0, 2.0];
+    let curve = MaterialCurve::of(&heights, 2.0);
+    assert_eq!(curve.points(), 4);
+    for (height, ratio) in [(1.5, 0.0), (1.0, 0.25), (0.5, 0.25), (0.0, 0.75), (-0.5, 0.75), (-1.0, 1.0), (-9.0, 1.0)] {
+        assert_eq!(curve.ratio(height), ratio, "Smr({height})");
+    }
+    for (ratio, height) in [(0.0, 1.0), (0.25, 1.0), (0.26, 0.0), (0.75, 0.0), (0.8, -1.0), (1.0, -1.0)] {
+        assert_eq!(curve.height(ratio), height, "Smc({ratio})");
+    }
+    // (1 + 0.5 + 0.5)/4 above −0.5; (0.5)/4 below it.
+    assert_eq!((curve.material_volume(-0.5), curve.void_volume(-0.5)), (0.625, 0.125));
+}
+
+#[test]
+fn slopes_of_a_plane() {
+    // z = 3 x + 4 y in units of the pitch's lengths: Sdq = 5, Sdr = √26 − 1, and nothing changes where a point is missing.
+    let mut plane = heights(20, 30, |x, y| 3.0 * 2e-6 * x + 4.0 * 5e-7 * y);
+    for _ in 0..2 {
+        let gradient = Gradient::of(&grid(20, 30, &plane)).expect("a pitch");
+        near(gradient.root_mean_square_slope, 5.0, 1e-12);
+        near(gradient.developed_area_ratio, 26_f64.sqrt() - 1.0, 1e-12);
+        (plane[47], plane[599]) = (f64::NAN, f64::NAN);
+    }
+}
+
+#[test]
+fn slopes_of_a_pyramid() {
+    // One peak of height h on 3 x 3 points of pitch 1: 4 of 6 differences along either axis are ±h, so Sdq² = 2·(4/6) h².
+    // Each of the four cells has three flat corners at its edge: of its four corner triangles one has the squared slope
+    // 2h² (at the peak), two have h², one is flat.
+    let h = 0.75;
+    let heights = heights(3, 3, |x, y| if (x, y) == (1.0, 1.0) { h } else { 0.0 });
+    let grid = Grid { columns: 3, rows: 3, pitch: Some([1.0; 2]), heights: &heights };
+    let gradient = Gradient::of(&grid).expect("a pitch");
+    // Along x: the middle row has two differences of h among six.
+    near(gradient.root_mean_square_slope, (2.0 * 2.0 / 6.0 * h * h).sqrt(), 1e-14);
+    let cell = ((1.0 + 2.0 * h * h).sqrt() + 2.0 * (1.0 + h * h).sqrt() + 1.0) / 4.0;
+    near(gradient.developed_area_ratio, cell - 1.0, 1e-14);
+    // Digits that the difference of nearly equal areas would lose: Sdr → Sdq²/2.
+    let flat: Vec<f64> = heights.iter().map(|height| height * 1e-9).collect();
+    let gradient = Gradient::of(&Grid { heights: &flat, ..grid }).expect("a pitch");
+    near(gradient.developed_area_ratio, h * h * 1e-18 * (2.0 + 2.0) / 8.0, 1e-12);
+}
+
+#[test]
+fn profiles_of_a_sinusoid() {
+    // sin over whole periods along x on top of anything that changes across: Ra = 2/π (by the sum, (2/n) cot(π/n) with n
+    // points a period, n divisible by 4), Rq = 1/√2, Rsk = 0, Rku = 3/2.
+    let (period, columns, rows) = (40.0, 200, 60);
+    let mut heights = heights(columns, rows, |x, y| (TAU * x / period).sin() + 5.0 * y * y);
+    let along = ProfileParameters::of(&grid(columns, rows, &heights), Direction::Along);
+    near(along.arithmetical_mean_height, 2.0 / period / (PI / period).tan(), 1e-10);
+    near(along.root_mean_square_height, 1.0 / SQRT_2, 1e-10);
+    near(along.kurtosis, 1.5, 1e-9);
+    assert!(along.skewness.abs() < 1e-9);
+    // Across it is the same parabola everywhere, of which Rq is 5 √(⟨y⁴⟩ − ⟨y²⟩²).
+    let across = ProfileParameters::of(&grid(columns, rows, &heights), Direction::Across);
+    let power = |k: i32| (0..rows).map(|y| (y as f64).powi(k)).sum::<f64>() / rows as f64;
+    near(across.root_mean_square_height, 5.0 * (power(4) - power(2).powi(2)).sqrt(), 1e-9);
+    // A row with less than half of its points does not count, nor do missing points.
+    heights.iter_mut().enumerate().filter(|(point, _)| point % rows == 7 && point / rows >= 99).for_each(|(_, z)| {
+        *z = f64::NAN;
+    });
+    let along = ProfileParameters::of(&grid(columns, rows, &heights), Direction::Along);
+    near(along.root_mean_square_height, 1.0 / SQRT_2, 1e-10);
+}
+
+#[test]
+fn autocorrelation_of_a_sinusoid() {
+    // cos(k x) has the autocorrelation cos(k s), which is 0.2 at s = acos(0.2)/k, for ever the same along y: Str has no value,
+    // but is below Sal over half the extent along y. 100 whole periods in 4000 columns leave an estimate within 1/100.
+    let period = 40.0;
+    let waves = heights(4000, 64, |x, _| (TAU * x / period).cos());
+    let spatial = Autocorrelation::of(&grid(4000, 64, &waves), 0.0).expect("a pitch");
+    let length = 0.2_f64.acos() / TAU * period * 2e-6;
+    near(spatial.length, length, 5e-3);
+    assert!(spatial.aspect_ratio.is_nan(), "{spatial:?}");
+    // The longest line that stays above 0.2 to the edge of the window, half of 64 rows away, ends there beside the place at
+    // which the wave has fallen to 0.2, which is 8.7 lags away: up to a lag less.
+    near(spatial.aspect_ratio_below, length / length.hypot(32.0 * 5e-7), 0.06);
+}
+
+#[test]
+fn autocorrelation_of_a_checkerboard_of_waves_is_that_of_either_direction() {
+    // cos(k x) + cos(l y), equal parts: r = (cos ks + cos lt)/2. Along x it falls to 0.2 where cos ks = −0.6, along y where
+    // cos lt = −0.6; everywhere between sooner than the longer of the two. With l = 2k in metres the ratio is ½ or less:
+    // the shortest distance is found on the curve cos ks + cos lt = 0.4 by the same straight lines, computed here.
+    let (k, l) = (TAU / 40.0, TAU / 80.0);
+    let waves = heights(1200, 2400, |x, y| (k * x).cos() + (l * y).cos());
+    let spatial = Autocorrelation::of(&grid(1200, 2400, &waves), 0.0).expect("a pitch");
+    // In metres: k per 2 µm column, l per 0.5 µm row.
+    let (k, l) = (k / 2e-6, l / 5e-7);
+    let reach = |angle: f64| {
+        let r = |d: f64| 0.5 * ((k * d * angle.cos()).cos() + (l * d * angle.sin()).cos());
+        let mut distance = 0.0;
+        while r(distance) > 0.2 {
+            distance += 1e-9;
+        }
+        distance
+    };
+    let reaches: Vec<f64> = (0..=900).map(|degree| reach(PI / 1800.0 * f64::from(degree))).collect();
+    let shortest = reaches.iter().copied().fold(f64::INFINITY, f64::min);
+    let longest = reaches.iter().copied().fold(0.0, f64::max);
+    // An estimate over 30 whole periods in either direction, interpolated between lags of a fortieth of a period.
+    near(spatial.length, shortest, 0.02);
+    near(spatial.aspect_ratio, shortest / longest, 0.04);
+}
+
+#[test]
+fn missing_points_take_no_part() {
+    // The same field with a third of its points missing, at random: each parameter within the sampling error of 40 000
+    // independent heights (relative: about 1/√N for Sq, a few times that for the others).
+    let whole = gaussian_sample(5, 60_000);
+    let mut part = whole.clone();
+    part.iter_mut()
+        .zip(gaussian_sample(6, 60_000))
+        .filter(|(_, other)| *other > 0.4307)
+        .for_each(|(z, _)| *z = f64::NAN);
+    let [whole, part] = [&whole, &part].map(|heights| Description::of(&grid(300, 200, heights)).expect("heights"));
+    let missing = 60_000 - part.measured;
+    assert!((missing as f64 / 20_000.0 - 1.0).abs() < 0.03, "{missing} missing");
+    near(part.heights.root_mean_square_height, whole.heights.root_mean_square_height, 0.015);
+    near(part.core.core_height, whole.core.core_height, 0.05);
+    near(part.across.root_mean_square_height, whole.across.root_mean_square_height, 0.015);
+    let slope = |description: &Description| description.gradient.expect("a pitch").root_mean_square_slope;
+    near(slope(&part), slope(&whole), 0.02);
+    // White noise falls to 0.2 at 0.8 of a pitch, the shorter one first.
+    for description in [whole, part] {
+        near(description.autocorrelation.expect("a pitch").length, 0.8 * 5e-7, 0.02);
+    }
+}
+
+#[test]
+fn what_the_heights_do_not_determine_is_no_number() {
+    let flat = Description::of(&grid(12, 10, &[0.1; 120])).expect("heights");
+    assert!(flat.heights.skewness.is_nan() && flat.heights.kurtosis.is_nan() && flat.along.skewness.is_nan());
+    assert!(flat.autocorrelation.expect("a pitch").length.is_nan());
+    assert_eq!((flat.heights.maximum_height(), flat.core.core_height), (0.0, 0.0));
+    assert!(Description::of(&grid(3, 2, &[f64::NAN; 6])).is_none());
+    assert!(Description::of(&grid(0, 0, &[])).is_none());
+    // One point, one column, one row.
+    for (columns, rows) in [(1, 1), (1, 9), (9, 1), (2, 2)] {
+        let heights = heights(columns, rows, |x, y| x + y * y);
+        let description = Description::of(&grid(columns, rows, &heights)).expect("heights");
+        assert_eq!(description.measured, columns * rows);
+        assert_eq!(description.core.core_height.is_nan(), columns * rows < 5, "{columns} x {rows}");
+    }
+    let nothing_known = Grid { pitch: None, ..grid(12, 10, &[0.1; 120]) };
+    let description = Description::of(&nothing_known).expect("heights");
+    assert!(description.gradient.is_none() && description.autocorrelation.is_none());
+}
+
+#[test]
+fn the_numbers_do_not_depend_on_the_number_of_threads() {
+    let heights = gaussian_sample(9, 400 * 333);
+    let describe = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Description::of(&grid(400, 333, &heights))).expect("heights")
+    };
+    // As text, which tells every number and takes NaN for NaN.
+    let [one, three] = [1, 3].map(|threads| format!("{:?}", describe(threads)));
+    assert!(one == three);
+}

@@ -1,0 +1,298 @@
+//! The command `surface` as formats.md describes it.
+
+use std::fs;
+
+use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, quick_scene_with, repository};
+use serde_json::Value;
+
+/// The measured surface that comes with the project: an AFM scan, of which `values.json` of the shared surfaces has the
+/// parameters (letter G).
+fn afm() -> String {
+    repository().join("data/surfaces/afm_256x256.sdf").display().to_string()
+}
+
+/// An SDF of 4 x 3 points, in µm: a slope along x, with a point missing.
+fn small_sdf() -> String {
+    let heights = "0 1 2 3\n0 1 BAD 3\n0 1 2 3\n";
+    format!(
+        "aISO-1.0\nManufacID = test\nCreateDate = 010120250000\nModDate = 010120250000\nNumPoints = 4\nNumProfiles = 3\n\
+         Xscale = 2e-6\nYscale = 5e-6\nZscale = 1e-6\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n\
+         {heights}*\n"
+    )
+}
+
+fn json(outcome: Outcome) -> Value {
+    serde_json::from_str(&outcome.quiet_success()).expect("one JSON document")
+}
+
+fn refused(outcome: &Outcome, reason: &str) {
+    let Outcome { status, stdout, stderr } = outcome;
+    assert_eq!((*status, stdout.as_str()), (Some(2), ""), "{stderr}");
+    assert!(stderr.starts_with("plateau: ") && stderr.contains(reason), "{stderr}\nlacks {reason}");
+}
+
+#[test]
+fn json_has_the_symbols_of_the_standard() {
+    let surface = json(WorkingDirectory::new().plateau(["surface", &afm(), "--json"]));
+    // Sa to Sku and Sz: shared values to all digits; the Sk family with its tolerance.
+    for (symbol, expected, tolerance) in [
+        ("Sa", 0.007850630292339372, 1e-6),
+        ("Sq", 0.010084618656752626, 1e-6),
+        ("Ssk", 0.3330687746659863, 1e-6),
+        ("Sku", 3.065286171324044, 1e-6),
+        ("Sz", 0.05503606503315581, 1e-6),
+        ("Sk", 0.02176493496909058, 5e-3),
+        ("Spk", 0.013370115360182578, 5e-3),
+        ("Svk", 0.009136651324949466, 5e-3),
+        ("Smr1", 15.135195812096514, 0.05 / 15.0),
+        ("Smr2", 87.827632263372, 0.05 / 87.0),
+        ("Sdq", 0.4280487450660783, 1e-9),
+        ("Sdr", 8.282255201236532, 1e-9),
+    ] {
+        let found = surface[symbol].as_f64().unwrap_or(f64::NAN);
+        assert!((found / expected - 1.0).abs() <= tolerance, "{symbol}: {found}, expected {expected}");
+    }
+    assert_eq!((&surface["columns"], &surface["rows"], &surface["coverage"]), (&256.into(), &256.into(), &1.0.into()));
+    assert_eq!(surface["pitch"][0].as_f64().map(|pitch| (pitch * 1e9).round()), Some(1_953_125.0));
+    assert_eq!(surface["level"], "least-squares plane");
+    // Every number of a surface has a unit, and every unit a number.
+    let units = surface["units"].as_object().expect("units");
+    for (symbol, unit) in units {
+        assert!(surface.get(symbol).is_some(), "{symbol}");
+        assert!(["um", "1", "%"].iter().any(|known| unit == known), "{symbol}: {unit}");
+    }
+    let counts = ["columns", "rows", "points", "measured"];
+    for (key, value) in surface.as_object().expect("an object") {
+        assert!(!value.is_number() || units.contains_key(key) || counts.contains(&key.as_str()), "{key} has no unit");
+    }
+}
+
+#[test]
+fn several_surfaces_are_an_array_and_the_columns_of_a_table() {
+    let directory = WorkingDirectory::new();
+    directory.write("small.sdf", small_sdf());
+    let surfaces = json(directory.plateau(["surface", "small.sdf", &afm(), "--json"]));
+    assert_eq!((surfaces[0]["name"].as_str(), surfaces[0]["points"].as_u64()), (Some("small.sdf"), Some(12)));
+    assert_eq!((surfaces[0]["measured"].as_u64(), surfaces[1]["measured"].as_u64()), (Some(11), Some(65_536)));
+    let table = directory.plateau(["surface", "small.sdf", &afm()]).quiet_success();
+    let line = |start: &str| table.lines().find(|line| line.starts_with(start)).unwrap_or_else(|| panic!("{table}"));
+    assert!(table.lines().next().is_some_and(|line| line.ends_with("small.sdf      afm_256x256.sdf")), "{table}");
+    assert!(line("Sq ").contains("um") && line("Sq ").ends_with("0.0100846"), "{table}");
+    assert!(line("size ").contains("8 um x 15 um") && line("size ").ends_with("500 nm x 500 nm"), "{table}");
+    assert!(table.contains("1 of 12 points are missing and take no part"), "{table}");
+    assert!(table.lines().all(|line| line == line.trim_end()), "{table}");
+}
+
+#[test]
+fn level_decides_what_is_taken_out() {
+    let directory = WorkingDirectory::new();
+    directory.write("small.sdf", small_sdf());
+    let sq = |level: &[&str]| {
+        let surface = json(directory.plateau([&["surface", "small.sdf", "--json"], level].concat()));
+        surface["Sq"].as_f64().expect("Sq")
+    };
+    // The slope is a plane. Its heights 0, 1, 2, 3 occur 3, 3, 2 and 3 times: Σ z = 16, Σ z² = 38 over 11 points.
+    assert!(sq(&[]) < 1e-15 && sq(&["--level", "plane"]) < 1e-15);
+    let expected = (38.0 / 11.0 - (16.0_f64 / 11.0).powi(2)).sqrt();
+    for level in ["none", "mean"] {
+        assert!((sq(&["--level", level]) / expected - 1.0).abs() < 1e-14);
+    }
+    refused(&directory.plateau(["surface", "small.sdf", "--level", "cubic"]), "expected none, mean");
+}
+
+#[test]
+fn without_a_pitch_what_needs_none_is_given() {
+    let directory = WorkingDirectory::new();
+    let heights: Vec<f64> = (0..12 * 10).map(|point| 1e-6 * f64::from(point * point % 17)).collect();
+    let starting = no_open_hdf5_file();
+    let file = hdf5::File::create(directory.path("heights.h5")).unwrap();
+    let heights = ndarray::ArrayView2::from_shape((12, 10), &heights).unwrap();
+    file.new_dataset_builder().with_data(heights).create("height").unwrap();
+    file.close().unwrap();
+    drop(starting);
+    let without = json(directory.plateau(["surface", "heights.h5", "--dataset", "height", "--json"]));
+    let with =
+        json(directory.plateau(["surface", "heights.h5", "--dataset", "height", "--json", "--pitch", "2 um, 0.5 um"]));
+    assert_eq!(without["pitch"], Value::Null);
+    assert_eq!(with["size"], serde_json::json!([24.0, 5.0]));
+    for symbol in ["Sa", "Sk", "Vmp", "Ra_x", "Rku_y"] {
+        assert!(without[symbol].is_number() && without[symbol] == with[symbol], "{symbol}");
+    }
+    for symbol in ["Sdq", "Sdr", "Sal", "Str"] {
+        assert!(without.get(symbol).is_none() && with.get(symbol).is_some(), "{symbol}");
+    }
+    let table = directory.plateau(["surface", "heights.h5", "--dataset", "height"]).quiet_success();
+    assert!(table.contains("Sdq, Sdr, Sal and Str need the distance of the points: give --pitch"), "{table}");
+    for (pitch, reason) in [("2", "\"2\" has no unit"), ("0 um", "more than 0"), ("1 um, 2 N", "\"2 N\" is a force")] {
+        let outcome = directory.plateau(["surface", "heights.h5", "--pitch", pitch]);
+        assert_eq!(outcome.status, Some(2), "{pitch}");
+        assert!(outcome.stderr.contains(reason), "{pitch}: {}", outcome.stderr);
+    }
+    refused(&directory.plateau(["surface", "heights.h5", "--to", "heights.sdf"]), "which --to needs: give --pitch");
+}
+
+/// Width, height and colours of a PNG.
+fn picture(directory: &WorkingDirectory, name: &str) -> image::RgbImage {
+    image::open(directory.path(name)).expect("a picture").into_rgb8()
+}
+
+#[test]
+fn a_picture_shows_the_map_the_histogram_and_the_curve() {
+    let directory = WorkingDirectory::new();
+    // Four quarters: low, high, missing, high; larger than the smallest map.
+    let quarter = |x: usize, y: usize| match (x < 30, y < 30) {
+        (true, true) => "0 ",
+        (true, false) => "BAD ",
+        _ => "1 ",
+    };
+    let lines: String = (0..60).map(|y| (0..60).map(|x| quarter(x, y)).collect::<String>() + "\n").collect();
+    let header = small_sdf().replace("NumPoints = 4", "NumPoints = 60").replace("NumProfiles = 3", "NumProfiles = 60");
+    let (header, _) = header.split_once("*\n").expect("a header");
+    directory.write("quarters.sdf", format!("{header}*\n{lines}*\n"));
+    directory.plateau(["surface", "quarters.sdf", "--level", "none", "--plot", "out.png"]).quiet_success();
+    let image = picture(&directory, "out.png");
+    // Ends of the colour map viridis (its authors' table), and the grey of missing points.
+    let (low, high, missing) = ([68, 1, 84], [253, 231, 37], [0xbd; 3]);
+    let places = |colour: [u8; 3]| {
+        let places = image.enumerate_pixels().filter(|(_, _, pixel)| pixel.0 == colour).map(|(x, y, _)| [x, y]);
+        places.fold(([u32::MAX; 2], [0; 2], 0_u32), |(first, last, count), [x, y]| {
+            ([first[0].min(x), first[1].min(y)], [last[0].max(x), last[1].max(y)], count + 1)
+        })
+    };
+    let [(_, low_end, low_count), (_, _, high_count), (missing_start, _, missing_count)] =
+        [low, high, missing].map(places);
+    // The map is 280 by 700 pixels or larger (points 2 µm by 5 µm apart); a quarter of it each, half high; the missing one
+    // is above the low one, for y grows upward.
+    assert!(low_count > 40_000 && missing_count > 40_000 && high_count > 80_000, "{low_count} {missing_count}");
+    assert!((f64::from(low_count) / f64::from(missing_count) - 1.0).abs() < 0.1);
+    assert!((f64::from(high_count) / f64::from(low_count) - 2.0).abs() < 0.2);
+    assert!(missing_start[1] < low_end[1] / 2, "{missing_start:?} {low_end:?}");
+    // Axes and letters; the two bars of the histogram, one of its 64 classes of 430 pixels each, less their outlines.
+    for (colour, least) in [([0x22; 3], 5_000), ([0x9d, 0xbf, 0xd6], 1_000)] {
+        assert!(places(colour).2 > least, "{colour:?}: {}", places(colour).2);
+    }
+    // Nothing but white at the edge: no label is cut off.
+    let edge = image
+        .enumerate_pixels()
+        .filter(|(x, y, _)| *x == 0 || *y == 0 || *x == image.width() - 1 || *y == image.height() - 1);
+    assert!(edge.into_iter().all(|(_, _, pixel)| pixel.0 == [255; 3]));
+}
+
+#[test]
+fn a_pitch_that_is_not_used_is_said() {
+    let outcome = WorkingDirectory::new().plateau(["surface", &afm(), "--pitch", "2 um", "--json"]);
+    assert_eq!(outcome.status, Some(0));
+    assert!(outcome.stderr.contains("1.953 nm pitch of its own: --pitch is not used"), "{}", outcome.stderr);
+}
+
+#[test]
+fn files_are_replaced_only_on_demand() {
+    let directory = WorkingDirectory::new();
+    directory.write("small.sdf", small_sdf());
+    directory.write("out.png", "precious");
+    let plot = ["surface", "small.sdf", "--plot", "out.png"];
+    refused(&directory.plateau(plot), "out.png exists; give --force to replace it");
+    refused(&directory.plateau(["surface", "absent.sdf", "--plot", "out.png", "--force"]), "absent.sdf: ");
+    assert_eq!(fs::read(directory.path("out.png")).unwrap(), b"precious");
+    directory.plateau(plot.iter().chain(&["--force"])).quiet_success();
+    assert!(picture(&directory, "out.png").width() > 1000);
+    assert_eq!(directory.names(), ["out.png", "small.sdf"]);
+    fs::rename(directory.path("small.sdf"), directory.path("small.png")).unwrap();
+    let itself = ["surface", "small.png", "--plot", "./small.png", "--force"];
+    refused(&directory.plateau(itself), "small.png is an input and is not replaced");
+    refused(&directory.plateau(["surface", "small.png", "--plot", "nowhere/a.png"]), "nowhere is no directory");
+    refused(&directory.plateau(["surface", "small.png", "--plot", "a.jpg"]), "expected the ending .png");
+    refused(&directory.plateau(["surface", "small.png", "--to", "a.bmp"]), "a.bmp");
+    refused(&directory.plateau(["surface", "small.png", &afm(), "--to", "a.sdf"]), "--to converts one FILE");
+    assert_eq!(directory.names(), ["out.png", "small.png"]);
+}
+
+#[test]
+fn what_is_no_surface_is_refused() {
+    let directory = WorkingDirectory::new();
+    let rows = "BAD BAD BAD BAD\n".repeat(3);
+    directory.write("all-missing.sdf", small_sdf().replace("0 1 2 3\n0 1 BAD 3\n0 1 2 3\n", &rows));
+    directory.write("not.sdf", "\u{1}\u{2}\u{3}");
+    for (file, reason) in [
+        ("absent.sdf", "cannot be read"),
+        (".", "not a regular file"),
+        ("not.sdf", "no surface file that is known"),
+        ("all-missing.sdf", "none of its 12 points has a height"),
+    ] {
+        refused(&directory.plateau(["surface", file]), &format!("{file}: "));
+        refused(&directory.plateau(["surface", file]), reason);
+    }
+    assert_eq!(directory.plateau(["surface"]).status, Some(2));
+}
+
+#[test]
+fn a_scene_shows_what_it_makes_of_its_surfaces() {
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&[]));
+    let bodies = json(directory.plateau(["surface", "--prepare", "scene.toml", "--json", "--plot", "both.png"]));
+    let [disc, pin] = [&bodies[0], &bodies[1]];
+    assert_eq!((disc["name"].as_str(), pin["name"].as_str()), (Some("disc"), Some("pin")));
+    assert_eq!((disc["columns"].as_u64(), disc["rows"].as_u64()), (Some(690), Some(20)));
+    assert_eq!((pin["columns"].as_u64(), pin["level"].as_str()), (Some(40), Some("nothing")));
+    // Cut at one rms height of 3 µm: the highest points are at the cut, 3 µm above the mean before it.
+    let (highest, lowered) = (disc["Sp"].as_f64().unwrap(), disc["Sq"].as_f64().unwrap());
+    assert!(highest > 3.0 && highest < 3.5 && lowered < 3.0, "{highest} {lowered}");
+    // 30 % fibres stand 8 µm above the resin, peaks positive: the skewness of two values p = 0.3 apart is positive.
+    assert!(pin["Ssk"].as_f64().unwrap() > 0.5 && pin["Sz"].as_f64().unwrap() > 8.0, "{pin}");
+    assert!(disc["notes"].as_array().unwrap().iter().any(|note| note.as_str().unwrap().contains("cut at 3 um")));
+    assert!(picture(&directory, "both.png").width() > 2000);
+    let table = directory.plateau(["surface", &afm(), "--prepare", "scene.toml"]).quiet_success();
+    assert!(
+        table.lines().next().is_some_and(|line| line.split_whitespace().eq(["afm_256x256.sdf", "disc", "pin"])),
+        "{table}"
+    );
+    assert!(table.contains("pin.surface: resin set back by 8 um"), "{table}");
+    directory.write("bad.toml", "version = 1\n");
+    refused(&directory.plateau(["surface", "--prepare", "bad.toml"]), "required keys are missing");
+}
+
+#[test]
+fn roughness_is_in_the_run_file_on_request() {
+    use plateau_tests::run_file::RunFile;
+
+    let directory = WorkingDirectory::new();
+    let edits = [
+        ("duration = \"60 s\"", "steps = 25"),
+        ("sample_every = \"0.1 s\"", "sample_every_steps = 10\nroughness = true"),
+        ("maps_at = [\"0 s\"]", "maps_at = []"),
+    ];
+    directory.write("scene.toml", quick_scene_with(&edits));
+    directory.plateau(["run", "scene.toml", "-o", "one.h5"]).quiet_success();
+    let one = RunFile::open(directory.path("one.h5"));
+    for (body, sign) in [("disc", 1.0), ("pin", -1.0)] {
+        // The last map's area-weighted moments, summed row by row; areas are as the radii.
+        let (heights, radius) = (one.floats(&format!("/{body}/height")), one.floats("/radius"));
+        let weights: Vec<f64> = radius.iter().cycle().take(heights.len()).copied().collect();
+        let total: f64 = weights.iter().sum();
+        let mean = |value: &dyn Fn(f64) -> f64| {
+            heights.iter().zip(&weights).map(|(height, weight)| weight * value(*height)).sum::<f64>() / total
+        };
+        let centre = mean(&|height| height);
+        let moment = |power: i32| mean(&|height: f64| (sign * (height - centre)).powi(power));
+        let rms = moment(2).sqrt();
+        for (name, expected) in [
+            ("sa", mean(&|height: f64| (height - centre).abs())),
+            ("sq", rms),
+            ("ssk", moment(3) / rms.powi(3)),
+            ("sku", moment(4) / rms.powi(4)),
+        ] {
+            let series = one.floats(&format!("/series/{body}_{name}"));
+            assert_eq!(series.len(), 3);
+            assert!((series[2] / expected - 1.0).abs() < 1e-11, "{body}_{name}: {series:?}, {expected}");
+        }
+    }
+    // The same bits for any number of workers; without roughness nothing of it.
+    directory.plateau(["run", "scene.toml", "-o", "three.h5", "--workers", "3"]).status.expect("an end");
+    assert!(RunFile::open(directory.path("three.h5")).content() == one.content());
+    directory.plateau(["run", "scene.toml", "-o", "none.h5", "--set", "output.roughness=false"]).quiet_success();
+    let none = RunFile::open(directory.path("none.h5"));
+    assert!(!none.has("/series/disc_sa") && none.has("/series/pool"));
+    let check = json(directory.plateau(["check", "scene.toml", "--json"]));
+    let reason = check["needed"].as_array().unwrap().iter().find(|part| part["part"] == "roughness with every sample");
+    assert_eq!(reason.expect("the part")["reason"], "output.roughness = true");
+}
