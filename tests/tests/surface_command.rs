@@ -179,10 +179,30 @@ fn a_picture_shows_the_map_the_histogram_and_the_curve() {
 }
 
 #[test]
-fn a_pitch_that_is_not_used_is_said() {
+fn a_pitch_that_would_not_be_used_is_refused() {
     let outcome = WorkingDirectory::new().plateau(["surface", &afm(), "--pitch", "2 um", "--json"]);
-    assert_eq!(outcome.status, Some(0));
-    assert!(outcome.stderr.contains("1.953 nm pitch of its own: --pitch is not used"), "{}", outcome.stderr);
+    refused(&outcome, "for which pitch has no meaning: leave it out");
+}
+
+#[test]
+fn a_converted_surface_is_the_same_surface() {
+    let directory = WorkingDirectory::new();
+    let parameters = |arguments: &[&str]| {
+        let json = directory.plateau([&["surface"], arguments, &["--json"]].concat()).quiet_success();
+        let mut document: Value = serde_json::from_str(&json).unwrap();
+        // What differs is the file itself.
+        let object = document.as_object_mut().unwrap();
+        ["name", "format", "notes"].iter().for_each(|key| drop(object.remove(*key)));
+        document
+    };
+    let original = parameters(&[&afm()]);
+    assert!(original["Sq"].as_f64().unwrap() > 0.0, "{original}");
+    for to in ["out.sdf", "out.x3p", "out.h5"] {
+        assert_eq!(parameters(&[&afm(), "--to", to]), original);
+        assert_eq!(parameters(&[to]), original, "{to}");
+    }
+    parameters(&[&afm(), "--to", "out.npy"]);
+    assert_eq!(parameters(&["out.npy", "--pitch", "1.953125 nm"]), original);
 }
 
 #[test]

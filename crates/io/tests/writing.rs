@@ -56,9 +56,17 @@ fn what_was_written_is_read_bit_for_bit() {
             assert_eq!(read(&path, &ReadOptions::default()).unwrap().format, Format::Sdf(kind));
             check_equal(&read_patch(&path), &patch);
         }
-        let path = folder.path().join("out.X3P");
+        for name in ["out.X3P", "out.h5"] {
+            let path = folder.path().join(name);
+            write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
+            check_equal(&read_patch(&path), &patch);
+        }
+        // An array has no pitch.
+        let path = folder.path().join("out.npy");
         write(&path, &patch, &WriteOptions { replace: true, sdf: None }).unwrap();
-        check_equal(&read_patch(&path), &patch);
+        assert_eq!(read(&path, &ReadOptions::default()).unwrap().pitch, None);
+        let options = ReadOptions { pitch: Some([patch.column_pitch, patch.row_pitch]), ..ReadOptions::default() };
+        check_equal(&read(&path, &options).unwrap().into_patch().unwrap(), &patch);
     }
 }
 

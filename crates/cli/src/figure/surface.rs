@@ -34,7 +34,7 @@ const FOOT: f64 = 120.0;
 const CAPTION: f64 = 3.0 * SPACING + 10.0;
 const SPACING: f64 = 1.25 * TEXT as f64;
 /// A map that is longer than this many times its width is stretched, or nothing could be seen on it.
-const MOST_ELONGATED: f64 = 4.0;
+const MOST_ELONGATED: f64 = 5.0;
 /// Heights farther than this many times the interquartile range outside the quartiles do not widen axes and colours.
 const FENCE: f64 = 5.0;
 /// Classes of the histogram.

@@ -6,7 +6,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use plateau_core::surface::Level;
+use plateau_core::surface::{Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, ReadOptions, WriteError, WriteOptions};
 
@@ -26,9 +26,9 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     refuse_impossible(arguments)?;
     let mut subjects = Vec::new();
     for path in &arguments.files {
-        let measured = read(path, arguments)?;
+        let mut measured = read(path, arguments)?;
         if let Some(to) = &arguments.to {
-            return convert(path, measured, to, arguments).and_then(|subject| tell(&[subject], arguments));
+            convert(path, &mut measured, to, arguments.force)?;
         }
         subjects.push(Subject::of_file(path, measured, arguments.level.unwrap_or(Level::Plane), draws(arguments))?);
     }
@@ -79,27 +79,19 @@ fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> 
     Ok(measured)
 }
 
-/// Writes the heights of a file into another, and describes them.
-fn convert(path: &Path, measured: Measured, to: &Path, arguments: &SurfaceArguments) -> Result<Subject, Failure> {
-    let (format, instrument, notes) = (measured.format, measured.instrument, measured.notes.clone());
-    let Some(patch) = measured.into_patch() else {
+/// Writes the heights of a file into another.
+fn convert(path: &Path, measured: &mut Measured, to: &Path, force: bool) -> Result<(), Failure> {
+    let Some([column_pitch, row_pitch]) = measured.pitch else {
         return Err(named(path, "the distance of its points is unknown, which --to needs: give --pitch"));
     };
-    surface::write(to, &patch, &WriteOptions { replace: arguments.force, sdf: None }).map_err(|error| match error {
+    let heights = std::mem::take(&mut measured.heights);
+    let patch = Patch { columns: measured.columns, rows: measured.rows, column_pitch, row_pitch, heights };
+    let written = surface::write(to, &patch, &WriteOptions { replace: force, sdf: None });
+    measured.heights = patch.heights;
+    written.map_err(|error| match error {
         WriteError::System { .. } => Failure::run(error),
         _ => Failure::input(error),
-    })?;
-    let measured = Measured {
-        format,
-        columns: patch.columns,
-        rows: patch.rows,
-        pitch: Some([patch.column_pitch, patch.row_pitch]),
-        heights: patch.heights,
-        instrument,
-        notes,
-        warnings: Vec::new(),
-    };
-    Subject::of_file(path, measured, arguments.level.unwrap_or(Level::Plane), draws(arguments))
+    })
 }
 
 /// What a scene makes of its disc and pin.
@@ -108,7 +100,11 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
     for warning in &scene.warnings {
         message::warning(warning);
     }
-    let Loaded { surfaces, report, .. } = surface::load(&scene).map_err(Failure::input)?;
+    let Loaded { surfaces, report, inputs } = surface::load(&scene).map_err(Failure::input)?;
+    if let Some(plot) = &arguments.plot {
+        let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
+        output::check(plot, arguments.force, &inputs)?;
+    }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
     Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))
 }
