@@ -27,8 +27,17 @@ impl Quantum {
     /// them and more rounding.
     pub fn of(bound: f64, terms: usize) -> Self {
         let exponent = if bound > 0.0 { libm::ilogb(bound) } else { 0 };
-        let beyond = (terms + 1).div_ceil(1 << 13).next_power_of_two().trailing_zeros();
-        Self::of_exponent(exponent + 1 - 50 + beyond as i32, 51 - beyond)
+        let room = room(terms);
+        Self::of_exponent(exponent + 2 - room as i32, room)
+    }
+
+    /// The finest quantum at which the sum of `terms` anchored terms up to `largest`, and some times as large, leaves room
+    /// for their number: see [`Quantum::split`].
+    pub fn of_sum(largest: f64, terms: usize) -> Self {
+        let sum = largest * terms as f64;
+        let exponent = if sum > 0.0 { libm::ilogb(sum) } else { 0 };
+        let room = room(terms);
+        Self::of_exponent(exponent.saturating_add(1 + SPARE_BITS - room as i32), room)
     }
 
     fn of_exponent(exponent: i32, room: u32) -> Self {
@@ -70,13 +79,9 @@ impl Quantum {
         libm::ldexp(1.0, self.exponent + 50)
     }
 
-    /// By how many bits the quantum must be coarser for the sum of `terms` terms up to `largest` to leave room for their
-    /// number; none if it is coarse enough.
-    pub fn lacks(self, largest: f64, terms: usize) -> Option<i32> {
-        let sum = largest * terms as f64;
-        let room = libm::ldexp(1.0, self.exponent + self.room as i32);
-        // With a margin, for what was too large once may become larger.
-        (sum >= room).then(|| (libm::ilogb(sum / room) + 3).clamp(3, 1000))
+    /// Whether the sum of `terms` anchored terms up to `largest` leaves room for their number.
+    pub fn holds(self, largest: f64, terms: usize) -> bool {
+        largest * (terms as f64) < libm::ldexp(1.0, self.exponent + self.room as i32)
     }
 
     /// From the sum of the bits of anchored terms, none negative: how many they are, and what they add up to in quanta.
@@ -92,6 +97,14 @@ impl Quantum {
             (count as i64, (sum as u64).wrapping_sub(count.wrapping_mul(bits)) as i64)
         }
     }
+}
+
+/// Bits by which sums may grow from one step to the next and still leave room.
+const SPARE_BITS: i32 = 3;
+
+/// Bits below the number of up to `terms` terms.
+fn room(terms: usize) -> u32 {
+    51 - (terms + 1).div_ceil(1 << 13).next_power_of_two().trailing_zeros()
 }
 
 /// An integer for every row, in chunks.
@@ -258,7 +271,7 @@ mod tests {
             let quantum = Quantum::of(bound, terms);
             // Terms that just leave room for their number.
             let largest = libm::ldexp(1.0, quantum.exponent + quantum.room as i32) / (terms + 1) as f64;
-            assert_eq!(quantum.lacks(largest, terms), None);
+            assert!(quantum.holds(largest, terms) && !quantum.holds(2.0 * largest, terms));
             let mut sum = 0i64;
             let mut expected = 0;
             for number in 0..=terms {
@@ -267,8 +280,10 @@ mod tests {
                 sum = sum.wrapping_add((quantum.anchor() + term).to_bits() as i64);
                 expected += (term / quantum.value()).round_ties_even() as i64;
             }
-            let coarser = quantum.coarser(quantum.lacks(64.0 * largest, terms).unwrap());
-            assert_eq!(coarser.lacks(64.0 * largest, terms), None);
+            for largest in [largest, 64.0 * largest, 1e-3 * largest] {
+                let fine = Quantum::of_sum(largest, terms);
+                assert!(fine.holds(7.9 * largest, terms) && !fine.holds(16.1 * largest, terms));
+            }
         }
     }
 

@@ -17,15 +17,14 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// The displacements from `low` on, `width` long, and what rounding adds; the quantum is made coarser if it must be
+    /// The displacements from `low` on, `width` long, and what rounding adds; the quantum is a coarser one if it must be
     /// for a number as large as these.
-    pub fn new(low: f64, width: f64, quantum: &mut Quantum) -> Self {
+    pub fn new(low: f64, width: f64, quantum: Quantum) -> Self {
         let size = low.abs() + width;
-        if size > quantum.reach() {
-            *quantum = quantum.coarser(libm::ilogb(size / quantum.reach()).saturating_add(1));
-        }
+        let excess = if size > quantum.reach() { libm::ilogb(size / quantum.reach()).saturating_add(1) } else { 0 };
+        let quantum = quantum.coarser(excess);
         let (low, width) = (quantum.nearest(low - quantum.value()), quantum.nearest(width + 2.0 * quantum.value()));
-        Self { low, width, quantum: *quantum }
+        Self { low, width, quantum }
     }
 }
 
@@ -76,9 +75,9 @@ impl Reading {
         self.largest.0.iter().copied().fold(0.0, f64::max)
     }
 
-    /// By how many bits the quantum is too fine for the overlaps that were read in up to `columns` columns, if it is.
-    pub fn lacks(&self, quantum: Quantum, columns: usize) -> Option<i32> {
-        quantum.lacks(self.largest() - quantum.anchor(), columns)
+    /// The largest overlap at the lower end of the bracket that was read, m; not positive where nothing touches.
+    pub fn largest_overlap(&self, bracket: &Bracket) -> f64 {
+        self.largest() - bracket.quantum.anchor()
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Worker;
 use crate::comm::Communicator;
 use crate::contact::{ContactError, Verdict};
+use crate::exact::Quantum;
 use crate::kernel::{Bracket, Span};
 use crate::pair::Pair;
 use crate::sector::Segment;
@@ -21,9 +22,10 @@ impl<C: Communicator> Worker<C> {
             None => self.read_around_first_contact()?,
         };
         for _ in 0..MOST_READINGS {
-            if let Some(bits) = self.reading.lacks(bracket.quantum, self.parameters.mesh.pin_columns()) {
-                self.quantum = self.quantum.coarser(bits);
-                bracket = Bracket::new(bracket.low, bracket.width, &mut self.quantum);
+            let columns = self.parameters.mesh.pin_columns();
+            let largest = self.reading.largest_overlap(&bracket);
+            if !bracket.quantum.holds(largest, columns) {
+                bracket = Bracket::new(bracket.low, bracket.width, Quantum::of_sum(largest, columns));
                 self.read_columns(&bracket)?;
                 continue;
             }
@@ -31,11 +33,14 @@ impl<C: Communicator> Worker<C> {
                 self.contact.balance(&self.weights, &self.sums, &mut self.reading.near, &bracket, normal_force);
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
+                    if largest > 0.0 {
+                        self.overlaps = Quantum::of_sum(largest, columns);
+                    }
                     self.course.largest_load_residual = self.course.largest_load_residual.max(self.contact.residual());
                     return Ok(());
                 }
                 Verdict::Between(low, high) => {
-                    bracket = Bracket::new(low, high - low, &mut self.quantum);
+                    bracket = Bracket::new(low, high - low, self.overlaps);
                     self.read_columns(&bracket)?;
                 }
                 Verdict::Apart => bracket = self.read_around_first_contact()?,
@@ -55,7 +60,7 @@ impl<C: Communicator> Worker<C> {
         });
         let own = least.to_bits();
         self.communicator.all_gather(&[own], &mut |_, words| least = least.min(f64::from_bits(words[0])))?;
-        let bracket = Bracket::new(least, 0.0, &mut self.quantum);
+        let bracket = Bracket::new(least, 0.0, self.overlaps);
         self.read_columns(&bracket)?;
         Ok(bracket)
     }

@@ -20,7 +20,7 @@ impl<C: Communicator> Worker<C> {
         self.reading.clear();
         self.moved.clear();
         let (expected, uncertainty) = self.forecast.expect(self.contact.mean_overlap());
-        let bracket = Bracket::new(expected - uncertainty, 2.0 * uncertainty, &mut self.quantum);
+        let bracket = Bracket::new(expected - uncertainty, 2.0 * uncertainty, self.overlaps);
         let partition = self.partition.clone();
         let first = self.first();
         let own = self.group;

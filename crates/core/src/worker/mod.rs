@@ -52,8 +52,10 @@ pub(crate) struct Worker<C> {
     read: Read,
     rules: Rules,
     coefficients: Coefficients,
-    /// Of which overlaps are counted as multiples.
+    /// Of which losses are counted as multiples: the quantum of the largest overlap that the load allows.
     quantum: Quantum,
+    /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step.
+    overlaps: Quantum,
     pin: PinStrips,
     /// The worker's own sectors, by their number.
     sectors: Vec<Option<DiscSector>>,
@@ -110,13 +112,15 @@ impl<C: Communicator> Worker<C> {
         let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
         let strips = strips(rows.len());
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
+        let quantum = Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns());
         Self {
             instructions,
             sweep: sweep(needs),
             read: read(needs),
             rules: Rules::new(&parameters, &coefficients),
             contact: Contact::new(&weights),
-            quantum: Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns()),
+            quantum,
+            overlaps: quantum,
             pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs.forms),
             forecast: Forecast::new(mesh.disc_columns()),
             debris: Debris::new(&parameters, &coefficients, &weights),
