@@ -16,7 +16,7 @@ use crate::stepper::{Setup, Stepper};
 /// How a peer is called by step.py, and by people.
 const PEERS: [(&str, &str); 2] = [("numba", "Numba loops"), ("numpy", "NumPy arrays")];
 /// Largest accepted difference over the largest value.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-10;
 
 /// Time acceleration of a second comparison: build-ups are worn through in a step, which hardly happens at 1.
 const FAST: &str = "numerics.time_acceleration=1000";

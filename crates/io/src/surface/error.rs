@@ -165,4 +165,4 @@ impl From<X3pError> for FileError {
 }
 
 /// What to do about a file that cannot be read.
-const READABLE: &str = "docs/surfaces.md names the formats that are read; convert it to SDF, X3P or HDF5";
+const READABLE: &str = "convert it to SDF, X3P or HDF5";
