@@ -122,6 +122,9 @@ pub struct SurfaceArguments {
     /// Describe what a scene makes of its disc and pin surfaces, too
     #[arg(long, value_name = "SCENE")]
     pub prepare: Option<PathBuf>,
+    /// Draw the pin's fibre map that the scene makes, beside the micrograph that it comes from
+    #[arg(long, value_name = "PNG", requires = "prepare")]
+    pub preview: Option<PathBuf>,
     /// What the number 1 stands for in a file that does not say so, such as um
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     pub unit: Option<f64>,
@@ -134,7 +137,7 @@ pub struct SurfaceArguments {
     /// Dataset of an HDF5 file, or array of an .npz archive
     #[arg(long, value_name = "NAME")]
     pub dataset: Option<String>,
-    /// Replace the files that --plot and --to name if they exist
+    /// Replace the files that --plot, --preview and --to name if they exist
     #[arg(long)]
     pub force: bool,
 }

@@ -7,7 +7,7 @@ use plateau_core::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_io::scene;
 use plateau_io::scene::recipe::{BaseSource, Scene};
-use plateau_io::surface::{Loaded, load, write_base_preview};
+use plateau_io::surface::{Loaded, base_preview, load};
 use png::{BitDepth, ColorType};
 
 /// Square cells of 100 µm, a pin of 3 mm by 2 mm; without `[pin.base]`.
@@ -212,7 +212,7 @@ fn what_gives_no_fibre_map_is_told() {
 fn the_preview_shows_picture_outline_and_cells() {
     let (folder, scene) = grey("pixel = \"20 um\"");
     let path = folder.path().join("preview.png");
-    write_base_preview(&scene, &path).unwrap();
+    std::fs::write(&path, base_preview(&scene).unwrap()).unwrap();
     let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];

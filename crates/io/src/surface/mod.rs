@@ -26,7 +26,7 @@ pub use instrument::Instrument;
 pub use load::{Loaded, load};
 pub use measured::{Measured, ReadOptions, read};
 pub use npy::NpyError;
-pub use preview::write_base_preview;
+pub use preview::base_preview;
 pub use stated::Disagreement;
 pub use text::TextError;
 pub use writing::{WriteError, WriteOptions, write};

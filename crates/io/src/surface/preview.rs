@@ -1,7 +1,5 @@
 //! A picture of what became of a micrograph.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
 
 use plateau_core::mesh::Mesh;
@@ -23,20 +21,20 @@ const OUTLINE: Rgb = [220, 30, 30];
 const FIBRE: Rgb = [240, 190, 60];
 const RESIN: Rgb = [60, 60, 70];
 
-/// Draws the pin's fibre map as a PNG image: x along the sliding direction to the right, outward to the top, at the true
+/// The pin's fibre map as a PNG image: x along the sliding direction to the right, outward to the top, at the true
 /// proportions of the pin. If it comes from a micrograph, that is on the left, with the outline of what was taken for
 /// fibre, before it is mirrored; on the right is the base of the pin's cells.
 ///
 /// # Errors
-/// [`SurfaceError`] as for [`load`], and when the picture cannot be written.
-pub fn write_base_preview(scene: &Scene, path: &Path) -> Result<(), SurfaceError> {
+/// [`SurfaceError`] as for [`load`].
+pub fn base_preview(scene: &Scene) -> Result<Vec<u8>, SurfaceError> {
     let mesh = &scene.parameters.mesh;
     let failed = |file: &Path| {
         let path = file.to_owned();
         move |reason| SurfaceError::File { key: "pin.base", path, reason }
     };
     let base = load(scene)?.surfaces.pin_base;
-    let canvas = match &scene.pin_base {
+    match &scene.pin_base {
         BaseSource::Image { path, recipe } => {
             let (map, _) = fibre_map(path, recipe, mesh).map_err(failed(path))?;
             let size = (map.grey.width as f64 * recipe.pixel, map.grey.height as f64 * recipe.pixel);
@@ -45,7 +43,7 @@ pub fn write_base_preview(scene: &Scene, path: &Path) -> Result<(), SurfaceError
             let mut canvas = Canvas::new(2, &panel);
             panel.draw(&mut canvas, 0, |x, y| micrograph(&map, recipe.pixel, x, y));
             panel.draw(&mut canvas, 1, |x, y| cell(&base, mesh, x, y));
-            canvas
+            canvas.png().map_err(failed(path))
         }
         _ => {
             let half = PinPlane::new(mesh).half_extent();
@@ -53,10 +51,9 @@ pub fn write_base_preview(scene: &Scene, path: &Path) -> Result<(), SurfaceError
             let panel = Panel { size, scale: PANEL as f64 / size.0.max(size.1) };
             let mut canvas = Canvas::new(1, &panel);
             panel.draw(&mut canvas, 0, |x, y| cell(&base, mesh, x, y));
-            canvas
+            canvas.png().map_err(failed(&scene.path))
         }
-    };
-    canvas.write(path).map_err(failed(path))
+    }
 }
 
 /// Colour of the micrograph at a point of the pin's plane, m.
@@ -125,14 +122,14 @@ impl Canvas {
         Self { width, height, pixels: vec![PAPER; width * height] }
     }
 
-    fn write(&self, path: &Path) -> Result<(), FileError> {
-        let file = BufWriter::new(File::create(path)?);
-        let mut encoder = png::Encoder::new(file, self.width as u32, self.height as u32);
+    fn png(&self) -> Result<Vec<u8>, FileError> {
+        let mut png = Vec::new();
+        let mut encoder = png::Encoder::new(&mut png, self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(self.pixels.as_flattened())?;
         writer.finish()?;
-        Ok(())
+        Ok(png)
     }
 }

@@ -44,7 +44,7 @@ fn draws(arguments: &SurfaceArguments) -> bool {
 
 /// Refuses what cannot be done, before anything is read.
 fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
-    let SurfaceArguments { files, plot, to, prepare, force, .. } = arguments;
+    let SurfaceArguments { files, plot, preview, to, prepare, force, .. } = arguments;
     if to.is_some() && (files.len() != 1 || prepare.is_some()) {
         return Err(Failure::input("--to converts one FILE: leave out the others and --prepare"));
     }
@@ -52,16 +52,20 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     if plot.is_some() && surfaces > MOST_PLOTTED {
         return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
     }
-    if let Some(plot) = plot {
-        if !plot.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-            return Err(Failure::input(format_args!("--plot {}: expected the ending .png", plot.display())));
+    for (option, picture) in [("--plot", plot), ("--preview", preview)] {
+        let Some(picture) = picture else { continue };
+        if !picture.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+            return Err(Failure::input(format_args!("{option} {}: expected the ending .png", picture.display())));
         }
-        if to.as_ref() == Some(plot) {
-            return Err(Failure::input("--plot and --to name the same file"));
+    }
+    let outputs: Vec<&PathBuf> = to.iter().chain(plot).chain(preview).collect();
+    for (at, path) in outputs.iter().enumerate() {
+        if outputs[..at].contains(path) {
+            return Err(Failure::input(format_args!("{} is named for two outputs", path.display())));
         }
     }
     let inputs: Vec<PathBuf> = files.iter().chain(prepare).cloned().collect();
-    plot.iter().chain(to).try_for_each(|path| output::check(path, *force, &inputs))
+    outputs.into_iter().try_for_each(|path| output::check(path, *force, &inputs))
 }
 
 /// Reads a file as the arguments say.
@@ -101,9 +105,13 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
         message::warning(warning);
     }
     let Loaded { surfaces, report, inputs } = surface::load(&scene).map_err(Failure::input)?;
-    if let Some(plot) = &arguments.plot {
-        let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
-        output::check(plot, arguments.force, &inputs)?;
+    let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
+    for picture in arguments.plot.iter().chain(&arguments.preview) {
+        output::check(picture, arguments.force, &inputs)?;
+    }
+    if let Some(preview) = &arguments.preview {
+        let picture = surface::base_preview(&scene).map_err(Failure::input)?;
+        output::write(preview, &picture, arguments.force)?;
     }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
     Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))
@@ -124,7 +132,7 @@ fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failur
     if arguments.json {
         return print(&document::document(subjects)?);
     }
-    let written = arguments.to.iter().chain(&arguments.plot);
+    let written = arguments.to.iter().chain(&arguments.plot).chain(&arguments.preview);
     let written: String = written.map(|path| format!("\nwrote {}\n", path.display())).collect();
     print(&(text::text(subjects) + &written))
 }
