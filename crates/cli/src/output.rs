@@ -1,8 +1,10 @@
 //! Files that a command leaves beside its run file: whole, or not at all.
 
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+
+use plateau_io::temporary::Temporary;
 
 use crate::failure::Failure;
 
@@ -35,28 +37,12 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     // The target of a link is replaced, not the link.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
-    let temporary = directory(&target).join(format!(".plateau-{}.tmp", std::process::id()));
-    let written = fs::write(&temporary, content).and_then(|()| publish(&temporary, &target, force));
-    // Gone already where it was renamed.
-    let _ = fs::remove_file(&temporary);
+    let temporary = Temporary::beside(&target);
+    let written = fs::write(temporary.path(), content).and_then(|()| temporary.publish(force));
     written.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => exists(path),
         _ => Failure::run(format_args!("cannot write {}: {error}", path.display())),
     })
-}
-
-fn publish(temporary: &Path, target: &Path, force: bool) -> io::Result<()> {
-    if force {
-        return fs::rename(temporary, target);
-    }
-    // A link fails where a file has appeared meanwhile; a rename would replace it.
-    match fs::hard_link(temporary, target) {
-        Err(error) if error.kind() != ErrorKind::AlreadyExists && fs::symlink_metadata(target).is_err() => {
-            // Some file systems have no hard links.
-            fs::rename(temporary, target)
-        }
-        linked => linked,
-    }
 }
 
 fn directory(path: &Path) -> &Path {

@@ -6,10 +6,13 @@
 //! | quantities with units | [`units`] |
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
+//! | files that appear when they are complete | [`temporary`] |
 
 mod digest;
+mod hdf5_file;
 pub mod run_file;
 pub mod scene;
 pub mod surface;
+pub mod temporary;
 mod timestamp;
 pub mod units;

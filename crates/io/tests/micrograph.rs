@@ -212,7 +212,7 @@ fn what_gives_no_fibre_map_is_told() {
 fn the_preview_shows_picture_outline_and_cells() {
     let (folder, scene) = grey("pixel = \"20 um\"");
     let path = folder.path().join("preview.png");
-    std::fs::write(&path, base_preview(&scene).unwrap()).unwrap();
+    std::fs::write(&path, base_preview(&scene, &load(&scene).unwrap().surfaces.pin_base).unwrap()).unwrap();
     let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];

@@ -1,88 +1,17 @@
 //! Run files: what is in them, what is never overwritten, and what is left when something fails.
 
+mod fixtures;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use fixtures::{header, sample, small, snapshot};
 use hdf5::file::OpenMode;
 use hdf5::types::VarLenUnicode;
-use plateau_core::mesh::Mesh;
-use plateau_core::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
-use plateau_core::state::Base;
-use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, report_file_size_limit};
-
-fn header(rows: usize, disc_columns: usize, pin_columns: usize, maps: &[Map]) -> Header {
-    let mesh = Mesh::new(rows, disc_columns, pin_columns, 20e-3, 24e-3).unwrap();
-    Header {
-        title: "Größe".into(),
-        pin_base: (0..mesh.pin_cells()).map(|cell| if cell % 3 == 0 { Base::Primary } else { Base::None }).collect(),
-        mesh,
-        maps: maps.to_vec(),
-        roughness: false,
-        expected_samples: 1000,
-        scene: "version = 1\n".into(),
-        program: "plateau 0.1.0".into(),
-        source_revision: "0123abc".into(),
-        host: "bench".into(),
-        workers: 2,
-        instruction_set: "baseline".into(),
-        seeds: vec![("disc.surface.synthetic.seed".into(), u64::MAX)],
-        inputs: vec![InputFile { path: "scene.toml".into(), sha256: "ab".repeat(32) }],
-        surfaces: vec!["disc.surface: flat".into(), "pin.surface: flat".into()],
-    }
-}
-
-fn small() -> Header {
-    header(4, 12, 5, &Map::ALL)
-}
-
-/// A sample in which every quantity differs from every other.
-fn sample(step: u64) -> Sample {
-    let t = step as f64;
-    Sample {
-        step,
-        time: 0.25 * t,
-        displacement: t + 0.01,
-        contact_area: t + 0.02,
-        contact_area_mean: t + 0.03,
-        contact_area_integral: t + 0.04,
-        sliding_distance: t + 0.05,
-        contact_ratio: t + 0.06,
-        mean_pressure: t + 0.07,
-        max_pressure: t + 0.08,
-        worn_pin: t + 0.09,
-        worn_resin: t + 0.10,
-        worn_disc: t + 0.11,
-        pool: t + 0.12,
-        emitted: t + 0.13,
-        deposited_pin: t + 0.14,
-        deposited_disc: t + 0.15,
-        returned: t + 0.16,
-        pin_primary: t + 0.17,
-        pin_secondary: t + 0.18,
-        pin_none: t + 0.19,
-        disc_secondary: t + 0.20,
-        filled_fraction: t + 0.21,
-        load_residual: t + 0.22,
-        balance_residual: t + 0.23,
-        roughness: None,
-    }
-}
-
-/// Maps in which every cell differs from its neighbours; heights grow with cell, map and time.
-fn snapshot(header: &Header, time: f64) -> Snapshot {
-    let values = |map: Map| {
-        let cells = if map.on_disc() { header.mesh.disc_cells() } else { header.mesh.pin_cells() };
-        let offset = 1000.0 * time + map as u8 as f64 / 10.0;
-        match map {
-            Map::DiscStatus => MapValues::Status((0..cells).map(|cell| 1 + (cell % 2) as u8).collect()),
-            Map::PinStatus => MapValues::Status((0..cells).map(|cell| (cell % 3) as u8).collect()),
-            _ => MapValues::Float((0..cells).map(|cell| cell as f64 + offset).collect()),
-        }
-    };
-    Snapshot { time, maps: header.maps.iter().map(|&map| (map, values(map))).collect() }
-}
+use plateau_core::observe::{Map, MapValues, QUANTITIES};
+use plateau_io::run_file::{End, InputFile, RunFileError, RunWriter, report_file_size_limit};
 
 fn text(file: &hdf5::File, name: &str) -> String {
     file.attr(name).unwrap().read_scalar::<VarLenUnicode>().unwrap().to_string()

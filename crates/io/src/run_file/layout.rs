@@ -15,7 +15,7 @@ use super::status::StoredStatus;
 use crate::timestamp::iso_8601;
 
 /// `format_version` of the files written here.
-const FORMAT_VERSION: i32 = 1;
+pub(super) const FORMAT_VERSION: i32 = 1;
 const CONVENTIONS: &str = "CF-1.11";
 const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Contact Area and Pressure Dependence of \
     Initial Surface Roughness for Cermet-Coated Discs Used in Disc Brakes, Tribology in Industry 41 (2019)";

@@ -1,4 +1,4 @@
-//! Run files: HDF5 with netCDF-4 conventions, as formats.md fixes them.
+//! Run files: HDF5 with netCDF-4 conventions, as formats.md fixes them. [`RunFile`] reads them.
 //!
 //! [`RunWriter::create`] makes the file and hands it to a writer thread. A simulation sends its samples and maps over
 //! a bounded queue and goes on; it waits only when the queue is full. [`RunWriter::finish`] states how the run ended.
@@ -23,6 +23,8 @@ mod header;
 mod layout;
 mod limit;
 mod place;
+mod read_error;
+mod reader;
 mod status;
 mod store;
 mod writer;
@@ -32,4 +34,6 @@ pub use error::RunFileError;
 pub use header::{Header, InputFile};
 pub use limit::report_file_size_limit;
 pub use place::check_place;
+pub use read_error::ReadError;
+pub use reader::{RunFile, Series, State};
 pub use writer::{RunWriter, WriterReport};

@@ -3,53 +3,38 @@
 use std::fs;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::RunFileError;
+use crate::temporary::Temporary;
 
 /// An output path and the temporary file beside it that becomes the output once it is set up.
-///
-/// The temporary is removed when this is dropped.
 pub(super) struct Place {
     path: PathBuf,
-    temporary: PathBuf,
+    temporary: Temporary,
     overwrite: bool,
 }
 
 impl Place {
     /// Checks that a file may be written at `path` and starts the temporary with the given bytes.
     pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-
-        let resolved = resolve(path, overwrite)?;
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let temporary = resolved.with_file_name(format!(".plateau-{}-{number}.tmp", std::process::id()));
-        let place = Self { path: resolved, temporary, overwrite };
-        fs::write(&place.temporary, start).map_err(refused_in(&place.path))?;
-        Ok(place)
+        let path = resolve(path, overwrite)?;
+        let temporary = Temporary::beside(&path);
+        fs::write(temporary.path(), start).map_err(refused_in(&path))?;
+        Ok(Self { path, temporary, overwrite })
     }
 
     /// Where the file is until it is published.
     pub(super) fn temporary(&self) -> &Path {
-        &self.temporary
+        self.temporary.path()
     }
 
     /// Gives the temporary its final name; replaces an existing file only where that was asked for.
     pub(super) fn publish(self) -> Result<PathBuf, RunFileError> {
-        let exists = |path: &Path| RunFileError::Exists { path: path.into() };
-        let published = if self.overwrite {
-            fs::rename(&self.temporary, &self.path)
-        } else {
-            // A link fails where a file has appeared meanwhile; a rename would replace it.
-            match fs::hard_link(&self.temporary, &self.path) {
-                Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(exists(&self.path)),
-                Err(_) if fs::symlink_metadata(&self.path).is_ok() => return Err(exists(&self.path)),
-                // Some file systems have no hard links.
-                Err(_) => fs::rename(&self.temporary, &self.path),
-                Ok(()) => Ok(()),
-            }
-        };
-        published.map(|()| self.path.clone()).map_err(refused_in(&self.path))
+        let Self { path, temporary, overwrite } = self;
+        match temporary.publish(overwrite) {
+            Err(error) if !overwrite && error.kind() == ErrorKind::AlreadyExists => Err(RunFileError::Exists { path }),
+            published => published.map_err(refused_in(&path)).map(|()| path),
+        }
     }
 }
 
@@ -91,11 +76,4 @@ fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
 /// An error of the directory in which `path` is.
 fn refused_in(path: &Path) -> impl Fn(io::Error) -> RunFileError + '_ {
     move |error| RunFileError::Directory { directory: path.parent().unwrap_or(path).into(), reason: error.to_string() }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        // Gone already where it was renamed; otherwise there is nobody left to tell.
-        let _ = fs::remove_file(&self.temporary);
-    }
 }

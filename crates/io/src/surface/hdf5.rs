@@ -10,6 +10,7 @@ use plateau_core::surface::Patch;
 use thiserror::Error;
 
 use super::limits::MOST_POINTS;
+use crate::hdf5_file::{self, text_attribute};
 
 /// Why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
@@ -169,24 +170,6 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
     Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
 }
 
-/// An attribute that is one text of any kind, if there is one.
-fn text_attribute(dataset: &Dataset, name: &str) -> Option<String> {
-    let attribute = dataset.attr(name).ok().filter(|attribute| attribute.size() == 1)?;
-    match attribute.dtype().ok()?.to_descriptor().ok()? {
-        TypeDescriptor::VarLenUnicode => attribute.read_scalar::<VarLenUnicode>().ok().map(|text| text.to_string()),
-        TypeDescriptor::VarLenAscii => {
-            attribute.read_scalar::<hdf5::types::VarLenAscii>().ok().map(|text| text.to_string())
-        }
-        TypeDescriptor::FixedAscii(_) => {
-            attribute.read_scalar::<hdf5::types::FixedAscii<64>>().ok().map(|text| text.to_string())
-        }
-        TypeDescriptor::FixedUnicode(_) => {
-            attribute.read_scalar::<hdf5::types::FixedUnicode<64>>().ok().map(|text| text.to_string())
-        }
-        _ => None,
-    }
-}
-
 /// The attribute `pitch`, m: one length, or those along x and y.
 fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
     let Ok(attribute) = dataset.attr("pitch") else { return Ok(None) };
@@ -253,7 +236,7 @@ pub(super) fn base(
 
 /// The dataset of that name, or the only suitable one.
 fn find(path: &Path, dataset: Option<&str>, wanted: Wanted) -> Result<Dataset, Hdf5Error> {
-    let file = hdf5::File::open(path)?;
+    let file = hdf5_file::open(path)?;
     let Some(name) = dataset else {
         let all = all_datasets(&file)?;
         let mut suitable: Vec<&Dataset> = all.iter().filter(|dataset| wanted.fits(dataset)).collect();

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::mesh::Mesh;
 use plateau_core::state::{Base, InitialSurfaces};
+use plateau_core::surface::describe::HeightParameters;
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction};
 
@@ -234,13 +235,12 @@ fn describe(synthesis: &HeightSynthesis) -> String {
 
 /// Lowest and highest of the heights, their root-mean-square deviation from the mean, skewness and kurtosis.
 fn spread(heights: &[f64]) -> String {
-    let count = heights.len() as f64;
-    let mean = heights.iter().sum::<f64>() / count;
-    let moment = |power: i32| heights.iter().map(|height| (height - mean).powi(power)).sum::<f64>() / count;
-    let rms = moment(2).sqrt();
+    let Some(parameters) = HeightParameters::of(heights) else { return "no heights".to_owned() };
+    let HeightParameters { root_mean_square_height, skewness, kurtosis, .. } = parameters;
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let (skewness, kurtosis) = (moment(3) / rms.powi(3), moment(4) / rms.powi(4));
-    let shape = if rms > 0.0 { format!(", skewness {skewness:.3}, kurtosis {kurtosis:.3}") } else { String::new() };
-    format!("heights from {} to {}, rms {}{shape}", Length(lowest), Length(highest), Length(rms))
+    let shape =
+        if skewness.is_nan() { String::new() } else { format!(", skewness {skewness:.3}, kurtosis {kurtosis:.3}") };
+    let rms = Length(root_mean_square_height);
+    format!("heights from {} to {}, rms {rms}{shape}", Length(lowest), Length(highest))
 }

@@ -7,7 +7,7 @@ use plateau_core::state::Base;
 use plateau_core::surface::micrograph::{FibreMap, PinPlane};
 
 use super::error::{FileError, SurfaceError};
-use super::load::{fibre_map, load};
+use super::load::fibre_map;
 use crate::scene::recipe::{BaseSource, Scene};
 
 /// Pixels of the longer side of a panel.
@@ -21,19 +21,18 @@ const OUTLINE: Rgb = [220, 30, 30];
 const FIBRE: Rgb = [240, 190, 60];
 const RESIN: Rgb = [60, 60, 70];
 
-/// The pin's fibre map as a PNG image: x along the sliding direction to the right, outward to the top, at the true
+/// The pin's fibre map `base`, which was loaded from the scene, as a PNG image: x along the sliding direction to the right, outward to the top, at the true
 /// proportions of the pin. If it comes from a micrograph, that is on the left, with the outline of what was taken for
 /// fibre, before it is mirrored; on the right is the base of the pin's cells.
 ///
 /// # Errors
-/// [`SurfaceError`] as for [`load`].
-pub fn base_preview(scene: &Scene) -> Result<Vec<u8>, SurfaceError> {
+/// [`SurfaceError`] as for [`load`](super::load()).
+pub fn base_preview(scene: &Scene, base: &[Base]) -> Result<Vec<u8>, SurfaceError> {
     let mesh = &scene.parameters.mesh;
     let failed = |file: &Path| {
         let path = file.to_owned();
         move |reason| SurfaceError::File { key: "pin.base", path, reason }
     };
-    let base = load(scene)?.surfaces.pin_base;
     match &scene.pin_base {
         BaseSource::Image { path, recipe } => {
             let (map, _) = fibre_map(path, recipe, mesh).map_err(failed(path))?;
@@ -42,7 +41,7 @@ pub fn base_preview(scene: &Scene) -> Result<Vec<u8>, SurfaceError> {
             let panel = Panel { size, scale };
             let mut canvas = Canvas::new(2, &panel);
             panel.draw(&mut canvas, 0, |x, y| micrograph(&map, recipe.pixel, x, y));
-            panel.draw(&mut canvas, 1, |x, y| cell(&base, mesh, x, y));
+            panel.draw(&mut canvas, 1, |x, y| cell(base, mesh, x, y));
             canvas.png().map_err(failed(path))
         }
         _ => {
@@ -50,7 +49,7 @@ pub fn base_preview(scene: &Scene) -> Result<Vec<u8>, SurfaceError> {
             let size = (2.0 * half.0, 2.0 * half.1);
             let panel = Panel { size, scale: PANEL as f64 / size.0.max(size.1) };
             let mut canvas = Canvas::new(1, &panel);
-            panel.draw(&mut canvas, 0, |x, y| cell(&base, mesh, x, y));
+            panel.draw(&mut canvas, 0, |x, y| cell(base, mesh, x, y));
             canvas.png().map_err(failed(&scene.path))
         }
     }

@@ -4,7 +4,6 @@ use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::SystemTime;
 
 use plateau_core::surface::Patch;
@@ -12,6 +11,7 @@ use thiserror::Error;
 
 use super::sdf::{self, Dialect, Encoding, SdfKind};
 use super::{hdf5, npy, x3p};
+use crate::temporary::Temporary;
 use crate::timestamp;
 
 /// How a surface is written.
@@ -72,8 +72,7 @@ const ENDINGS: &str = ".sdf, .x3p, .npy or .h5";
 /// Writes heights so that reading the file gives the same heights, bit for bit, missing points as missing points.
 ///
 /// The format is that of the ending, .sdf, .x3p, .npy or .h5 in small or large letters. An .npy file has no place for the
-/// pitch. The file appears at `path` when it is
-/// complete; whatever goes wrong, a file that was there before stays as it was.
+/// pitch. The file appears at `path` when it is complete; whatever goes wrong, a file that was there before stays as it was.
 ///
 /// # Errors
 /// [`WriteError`] when the ending is another, the file exists and is not to be replaced, the pitch is no positive number,
@@ -133,7 +132,6 @@ fn default_kind(patch: &Patch) -> SdfKind {
 
 /// Lets `fill` write a temporary file beside `path`, which is there and empty, and gives it its name when that is done.
 fn place(path: &Path, replace: bool, fill: impl FnOnce(&Path) -> io::Result<()>) -> Result<(), WriteError> {
-    static COUNT: AtomicU32 = AtomicU32::new(0);
     let exists = || WriteError::Exists { path: path.into() };
     let system = |reason| WriteError::System { path: path.into(), reason };
     if path.file_name().is_none() {
@@ -148,30 +146,11 @@ fn place(path: &Path, replace: bool, fill: impl FnOnce(&Path) -> io::Result<()>)
     if fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
         return Err(WriteError::NotAFile { path: path.into() });
     }
-    let number = COUNT.fetch_add(1, Ordering::Relaxed);
-    let temporary = Temporary(target.with_file_name(format!(".plateau-{}-{number}.tmp", std::process::id())));
-    File::create_new(&temporary.0).map_err(system)?;
-    fill(&temporary.0).map_err(system)?;
-    let published = if replace {
-        fs::rename(&temporary.0, &target)
-    } else {
-        // A link fails where a file has appeared meanwhile; a rename would replace it.
-        match fs::hard_link(&temporary.0, &target) {
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Err(exists()),
-            // Some file systems have no hard links.
-            Err(_) if fs::symlink_metadata(&target).is_err() => fs::rename(&temporary.0, &target),
-            other => other,
-        }
-    };
-    published.map_err(system)
-}
-
-/// A file that is removed when this is dropped.
-struct Temporary(PathBuf);
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        // Gone already where it was renamed; otherwise there is nobody left to tell.
-        let _ = fs::remove_file(&self.0);
-    }
+    let temporary = Temporary::beside(&target);
+    File::create_new(temporary.path()).map_err(system)?;
+    fill(temporary.path()).map_err(system)?;
+    temporary.publish(replace).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists if !replace => exists(),
+        _ => system(error),
+    })
 }

@@ -110,7 +110,7 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
         output::check(picture, arguments.force, &inputs)?;
     }
     if let Some(preview) = &arguments.preview {
-        let picture = surface::base_preview(&scene).map_err(Failure::input)?;
+        let picture = surface::base_preview(&scene, &surfaces.pin_base).map_err(Failure::input)?;
         output::write(preview, &picture, arguments.force)?;
     }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));

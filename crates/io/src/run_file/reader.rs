@@ -1,0 +1,303 @@
+//! Run files, read: also such that are still written, or whose run was killed.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use hdf5::{Dataset, H5Type};
+use ndarray::s;
+use plateau_core::material::Status;
+use plateau_core::mesh::Mesh;
+use plateau_core::observe::{Map, MapValues};
+
+use super::layout::{FORMAT_VERSION, MAP_TIME, TIME, map_path, series_path};
+use super::read_error::ReadError;
+use crate::hdf5_file;
+use crate::units::{self, Dimension};
+
+/// What a run file says of how its run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum State {
+    /// The run goes on, or it was killed.
+    Running,
+    /// All steps are done.
+    Finished,
+    /// The user stopped the run.
+    Interrupted,
+    /// The run failed; the attribute `error` says why.
+    Failed,
+}
+
+impl State {
+    /// Its name in run files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Running => "running",
+            Self::Finished => "finished",
+            Self::Interrupted => "interrupted",
+            Self::Failed => "failed",
+        }
+    }
+
+    fn of(name: &str) -> Option<Self> {
+        [Self::Running, Self::Finished, Self::Interrupted, Self::Failed].into_iter().find(|state| state.name() == name)
+    }
+}
+
+/// A series of a run file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Series {
+    /// Name of its dataset below `/series`.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// What it is, in words.
+    pub long_name: String,
+}
+
+/// A run file as it was when it was opened: what is appended later is not seen.
+pub struct RunFile {
+    path: PathBuf,
+    file: hdf5::File,
+    title: String,
+    state: State,
+    scene: toml::Table,
+    mesh: Mesh,
+    time: Vec<f64>,
+    map_time: Vec<f64>,
+    series: Vec<Series>,
+}
+
+impl RunFile {
+    /// Opens a run file and reads all of it but series and maps.
+    ///
+    /// # Errors
+    /// [`ReadError`] when there is no file, it is no run file, or it is damaged.
+    pub fn open(path: &Path) -> Result<Self, ReadError> {
+        let system = |error: std::io::Error| ReadError::System { path: path.into(), reason: error.to_string() };
+        // Opening a folder succeeds; reading from it does not.
+        File::open(path).and_then(|mut file| file.read(&mut [0])).map_err(system)?;
+        let is_hdf5 = hdf5_file::is_hdf5(path).map_err(system)?;
+        if !is_hdf5 {
+            return Err(ReadError::NotHdf5 { path: path.into() });
+        }
+        let damaged = |error: hdf5::Error| ReadError::Damaged { path: path.into(), reason: reason(&error) };
+        let file = hdf5_file::open(path).map_err(damaged)?;
+        Opening { path, file: &file }.read()
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Title of the scene.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// How its run ended.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// A text of its root attributes, such as `program` or `host`, if it is there.
+    pub fn attribute(&self, name: &str) -> Option<String> {
+        hdf5_file::text_attribute(&self.file, name)
+    }
+
+    /// A number of its root attributes, such as `workers` or `wall_time`, if it is there.
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.file.attr(name).ok()?.read_scalar().ok()
+    }
+
+    /// The whole resolved scene.
+    pub fn scene(&self) -> &toml::Table {
+        &self.scene
+    }
+
+    /// The ring mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Times of the samples, s.
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Times of the maps, s.
+    pub fn map_time(&self) -> &[f64] {
+        &self.map_time
+    }
+
+    /// The series that it has besides the times.
+    pub fn series(&self) -> &[Series] {
+        &self.series
+    }
+
+    /// Values of a series, one for each time; nothing if it has no such series.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`] when they cannot be read or are fewer than the times.
+    pub fn values(&self, name: &str) -> Result<Option<Vec<f64>>, ReadError> {
+        if !self.series.iter().any(|series| series.name == name) {
+            return Ok(None);
+        }
+        let opening = Opening { path: &self.path, file: &self.file };
+        opening.start(&series_path(name), self.time.len()).map(Some)
+    }
+
+    /// Whether a map was recorded, at whatever times there are.
+    pub fn has_map(&self, map: Map) -> bool {
+        self.file.link_exists(map_path(map))
+    }
+
+    /// The values of a map, column by column, at the time of that index; nothing if it was not recorded.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`] when they cannot be read or do not fit the mesh.
+    pub fn map(&self, map: Map, index: usize) -> Result<Option<MapValues>, ReadError> {
+        if !self.has_map(map) {
+            return Ok(None);
+        }
+        let opening = Opening { path: &self.path, file: &self.file };
+        let columns = if map.on_disc() { self.mesh.disc_columns() } else { self.mesh.pin_columns() };
+        let shape = (columns, self.mesh.rows());
+        if map.is_status() {
+            let values = opening.level::<u8>(map_path(map), index, shape)?;
+            match values.iter().find(|value| **value > Status::Secondary as u8) {
+                Some(value) => Err(opening.damaged(format!("{} has {value}, which is no status", map_path(map)))),
+                None => Ok(Some(MapValues::Status(values))),
+            }
+        } else {
+            opening.level::<f64>(map_path(map), index, shape).map(|values| Some(MapValues::Float(values)))
+        }
+    }
+}
+
+/// A file of which it is not yet known whether it is a run file.
+struct Opening<'a> {
+    path: &'a Path,
+    file: &'a hdf5::File,
+}
+
+impl Opening<'_> {
+    fn read(self) -> Result<RunFile, ReadError> {
+        let foreign = |missing: &str| ReadError::Foreign { path: self.path.into(), missing: missing.into() };
+        let version: i64 = self
+            .file
+            .attr("format_version")
+            .and_then(|attribute| attribute.read_scalar())
+            .map_err(|_| foreign("root attribute format_version"))?;
+        if version > i64::from(FORMAT_VERSION) {
+            return Err(ReadError::Newer { path: self.path.into(), found: version, expected: FORMAT_VERSION });
+        }
+        let text = |name: &str| {
+            hdf5_file::text_attribute(self.file, name).ok_or_else(|| foreign(&format!("root attribute {name}")))
+        };
+        let state = text("state")?;
+        let state = State::of(&state).ok_or_else(|| self.damaged(format!("its state is \"{state}\"")))?;
+        let scene: toml::Table =
+            text("scene")?.parse().map_err(|error| self.damaged(format!("its scene is no TOML: {error}")))?;
+        let mesh = self.mesh(&scene)?;
+        let time = self.all(TIME)?;
+        let map_time = if self.file.link_exists(MAP_TIME) { self.all(MAP_TIME)? } else { Vec::new() };
+        Ok(RunFile {
+            path: self.path.into(),
+            file: self.file.clone(),
+            title: text("title")?,
+            state,
+            scene,
+            mesh,
+            time,
+            map_time,
+            series: self.series()?,
+        })
+    }
+
+    /// The mesh, as the scene has it; the coordinates must be those of this mesh.
+    fn mesh(&self, scene: &toml::Table) -> Result<Mesh, ReadError> {
+        let value = |key: &str| scene.get("mesh").and_then(|mesh| mesh.get(key));
+        let incomplete = |key: &str| self.damaged(format!("its scene has no usable mesh.{key}"));
+        let length = |key: &str| {
+            let text = value(key).and_then(toml::Value::as_str);
+            text.and_then(|text| units::parse(text, Dimension::Length).ok()).ok_or_else(|| incomplete(key))
+        };
+        let count = |key: &str| {
+            let number = value(key).and_then(toml::Value::as_integer);
+            number.and_then(|number| usize::try_from(number).ok()).ok_or_else(|| incomplete(key))
+        };
+        let (rows, disc_columns, pin_columns) = (count("rows")?, count("disc_columns")?, count("pin_columns")?);
+        for (name, expected) in [("radius", rows), ("disc_angle", disc_columns), ("pin_angle", pin_columns)] {
+            let found = self.dataset(name)?.size();
+            if found != expected {
+                return Err(self.damaged(format!("/{name} has {found} values, expected {expected} as in its scene")));
+            }
+        }
+        Mesh::new(rows, disc_columns, pin_columns, length("inner_radius")?, length("outer_radius")?)
+            .map_err(|error| self.damaged(format!("its mesh: {error}")))
+    }
+
+    fn series(&self) -> Result<Vec<Series>, ReadError> {
+        let group = self
+            .file
+            .group("series")
+            .map_err(|_| ReadError::Foreign { path: self.path.into(), missing: "group /series".into() })?;
+        let names = group.member_names().map_err(|error| self.damaged(reason(&error)))?;
+        let series = names.into_iter().map(|name| {
+            let dataset = self.dataset(&series_path(&name))?;
+            let text = |attribute| hdf5_file::text_attribute(&dataset, attribute).unwrap_or_default();
+            Ok(Series { unit: text("units"), long_name: text("long_name"), name })
+        });
+        series.collect()
+    }
+
+    fn dataset(&self, path: &str) -> Result<Dataset, ReadError> {
+        if !self.file.link_exists(path) {
+            return Err(ReadError::Foreign { path: self.path.into(), missing: format!("dataset /{path}") });
+        }
+        self.file.dataset(path).map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
+    }
+
+    fn all(&self, path: &str) -> Result<Vec<f64>, ReadError> {
+        let values = self.dataset(path)?.read_1d::<f64>();
+        values.map(|values| values.to_vec()).map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
+    }
+
+    /// The first values of a dataset with one dimension.
+    fn start(&self, path: &str, count: usize) -> Result<Vec<f64>, ReadError> {
+        let dataset = self.dataset(path)?;
+        if dataset.ndim() != 1 || dataset.size() < count {
+            return Err(self.damaged(format!("/{path} has shape {:?}, expected {count} values", dataset.shape())));
+        }
+        let values = dataset.read_slice_1d::<f64, _>(s![..count]);
+        values.map(|values| values.to_vec()).map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
+    }
+
+    /// The values of a map at one time.
+    fn level<T: H5Type>(&self, path: &str, index: usize, (columns, rows): (usize, usize)) -> Result<Vec<T>, ReadError> {
+        let dataset = self.dataset(path)?;
+        match dataset.shape()[..] {
+            [levels, c, r] if index < levels && (c, r) == (columns, rows) => {
+                let values = dataset.read_slice_2d::<T, _>(s![index, .., ..]);
+                let values = values.map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))?;
+                Ok(values.into_raw_vec_and_offset().0)
+            }
+            _ => Err(self.damaged(format!(
+                "/{path} has shape {:?}, expected ({} or more, {columns}, {rows})",
+                dataset.shape(),
+                index + 1
+            ))),
+        }
+    }
+
+    fn damaged(&self, reason: impl Into<String>) -> ReadError {
+        ReadError::Damaged { path: self.path.into(), reason: reason.into() }
+    }
+}
+
+/// What the library said, on one line.
+fn reason(error: &hdf5::Error) -> String {
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}
