@@ -15,8 +15,8 @@ use hdf5::{Location, OpenMode};
 /// How often the library tries to read an object of a file that is being written and is not whole yet. It waits 1 ns, then
 /// twice as long each time: 33 ms in all. Left to itself it tries a hundred times, which no one lives to see.
 const READ_ATTEMPTS: u32 = 25;
-/// Bytes of the longest text attribute that is read.
-const MOST_TEXT: u64 = 64 << 20;
+/// Bytes that everything but the data may take: names, attributes, and what the library keeps of a file.
+const STRUCTURE: u64 = 256 << 20;
 /// What an HDF5 file starts with, at byte 0 or at 512, 1024 and so on.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 
@@ -40,28 +40,41 @@ pub(crate) fn open(path: &Path) -> hdf5::Result<hdf5::File> {
     builder.open_as(path, mode)
 }
 
+/// Does `work` on a file, for `data` bytes of data, with no more memory than that needs.
+///
+/// The library takes what a file asks for before it looks whether that is there: a text of 4 GiB in a damaged file of
+/// 10 kB takes ten seconds and all that memory to refuse.
+pub(crate) fn guarded<T>(data: usize, work: impl FnOnce() -> T) -> T {
+    // Twice, for a chunk as large as all the data.
+    memory::limited(STRUCTURE.saturating_add((data as u64).saturating_mul(2)), work)
+}
+
 /// Whether a file has a superblock, which is where an HDF5 file begins.
 pub(crate) fn is_hdf5(path: &Path) -> io::Result<bool> {
     Ok(superblock(&File::open(path)?)?.is_some())
 }
 
 /// An attribute that is one text of any kind, if there is one.
-pub(crate) fn text_attribute(location: &Location, name: &str) -> Option<String> {
-    let attribute = location.attr(name).ok().filter(|attribute| attribute.size() == 1)?;
-    match attribute.dtype().ok()?.to_descriptor().ok()? {
-        // The library takes the memory that such a text is said to need, up to 4 GiB, before it looks for it.
-        TypeDescriptor::VarLenUnicode => {
-            memory::limited(MOST_TEXT, || attribute.read_scalar::<VarLenUnicode>()).ok().map(|text| text.to_string())
-        }
-        TypeDescriptor::VarLenAscii => {
-            memory::limited(MOST_TEXT, || attribute.read_scalar::<VarLenAscii>()).ok().map(|text| text.to_string())
-        }
-        TypeDescriptor::FixedAscii(_) => attribute.read_scalar::<FixedAscii<64>>().ok().map(|text| text.to_string()),
-        TypeDescriptor::FixedUnicode(_) => {
-            attribute.read_scalar::<FixedUnicode<64>>().ok().map(|text| text.to_string())
-        }
-        _ => None,
+///
+/// # Errors
+/// What the library says when it is there and cannot be read.
+pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Option<String>> {
+    // There is no other way to ask whether it is there.
+    let Ok(attribute) = location.attr(name) else { return Ok(None) };
+    if attribute.size() != 1 {
+        return Ok(None);
     }
+    match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::VarLenUnicode => text(attribute.read_scalar::<VarLenUnicode>()),
+        TypeDescriptor::VarLenAscii => text(attribute.read_scalar::<VarLenAscii>()),
+        TypeDescriptor::FixedAscii(_) => text(attribute.read_scalar::<FixedAscii<64>>()),
+        TypeDescriptor::FixedUnicode(_) => text(attribute.read_scalar::<FixedUnicode<64>>()),
+        _ => Ok(None),
+    }
+}
+
+fn text(read: hdf5::Result<impl ToString>) -> hdf5::Result<Option<String>> {
+    read.map(|text| Some(text.to_string()))
 }
 
 /// Whether the superblock says that a program has the file open for writing; if it was killed, it still does.
