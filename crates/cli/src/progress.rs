@@ -37,7 +37,7 @@ impl Progress {
         self.bar.set_message(format!(
             "{:.1} of {:.1} s  {} steps/s  contact {:.3} mm²",
             simulation.time(),
-            parameters.time_at(parameters.steps),
+            parameters.clock().time_at(parameters.steps),
             number::grouped(self.bar.per_sec() as u64),
             simulation.course().contact_area * 1e6
         ));

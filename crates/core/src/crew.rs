@@ -17,6 +17,8 @@ use crate::worker::{Course, Worker};
 enum Order {
     /// Take steps until so many are done, and watch the last or not.
     AdvanceTo(u64, bool),
+    /// Change the acceleration.
+    Accelerate(f64),
     /// Take a sample.
     Sample,
     /// Take maps.
@@ -88,9 +90,18 @@ impl Crew {
 
     /// Takes steps until `step` of them are done; the last may be watched.
     pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
-        match self.ask(&Order::AdvanceTo(step, watched))? {
+        self.go(&Order::AdvanceTo(step, watched))
+    }
+
+    /// Changes the acceleration of the coming steps.
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        self.go(&Order::Accelerate(acceleration))
+    }
+
+    fn go(&mut self, order: &Order) -> Result<(), SimulationError> {
+        match self.ask(order)? {
             Answer::Course(course) => self.course = course,
-            answer => unreachable!("{answer:?} to an order to advance"),
+            answer => unreachable!("{answer:?} to an order to go on"),
         }
         Ok(())
     }
@@ -156,6 +167,9 @@ fn work<C: Communicator>(
 fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answer, SimulationError> {
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
+        Order::Accelerate(acceleration) => {
+            worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course()))
+        }
         Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
         Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),
     }

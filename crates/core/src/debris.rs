@@ -60,8 +60,6 @@ impl Debris {
     /// Empty pools.
     pub fn new(parameters: &Parameters, coefficients: &Coefficients, weights: &RowWeights) -> Self {
         let Parameters { mesh, plateaus: rules, .. } = parameters;
-        let losses = coefficients.pin.iter().chain(&coefficients.disc).flatten();
-        let largest_loss = losses.copied().fold(0.0, f64::max);
         let columns = mesh.pin_columns() as i128;
         let area_of =
             |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
@@ -73,13 +71,18 @@ impl Debris {
             columns: mesh.pin_columns(),
             pool_area: (0..weights.pools()).map(area_of).collect(),
             area_unit: weights.area.unit(),
-            loss_exponent: if largest_loss > 0.0 { libm::ilogb(largest_loss) + 1 } else { 0 },
+            loss_exponent: loss_exponent(coefficients),
             pools: vec![RunningSum::default(); weights.pools()],
             pool_share: vec![0.0; weights.pools()],
             share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
             deposits: Quantum::of(0.0, 1),
             totals: Totals::default(),
         }
+    }
+
+    /// Takes over the coefficients of another acceleration.
+    pub fn set_coefficients(&mut self, coefficients: &Coefficients) {
+        self.loss_exponent = loss_exponent(coefficients);
     }
 
     /// Spreads each pool evenly over its cells that do not touch: s = M/S.
@@ -197,4 +200,11 @@ impl Debris {
         }
         rest.value() / worn
     }
+}
+
+/// Power of two that is above any loss per overlap.
+fn loss_exponent(coefficients: &Coefficients) -> i32 {
+    let losses = coefficients.pin.iter().chain(&coefficients.disc).flatten();
+    let largest = losses.copied().fold(0.0, f64::max);
+    if largest > 0.0 { libm::ilogb(largest) + 1 } else { 0 }
 }

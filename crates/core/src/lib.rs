@@ -42,6 +42,7 @@
 //! an approximation. The explicit wear rule overshoots when the stiffness number Π = κ k m r Δθ exceeds 1 and is
 //! unstable above 2 ([`parameters::Parameters::stiffness_number`]); the exponential rule never is.
 
+pub mod clock;
 pub mod comm;
 pub mod contact;
 mod crew;

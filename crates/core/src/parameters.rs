@@ -1,5 +1,6 @@
 //! Everything a simulation is told before its first step, apart from the initial surfaces (model section 3).
 
+use crate::clock::Clock;
 use crate::material::Materials;
 use crate::mesh::Mesh;
 
@@ -67,16 +68,9 @@ impl Parameters {
         self.time_acceleration * self.mesh.column_angle() / self.angular_velocity
     }
 
-    /// Number of steps until the physical time `time` (s) is reached: ceil(time/(m Δt) − 1e-9).
-    ///
-    /// Saturates at `u64::MAX`.
-    pub fn steps_until(&self, time: f64) -> u64 {
-        (time / self.step_time() - 1e-9).ceil().max(0.0) as u64
-    }
-
-    /// Physical time at the end of step number `step` (counted from 1), s.
-    pub fn time_at(&self, step: u64) -> f64 {
-        step as f64 * self.step_time()
+    /// The clock of a simulation whose acceleration never changes.
+    pub fn clock(&self) -> Clock {
+        Clock::new(self.step_time())
     }
 
     /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2

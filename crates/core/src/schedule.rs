@@ -1,5 +1,6 @@
 //! When samples and maps are taken (formats.md, run file).
 
+use crate::clock::Clock;
 use crate::parameters::Parameters;
 
 /// When samples are taken.
@@ -11,42 +12,76 @@ pub enum SampleEvery {
     Steps(u64),
 }
 
+/// When a run is over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum End {
+    /// After this physical time, s.
+    Time(f64),
+    /// After so many steps.
+    Steps(u64),
+}
+
 /// The steps after which a sample or maps are due.
 #[derive(Debug, Clone)]
-pub struct Schedule<'a> {
-    parameters: &'a Parameters,
+pub struct Schedule {
+    clock: Clock,
     sample_every: SampleEvery,
+    maps_at: Vec<f64>,
+    end: End,
+    /// The last step.
+    last: u64,
     /// Steps after which maps are due, ascending; the last step is always among them.
     map_steps: Vec<u64>,
 }
 
-impl<'a> Schedule<'a> {
-    /// Plans samples and the maps of the physical times `maps_at` (s); times beyond the end fall on the last step.
-    pub fn new(parameters: &'a Parameters, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
-        let last = parameters.steps;
-        let mut map_steps: Vec<u64> = maps_at.iter().map(|time| parameters.steps_until(*time).min(last)).collect();
-        map_steps.push(last);
-        map_steps.sort_unstable();
-        map_steps.dedup();
-        Self { parameters, sample_every, map_steps }
+impl Schedule {
+    /// Plans samples and the maps of the physical times `maps_at` (s) of a run whose acceleration never changes; times
+    /// beyond the end fall on the last step.
+    pub fn new(parameters: &Parameters, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
+        Self::with_end(parameters.clock(), End::Steps(parameters.steps), sample_every, maps_at)
+    }
+
+    /// The same with steps by `clock`, until `end`.
+    pub fn with_end(clock: Clock, end: End, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
+        let mut schedule = Self { clock, sample_every, maps_at: maps_at.to_vec(), end, last: 0, map_steps: Vec::new() };
+        schedule.change(clock);
+        schedule
+    }
+
+    /// Plans anew what lies ahead when the acceleration has changed.
+    pub fn change(&mut self, clock: Clock) {
+        self.clock = clock;
+        self.last = match self.end {
+            End::Steps(steps) => steps,
+            End::Time(time) => clock.steps_until(time).max(1),
+        };
+        self.map_steps = self.maps_at.iter().map(|time| clock.steps_until(*time).min(self.last)).collect();
+        self.map_steps.push(self.last);
+        self.map_steps.sort_unstable();
+        self.map_steps.dedup();
+    }
+
+    /// The last step.
+    pub fn last(&self) -> u64 {
+        self.last
     }
 
     /// The first step after `step` with a sample: the first with t ≥ j · sample_every for a new j, or the last.
     pub fn next_sample(&self, step: u64) -> u64 {
         let next = match self.sample_every {
             SampleEvery::Steps(every) => (step / every + 1).saturating_mul(every),
-            SampleEvery::Time(every) if every <= self.parameters.step_time() => step + 1,
+            SampleEvery::Time(every) if every <= self.clock.step_time() => step + 1,
             SampleEvery::Time(every) => {
-                let mut multiple = (self.parameters.time_at(step) / every).floor();
-                let mut next = self.parameters.steps_until(multiple * every);
+                let mut multiple = (self.clock.time_at(step) / every).floor();
+                let mut next = self.clock.steps_until(multiple * every);
                 while next <= step {
                     multiple += 1.0;
-                    next = self.parameters.steps_until(multiple * every);
+                    next = self.clock.steps_until(multiple * every);
                 }
                 next
             }
         };
-        next.min(self.parameters.steps)
+        next.min(self.last)
     }
 
     /// Whether maps are due after `step`.
@@ -64,9 +99,9 @@ impl<'a> Schedule<'a> {
     pub fn samples(&self) -> u64 {
         let per_sample = match self.sample_every {
             SampleEvery::Steps(every) => every as f64,
-            SampleEvery::Time(every) => (every / self.parameters.step_time()).max(1.0),
+            SampleEvery::Time(every) => (every / self.clock.step_time()).max(1.0),
         };
-        (self.parameters.steps as f64 / per_sample - 1e-9).ceil() as u64
+        (self.last as f64 / per_sample - 1e-9).ceil() as u64
     }
 
     /// Number of times at which maps are taken.

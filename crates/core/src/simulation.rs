@@ -227,6 +227,16 @@ impl Simulation {
         team!(self, team => team.advance_to(step, false))
     }
 
+    /// Has the coming steps stand for another number of revolutions than those so far (model 4.6).
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        team!(self, team => team.accelerate(acceleration))?;
+        Arc::make_mut(&mut self.parameters).time_acceleration = acceleration;
+        Ok(())
+    }
+
     /// The reported quantities after the last step.
     ///
     /// # Errors
@@ -312,7 +322,7 @@ impl Simulation {
 
     /// t, s.
     pub fn time(&self) -> f64 {
-        self.parameters.time_at(self.steps_done())
+        self.course().time
     }
 }
 

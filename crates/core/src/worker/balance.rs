@@ -66,7 +66,7 @@ impl<C: Communicator> Worker<C> {
     }
 
     /// Reads all own pairs of the coming step against a bracket, and gathers what the others read.
-    fn read_columns(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+    pub(super) fn read_columns(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
         self.course.extra_readings += 1;
         self.reading.clear();
         for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {

@@ -11,6 +11,7 @@ mod report;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::clock::Clock;
 use crate::comm::Communicator;
 use crate::contact::Contact;
 use crate::debris::Debris;
@@ -33,6 +34,8 @@ use crate::sums::{RowWeights, Sums};
 pub struct Course {
     /// Steps done.
     pub steps: u64,
+    /// t, s.
+    pub time: f64,
     /// Contact area of the last step, m².
     pub contact_area: f64,
     /// Largest load residual of any step.
@@ -78,6 +81,7 @@ pub(crate) struct Worker<C> {
     /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
     pressure: Vec<f64>,
     course: Course,
+    clock: Clock,
     /// Columns by which the disc was turned before the first step.
     turned: u64,
     /// The group of workers that shares the worker's sectors.
@@ -135,6 +139,7 @@ impl<C: Communicator> Worker<C> {
             halo: Vec::new(),
             pressure: Vec::new(),
             course: Course::default(),
+            clock: parameters.clock(),
             turned,
             group,
             band,
@@ -184,9 +189,23 @@ impl<C: Communicator> Worker<C> {
         self.bracket = Some(bracket);
         self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
         self.course.contact_area = self.contact.area();
-        self.history.record(self.course.contact_area, self.parameters.step_time());
+        self.history.record(self.course.contact_area, self.clock.step_time());
         self.course.steps += 1;
+        self.course.time = self.clock.time_at(self.course.steps);
         Ok(())
+    }
+
+    /// Has the coming steps stand for `acceleration` revolutions each, in place of what it was so far (model 4.6).
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
+        self.clock = self.clock.changed(self.course.steps, parameters.step_time());
+        self.coefficients = Coefficients::new(&parameters);
+        self.rules = Rules::new(&parameters, &self.coefficients);
+        self.weights = RowWeights::new(&parameters, &self.coefficients, self.rows.clone());
+        self.debris.set_coefficients(&self.coefficients);
+        self.parameters = Arc::new(parameters);
+        // The sums of the coming step were taken with the weights of before.
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
     }
 
     /// The disc column under pin column 0 in the coming step.

@@ -12,11 +12,6 @@ use crate::state::{disc_status, pin_status};
 use crate::strips::DiscSector;
 
 impl<C: Communicator> Worker<C> {
-    /// t, s.
-    pub fn time(&self) -> f64 {
-        self.parameters.time_at(self.course.steps)
-    }
-
     /// The reported quantities after the last step.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         self.check_watched()?;
@@ -35,12 +30,12 @@ impl<C: Communicator> Worker<C> {
         let totals = self.debris.totals();
         Ok(Sample {
             step: self.course.steps,
-            time: self.time(),
+            time: self.course.time,
             displacement: self.contact.displacement(),
             contact_area,
             contact_area_mean: self.history.revolution_mean(),
             contact_area_integral: self.history.integral(),
-            sliding_distance: self.time() * parameters.angular_velocity * mesh.mean_radius(),
+            sliding_distance: self.course.time * parameters.angular_velocity * mesh.mean_radius(),
             contact_ratio: contact_area / mesh.pin_area(),
             mean_pressure: if contact_area > 0.0 { self.contact.load() / contact_area } else { 0.0 },
             max_pressure: largest_pressure,
@@ -114,7 +109,7 @@ impl<C: Communicator> Worker<C> {
             };
             values.push((*map, field));
         }
-        Ok(Snapshot { time: self.time(), maps: values })
+        Ok(Snapshot { time: self.course.time, maps: values })
     }
 
     /// The values of a map of the disc, as words, column by column.

@@ -85,7 +85,7 @@ fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
     }
     let (steps_key, steps) = match settings.optional_number("operation.duration")? {
-        Some(duration) => ("operation.duration", parameters.steps_until(duration).max(1)),
+        Some(duration) => ("operation.duration", parameters.clock().steps_until(duration).max(1)),
         None => ("operation.steps", settings.integer("operation.steps")?),
     };
     if steps > MOST_STEPS {
@@ -338,7 +338,7 @@ fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Ve
     };
     times.sort_unstable_by(f64::total_cmp);
     times.dedup();
-    let end = parameters.time_at(parameters.steps);
+    let end = parameters.clock().time_at(parameters.steps);
     // The time of a step is rounded; what is nearer to the end than this is the end.
     let (kept, beyond): (Vec<_>, Vec<_>) = times.into_iter().partition(|time| *time <= end * (1.0 + 1e-9));
     if !beyond.is_empty() {

@@ -1,0 +1,56 @@
+//! Physical time of steps (model 4.6).
+
+/// At which physical time steps end, from the last change of the acceleration on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clock {
+    /// The step after which it changed.
+    step: u64,
+    /// t at its end, s.
+    time: f64,
+    /// m Δt, s.
+    step_time: f64,
+}
+
+impl Clock {
+    /// A clock that stands at t = 0 before the first step, each of which takes `step_time` (s).
+    pub fn new(step_time: f64) -> Self {
+        Self { step: 0, time: 0.0, step_time }
+    }
+
+    /// m Δt = m Δθ/ω, s: physical time of one step.
+    pub fn step_time(&self) -> f64 {
+        self.step_time
+    }
+
+    /// t at the end of a step (counted from 1), s; not of one before the last change.
+    pub fn time_at(&self, step: u64) -> f64 {
+        self.time + (step - self.step) as f64 * self.step_time
+    }
+
+    /// Steps done when t ≥ `time` (s) for the first time: ceil(time/(m Δt) − 1e-9) where nothing changed yet.
+    ///
+    /// Saturates at `u64::MAX`.
+    pub fn steps_until(&self, time: f64) -> u64 {
+        self.step.saturating_add(((time - self.time) / self.step_time - 1e-9).ceil().max(0.0) as u64)
+    }
+
+    /// The same clock whose steps take `step_time` (s) after `step`.
+    pub fn changed(&self, step: u64, step_time: f64) -> Self {
+        Self { step, time: self.time_at(step), step_time }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Clock;
+
+    #[test]
+    fn time_goes_on_from_a_change() {
+        // By hand: 10 steps of 0.5 s, then steps of 2 s.
+        let clock = Clock::new(0.5).changed(10, 2.0);
+        assert_eq!([10, 11, 15].map(|step| clock.time_at(step)), [5.0, 7.0, 15.0]);
+        assert_eq!([5.0, 5.1, 7.0, 7.1].map(|time| clock.steps_until(time)), [10, 11, 11, 12]);
+        // Rounding of a time that is a multiple of the step must not cost a step.
+        assert_eq!(Clock::new(0.1).steps_until(0.3), 3);
+    }
+}
