@@ -1,19 +1,15 @@
 //! A page and what is put on it, in pixels from the upper left corner.
 
 use std::fmt;
-use std::sync::Once;
 
 use plotters::coord::Shift;
 use plotters::element::{BitMapElement, PathElement, Polygon};
 use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea as _, IntoFont as _, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontStyle, FontTransform, RGBColor, ShapeStyle, WHITE, register_font};
+use plotters::style::{Color as _, FontTransform, RGBColor, ShapeStyle, WHITE};
 
 use super::colour::INK;
-
-/// DejaVu Sans, which has the letters of most names that files have; its licence is beside it.
-const FONT: &[u8] = include_bytes!("../../fonts/DejaVuSans.ttf");
-const FONT_NAME: &str = "figure";
+use super::font::{self, FONT_NAME};
 
 /// Height of the letters of numbers and words, pixels.
 pub const TEXT: u32 = 34;
@@ -73,12 +69,15 @@ pub struct Canvas<B: DrawingBackend> {
 impl<B: DrawingBackend> Canvas<B> {
     /// A white page.
     pub fn new(backend: B) -> Result<Self, FigureError> {
-        static FONT_ONCE: Once = Once::new();
-        // A font that is part of the program is a font; where it were not, drawing text would fail with a reason.
-        FONT_ONCE.call_once(|| drop(register_font(FONT_NAME, FontStyle::Normal, FONT)));
-        let area = backend.into_drawing_area();
-        area.fill(&WHITE).map_err(failed)?;
-        Ok(Self { area })
+        let canvas = Self::clear(backend);
+        canvas.area.fill(&WHITE).map_err(failed)?;
+        Ok(canvas)
+    }
+
+    /// A page without a ground, to be laid over what is there.
+    pub fn clear(backend: B) -> Self {
+        font::register();
+        Self { area: backend.into_drawing_area() }
     }
 
     /// Finishes the page.
@@ -97,6 +96,12 @@ impl<B: DrawingBackend> Canvas<B> {
     pub fn area(&self, places: &[Place], colour: RGBColor) -> Result<(), FigureError> {
         let places: Vec<_> = places.iter().map(pixels).collect();
         self.area.draw(&Polygon::new(places, colour)).map_err(failed)
+    }
+
+    /// A filled polygon through which what is below can be seen.
+    pub fn tint(&self, places: &[Place], colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
+        let places: Vec<_> = places.iter().map(pixels).collect();
+        self.area.draw(&Polygon::new(places, colour.mix(opacity))).map_err(failed)
     }
 
     /// A bitmap with its upper left corner there; three bytes a pixel, row by row.
@@ -119,12 +124,6 @@ impl<B: DrawingBackend> Canvas<B> {
         let font = (FONT_NAME, size).into_font().transform(FontTransform::Rotate270);
         let style = font.color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
         self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
-    }
-
-    /// Width of a text, pixels.
-    pub fn text_width(&self, text: &str, size: u32) -> f64 {
-        let style = (FONT_NAME, size).into_font().color(&INK);
-        self.area.estimate_text_size(text, &style).map_or(0.0, |(width, _)| f64::from(width))
     }
 }
 

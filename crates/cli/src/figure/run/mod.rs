@@ -1,0 +1,125 @@
+//! The figures of runs: for one run, or for several side by side with common scales.
+//!
+//! [`figures`] reads what is plotted and gives it as plain data; a [`Figure`] draws itself.
+//!
+//! | figure | where |
+//! |---|---|
+//! | contact area against time | [`contact_area`] |
+
+mod chart;
+mod contact_area;
+mod label;
+
+use plateau_io::run_file::{ReadError, RunFile};
+
+use super::canvas::FigureError;
+use super::format;
+use super::page::Page;
+use label::labels;
+
+/// More runs make no legible figure, and have no colours of their own.
+pub const MOST_RUNS: usize = super::colour::RUNS.len();
+
+/// How figures are to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// The ring as a ring, instead of unrolled.
+    pub polar: bool,
+}
+
+/// One figure of one or several runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Its name, fit for a file.
+    pub name: &'static str,
+    /// What it shows, in a few words.
+    pub title: &'static str,
+    /// What it shows, in a sentence or two.
+    pub caption: String,
+    /// What is plotted where.
+    page: Page,
+}
+
+impl Figure {
+    /// The figure as SVG text.
+    ///
+    /// # Errors
+    /// [`FigureError`] when it cannot be drawn.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        format::svg(&self.page)
+    }
+
+    /// The figure as PNG.
+    ///
+    /// # Errors
+    /// [`FigureError`] when it cannot be drawn.
+    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
+        format::png(&self.page)
+    }
+
+    /// The figure as PDF, one page of its size.
+    ///
+    /// # Errors
+    /// [`FigureError`] when it cannot be drawn.
+    pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
+        format::pdf(&self.page, self.title)
+    }
+}
+
+/// The figures that there are of runs, and why others are not.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Figures {
+    /// The figures.
+    pub figures: Vec<Figure>,
+    /// What was left out and why, a sentence each.
+    pub left_out: Vec<String>,
+}
+
+/// A run with what it is called in figures.
+struct Subject<'a> {
+    run: &'a RunFile,
+    label: String,
+}
+
+/// The figures of runs. What a run did not record is left out.
+///
+/// # Errors
+/// [`ReadError`] when a file turns out to be damaged.
+pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError> {
+    let labels = labels(runs);
+    let subjects: Vec<Subject> = runs.iter().zip(labels).map(|(run, label)| Subject { run, label }).collect();
+    let mut figures = Figures::default();
+    let _ = options;
+    contact_area::add(&subjects, &mut figures)?;
+    Ok(figures)
+}
+
+impl Figures {
+    fn add(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, page: Page) {
+        self.figures.push(Figure { name, title, caption: caption.into(), page });
+    }
+
+    /// Notes that a figure, or the part of a run in it, is left out.
+    fn leave_out(&mut self, what: &str, subject: &Subject, missing: &str) {
+        self.left_out.push(format!("{what} is left out: {} has {missing}", subject.run.path().display()));
+    }
+
+    /// The runs that have all these series and at least one sample; of the others it is noted that they are left out.
+    fn with_series<'a>(
+        &mut self,
+        what: &str,
+        subjects: &'a [Subject<'a>],
+        series: &[&str],
+    ) -> Vec<(usize, &'a Subject<'a>)> {
+        let mut having = Vec::new();
+        for (number, subject) in subjects.iter().enumerate() {
+            let has = |name: &&&str| subject.run.series().iter().any(|series| series.name == **name);
+            match series.iter().find(|name| !has(name)) {
+                Some(name) => self.leave_out(what, subject, &format!("no series {name}")),
+                None if subject.run.time().is_empty() => self.leave_out(what, subject, "no samples"),
+                None => having.push((number, subject)),
+            }
+        }
+        having
+    }
+}
