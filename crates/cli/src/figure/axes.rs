@@ -14,7 +14,9 @@ const TICK: f64 = 10.0;
 /// Room between a tick and its label, pixels.
 const GAP: f64 = 6.0;
 /// Pixels along an axis for one tick, at least.
-pub const PER_TICK: [f64; 2] = [100.0, 70.0];
+const PER_TICK: [f64; 2] = [120.0, 70.0];
+/// The same for an axis so short that ticks stand as close as their numbers can.
+const LEAST_PER_TICK: f64 = 46.0;
 
 /// A rectangle of the page, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +102,7 @@ impl Axis {
 
     /// Room that an axis of this length takes to the left of its box, with numbers and label, pixels.
     pub fn room_beside(&self, length: f64) -> f64 {
-        let labels = if self.numbered { self.ticks(most_ticks(length, PER_TICK[1])) } else { Vec::new() };
+        let labels = if self.numbered { self.ticks(most_ticks_upward(length)) } else { Vec::new() };
         let widest = labels.iter().map(|(_, label)| text_width(label, TEXT)).fold(0.0, f64::max);
         let label = if self.label.is_empty() { 0.0 } else { 1.2 * f64::from(TEXT) };
         TICK + 3.0 * GAP + widest + label
@@ -146,7 +148,7 @@ impl Axes {
         let mut corners = self.frame.corners().to_vec();
         corners.push(corners[0]);
         canvas.line(&corners, INK, LINE)?;
-        for (value, label) in self.x.ticks(most_ticks(self.frame.width(), PER_TICK[0])) {
+        for (value, label) in self.x.ticks(most_ticks(self.frame.width())) {
             let x = left + self.x.part(value) * self.frame.width();
             canvas.line(&[(x, bottom), (x, bottom + TICK)], INK, LINE)?;
             if self.x.numbered {
@@ -154,7 +156,7 @@ impl Axes {
             }
         }
         let mut widest = 0.0_f64;
-        for (value, label) in self.y.ticks(most_ticks(self.frame.height(), PER_TICK[1])) {
+        for (value, label) in self.y.ticks(most_ticks_upward(self.frame.height())) {
             let y = bottom - self.y.part(value) * self.frame.height();
             canvas.line(&[(left - TICK, y), (left, y)], INK, LINE)?;
             if self.y.numbered {
@@ -167,11 +169,17 @@ impl Axes {
         let below = bottom + TICK + GAP + if self.x.numbered { GAP + letter } else { 0.0 };
         canvas.text(&self.x.label, (middle[0], below), Anchor::Below, TEXT)?;
         let beside = left - TICK - 3.0 * GAP - widest;
-        canvas.upward_text(&self.y.label, (beside, middle[1]), TEXT)
+        canvas.text(&self.y.label, (beside, middle[1]), Anchor::Upward, TEXT)
     }
 }
 
-/// Ticks that have room.
-pub fn most_ticks(length: f64, per_tick: f64) -> usize {
-    ((length / per_tick) as usize + 1).max(2)
+/// Ticks that have room on an axis from left to right.
+fn most_ticks(length: f64) -> usize {
+    ((length / PER_TICK[0]) as usize + 1).max(2)
+}
+
+/// Ticks that have room on an axis from below upward.
+pub fn most_ticks_upward(length: f64) -> usize {
+    let each = PER_TICK[1].min(0.5 * length).max(LEAST_PER_TICK);
+    ((length / each) as usize + 1).max(2)
 }

@@ -47,6 +47,8 @@ pub enum Anchor {
     Right,
     /// Below it, to its right.
     BelowRight,
+    /// Above it, in its middle, read upward.
+    Upward,
 }
 
 impl Anchor {
@@ -56,6 +58,7 @@ impl Anchor {
             Self::Left => (HPos::Right, VPos::Center),
             Self::Right => (HPos::Left, VPos::Center),
             Self::BelowRight => (HPos::Left, VPos::Top),
+            Self::Upward => (HPos::Center, VPos::Bottom),
         };
         Pos::new(horizontal, vertical)
     }
@@ -112,17 +115,14 @@ impl<B: DrawingBackend> Canvas<B> {
 
     /// A text.
     pub fn text(&self, text: &str, place: Place, anchor: Anchor, size: u32) -> Result<(), FigureError> {
-        let style = (FONT_NAME, size).into_font().color(&INK).pos(anchor.position());
+        if text.is_empty() {
+            return Ok(());
+        }
+        let turn = if anchor == Anchor::Upward { FontTransform::Rotate270 } else { FontTransform::None };
+        let style = (FONT_NAME, size).into_font().transform(turn).color(&INK).pos(anchor.position());
         // Centred is the line with the room above its letters; the letters themselves shall be.
         let beside = matches!(anchor, Anchor::Left | Anchor::Right);
         let place = (place.0, if beside { place.1 + 0.12 * f64::from(size) } else { place.1 });
-        self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
-    }
-
-    /// A text that is read upward, in the middle of its place.
-    pub fn upward_text(&self, text: &str, place: Place, size: u32) -> Result<(), FigureError> {
-        let font = (FONT_NAME, size).into_font().transform(FontTransform::Rotate270);
-        let style = font.color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
         self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
     }
 }

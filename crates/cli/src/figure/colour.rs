@@ -39,6 +39,13 @@ pub fn colour_index(part: f64) -> u8 {
 /// Where a ring has no cells.
 pub const GROUND: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
+/// What a map shows as no part of its range.
+pub const APART: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
+
+/// Colours of what becomes of debris: on the disc, on the pin, out of the contact, in it.
+pub const DEBRIS: [RGBColor; 4] =
+    [RGBColor(0x00, 0x5a, 0x9c), RGBColor(0x8c, 0xc4, 0xe8), RGBColor(0xf0, 0xc3, 0x62), RGBColor(0xc4, 0x4e, 0x1c)];
+
 /// Colours of none, primary and secondary: also told apart by people who are colour-blind, and in grey.
 pub const STATUSES: [RGBColor; 3] =
     [RGBColor(0xe4, 0xe4, 0xe4), RGBColor(0x00, 0x5a, 0x9c), RGBColor(0xe6, 0x9f, 0x00)];

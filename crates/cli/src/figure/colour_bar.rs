@@ -2,7 +2,7 @@
 
 use plotters::prelude::DrawingBackend;
 
-use super::axes::{Axis, Frame, PER_TICK, most_ticks};
+use super::axes::{Axis, Frame, most_ticks_upward};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
 use super::colour::{COLOURS, INK, colour_map, viridis};
 use super::font::text_width;
@@ -49,13 +49,13 @@ impl ColourBar {
         ];
         canvas.line(&outline, INK, LINE)?;
         let mut widest = 0.0_f64;
-        for (value, label) in self.axis.ticks(most_ticks(self.frame.height(), PER_TICK[1])) {
+        for (value, label) in self.axis.ticks(most_ticks_upward(self.frame.height())) {
             let y = bottom - self.axis.part(value) * self.frame.height();
             canvas.line(&[(right, y), (right + 8.0, y)], INK, LINE)?;
             canvas.text(&label, (right + 16.0, y), Anchor::Right, TEXT)?;
             widest = widest.max(text_width(&label, TEXT));
         }
         let beside = right + 16.0 + widest + 14.0 + f64::from(TEXT);
-        canvas.upward_text(&self.axis.label, (beside, 0.5 * (top + bottom)), TEXT)
+        canvas.text(&self.axis.label, (beside, 0.5 * (top + bottom)), Anchor::Upward, TEXT)
     }
 }

@@ -24,9 +24,6 @@ impl AxisUnit {
     /// Micrometres.
     pub const MICROMETRE: Self = Self { symbol: "µm", per_metre: 1e6 };
 
-    /// Millimetres.
-    pub const MILLIMETRE: Self = Self { symbol: "mm", per_metre: 1e3 };
-
     /// Counts instead of lengths.
     pub const POINTS: Self = Self { symbol: "points", per_metre: 1.0 };
 }

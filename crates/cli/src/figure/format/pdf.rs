@@ -1,7 +1,7 @@
 //! A page as PDF, with the letters of the font that it uses.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
+use pdf_writer::types::{CidFontType, FontFlags, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 use subsetter::GlyphRemapper;
 use ttf_parser::{Face, GlyphId};
@@ -34,6 +34,7 @@ pub fn pdf(page: &Page, title: &str) -> Result<Vec<u8>, FigureError> {
     };
     let scale = POINTS as f32;
     operators.content.transform([scale, 0.0, 0.0, -scale, 0.0, high]);
+    operators.content.set_line_join(LineJoinStyle::RoundJoin);
     let mut document = Document { pdf: Pdf::new(), last: 0 };
     let images = document.images(page, &mut operators.content);
     let canvas = Canvas::clear(PdfBackend { operators: &mut operators, size: (width, height) });

@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 
 use super::Subject;
 use crate::figure::axes::{Axes, Axis, Frame};
-use crate::figure::canvas::{Anchor, TEXT, TITLE};
+use crate::figure::canvas::{Anchor, TEXT};
 use crate::figure::colour::RUNS;
 use crate::figure::font::{shortened, text_width};
 use crate::figure::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
@@ -109,13 +109,6 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
         x += width + 48.0;
     }
     if meanings.is_empty() { y } else { y + LINE_OF_TEXT + 8.0 }
-}
-
-/// Writes the title of a page that shows one run; gives the place below.
-pub fn heading(page: &mut Page, text: &str, top: f64) -> f64 {
-    let text = shortened(text, TITLE, page.size[0] - 2.0 * MARGIN);
-    page.write(text, (MARGIN, top), Anchor::BelowRight, TITLE);
-    top + 1.35 * f64::from(TITLE)
 }
 
 /// From 0 to a little more than the largest of the values, or to `least` at least.

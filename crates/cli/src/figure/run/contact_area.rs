@@ -34,7 +34,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         let times: Vec<f64> = subject.run.time().iter().map(|seconds| seconds * time.per_si).collect();
         let single: Vec<f64> = single.iter().map(|value| value * area.per_si).collect();
         bands.push(Content::Band { spans: spans(&times, &single), colour: colour(*number), opacity: 0.28 });
-        let points = times.iter().zip(mean).map(|(time, value)| [*time, value * area.per_si]).collect();
+        let mean: Vec<f64> = mean.iter().map(|value| value * area.per_si).collect();
+        let points = means(&times, &mean);
         lines.push(Content::Line { points, colour: colour(*number), width: LINE + 2 });
         meanings.push(Meaning::of_run(*number, subject));
     }
@@ -51,10 +52,18 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "contact-area",
         "Contact area",
         "Contact area against time: the line is the mean over the last revolution, the band reaches from the least to the \
-         greatest of the samples of single steps.",
+         greatest of the samples of single steps. Where there are more samples than the figure can tell apart, the line is \
+         their mean.",
         page(COLUMN, 760.0, 1, vec![chart], &meanings),
     );
     Ok(())
+}
+
+/// Means of time and value in spans of time.
+fn means(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+    let length = times.len().div_ceil(MOST_SPANS).max(1);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    times.chunks(length).zip(values.chunks(length)).map(|(times, values)| [mean(times), mean(values)]).collect()
 }
 
 /// Least and greatest value in spans of time, each with the last value before it, so that the band has no gaps.
@@ -81,6 +90,16 @@ mod tests {
     fn few_samples_are_their_own_band() {
         // By hand: a span of one sample reaches from the sample before to itself.
         assert_eq!(spans(&[1.0, 2.0, 3.0], &[5.0, 4.0, 6.0]), [[1.0, 5.0, 5.0], [2.0, 4.0, 5.0], [3.0, 4.0, 6.0]]);
+    }
+
+    #[test]
+    fn the_line_goes_through_samples_or_through_their_means() {
+        assert_eq!(means(&[1.0, 2.0], &[5.0, 4.0]), [[1.0, 5.0], [2.0, 4.0]]);
+        let times: Vec<f64> = (0..3 * MOST_SPANS).map(|time| time as f64).collect();
+        let values: Vec<f64> = times.iter().map(|time| time % 3.0).collect();
+        // By hand: three samples a span, the values 0, 1 and 2 in each.
+        let means = means(&times, &values);
+        assert_eq!((means.len(), means[0], means[1]), (MOST_SPANS, [1.0, 1.0], [4.0, 1.0]));
     }
 
     #[test]

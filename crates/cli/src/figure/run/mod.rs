@@ -4,11 +4,33 @@
 //!
 //! | figure | where |
 //! |---|---|
+//! | heights of disc and pin | [`topography`] |
+//! | status of their cells | [`status`] |
+//! | contact pressure on the pin | [`pressure`] |
 //! | contact area against time | [`contact_area`] |
+//! | filling and coverage against time | [`filled`] |
+//! | how large plateaus are | [`plateau_sizes`] |
+//! | where the debris is | [`debris`] |
+//! | distribution of heights, Abbott-Firestone curve | [`heights`] |
+//!
+//! What they have in common: charts in [`chart`], maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
+//! shown in [`moments`], ranges in [`robust_range`], names of runs in [`label`].
 
+mod bodies;
 mod chart;
 mod contact_area;
+mod debris;
+mod filled;
+mod heights;
 mod label;
+mod map_page;
+mod moments;
+mod plateau_sizes;
+mod pressure;
+mod robust_range;
+mod shape;
+mod status;
+mod topography;
 
 use plateau_io::run_file::{ReadError, RunFile};
 
@@ -16,6 +38,7 @@ use super::canvas::FigureError;
 use super::format;
 use super::page::Page;
 use label::labels;
+use shape::Shape;
 
 /// More runs make no legible figure, and have no colours of their own.
 pub const MOST_RUNS: usize = super::colour::RUNS.len();
@@ -25,6 +48,13 @@ pub const MOST_RUNS: usize = super::colour::RUNS.len();
 pub struct Options {
     /// The ring as a ring, instead of unrolled.
     pub polar: bool,
+}
+
+impl Options {
+    /// How the disc is shown.
+    fn disc_shape(&self) -> Shape {
+        if self.polar { Shape::Polar } else { Shape::Unrolled }
+    }
 }
 
 /// One figure of one or several runs.
@@ -89,8 +119,15 @@ pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError
     let labels = labels(runs);
     let subjects: Vec<Subject> = runs.iter().zip(labels).map(|(run, label)| Subject { run, label }).collect();
     let mut figures = Figures::default();
-    let _ = options;
+    topography::add(&subjects, options, &mut figures)?;
+    status::add(&subjects, options, &mut figures)?;
+    pressure::add(&subjects, &mut figures)?;
     contact_area::add(&subjects, &mut figures)?;
+    filled::add(&subjects, &mut figures)?;
+    plateau_sizes::add(&subjects, &mut figures)?;
+    debris::add(&subjects, &mut figures)?;
+    heights::add(&subjects, &mut figures)?;
+    figures.left_out.dedup();
     Ok(figures)
 }
 
