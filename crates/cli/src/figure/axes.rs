@@ -16,7 +16,7 @@ const GAP: f64 = 6.0;
 /// Pixels along an axis for one tick, at least.
 const PER_TICK: [f64; 2] = [120.0, 70.0];
 /// The same for an axis so short that ticks stand as close as their numbers can.
-const LEAST_PER_TICK: f64 = 46.0;
+const LEAST_PER_TICK: f64 = 40.0;
 
 /// A rectangle of the page, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]

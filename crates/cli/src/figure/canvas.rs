@@ -92,7 +92,13 @@ impl<B: DrawingBackend> Canvas<B> {
     pub fn line(&self, places: &[Place], colour: RGBColor, width: u32) -> Result<(), FigureError> {
         let style = ShapeStyle { color: colour.into(), filled: false, stroke_width: width };
         let places: Vec<_> = places.iter().map(pixels).collect();
-        self.area.draw(&PathElement::new(places, style)).map_err(failed)
+        let mut begin = 0;
+        for end in (1..places.len()).filter(|at| at + 1 == places.len() || turns_back(&places[at - 1..=at + 1])) {
+            // The drawing library would draw the outer corner of a sharp turn far out.
+            self.area.draw(&PathElement::new(&places[begin..=end], style)).map_err(failed)?;
+            begin = end;
+        }
+        Ok(())
     }
 
     /// A filled polygon.
@@ -125,6 +131,13 @@ impl<B: DrawingBackend> Canvas<B> {
         let place = (place.0, if beside { place.1 + 0.12 * f64::from(size) } else { place.1 });
         self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
     }
+}
+
+/// Whether a line through three places turns by more than 120 degrees in the middle.
+fn turns_back(places: &[(i32, i32)]) -> bool {
+    let step = |from: (i32, i32), to: (i32, i32)| (f64::from(to.0 - from.0), f64::from(to.1 - from.1));
+    let (before, after) = (step(places[0], places[1]), step(places[1], places[2]));
+    before.0 * after.0 + before.1 * after.1 < -0.5 * before.0.hypot(before.1) * after.0.hypot(after.1)
 }
 
 fn pixels(place: &Place) -> (i32, i32) {

@@ -10,6 +10,7 @@
 //! | a map of heights, reduced to what a picture shows | [`raster`] |
 //! | a bitmap of few colours | [`picture`] |
 //! | the colour bar of a map | [`colour_bar`] |
+//! | curves with no more places than there is to see | [`simplify`] |
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface`] |
 //! | the figures of runs | [`run`] |
@@ -25,6 +26,7 @@ mod page;
 mod picture;
 mod raster;
 pub mod run;
+mod simplify;
 mod surface;
 mod ticks;
 mod unit;

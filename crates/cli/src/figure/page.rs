@@ -7,11 +7,10 @@ use super::axes::{Axes, Frame};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
 use super::colour_bar::ColourBar;
 use super::picture::Picture;
+use super::simplify::simplified;
 
 /// Pixels of a millimetre on paper: letters are of 6 points then.
 pub const PER_MILLIMETRE: f64 = 16.0;
-/// Distance of the places that a curve is drawn through, pixels: rounded to pixels, nearer ones would make it ragged.
-const STEP: f64 = 5.0;
 
 /// A page; lengths and places in pixels.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -139,7 +138,7 @@ impl Panel {
             match content {
                 Content::Line { points, colour, width } => {
                     let places: Vec<Place> = points.iter().map(|[x, y]| self.axes.place_within(*x, *y)).collect();
-                    canvas.line(&apart(&places), *colour, *width)?;
+                    canvas.line(&simplified(&places), *colour, *width)?;
                 }
                 Content::Band { spans, colour, opacity } => {
                     let lower = spans.iter().map(|[x, low, _]| self.axes.place_within(*x, *low));
@@ -151,20 +150,6 @@ impl Panel {
         }
         self.axes.draw(canvas)
     }
-}
-
-/// The first, the last and of the places between them those that are not too near to each other.
-pub fn apart(places: &[Place]) -> Vec<Place> {
-    let mut kept: Vec<Place> = Vec::new();
-    for place in places {
-        if kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) >= STEP) {
-            kept.push(*place);
-        }
-    }
-    if kept.last() != places.last() {
-        kept.extend(places.last());
-    }
-    kept
 }
 
 /// The letters of a text, in lines of their own.

@@ -28,8 +28,15 @@ pub fn any_of<'a>(subjects: &'a [Subject<'a>], lists: [&[&'a Subject<'a>]; 2]) -
     subjects.iter().filter(|subject| has(subject)).collect()
 }
 
-/// A map: what it is, in a few words, and the number of the colour of every cell.
-pub type Painted = (String, Vec<u8>);
+/// A map.
+pub struct Painted {
+    /// What it is, in a few words.
+    pub title: String,
+    /// What else is to know of it; may be empty.
+    pub remark: String,
+    /// Number of the colour of every cell.
+    pub cells: Vec<u8>,
+}
 
 /// Rows of maps. The moments of a single run stand below each other if they are `wide`, else beside each other; those of
 /// several runs stand below each other, the runs beside each other. `paint` gives the map of a run at a moment.
@@ -44,7 +51,8 @@ pub fn rows<'a>(
     for subject in subjects {
         let mut column = Vec::new();
         for moment in moments(subject) {
-            let section = |(title, cells)| MapSection { title, mesh: subject.run.mesh(), shape, cells };
+            let section =
+                |Painted { title, remark, cells }| MapSection { title, remark, mesh: subject.run.mesh(), shape, cells };
             column.push(paint(subject, moment)?.map(section));
         }
         columns.push(column);

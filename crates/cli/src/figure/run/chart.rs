@@ -6,8 +6,8 @@ use plotters::style::RGBColor;
 
 use super::Subject;
 use crate::figure::axes::{Axes, Axis, Frame};
-use crate::figure::canvas::{Anchor, TEXT};
-use crate::figure::colour::RUNS;
+use crate::figure::canvas::{Anchor, LINE, TEXT};
+use crate::figure::colour::{INK, RUNS, paler};
 use crate::figure::font::{shortened, text_width};
 use crate::figure::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
 
@@ -21,9 +21,24 @@ const BETWEEN: f64 = 48.0;
 /// Width of the sample of a colour, pixels.
 const KEY: f64 = 60.0;
 
+/// Colour of the first moment, as a part of the run's colour.
+const PALE: f64 = 0.45;
+
+/// Colour of a run at the first moment, or at the last.
+pub fn colour_at(number: usize, first: bool) -> RGBColor {
+    if first { paler(colour(number), PALE) } else { colour(number) }
+}
+
 /// Colour of a run.
 pub fn colour(number: usize) -> RGBColor {
     RUNS[number % RUNS.len()]
+}
+
+/// Width of a run's lines, pixels: those that are drawn first are wider, or equal lines would hide each other.
+pub fn line_width(number: usize, runs: usize) -> u32 {
+    let after = runs.saturating_sub(number + 1) as u32;
+    let step = if runs > 4 { 1 } else { 3 };
+    LINE + 1 + step * after
 }
 
 /// One box of a chart, before it has a place.
@@ -51,6 +66,15 @@ pub struct Meaning {
 }
 
 impl Meaning {
+    /// Those of the lines of the first and the last moment, of all runs.
+    pub fn of_moments() -> [Self; 2] {
+        [(INK, "last map"), (paler(INK, PALE), "first map")].map(|(colour, text)| Self {
+            colour,
+            style: KeyStyle::Line,
+            text: text.to_owned(),
+        })
+    }
+
     /// That of a run's lines.
     pub fn of_run(number: usize, subject: &Subject) -> Self {
         Self { colour: colour(number), style: KeyStyle::Line, text: subject.label.clone() }
@@ -108,7 +132,7 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
         page.write(text, (x + key + 16.0, middle), Anchor::Right, TEXT);
         x += width + 48.0;
     }
-    if meanings.is_empty() { y } else { y + LINE_OF_TEXT + 8.0 }
+    if meanings.is_empty() { y } else { y + LINE_OF_TEXT + 16.0 }
 }
 
 /// From 0 to a little more than the largest of the values, or to `least` at least.

@@ -2,10 +2,10 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::chart::{Chart, Meaning, TWO_COLUMNS, colour, page, up_from_zero};
+use super::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
+use super::spans::{means_between_ends, spans};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
-use crate::figure::canvas::LINE;
 use crate::figure::page::Content;
 use crate::figure::unit::ScaledUnit;
 
@@ -25,17 +25,19 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let mut charts = Vec::new();
     let mut shown = vec![false; subjects.len()];
     for (series, title) in SERIES {
-        let mut contents = Vec::new();
+        let (mut bands, mut lines) = (Vec::new(), Vec::new());
         let mut largest = 0.0_f64;
         for (number, subject) in figures.with_series(NAME, subjects, &[series]) {
             shown[number] = true;
             let values = subject.run.values(series)?.unwrap_or_default();
-            let points: Vec<[f64; 2]> =
-                subject.run.time().iter().zip(&values).map(|(at, value)| [at * time.per_si, value * percent]).collect();
-            largest = points.iter().map(|[_, value]| *value).fold(largest, f64::max);
-            contents.push(Content::Line { points, colour: colour(number), width: LINE + 2 });
+            let times: Vec<f64> = subject.run.time().iter().map(|at| at * time.per_si).collect();
+            let values: Vec<f64> = values.iter().map(|value| value * percent).collect();
+            largest = values.iter().copied().fold(largest, f64::max);
+            bands.push(Content::Band { spans: spans(&times, &values), colour: colour(number), opacity: 0.28 });
+            let width = line_width(number, subjects.len());
+            lines.push(Content::Line { points: means_between_ends(&times, &values), colour: colour(number), width });
         }
-        if contents.is_empty() {
+        if lines.is_empty() {
             continue;
         }
         let y = if series == "filled_fraction" { "filled, %" } else { "part of the area, %" };
@@ -43,7 +45,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             title: title.to_owned(),
             x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
             y: Axis::linear(up_from_zero([largest].into_iter(), 1e-3), y),
-            contents,
+            contents: bands.into_iter().chain(lines).collect(),
         });
     }
     if charts.is_empty() {
@@ -59,7 +61,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         NAME,
         "Filling and coverage",
         "Filled part of the initial volume below the highest point of the disc, and parts of the area of disc and pin that \
-         are plateaus, against time. A cell is secondary as soon as any debris lies on it.",
+         are plateaus, against time. A cell is secondary as soon as any debris lies on it. Where \
+         there are more samples than the figure can tell apart, the line is their mean and the band their extent.",
         page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
     );
     Ok(())

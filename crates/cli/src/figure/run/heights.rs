@@ -7,13 +7,11 @@ use plateau_core::surface::describe::MaterialCurve;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::having;
-use super::chart::{Chart, Meaning, TWO_COLUMNS, colour, page};
+use super::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
 use super::moments::{ends, floats, mean};
 use super::robust_range::RobustRange;
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
-use crate::figure::canvas::LINE;
-use crate::figure::colour::paler;
 use crate::figure::histogram::Histogram;
 use crate::figure::page::Content;
 use crate::figure::unit::AxisUnit;
@@ -21,10 +19,12 @@ use crate::figure::unit::AxisUnit;
 const NAME: &str = "heights";
 /// Classes of the distribution.
 const CLASSES: usize = 80;
+/// Part of the cells that is shown at least where parts are on a scale of equal ratios, %.
+const LEAST_SHOWN: f64 = 0.01;
+/// Distributions whose maxima differ more than this many times are shown on such a scale.
+const MOST_LINEAR: f64 = 6.0;
 /// Points of the Abbott-Firestone curve.
 const CURVE: usize = 200;
-/// Colour of the first moment, as a part of the run's colour.
-const PALE: f64 = 0.45;
 
 /// The heights of a body at one moment, as far as they are drawn; µm.
 struct Distribution {
@@ -50,17 +50,14 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             continue;
         }
         runs.iter().for_each(|(run, _)| shown[*run] = true);
-        charts.extend(body_charts(body, map, &runs)?);
+        charts.extend(body_charts(body, map, &runs, subjects.len())?);
     }
     if charts.is_empty() {
         return Ok(());
     }
-    let meanings: Vec<Meaning> = subjects
-        .iter()
-        .enumerate()
-        .filter(|(run, _)| shown[*run])
-        .map(|(run, subject)| Meaning::of_run(run, subject))
-        .collect();
+    let runs =
+        subjects.iter().enumerate().filter(|(run, _)| shown[*run]).map(|(run, subject)| Meaning::of_run(run, subject));
+    let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
     figures.add(
         NAME,
         "Height distributions",
@@ -83,14 +80,14 @@ fn heights(subject: &Subject, map: Map, index: usize) -> Result<Vec<f64>, ReadEr
 }
 
 /// The distribution of a body and its Abbott-Firestone curve.
-fn body_charts(body: &str, map: Map, runs: &[(usize, &Subject)]) -> Result<[Chart; 2], ReadError> {
+fn body_charts(body: &str, map: Map, runs: &[(usize, &Subject)], count: usize) -> Result<[Chart; 2], ReadError> {
     let mut range = RobustRange::default();
     for (_, subject) in runs {
         for index in ends(subject.run) {
             range.add(heights(subject, map, index)?.into_iter());
         }
     }
-    let range = wider(&range.range());
+    let range = wider(&range.between(0.001, 0.999));
     let mut distributions = Vec::new();
     for (run, subject) in runs {
         let moments = ends(subject.run);
@@ -105,17 +102,25 @@ fn body_charts(body: &str, map: Map, runs: &[(usize, &Subject)]) -> Result<[Char
             });
         }
     }
-    let largest =
-        distributions.iter().flat_map(|distribution| &distribution.histogram.fractions).copied().fold(1e-6, f64::max);
     let y = Axis::linear(range, format!("{body}, height, µm"));
-    let line = |distribution: &Distribution, points| {
-        let own = colour(distribution.run);
-        Content::Line { points, colour: if distribution.first { paler(own, PALE) } else { own }, width: LINE + 2 }
+    let line = |distribution: &Distribution, points| Content::Line {
+        points,
+        colour: colour_at(distribution.run, distribution.first),
+        width: line_width(distribution.run, count),
+    };
+    let largest = |one: &Distribution| one.histogram.fractions.iter().copied().fold(1e-6, f64::max);
+    let narrowest = distributions.iter().map(largest).fold(0.0, f64::max);
+    let widest = distributions.iter().map(largest).fold(narrowest, f64::min);
+    // Beside a narrow distribution nothing would be seen of a wide one.
+    let x = if narrowest > MOST_LINEAR * widest {
+        Axis::logarithmic(LEAST_SHOWN..=130.0 * narrowest, "cells per class, %")
+    } else {
+        Axis::linear(0.0..=105.0 * narrowest, "cells per class, %")
     };
     Ok([
         Chart {
             title: format!("{body}, distribution"),
-            x: Axis::linear(0.0..=105.0 * largest, "cells per class, %"),
+            x,
             y: y.clone(),
             contents: distributions.iter().map(|one| line(one, outline(&one.histogram))).collect(),
         },
@@ -134,14 +139,12 @@ fn wider(range: &RangeInclusive<f64>) -> RangeInclusive<f64> {
     range.start() - margin..=range.end() + margin
 }
 
-/// The outline of a histogram that lies on its side: per cent of the cells against height.
+/// Per cent of the cells that are in a class against the height in its middle.
 fn outline(histogram: &Histogram) -> Vec<[f64; 2]> {
     let (begin, end) = (*histogram.range.start(), *histogram.range.end());
     let class = (end - begin) / histogram.fractions.len() as f64;
-    let sides = histogram.fractions.iter().enumerate().flat_map(|(number, fraction)| {
-        [number, number + 1].map(|edge| [100.0 * fraction, begin + edge as f64 * class])
-    });
-    sides.collect()
+    let middle = |(number, fraction): (usize, &f64)| [100.0 * fraction, begin + (number as f64 + 0.5) * class];
+    histogram.fractions.iter().enumerate().map(middle).collect()
 }
 
 /// Height against the per cent of the cells that reach it.

@@ -30,6 +30,8 @@ const BELOW: f64 = 14.0;
 pub struct MapSection<'a> {
     /// What it is, in a few words.
     pub title: String,
+    /// What else is to know of it, on a line of its own; may be empty.
+    pub remark: String,
     /// The mesh.
     pub mesh: &'a Mesh,
     /// How the body is shown.
@@ -105,7 +107,9 @@ impl MapGroup<'_> {
         if let Some(axis) = &self.scale {
             let left = MARGIN + width + BESIDE - BETWEEN;
             // Room for the points at its ends.
-            let first = begin + LINE_OF_TEXT + 44.0;
+            let titles =
+                self.rows.iter().flatten().flatten().map(|section| if section.remark.is_empty() { 1.0 } else { 2.0 });
+            let first = begin + titles.fold(1.0, f64::max) * LINE_OF_TEXT + 36.0;
             let end = (last_box - 28.0).clamp(first + SHORTEST_BAR, first + LONGEST_BAR);
             let frame = Frame { x: [left, left + BAR], y: [first, end].map(f64::round) };
             page.colour_bars.push(ColourBar { frame, axis: axis.clone() });
@@ -125,10 +129,13 @@ impl MapSection<'_> {
         let begin = left + y.room_beside(290.0);
         let inner = (width - (begin - left)).floor();
         let windows = self.shape.windows(self.mesh, columns);
-        let mut y_top = (top + LINE_OF_TEXT + 12.0).round();
+        let mut y_top = top;
+        for text in [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty()) {
+            page.write(shortened(text, TEXT, inner), (begin, y_top), Anchor::BelowRight, TEXT);
+            y_top += LINE_OF_TEXT;
+        }
+        y_top = (y_top + 8.0).round();
         let first = y_top;
-        let title = shortened(&self.title, TEXT, inner);
-        page.write(title, (begin, top), Anchor::BelowRight, TEXT);
         let last = windows.len() - 1;
         let mut bottom = y_top;
         for (number, window) in windows.into_iter().enumerate() {

@@ -14,7 +14,7 @@
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
 //! What they have in common: charts in [`chart`], maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
-//! shown in [`moments`], ranges in [`robust_range`], names of runs in [`label`].
+//! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`label`].
 
 mod bodies;
 mod chart;
@@ -29,6 +29,7 @@ mod plateau_sizes;
 mod pressure;
 mod robust_range;
 mod shape;
+mod spans;
 mod status;
 mod topography;
 

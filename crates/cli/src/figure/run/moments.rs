@@ -15,7 +15,7 @@ pub fn ends(run: &RunFile) -> Vec<usize> {
 /// The moment, in words.
 pub fn moment(run: &RunFile, index: usize) -> String {
     let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
-    format!("{} s", rounded(seconds, 5))
+    format!("{} s", rounded(seconds, 4))
 }
 
 /// A number with so many significant digits at most.

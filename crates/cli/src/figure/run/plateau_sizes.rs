@@ -6,18 +6,14 @@ use plateau_core::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::having;
-use super::chart::{Chart, Meaning, TWO_COLUMNS, colour, page};
+use super::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
 use super::moments::{ends, statuses};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
-use crate::figure::canvas::LINE;
-use crate::figure::colour::paler;
 use crate::figure::page::Content;
 use crate::figure::unit::ScaledUnit;
 
 const NAME: &str = "plateau-sizes";
-/// Colour of the first moment, as a part of the run's colour.
-const PALE: f64 = 0.45;
 
 /// A kind of plateau: what it is called, the map that tells, and the statuses that belong to it.
 type Kind = (&'static str, Map, &'static [Status]);
@@ -78,8 +74,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let chart = |(number, (title, sizes)): (usize, &(&str, Vec<Sizes>))| {
         let line = |sizes: &Sizes| Content::Line {
             points: survival(&sizes.areas, unit.per_si, range[0], floor),
-            colour: if sizes.first { paler(colour(sizes.run), PALE) } else { colour(sizes.run) },
-            width: LINE + 2,
+            colour: colour_at(sizes.run, sizes.first),
+            width: line_width(sizes.run, subjects.len()),
         };
         let y = Axis::logarithmic(floor..=1.6 * most as f64, "plateaus at least that large");
         Chart {
@@ -90,12 +86,12 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         }
     };
     let charts: Vec<Chart> = kinds.iter().enumerate().map(chart).collect();
-    let meanings: Vec<Meaning> = subjects
+    let runs = subjects
         .iter()
         .enumerate()
         .filter(|(run, _)| all().any(|sizes| sizes.run == *run))
-        .map(|(run, subject)| Meaning::of_run(run, subject))
-        .collect();
+        .map(|(run, subject)| Meaning::of_run(run, subject));
+    let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
     figures.add(
         NAME,
         "Plateau sizes",

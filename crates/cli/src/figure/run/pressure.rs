@@ -3,7 +3,7 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::{having, rows};
+use super::bodies::{Painted, having, rows};
 use super::chart::Meaning;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
 use super::moments::{floats, moment, rounded};
@@ -46,8 +46,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
                 _ => NO_CONTACT,
             };
             let largest = rounded(pressures.iter().copied().fold(0.0, f64::max) * unit.per_si, 3);
-            let title = format!("pin, {}, at most {largest} {}", moment(subject.run, index), unit.symbol);
-            Ok((!pressures.is_empty()).then(|| (title, pressures.iter().map(colour).collect())))
+            let title = format!("pin, {}", moment(subject.run, index));
+            let remark = format!("at most {largest} {}", unit.symbol);
+            let cells: Vec<u8> = pressures.iter().map(colour).collect();
+            Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
         })?;
         blocks.push(MapBlock {
             names: together.iter().map(|subject| subject.label.clone()).collect(),

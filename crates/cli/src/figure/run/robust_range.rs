@@ -24,9 +24,14 @@ impl RobustRange {
         Some(*self.values.select_nth_unstable_by(rank, f64::total_cmp).1)
     }
 
-    /// The range without the lowest and the highest half per cent; of a little width where all values are equal.
+    /// The range without the lowest and the highest half per cent.
     pub fn range(&mut self) -> RangeInclusive<f64> {
-        let (low, high) = (self.quantile(0.005).unwrap_or(0.0), self.quantile(0.995).unwrap_or(0.0));
+        self.between(0.005, 0.995)
+    }
+
+    /// The range between two quantiles; of a little width where all values are equal.
+    pub fn between(&mut self, low: f64, high: f64) -> RangeInclusive<f64> {
+        let (low, high) = (self.quantile(low).unwrap_or(0.0), self.quantile(high).unwrap_or(0.0));
         let least = 1e-6 * low.abs().max(high.abs()).max(1e-3);
         if high - low > least { low..=high } else { low - least..=high + least }
     }

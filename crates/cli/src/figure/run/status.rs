@@ -63,8 +63,9 @@ fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>,
     }
     let [none, primary, secondary] = area_fractions(subject.run.mesh(), &cells).map(percent);
     let body = if map.on_disc() { "disc" } else { "pin" };
-    let when = moment(subject.run, index);
-    Ok(Some((format!("{body}, {when}: {none}, {primary}, {secondary} %"), cells)))
+    let title = format!("{body}, {}", moment(subject.run, index));
+    let remark = format!("none {none}, primary {primary}, secondary {secondary} %");
+    Ok(Some(Painted { title, remark, cells }))
 }
 
 /// Parts of the area that are none, primary and secondary.

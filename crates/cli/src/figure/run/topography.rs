@@ -3,7 +3,7 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::{any_of, having, rows};
+use super::bodies::{Painted, any_of, having, rows};
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
 use super::moments::{ends, floats, mean, moment, rounded};
 use super::robust_range::RobustRange;
@@ -36,7 +36,8 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
             |subject| ends(subject.run),
             |subject, index| {
                 let heights = disc_heights(subject, index)?;
-                Ok(painted(&heights, &disc_scale, || format!("disc, {}", moment(subject.run, index))))
+                let title = format!("disc, {}", moment(subject.run, index));
+                Ok(painted(&heights, &disc_scale, title, String::new()))
             },
         )?;
         let pin_rows = rows(
@@ -46,11 +47,9 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
             |subject| ends(subject.run),
             |subject, index| {
                 let (heights, mean) = pin_heights(subject, index)?;
-                let title = || {
-                    let mean = rounded(mean * AxisUnit::MICROMETRE.per_metre, 4);
-                    format!("pin, {}, about its mean z = {mean} µm", moment(subject.run, index))
-                };
-                Ok(painted(&heights, &pin_scale, title))
+                let title = format!("pin, {}", moment(subject.run, index));
+                let remark = format!("about its mean, z = {} µm", rounded(mean * AxisUnit::MICROMETRE.per_metre, 4));
+                Ok(painted(&heights, &pin_scale, title, remark))
             },
         )?;
         let group = |rows, scale: &Axis| MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) };
@@ -101,7 +100,7 @@ fn scale(
     Ok(Axis::linear(range.range(), "height, µm"))
 }
 
-fn painted(heights: &[f64], scale: &Axis, title: impl Fn() -> String) -> Option<(String, Vec<u8>)> {
+fn painted(heights: &[f64], scale: &Axis, title: String, remark: String) -> Option<Painted> {
     let colour = |height: &f64| colour_index(scale.part(height * AxisUnit::MICROMETRE.per_metre));
-    (!heights.is_empty()).then(|| (title(), heights.iter().map(colour).collect()))
+    (!heights.is_empty()).then(|| Painted { title, remark, cells: heights.iter().map(colour).collect() })
 }
