@@ -138,7 +138,10 @@ impl Panel {
             match content {
                 Content::Line { points, colour, width } => {
                     let places: Vec<Place> = points.iter().map(|[x, y]| self.axes.place_within(*x, *y)).collect();
-                    canvas.line(&simplified(&places), *colour, *width)?;
+                    match simplified(&places)[..] {
+                        [place] => canvas.area(&around(place), *colour)?,
+                        ref places => canvas.line(places, *colour, *width)?,
+                    }
                 }
                 Content::Band { spans, colour, opacity } => {
                     let lower = spans.iter().map(|[x, low, _]| self.axes.place_within(*x, *low));
@@ -150,6 +153,12 @@ impl Panel {
         }
         self.axes.draw(canvas)
     }
+}
+
+/// The corners of a dot: a line through one place only would not be seen.
+fn around((x, y): Place) -> [Place; 4] {
+    let side = [-8.0, 8.0];
+    Frame { x: side.map(|side| x + side), y: side.map(|side| y + side) }.corners()
 }
 
 /// The letters of a text, in lines of their own.

@@ -41,6 +41,9 @@ impl ScaledUnit {
     /// Per cent of 1.
     pub const PERCENT: Self = Self { symbol: "%", per_si: 100.0 };
 
+    /// Seconds.
+    pub const SECOND: Self = Self { symbol: "s", per_si: 1.0 };
+
     /// For areas up to this, m².
     pub fn for_area(size: f64) -> Self {
         if size < 1e-9 { Self { symbol: "µm²", per_si: 1e12 } } else { Self { symbol: "mm²", per_si: 1e6 } }

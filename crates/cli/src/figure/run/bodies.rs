@@ -8,7 +8,12 @@ use super::shape::Shape;
 use super::{Figures, Subject};
 
 /// The runs that have a map at any moment; of the others it is noted that they are left out.
-pub fn having<'a>(figures: &mut Figures, what: &str, subjects: &'a [Subject<'a>], map: Map) -> Vec<&'a Subject<'a>> {
+pub fn having<'a>(
+    figures: &mut Figures,
+    what: &'static str,
+    subjects: &'a [Subject<'a>],
+    map: Map,
+) -> Vec<&'a Subject<'a>> {
     let mut having = Vec::new();
     for subject in subjects {
         if !subject.run.has_map(map) {
@@ -59,10 +64,19 @@ pub fn rows<'a>(
     }
     match &mut columns[..] {
         [one] if wide => Ok(std::mem::take(one).into_iter().map(|section| vec![section]).collect()),
-        [one] => Ok(vec![std::mem::take(one)]),
+        [one] => {
+            let mut row = std::mem::take(one);
+            // A single map needs not more than half of the page.
+            row.resize(row.len().max(2), None);
+            Ok(vec![row])
+        }
         several => {
             let most = several.iter().map(Vec::len).max().unwrap_or(0);
-            let row = |moment: usize| several.iter().map(|column| column.get(moment).cloned().flatten()).collect();
+            for column in several.iter_mut() {
+                // The only map of a run stands beside the last maps of the others.
+                column.splice(..0, vec![None; most - column.len()]);
+            }
+            let row = |moment: usize| several.iter_mut().map(|column| column[moment].take()).collect();
             Ok((0..most).map(row).collect())
         }
     }

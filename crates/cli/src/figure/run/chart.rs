@@ -135,8 +135,7 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
     if meanings.is_empty() { y } else { y + LINE_OF_TEXT + 16.0 }
 }
 
-/// From 0 to a little more than the largest of the values, or to `least` at least.
-pub fn up_from_zero(values: impl Iterator<Item = f64>, least: f64) -> RangeInclusive<f64> {
-    let largest = values.filter(|value| value.is_finite()).fold(least, f64::max);
-    0.0..=1.04 * largest
+/// From 0 to a little more than the largest value; to 1 where all values are 0.
+pub fn up_from_zero(largest: f64) -> RangeInclusive<f64> {
+    0.0..=if largest > 0.0 { 1.04 * largest } else { 1.0 }
 }

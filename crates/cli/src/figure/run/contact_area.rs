@@ -39,10 +39,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let chart = Chart {
         title: String::new(),
         x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
-        y: Axis::linear(
-            up_from_zero([largest * area.per_si].into_iter(), 1e-6),
-            format!("contact area, {}", area.symbol),
-        ),
+        y: Axis::linear(up_from_zero(largest * area.per_si), format!("contact area, {}", area.symbol)),
         contents: bands.into_iter().chain(lines).collect(),
     };
     figures.add(

@@ -47,10 +47,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let chart = |(subject, balance): &(&Subject, Balance)| Chart {
         title: subject.label.clone(),
         x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
-        y: Axis::linear(
-            up_from_zero([largest * volume.per_si].into_iter(), 1e-9),
-            format!("debris, {}", volume.symbol),
-        ),
+        y: Axis::linear(up_from_zero(largest * volume.per_si), format!("debris, {}", volume.symbol)),
         contents: stack(balance, time, volume),
     };
     let charts: Vec<Chart> = balances.iter().map(chart).collect();
@@ -80,11 +77,14 @@ fn read(subject: &Subject) -> Result<Balance, ReadError> {
     for (part, (name, _)) in parts.iter_mut().zip(PARTS) {
         *part = values(name)?;
     }
-    let times = subject.run.time().to_vec();
+    let mut times = subject.run.time().to_vec();
     let mut supply = vec![0.0; times.len()];
     for name in SOURCES {
         supply.iter_mut().zip(values(name)?).for_each(|(sum, value)| *sum += value);
     }
+    // At the start nothing was worn.
+    times.insert(0, 0.0);
+    parts.iter_mut().chain([&mut supply]).for_each(|values| values.insert(0, 0.0));
     Ok(Balance { times, parts, supply })
 }
 

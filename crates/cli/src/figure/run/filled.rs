@@ -44,7 +44,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         charts.push(Chart {
             title: title.to_owned(),
             x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
-            y: Axis::linear(up_from_zero([largest].into_iter(), 1e-3), y),
+            y: Axis::linear(up_from_zero(largest), y),
             contents: bands.into_iter().chain(lines).collect(),
         });
     }

@@ -21,6 +21,8 @@ const BESIDE: f64 = 36.0;
 /// Length of a colour bar, pixels.
 const SHORTEST_BAR: f64 = 260.0;
 const LONGEST_BAR: f64 = 900.0;
+/// Height of a box, at least.
+const LEAST_HEIGHT: f64 = 64.0;
 /// Distance of maps beside each other, and of windows of one map below each other.
 const BETWEEN: f64 = 40.0;
 const BELOW: f64 = 14.0;
@@ -125,10 +127,13 @@ impl MapSection<'_> {
         let columns = self.cells.len() / self.mesh.rows();
         let y_range = self.shape.y_range(self.mesh);
         let y = Axis::linear(y_range.clone(), self.shape.y_label());
-        // Numbers differ little in width from window to window; room for those of a window of usual height.
-        let begin = left + y.room_beside(290.0);
-        let inner = (width - (begin - left)).floor();
         let windows = self.shape.windows(self.mesh, columns);
+        let proportion = |window: &Window| (y_range.end() - y_range.start()) / (window.x.end() - window.x.start());
+        let height = |window: &Window, inner: f64| (inner * proportion(window)).clamp(LEAST_HEIGHT, inner).round();
+        // A higher box has more numbers, which may be longer.
+        let room = windows.iter().map(|window| y.room_beside(height(window, width))).fold(0.0, f64::max);
+        let begin = left + room;
+        let inner = (width - room).floor();
         let mut y_top = top;
         for text in [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty()) {
             page.write(shortened(text, TEXT, inner), (begin, y_top), Anchor::BelowRight, TEXT);
@@ -139,11 +144,9 @@ impl MapSection<'_> {
         let last = windows.len() - 1;
         let mut bottom = y_top;
         for (number, window) in windows.into_iter().enumerate() {
-            let Window { x, .. } = &window;
-            let proportion = (y_range.end() - y_range.start()) / (x.end() - x.start());
-            let height = (inner * proportion).clamp(64.0, inner).round();
+            let height = height(&window, inner);
             // A body that is taller than wide stays in proportion.
-            let wide = if inner * proportion > inner { (inner / proportion).max(64.0).round() } else { inner };
+            let wide = inner.min(inner / proportion(&window)).max(LEAST_HEIGHT).round();
             let frame = Frame { x: [begin.round(), begin.round() + wide], y: [y_top, y_top + height] };
             let label = if number == last { self.shape.x_label() } else { String::new() };
             let x = Axis::linear(window.x.clone(), label);

@@ -33,6 +33,9 @@ mod spans;
 mod status;
 mod topography;
 
+use std::fmt;
+use std::path::PathBuf;
+
 use plateau_io::run_file::{ReadError, RunFile};
 
 use super::canvas::FigureError;
@@ -102,8 +105,25 @@ impl Figure {
 pub struct Figures {
     /// The figures.
     pub figures: Vec<Figure>,
-    /// What was left out and why, a sentence each.
-    pub left_out: Vec<String>,
+    /// What was left out, and why.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// What a run did not record, and the figures that do without it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The run file.
+    pub path: PathBuf,
+    /// What it does not have, such as "no map pressure".
+    pub missing: String,
+    /// Names of the figures.
+    pub figures: Vec<&'static str>,
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} has {}: left out of {}", self.path.display(), self.missing, self.figures.join(", "))
+    }
 }
 
 /// A run with what it is called in figures.
@@ -128,7 +148,6 @@ pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError
     plateau_sizes::add(&subjects, &mut figures)?;
     debris::add(&subjects, &mut figures)?;
     heights::add(&subjects, &mut figures)?;
-    figures.left_out.dedup();
     Ok(figures)
 }
 
@@ -137,15 +156,23 @@ impl Figures {
         self.figures.push(Figure { name, title, caption: caption.into(), page });
     }
 
-    /// Notes that a figure, or the part of a run in it, is left out.
-    fn leave_out(&mut self, what: &str, subject: &Subject, missing: &str) {
-        self.left_out.push(format!("{what} is left out: {} has {missing}", subject.run.path().display()));
+    /// Notes that a figure, or what it would show of a run, is left out.
+    fn leave_out(&mut self, figure: &'static str, subject: &Subject, missing: &str) {
+        let path = subject.run.path();
+        let same = self.left_out.iter_mut().find(|note| note.path == path && note.missing == missing);
+        match same {
+            Some(note) if note.figures.contains(&figure) => {}
+            Some(note) => note.figures.push(figure),
+            None => {
+                self.left_out.push(LeftOut { path: path.into(), missing: missing.into(), figures: vec![figure] });
+            }
+        }
     }
 
     /// The runs that have all these series and at least one sample; of the others it is noted that they are left out.
     fn with_series<'a>(
         &mut self,
-        what: &str,
+        what: &'static str,
         subjects: &'a [Subject<'a>],
         series: &[&str],
     ) -> Vec<(usize, &'a Subject<'a>)> {

@@ -3,6 +3,8 @@
 use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{ReadError, RunFile};
 
+use crate::figure::unit::ScaledUnit;
+
 /// Indices of the first and the last moment of the maps; one of them if it is both.
 pub fn ends(run: &RunFile) -> Vec<usize> {
     match run.map_time().len() {
@@ -15,7 +17,8 @@ pub fn ends(run: &RunFile) -> Vec<usize> {
 /// The moment, in words.
 pub fn moment(run: &RunFile, index: usize) -> String {
     let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
-    format!("{} s", rounded(seconds, 4))
+    let unit = if seconds > 0.0 { ScaledUnit::for_time(seconds) } else { ScaledUnit::SECOND };
+    format!("{} {}", rounded(seconds * unit.per_si, 4), unit.symbol)
 }
 
 /// A number with so many significant digits at most.

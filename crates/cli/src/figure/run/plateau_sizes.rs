@@ -5,8 +5,8 @@ use plateau_core::observe::Map;
 use plateau_core::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::having;
-use super::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
+use super::bodies::{any_of, having};
+use super::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
 use super::moments::{ends, statuses};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
@@ -59,8 +59,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         }
     }
     if kinds.is_empty() {
-        if lists.iter().any(|(_, list)| !list.is_empty()) {
-            figures.left_out.push(format!("{NAME} is left out: there are no plateaus"));
+        for subject in any_of(subjects, lists.each_ref().map(|(_, list)| &list[..])) {
+            figures.leave_out(NAME, subject, "no plateaus");
         }
         return Ok(());
     }
@@ -86,6 +86,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         }
     };
     let charts: Vec<Chart> = kinds.iter().enumerate().map(chart).collect();
+    let across = charts.len();
+    let width = if across == 1 { COLUMN } else { TWO_COLUMNS };
     let runs = subjects
         .iter()
         .enumerate()
@@ -97,7 +99,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "Plateau sizes",
         "Number of plateaus that are at least so large, at the last recorded moment and, paler, at the first. A plateau is \
          made of cells that share edges; the disc closes round the ring.",
-        page(TWO_COLUMNS, 640.0, 3, charts, &meanings),
+        page(width, 640.0, across, charts, &meanings),
     );
     Ok(())
 }

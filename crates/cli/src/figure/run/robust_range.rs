@@ -5,6 +5,9 @@ use std::ops::RangeInclusive;
 /// Values of one map that are looked at, at most: more do not move a quantile that can be seen.
 const MOST: usize = 250_000;
 
+/// Half of the width of the range of equal values.
+const WIDTH: f64 = 0.01;
+
 /// Values of several maps.
 #[derive(Debug, Clone, Default)]
 pub struct RobustRange {
@@ -32,8 +35,9 @@ impl RobustRange {
     /// The range between two quantiles; of a little width where all values are equal.
     pub fn between(&mut self, low: f64, high: f64) -> RangeInclusive<f64> {
         let (low, high) = (self.quantile(low).unwrap_or(0.0), self.quantile(high).unwrap_or(0.0));
-        let least = 1e-6 * low.abs().max(high.abs()).max(1e-3);
-        if high - low > least { low..=high } else { low - least..=high + least }
+        // What rounding makes of equal values is no range.
+        let equal = high - low <= 1e-9 * low.abs().max(high.abs());
+        if equal { low - WIDTH..=high + WIDTH } else { low..=high }
     }
 }
 
