@@ -22,12 +22,12 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         )));
     }
     let runs = paths.iter().map(|path| RunFile::open(path)).collect::<Result<Vec<_>, _>>().map_err(Failure::input)?;
-    let directory = output.clone().unwrap_or_else(|| usual_directory(paths));
-    make_directory(&directory)?;
     let figures = run::figures(&runs, &Options { polar: *polar }).map_err(Failure::input)?;
     for reason in &figures.left_out {
         message::note(reason);
     }
+    let directory = output.clone().unwrap_or_else(|| usual_directory(paths));
+    make_directory(&directory)?;
     let place = |figure: &Figure| directory.join(format!("{}.{}", figure.name, format.ending()));
     // Before the first is written: either all are, or none.
     figures.figures.iter().try_for_each(|figure| output::check(&place(figure), *force, paths))?;
