@@ -1,6 +1,7 @@
 //! One file per command.
 
 mod check;
+mod plot;
 mod run;
 mod surface;
 
@@ -16,6 +17,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
     }
 }
 
