@@ -4,6 +4,7 @@ use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use plateau_core::kernel::InstructionSet;
 use plateau_core::surface::Level;
 use plateau_io::units::{self, Dimension};
@@ -32,6 +33,20 @@ pub enum Command {
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),
+    /// Print the JSON Schema of scenes, with which editors complete and check them
+    #[command(
+        after_help = "Example:\n  plateau schema\n\nFor an editor: plateau schema > scene.schema.json; see docs/scenes.md."
+    )]
+    Schema,
+    /// Print what lets a shell complete commands, options and files on the Tab key
+    #[command(after_help = "Example:\n  plateau completions bash\n\n\
+                      Once for all: plateau completions bash > ~/.local/share/bash-completion/completions/plateau\n\
+                      For zsh, fish and others see docs/recipes.md.")]
+    Completions(CompletionsArguments),
+    /// Print a manual page, or write all of them
+    #[command(after_help = "Example:\n  plateau man run\n\n\
+                      To read it: plateau man run | man -l -")]
+    Man(ManArguments),
 }
 
 /// A scene, with changes.
@@ -139,6 +154,27 @@ pub struct SurfaceArguments {
     pub dataset: Option<String>,
     /// Replace the files that --plot, --preview and --to name if they exist
     #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// Arguments of `plateau man`.
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// Command whose page is printed; that of the program unless given
+    #[arg(value_name = "COMMAND", conflicts_with = "output")]
+    pub page: Option<String>,
+    /// Directory into which the pages of the program and of every command are written
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Replace pages that are there
+    #[arg(long, requires = "output")]
     pub force: bool,
 }
 

@@ -1,7 +1,10 @@
 //! One file per command.
 
 mod check;
+mod completions;
+mod man;
 mod run;
+mod schema;
 mod surface;
 
 use plateau_io::scene::{self, recipe::Scene};
@@ -16,6 +19,9 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Schema => schema::schema(),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => man::man(&arguments),
     }
 }
 
