@@ -4,7 +4,7 @@
 //! writes it anew.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use plateau_core::observe::{Map, QUANTITIES, Quantity, ROUGHNESS_QUANTITIES};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
@@ -177,4 +177,46 @@ fn series(quantities: &[Quantity]) -> String {
 fn every_series_is_documented() {
     expect_table("run-file.md", "series", &series(QUANTITIES));
     expect_table("run-file.md", "roughness series", &series(ROUGHNESS_QUANTITIES));
+}
+
+/// Markdown files of the repository, by their path from its root.
+fn documents() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let docs = std::fs::read_dir(root.join("docs")).expect("docs").map(|entry| entry.expect("an entry").path());
+    let docs = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
+    docs.chain([root.join("README.md")]).collect()
+}
+
+/// The name by which a link finds a heading: as GitHub makes it.
+fn anchor(heading: &str) -> String {
+    let kept = heading.trim().to_lowercase();
+    let kept = kept.chars().filter(|letter| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_'));
+    kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
+}
+
+#[test]
+fn every_link_between_documents_leads_somewhere() {
+    let mut count = 0;
+    for path in documents() {
+        let text = std::fs::read_to_string(&path).expect("a document");
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.contains("://") {
+                continue;
+            }
+            let (file, heading) = link.split_once('#').map_or((link, None), |(file, heading)| (file, Some(heading)));
+            let target = if file.is_empty() { path.clone() } else { path.with_file_name(file) };
+            assert!(target.exists(), "{}: {link} is not there", path.display());
+            if let Some(heading) = heading {
+                let text = std::fs::read_to_string(&target).expect("a document");
+                let there = text.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#'));
+                assert!(
+                    there.into_iter().any(|line| anchor(line) == heading),
+                    "{}: {link}: no such heading",
+                    path.display()
+                );
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 30, "{count} links");
 }

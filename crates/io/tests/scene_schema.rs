@@ -77,6 +77,24 @@ fn every_scene_of_bad_form_is_not_valid() {
     }
 }
 
+#[test]
+fn every_piece_of_a_scene_in_the_documentation_is_valid() {
+    let validator = validator();
+    let mut count = 0;
+    for path in fs::read_dir("../../docs").unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file()) {
+        for block in fs::read_to_string(&path).unwrap().split("\n```toml\n").skip(1) {
+            let piece = block.split("\n```").next().unwrap();
+            let start = if piece.contains("extends") { "" } else { "extends = \"scene.toml\"\n" };
+            let document = document(&format!("{start}{piece}")).unwrap_or_else(|| panic!("{piece}"));
+            if let Err(error) = validator.validate(&document) {
+                panic!("{}: {error} at {} in\n{piece}", path.display(), error.instance_path());
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 3, "{count} pieces");
+}
+
 /// Whether the parser and the schema accept this value (in TOML) of a key, whatever it needs beside it.
 fn accepted(validator: &Validator, path: &str, value: &str) -> (bool, bool) {
     // Another key that is wrong keeps the parser from looking at what several keys say together.
