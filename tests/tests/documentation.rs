@@ -74,7 +74,7 @@ fn need(key: &Key) -> String {
         Need::OneOf => {
             let group = key.group().expect("a group of the key");
             let names: Vec<_> = group.members.iter().map(|(name, _)| format!("`{name}`")).collect();
-            format!("one of {}", names.join(", "))
+            format!("{} {}", if group.required { "one of" } else { "at most one of" }, names.join(", "))
         }
         Need::Default(value) => format!("`{value}`"),
         Need::SameAs(table) => format!("as in `[{table}]`"),

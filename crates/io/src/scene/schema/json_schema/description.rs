@@ -35,7 +35,10 @@ fn absent(key: &Key) -> Option<String> {
         Need::Default(default) => Some(format!("Default: {default}")),
         Need::SameAs(table) => Some(format!("Default: as in [{table}]")),
         Need::Computed(what) => Some(format!("Default: {}", what.replace('`', ""))),
-        Need::OneOf => key.group().map(|group| format!("One of {}", group.names())),
+        Need::OneOf => key.group().map(|group| {
+            let count = if group.required { "One of" } else { "At most one of" };
+            format!("{count} {}", group.names())
+        }),
         Need::Optional => None,
     }
 }
