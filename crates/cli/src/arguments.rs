@@ -4,6 +4,7 @@ use std::num::NonZeroU64;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use plateau_core::kernel::InstructionSet;
 use plateau_core::surface::Level;
 use plateau_io::units::{self, Dimension};
@@ -37,6 +38,20 @@ pub enum Command {
         after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
     )]
     Plot(PlotArguments),
+    /// Print the JSON Schema of scenes, with which editors complete and check them
+    #[command(
+        after_help = "Example:\n  plateau schema\n\nFor an editor: plateau schema > scene.schema.json; see docs/scenes.md."
+    )]
+    Schema,
+    /// Print what lets a shell complete commands, options and files on the Tab key
+    #[command(after_help = "Example:\n  plateau completions bash\n\n\
+                      Once for all: plateau completions bash > ~/.local/share/bash-completion/completions/plateau\n\
+                      For zsh, fish and others see docs/recipes.md.")]
+    Completions(CompletionsArguments),
+    /// Print a manual page, or write all of them
+    #[command(after_help = "Example:\n  plateau man run\n\n\
+                      To read it: plateau man run | man -l -")]
+    Man(ManArguments),
 }
 
 /// A scene, with changes.
@@ -187,6 +202,27 @@ impl FigureFormat {
             Self::Pdf => "pdf",
         }
     }
+}
+
+/// Arguments of `plateau completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// Arguments of `plateau man`.
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// Command whose page is printed; that of the program unless given
+    #[arg(value_name = "COMMAND", conflicts_with = "output")]
+    pub page: Option<String>,
+    /// Directory into which the pages of the program and of every command are written
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Replace pages that are there
+    #[arg(long, requires = "output")]
+    pub force: bool,
 }
 
 /// Distance of neighbouring points along x and y, m.

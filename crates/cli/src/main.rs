@@ -25,7 +25,7 @@ use clap::Parser;
 fn main() -> ExitCode {
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(answer) => return failure::answer(&answer),
+        Err(answer) => return failure::answer(answer),
     };
     match commands::perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,7 +2,10 @@
 
 mod check;
 mod plot;
+mod completions;
+mod man;
 mod run;
+mod schema;
 mod surface;
 
 use plateau_io::scene::{self, recipe::Scene};
@@ -18,6 +21,9 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Schema => schema::schema(),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => man::man(&arguments),
     }
 }
 
