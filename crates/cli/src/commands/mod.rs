@@ -1,6 +1,7 @@
 //! One file per command.
 
 mod check;
+mod report;
 mod run;
 mod surface;
 
@@ -15,6 +16,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
     }
 }

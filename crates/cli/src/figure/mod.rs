@@ -20,4 +20,5 @@ mod surface;
 mod ticks;
 mod unit;
 
+pub use colour::viridis;
 pub use surface::{Drawn, SurfaceFigure, surfaces};

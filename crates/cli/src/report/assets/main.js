@@ -1,0 +1,26 @@
+
+// Figures, and the start of everything.
+
+async function showFigures() {
+    const place = document.getElementById("figure-list");
+    for (const picture of report.pictures) {
+        const image = element("img", { alt: picture.caption, loading: "lazy" });
+        image.src = URL.createObjectURL(new Blob([await inflate(picture.svg)], { type: "image/svg+xml" }));
+        place?.append(element("figure", {}, image, element("figcaption", {}, picture.caption)));
+    }
+}
+
+function tell(problem) {
+    const place = document.getElementById("problem");
+    place.hidden = false;
+    place.textContent = problem;
+}
+
+addEventListener("error", (event) => tell(`This page does not work here: ${event.message}`));
+addEventListener("unhandledrejection", (event) => tell(`This page does not work here: ${event.reason}`));
+
+if (typeof DecompressionStream === "undefined") {
+    tell("This browser cannot unpack the data of this page: it needs Chromium 80, Firefox 113 or Safari 16.4, or newer.");
+} else {
+    Promise.all([showFigures(), showCharts(), showMaps()]).then(() => (document.documentElement.dataset.ready = "yes"));
+}

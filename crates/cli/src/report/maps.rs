@@ -1,0 +1,158 @@
+//! The recorded maps of a run as the page has them.
+
+use plateau_core::observe::Map;
+use plateau_io::run_file::{ReadError, RunFile};
+use serde::Serialize;
+
+use super::coarsen::{Blocks, Coarse};
+use super::quantise::{Fineness, Quantised};
+use super::reduction::Reduction;
+use super::unit::ReadingUnit;
+use crate::number;
+
+/// A map with no more values than this, of all times, is told apart in two bytes.
+const FINE_VALUES: usize = 400_000;
+/// Fractions of the values that may lie below and above the colours.
+const BEYOND_COLOURS: f64 = 0.005;
+
+/// One map of a run at several times.
+#[derive(Debug, Clone, Serialize)]
+pub struct PageMap {
+    /// Name in a scene.
+    pub name: &'static str,
+    /// Name for people.
+    pub title: &'static str,
+    /// Whether it covers the disc ring; else it covers the pin.
+    pub on_disc: bool,
+    /// Whether the codes are statuses.
+    pub is_status: bool,
+    /// The unit in which its values are read.
+    pub unit: ReadingUnit,
+    /// Times, s.
+    pub times: Vec<f64>,
+    /// Blocks along columns and rows.
+    pub shape: [usize; 2],
+    /// Cells of a block along columns and rows.
+    pub block: [usize; 2],
+    /// Lowest and highest value, SI.
+    pub range: [f64; 2],
+    /// Steps between them; the code above stands for what is no number.
+    pub steps: u16,
+    /// Values of the first and the last colour, SI.
+    pub colours: [f64; 2],
+    /// Codes, time by time, column by column, packed ([`Quantised::packed`]).
+    pub codes: String,
+}
+
+impl PageMap {
+    /// Bytes that it takes on the page, about.
+    pub fn size(&self) -> usize {
+        self.codes.len() + 20 * self.times.len() + 400
+    }
+
+    /// Its name with the step that its values are rounded to.
+    pub fn step_note(&self) -> String {
+        let step = (self.range[1] - self.range[0]) / f64::from(self.steps);
+        let step = number::significant(step * self.unit.scale, 2);
+        format!("{} in steps of {}", self.name, self.unit.with_symbol(&step))
+    }
+}
+
+/// Every map that a run recorded; none if it has no complete times.
+///
+/// # Errors
+/// [`ReadError::Damaged`].
+pub fn maps(run: &RunFile, reduction: Reduction) -> Result<Vec<PageMap>, ReadError> {
+    let times = reduction.times_of(run.map_time().len());
+    if times.is_empty() {
+        return Ok(Vec::new());
+    }
+    let recorded = Map::ALL.into_iter().filter(|map| run.has_map(*map));
+    recorded.map(|map| page_map(run, map, &times, reduction.cells)).collect()
+}
+
+fn page_map(run: &RunFile, map: Map, times: &[usize], most: usize) -> Result<PageMap, ReadError> {
+    let mesh = run.mesh();
+    let columns = if map.on_disc() { mesh.disc_columns() } else { mesh.pin_columns() };
+    let blocks = Blocks::at_most(most, [columns, mesh.rows()], [mesh.column_width(), mesh.row_height()]);
+    let (mut values, mut statuses) = (Vec::new(), Vec::new());
+    for index in times {
+        match run.map(map, *index)?.map(|values| blocks.coarsen(&values)) {
+            Some(Coarse::Float(floats)) => values.extend(floats),
+            Some(Coarse::Status(codes)) => statuses.extend(codes),
+            None => {}
+        }
+    }
+    let quantised = if map.is_status() {
+        Quantised::statuses(&statuses)
+    } else {
+        Quantised::of(&values, if values.len() <= FINE_VALUES { Fineness::Word } else { Fineness::Byte })
+    };
+    Ok(PageMap {
+        name: map.name(),
+        title: title(map),
+        on_disc: map.on_disc(),
+        is_status: map.is_status(),
+        unit: unit(map),
+        times: times.iter().map(|index| run.map_time()[*index]).collect(),
+        shape: blocks.shape(),
+        block: blocks.size,
+        range: quantised.range,
+        steps: quantised.fineness.steps(),
+        colours: colours(map, values),
+        codes: quantised.packed(blocks.count()),
+    })
+}
+
+/// Range of the colours: without the few values at both ends that would leave one colour for all others.
+///
+/// Pressures begin at 0, and the many cells without contact do not count.
+fn colours(map: Map, mut values: Vec<f64>) -> [f64; 2] {
+    let pressure = map == Map::Pressure;
+    values.retain(|value| value.is_finite() && !(pressure && *value <= 0.0));
+    if values.is_empty() {
+        return [0.0; 2];
+    }
+    let beyond = (values.len() as f64 * BEYOND_COLOURS) as usize;
+    let last = values.len() - 1;
+    let mut order = |index: usize| *values.select_nth_unstable_by(index, f64::total_cmp).1;
+    [if pressure { 0.0 } else { order(beyond) }, order(last - beyond)]
+}
+
+fn title(map: Map) -> &'static str {
+    match map {
+        Map::DiscHeight => "Disc: height, positive toward the pin",
+        Map::DiscSubstrate => "Disc: height below the debris",
+        Map::DiscStatus => "Disc: status",
+        Map::PinHeight => "Pin: height, positive away from the disc",
+        Map::PinSubstrate => "Pin: height below the debris, positive away from the disc",
+        Map::PinStatus => "Pin: status",
+        Map::Pressure => "Pin: contact pressure",
+    }
+}
+
+fn unit(map: Map) -> ReadingUnit {
+    match map {
+        Map::DiscStatus | Map::PinStatus => ReadingUnit::NUMBER,
+        Map::Pressure => ReadingUnit::PRESSURE,
+        _ => ReadingUnit::HEIGHT,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use plateau_core::observe::Map;
+
+    use super::colours;
+
+    #[test]
+    fn colours_leave_out_the_few() {
+        let mut values: Vec<f64> = (0..1000).map(f64::from).collect();
+        values.push(f64::NAN);
+        // Five of a thousand at either end.
+        assert_eq!(colours(Map::PinHeight, values.clone()), [5.0, 994.0]);
+        assert_eq!(colours(Map::PinHeight, vec![3.0]), [3.0, 3.0]);
+        assert_eq!(colours(Map::Pressure, vec![0.0, 0.0, 2.0, 3.0]), [0.0, 3.0]);
+        assert_eq!(colours(Map::Pressure, vec![0.0]), [0.0, 0.0]);
+    }
+}
