@@ -50,7 +50,9 @@ impl Blocks {
     pub fn coarsen(&self, values: &MapValues) -> Coarse {
         match values {
             MapValues::Float(values) => Coarse::Float(self.each(|cells| mean(cells.map(|cell| values[cell])))),
-            MapValues::Status(values) => Coarse::Status(self.each(|cells| most_frequent(cells.map(|cell| values[cell])))),
+            MapValues::Status(values) => {
+                Coarse::Status(self.each(|cells| most_frequent(cells.map(|cell| values[cell]))))
+            }
         }
     }
 

@@ -8,7 +8,8 @@ use super::outcome::{Measure, UNKNOWN, readable};
 pub fn rows(runs: &[Vec<Measure>]) -> Vec<Vec<String>> {
     let Some((first, others)) = runs.split_first() else { return Vec::new() };
     let row = |(index, reference): (usize, &Measure)| {
-        let compared = others.iter().map(|run| run.get(index).map_or_else(|| UNKNOWN.into(), |run| compare(reference, run)));
+        let compared =
+            others.iter().map(|run| run.get(index).map_or_else(|| UNKNOWN.into(), |run| compare(reference, run)));
         [reference.name.to_owned(), reference.text()].into_iter().chain(compared).collect()
     };
     first.iter().enumerate().map(row).collect()
@@ -61,7 +62,13 @@ mod tests {
         let rows = rows(&[run(4e-6), run(5e-6), run(3e-6), run(4e-6)]);
         assert_eq!(
             rows,
-            [["area", "4.0000 mm²", "5.0000 mm² (+1, +25.0 %)", "3.0000 mm² (\u{2212}1, \u{2212}25.0 %)", "4.0000 mm² (same)"]]
+            [[
+                "area",
+                "4.0000 mm²",
+                "5.0000 mm² (+1, +25.0 %)",
+                "3.0000 mm² (\u{2212}1, \u{2212}25.0 %)",
+                "4.0000 mm² (same)"
+            ]]
         );
     }
 

@@ -160,7 +160,8 @@ impl Run {
             return "No maps recorded.".into();
         }
         let times = self.maps.iter().map(|map| map.times.len()).max().unwrap_or(0);
-        let left_out = if times < self.map_times { format!(" ({times} of {} times)", self.map_times) } else { String::new() };
+        let left_out =
+            if times < self.map_times { format!(" ({times} of {} times)", self.map_times) } else { String::new() };
         let maps: Vec<String> = self.maps.iter().filter(|map| !map.is_status).map(PageMap::step_note).collect();
         let blocks: Vec<String> = [true, false].into_iter().filter_map(|on_disc| self.block_note(on_disc)).collect();
         format!("Maps{left_out} are rounded: {}.{}", maps.join(", "), blocks.concat())

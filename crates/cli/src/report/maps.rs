@@ -34,11 +34,14 @@ pub struct PageMap {
     pub shape: [usize; 2],
     /// Cells of a block along columns and rows.
     pub block: [usize; 2],
-    /// Lowest and highest value, SI.
+    /// Per time, what its values are told from, SI: the pin wears by far more than it is rough, so its heights are told
+    /// from their median; all else from 0.
+    pub reference: Vec<f64>,
+    /// Lowest and highest value less the reference, SI.
     pub range: [f64; 2],
     /// Steps between them; the code above stands for what is no number.
     pub steps: u16,
-    /// Values of the first and the last colour, SI.
+    /// Values, less the reference, of the first and the last colour, SI.
     pub colours: [f64; 2],
     /// Codes, time by time, column by column, packed ([`Quantised::packed`]).
     pub codes: String,
@@ -75,10 +78,14 @@ fn page_map(run: &RunFile, map: Map, times: &[usize], most: usize) -> Result<Pag
     let mesh = run.mesh();
     let columns = if map.on_disc() { mesh.disc_columns() } else { mesh.pin_columns() };
     let blocks = Blocks::at_most(most, [columns, mesh.rows()], [mesh.column_width(), mesh.row_height()]);
-    let (mut values, mut statuses) = (Vec::new(), Vec::new());
+    let (mut values, mut reference, mut statuses) = (Vec::new(), Vec::new(), Vec::new());
     for index in times {
         match run.map(map, *index)?.map(|values| blocks.coarsen(&values)) {
-            Some(Coarse::Float(floats)) => values.extend(floats),
+            Some(Coarse::Float(floats)) => {
+                let zero = if is_pin_height(map) { median(&floats) } else { 0.0 };
+                values.extend(floats.into_iter().map(|value| value - zero));
+                reference.push(zero);
+            }
             Some(Coarse::Status(codes)) => statuses.extend(codes),
             None => {}
         }
@@ -97,11 +104,23 @@ fn page_map(run: &RunFile, map: Map, times: &[usize], most: usize) -> Result<Pag
         times: times.iter().map(|index| run.map_time()[*index]).collect(),
         shape: blocks.shape(),
         block: blocks.size,
+        reference,
         range: quantised.range,
         steps: quantised.fineness.steps(),
         colours: colours(map, values),
         codes: quantised.packed(blocks.count()),
     })
+}
+
+fn is_pin_height(map: Map) -> bool {
+    matches!(map, Map::PinHeight | Map::PinSubstrate)
+}
+
+/// The value in the middle of those that are finite; 0 if there is none.
+fn median(values: &[f64]) -> f64 {
+    let mut finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let middle = finite.len() / 2;
+    if finite.is_empty() { 0.0 } else { *finite.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 /// Range of the colours: without the few values at both ends that would leave one colour for all others.
@@ -143,7 +162,13 @@ fn unit(map: Map) -> ReadingUnit {
 mod tests {
     use plateau_core::observe::Map;
 
-    use super::colours;
+    use super::{colours, median};
+
+    #[test]
+    fn the_median_is_in_the_middle() {
+        assert_eq!(median(&[9.0, f64::NAN, 1.0, 2.0]), 2.0);
+        assert_eq!(median(&[f64::INFINITY]), 0.0);
+    }
 
     #[test]
     fn colours_leave_out_the_few() {

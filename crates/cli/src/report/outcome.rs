@@ -85,7 +85,12 @@ pub fn facts(run: &RunFile) -> Vec<(&'static str, String)> {
         ("Samples and times of maps", format!("{} and {}", run.time().len(), run.map_time().len())),
         (
             "Mesh",
-            format!("{} rows, {} columns of the disc, {} of the pin", mesh.rows(), mesh.disc_columns(), mesh.pin_columns()),
+            format!(
+                "{} rows, {} columns of the disc, {} of the pin",
+                mesh.rows(),
+                mesh.disc_columns(),
+                mesh.pin_columns()
+            ),
         ),
         ("Wall time", run.number("wall_time").map_or_else(|| UNKNOWN.into(), number::duration)),
         (

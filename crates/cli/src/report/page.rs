@@ -155,13 +155,16 @@ impl Parts<'_> {
                 [text(found.and_then(|found| found.largest)), text(found.and_then(|found| found.last))]
             };
             let tolerance = run.scene().get("contact").and_then(|contact| contact.get("load_tolerance"));
-            let tolerance = tolerance.map_or_else(|| UNKNOWN.into(), ToString::to_string);
+            let tolerance = tolerance
+                .and_then(toml::Value::as_float)
+                .map_or_else(|| UNKNOWN.into(), |tolerance| format!("{tolerance:e}").replace('-', "\u{2212}"));
             let [load, last_load] = of("load_residual");
             let [balance, last_balance] = of("balance_residual");
             vec![label.clone(), load, last_load, tolerance, balance, last_balance]
         };
         let heads = ["Run", "Load: largest", "Load: last", "Load: tolerance", "Debris: largest", "Debris: last"];
-        let rows: Vec<_> = self.labels.iter().zip(self.series).zip(self.runs).map(|(part, run)| row(part, run)).collect();
+        let rows: Vec<_> =
+            self.labels.iter().zip(self.series).zip(self.runs).map(|(part, run)| row(part, run)).collect();
         html::table("Residuals", &heads.map(str::to_owned), &rows)
             + "<p class=\"hint\">Relative residuals of the load balance and of the debris balance; the chart shows their \
                magnitude.</p>\n<div id=\"residual-chart\"></div>\n"
@@ -180,7 +183,8 @@ impl Parts<'_> {
                  error 6e−8 at most)."
             ),
             "Colours of heights leave out the lowest and the highest 0.5 % of the values, which take the colours of the ends; \
-             pressures begin at 0, and the highest 0.5 % of the cells in contact take the last colour."
+             pressures begin at 0, and the highest 0.5 % of the cells in contact take the last colour. The pin wears by far \
+             more than it is rough: its colours are of heights less their median at each time."
                 .to_owned(),
         ];
         for (run, file) in document.runs.iter().zip(self.runs) {

@@ -7,7 +7,7 @@ use super::pack;
 pub enum Fineness {
     /// One byte each: 254 steps.
     Byte,
-    /// Two bytes each: 65 534 steps.
+    /// Two bytes each: 4095 steps, which are shorter when they are deflated than all that two bytes can tell apart.
     Word,
 }
 
@@ -16,7 +16,7 @@ impl Fineness {
     pub fn steps(self) -> u16 {
         match self {
             Self::Byte => 254,
-            Self::Word => 65_534,
+            Self::Word => 4095,
         }
     }
 }
@@ -36,7 +36,8 @@ impl Quantised {
     /// Numbers, of which those that are not finite get the code above the highest.
     pub fn of(values: &[f64], fineness: Fineness) -> Self {
         let finite = values.iter().copied().filter(|value| value.is_finite());
-        let range = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+        let range =
+            finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
         let range = if range[0] <= range[1] { range } else { [0.0; 2] };
         let steps = f64::from(fineness.steps());
         let width = range[1] - range[0];
@@ -91,7 +92,7 @@ mod tests {
         let quantised = Quantised::of(&[1.0, f64::NAN, 3.0, f64::INFINITY], Fineness::Byte);
         assert_eq!((quantised.range, &quantised.codes[..]), ([1.0, 3.0], &[0, 255, 254, 255][..]));
         assert_eq!(Quantised::of(&[2.0; 3], Fineness::Word).codes, [0; 3]);
-        assert_eq!(Quantised::of(&[f64::NAN], Fineness::Word).codes, [65_535]);
+        assert_eq!(Quantised::of(&[f64::NAN], Fineness::Word).codes, [4096]);
         assert_eq!(Quantised::of(&[-1e308, 1e308], Fineness::Byte).codes, [0, 0]);
     }
 }

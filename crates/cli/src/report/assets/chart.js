@@ -33,10 +33,11 @@ class Chart {
                 button("All", "Show all times", () => this.zoomTo(null))));
         this.plot = element("div", { className: "plot", tabIndex: 0, role: "group", "aria-label": "Chart; arrow keys move the cursor" });
         this.plot.addEventListener("keydown", (event) => this.key(event));
-        place.append(element("div", { className: "panel" }, controls, this.plot));
         this.choice.addEventListener("change", () => this.draw());
         this.logarithmic.addEventListener("change", () => this.draw());
-        new ResizeObserver(() => this.fit()).observe(this.plot);
+        this.values = element("div", { className: "scroll values", tabIndex: 0, role: "region", "aria-label": "Values at the cursor" });
+        place.append(element("div", { className: "panel" }, controls, this.plot, this.values));
+        new ResizeObserver(() => requestAnimationFrame(() => this.fit())).observe(this.plot);
         Chart.all.push(this);
     }
 
@@ -56,8 +57,10 @@ class Chart {
         const [low, high] = this.uplot ? [this.uplot.scales.x.min, this.uplot.scales.x.max] : [];
         const zoomed = this.zoomed;
         this.uplot?.destroy();
-        this.uplot = lines.length ? new uPlot(this.options(lines, names.length), this.data(lines), this.plot) : undefined;
         this.lines = lines;
+        this.several = new Set(lines.map((line) => line.index)).size > 1;
+        this.showLegend();
+        this.uplot = lines.length ? new uPlot(this.options(lines), this.data(lines), this.plot) : undefined;
         if (zoomed && this.uplot) this.uplot.setScale("x", { min: low, max: high });
         this.plot.dataset.lines = lines.length;
     }
@@ -72,38 +75,68 @@ class Chart {
         return uPlot.join(lines.map((line) => [line.points.times, line.points.values.map((number) => value(line, number))]));
     }
 
-    options(lines, kinds) {
+    options(lines) {
         const colours = scheme();
-        const several = new Set(lines.map((line) => line.index)).size > 1;
         const unit = lines[0].series.unit;
-        const name = (line) => [several || kinds < 2 ? line.run.label : "", kinds > 1 || !several ? line.series.label : ""].filter(Boolean);
         const axis = { stroke: colours.ink, grid: { stroke: colours.line, width: 1 }, ticks: { stroke: colours.line, width: 1 }, font: "12px system-ui, sans-serif", labelFont: "13px system-ui, sans-serif" };
         const numbers = (_, splits) => splits.map((split) => (split === null ? "" : readable(split, 6)));
+        const room = (_, values) => this.logarithmic.checked ? 60 : 16 + 7 * Math.max(3, ...(values ?? []).map((text) => text?.length ?? 0));
         return {
             width: this.plot.clientWidth,
             height: this.height(),
-            legend: { live: true },
+            legend: { show: false },
             cursor: { drag: { x: true, y: false, uni: 10 }, dataIdx: nearest, points: { size: 7 } },
+            hooks: { setCursor: [(chart) => this.read(chart)], setData: [(chart) => this.read(chart)] },
             scales: { x: { time: false }, y: { distr: this.logarithmic.checked ? 3 : 1 } },
-            series: [
-                { label: "time", value: (_, value) => (value === null ? "–" : `${readable(value, 6)} s`) },
-                ...lines.map((line) => ({
-                    label: name(line).join(" · "),
-                    // One run: colours tell series apart; several: colours tell runs apart, dashes series.
-                    stroke: colours.runs[(several ? line.index : line.kind) % colours.runs.length],
-                    dash: several ? dashes[line.kind % dashes.length] : [],
-                    // Single steps fluctuate: a faint band behind their mean.
-                    alpha: line.series.name === "contact_area" && kinds > 1 ? 0.35 : 1,
-                    width: 1.5,
-                    points: { show: line.points.times.length < 2 },
-                    value: (_, value) => (value === null || value === undefined ? "–" : `${readable(value)} ${unit.symbol}`.trim()),
-                })),
-            ],
+            series: [{}, ...lines.map((line) => ({ ...this.style(line), width: 1.5, points: { show: line.points.times.length < 2 } }))],
             axes: [
                 { ...axis, label: "time, s", labelSize: 20, size: 34, values: numbers },
-                { ...axis, label: unit.symbol ? `${this.title()}, ${unit.symbol}` : this.title(), labelSize: 22, size: (self, values) => 16 + 7 * Math.max(3, ...(values ?? []).map((text) => text?.length ?? 0)), values: this.logarithmic.checked ? decades : numbers },
+                { ...axis, label: [this.title(), unit.symbol].filter(Boolean).join(", "), labelSize: 22, size: room, values: this.logarithmic.checked ? decades : numbers },
             ],
         };
+    }
+
+    /** Colours tell runs apart and dashes series; in one run colours tell series apart. */
+    style(line) {
+        const colours = scheme().runs;
+        // Single steps fluctuate: a faint band behind their mean.
+        const band = line.series.name === "contact_area";
+        const fluctuates = band || line.series.name === "contact_area_mean";
+        return {
+            stroke: colours[(this.several ? line.index : line.kind) % colours.length],
+            dash: this.several && !fluctuates ? dashes[line.kind % dashes.length] : [],
+            alpha: band ? 0.4 : 1,
+        };
+    }
+
+    /** A table of what the lines mean: a row for each series, a column for each run, with the values at the cursor. */
+    showLegend() {
+        const runs = [...new Set(this.lines.map((line) => line.index))];
+        const kinds = [...new Map(this.lines.map((line) => [line.kind, line])).values()];
+        this.when = element("th", { scope: "col" });
+        this.cells = this.lines.map(() => element("td", {}, "–"));
+        const head = (index) => {
+            const line = this.lines.find((line) => line.index === index);
+            return element("th", { scope: "col" }, ...(this.several ? [stroke({ ...this.style(line), dash: [], alpha: 1 }), " "] : []), line.run.label);
+        };
+        const row = (kind) => {
+            const style = this.several ? { ...this.style(kind), stroke: scheme().ink } : this.style(kind);
+            const cell = (index) => this.cells[this.lines.findIndex((line) => line.index === index && line.kind === kind.kind)] ?? element("td", {}, "–");
+            return element("tr", {}, element("th", { scope: "row" }, stroke(style), " ", kind.series.label), ...runs.map(cell));
+        };
+        const rows = [element("thead", {}, element("tr", {}, this.when, ...runs.map(head))), element("tbody", {}, ...kinds.map(row))];
+        this.values.replaceChildren(...(this.lines.length ? [element("table", {}, ...rows)] : [element("p", { className: "hint" }, "No run is chosen, or none has this quantity.")]));
+    }
+
+    /** Shows the values at the cursor; at the last time where there is none. */
+    read(chart) {
+        const times = chart.data[0];
+        const index = chart.cursor.idx ?? times.length - 1;
+        this.when.textContent = times.length ? `at ${readable(times[index], 6)} s` : "";
+        this.lines.forEach((line, at) => {
+            const value = chart.data[at + 1][nearest(chart, at + 1, index)];
+            this.cells[at].textContent = `${readable(value)} ${line.series.unit.symbol}`.trim();
+        });
     }
 
     title() {
@@ -158,6 +191,18 @@ class Chart {
         else return;
         event.preventDefault();
     }
+}
+
+/** A short piece of a line, as in the chart. */
+function stroke({ stroke, dash, alpha }) {
+    const make = (name, attributes) => {
+        const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+        for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+        return made;
+    };
+    const picture = make("svg", { width: 28, height: 8, "aria-hidden": "true" });
+    picture.append(make("line", { x1: 0, y1: 4, x2: 28, y2: 4, stroke, "stroke-width": 2.5, "stroke-dasharray": dash.join(" "), opacity: alpha }));
+    return picture;
 }
 
 /** The nearest time at which a series has a value: runs and thinned series have different times. */

@@ -48,7 +48,7 @@ async function readCodes(map) {
     return codes;
 }
 
-/** The value behind a code, SI; nothing where there was no number. */
+/** The value behind a code less the reference of its time, SI; nothing where there was no number. */
 function valueOf(map, code) {
     return code > map.steps ? null : map.range[0] + (code / map.steps) * (map.range[1] - map.range[0]);
 }
@@ -57,13 +57,13 @@ function valueOf(map, code) {
 function readable(value, digits = 4) {
     if (value === null || value === undefined || Number.isNaN(value)) return "–";
     const size = Math.abs(value);
-    const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+    const text = size !== 0 && (size < 1e-4 || size >= 1e7) ? value.toExponential(digits - 1).replace(/\.?0*e\+?/, "e") : String(Number(value.toPrecision(digits)));
     return text.replaceAll("-", "−");
 }
 
 /** A number with its unit. */
 function withUnit(value, unit, digits) {
-    return `${readable(value * unit.scale, digits)} ${unit.symbol}`.trim();
+    return value === null ? "no number" : `${readable(value * unit.scale, digits)} ${unit.symbol}`.trim();
 }
 
 /** An element with attributes or properties, and what is in it. */

@@ -23,7 +23,7 @@ class MapView {
         this.canvas.addEventListener("pointermove", (event) => this.point(event));
         this.canvas.addEventListener("pointerdown", (event) => this.point(event));
         this.canvas.addEventListener("keydown", (event) => this.key(event));
-        this.resize = new ResizeObserver(() => this.draw());
+        this.resize = new ResizeObserver(() => requestAnimationFrame(() => this.draw()));
         this.resize.observe(this.canvas);
     }
 
@@ -136,7 +136,7 @@ class MapView {
         context.textAlign = "center";
         context.textBaseline = "top";
         const middle = left + inner / 2;
-        context.fillText(inner < 240 ? "arc length, mm" : "arc length at the mean radius, mm", middle, 6 + (pieces - 1) * (high + gap) + high + 3);
+        context.fillText(inner < 320 ? "arc length, mm" : "arc length at the mean radius, mm", middle, 6 + (pieces - 1) * (high + gap) + high + 3);
         context.save();
         context.translate(2, 6 + high / 2);
         context.rotate(-Math.PI / 2);
@@ -208,13 +208,21 @@ class MapView {
         const [column, row] = this.place;
         const code = this.codes[(this.time * map.shape[0] + column) * map.shape[1] + row];
         const status = report.statuses.find((status) => status.code === code);
-        const value = map.is_status ? (status?.name ?? `status ${code}`) : withUnit(valueOf(map, code), map.unit);
+        const value = map.is_status ? (status?.name ?? `status ${code}`) : this.value(code);
         const middle = (index, direction, cells) => 0.5 * (index * map.block[direction] + Math.min(cells, (index + 1) * map.block[direction]));
         const cells = map.on_disc ? mesh.disc_columns : mesh.pin_columns;
         const along = middle(column, 0, cells) * mesh.column_width;
         const radius = mesh.inner_radius + middle(row, 1, mesh.rows) * mesh.row_height;
         const cell = map.block[0] * map.block[1] > 1 ? "" : `, column ${column}, row ${row}`;
         this.reading.textContent = `${value} ${when}, arc length ${readable(along * 1e3, 5)} mm, radius ${readable(radius * 1e3, 5)} mm${cell}`;
+    }
+
+    /** A value in words, also as told from the median where there is one. */
+    value(code) {
+        const { map } = this;
+        const [value, reference] = [valueOf(map, code), map.reference[this.time]];
+        if (value === null || reference === 0) return withUnit(value, map.unit);
+        return `${withUnit(reference + value, map.unit, 6)} (median ${value < 0 ? "" : "+"}${withUnit(value, map.unit)})`;
     }
 
     showLegend() {
@@ -234,6 +242,8 @@ class MapView {
         const [low, high] = this.colours.map((value) => withUnit(value, this.map.unit));
         this.legend.className = "colour-bar";
         this.legend.replaceChildren(element("span", {}, low), bar, element("span", {}, high));
+        const median = this.map.reference[this.time];
+        if (median !== 0) this.legend.append(element("span", { className: "wide" }, `about the median, ${withUnit(median, this.map.unit, 6)}`));
         if (this.map.name === "pressure") this.legend.append(element("span", {}, swatch(scheme().empty), " no contact"));
     }
 
