@@ -39,9 +39,10 @@ fn the_example_of_every_command_works() {
         let help = WorkingDirectory::new().plateau([&command, "--help"]).quiet_success();
         let examples = examples(&help);
         assert!(!examples.is_empty(), "no example in {command} --help: {help}");
+        // One after the other in the same place: some need what those before made.
+        let directory = WorkingDirectory::new();
+        symlink(repository().join("data"), directory.path("data")).unwrap();
         for example in examples {
-            let directory = WorkingDirectory::new();
-            symlink(repository().join("data"), directory.path("data")).unwrap();
             runs(&directory, example);
             if command == "run" {
                 let written = directory.names().into_iter().find(|name| name != "data").expect("a run file");

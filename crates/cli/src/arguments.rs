@@ -33,7 +33,7 @@ pub enum Command {
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),
     /// Make one HTML page of run files: numbers, charts, maps, scenes; several runs are compared
-    #[command(after_help = "Examples, one after the other:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
                       plateau report quick.h5 -o quick.html")]
     Report(ReportArguments),
 }

@@ -8,7 +8,7 @@ use crate::table::{print, table};
 use crate::{message, number, output, report};
 
 /// More runs are not told apart by their colours, and leave little of each.
-const MOST_RUNS: usize = 16;
+const MOST_RUNS: usize = 8;
 
 /// Makes a page of run files.
 pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
