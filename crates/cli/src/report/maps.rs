@@ -56,6 +56,9 @@ impl PageMap {
     /// Its name with the step that its values are rounded to.
     pub fn step_note(&self) -> String {
         let step = (self.range[1] - self.range[0]) / f64::from(self.steps);
+        if step == 0.0 {
+            return format!("{} not at all, being alike everywhere", self.name);
+        }
         let step = number::significant(step * self.unit.scale, 2);
         format!("{} in steps of {}", self.name, self.unit.with_symbol(&step))
     }

@@ -94,7 +94,7 @@ class MapView {
         const [left, right, gap] = [44, 10, 20];
         const [length, height] = this.size;
         const inner = Math.max(1, width - left - right);
-        const pieces = Math.max(1, Math.min(12, Math.round((flattest() * length) / height)));
+        const pieces = Math.max(1, Math.min(12, this.map.shape[0], Math.round((flattest() * length) / height)));
         // The pin is no wider than a screen is high; what is very flat or very high is stretched to be seen at all.
         const scale = Math.min(inner / (length / pieces), 420 / height);
         const across = Math.max(40, Math.min(inner, (length / pieces) * scale));
