@@ -229,7 +229,8 @@ fn one_cell_is_enough() {
     let directory = short();
     let mesh = ["mesh.rows=1", "mesh.disc_columns=1", "mesh.pin_columns=1", "disc.surface.flat=true"];
     let pin = ["pin.surface.flat=true", "pin.base.uniform=primary", "numerics.time_acceleration=1"];
-    let steps = ["operation.steps=3", "output.sample_every_steps=1"];
+    let steps =
+        ["operation.steps=3", "output.sample_every_steps=1", "output.maps_at=[]", "numerics.integrator=exponential"];
     run(&directory, "run.h5", &[&mesh[..], &pin, &steps].concat());
     let document = document(&page(&directory, &["run.h5"]));
     let map = &document["runs"][0]["maps"][0];
