@@ -88,6 +88,14 @@ fn command_lines() -> Vec<Case> {
         case("no workers", &["run", "scene.toml", "--workers", "0"], quick),
         case("workers that are no number", &["run", "scene.toml", "--workers", "many"], quick),
         case("unknown instruction set", &["run", "scene.toml", "--isa", "nonsense"], quick),
+        case("no run to plot", &["plot"], |_| ()),
+        case("unknown format of figures", &["plot", "run.h5", "--format", "jpg"], |_| ()),
+        case("nine runs to plot", &["plot", "1", "2", "3", "4", "5", "6", "7", "8", "9"], |_| ()),
+        case("run file is missing", &["plot", "run.h5"], |_| ()),
+        case("run file is a text", &["plot", "run.h5"], |directory| {
+            directory.write("run.h5", "no HDF5");
+        }),
+        case("run file of something else", &["plot", "surface.h5"], |directory| ring(directory, |_| 0.0)),
         case("no instruction set", &["run", "scene.toml", "--isa"], quick),
     ]
 }

@@ -3,7 +3,7 @@
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use plateau_core::kernel::InstructionSet;
 use plateau_core::surface::Level;
 use plateau_io::units::{self, Dimension};
@@ -32,6 +32,11 @@ pub enum Command {
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),
+    /// Draw the figures of a run, or of several side by side
+    #[command(
+        after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
+    )]
+    Plot(PlotArguments),
     /// Make one HTML page of run files: numbers, charts, maps, scenes; several runs are compared
     #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
                       plateau report quick.h5 -o quick.html")]
@@ -149,7 +154,7 @@ pub struct SurfaceArguments {
 /// Arguments of `plateau report`.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
-    /// Run files; differences are told from the first
+    /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
     #[arg(value_name = "RUN", required = true)]
     pub runs: Vec<PathBuf>,
     /// Page to write
@@ -158,6 +163,48 @@ pub struct ReportArguments {
     /// Replace the page if it exists
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `plateau plot`.
+#[derive(Debug, Args)]
+pub struct PlotArguments {
+    /// Run files, also of runs that go on or were stopped; at most 8
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Folder for the figures, made if it is not there; named like the run file, or "figures" for several, unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Format of the figures
+    #[arg(long, value_enum, default_value = "png")]
+    pub format: FigureFormat,
+    /// Show the whole ring from above instead of unrolled
+    #[arg(long)]
+    pub polar: bool,
+    /// Replace figures that exist
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Format of a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureFormat {
+    /// Pixels
+    Png,
+    /// Lines and letters, for web pages and for drawing programs
+    Svg,
+    /// Lines and letters, for papers
+    Pdf,
+}
+
+impl FigureFormat {
+    /// Ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        }
+    }
 }
 
 /// Distance of neighbouring points along x and y, m.

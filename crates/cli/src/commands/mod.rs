@@ -1,6 +1,7 @@
 //! One file per command.
 
 mod check;
+mod plot;
 mod report;
 mod run;
 mod surface;
@@ -16,8 +17,9 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
-        Command::Report(arguments) => report::report(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
     }
 }
 

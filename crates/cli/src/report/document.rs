@@ -2,6 +2,7 @@
 
 use plateau_core::material::Status;
 use plateau_io::run_file::{ReadError, RunFile};
+use plotters::style::RGBColor;
 use serde::Serialize;
 
 use super::maps::{PageMap, maps};
@@ -10,7 +11,7 @@ use super::picture::Picture;
 use super::recorded::Recorded;
 use super::reduction::Reduction;
 use super::unit::ReadingUnit;
-use crate::figure::viridis;
+use crate::figure::{STATUSES, viridis};
 
 /// All of it.
 #[derive(Debug, Serialize)]
@@ -69,7 +70,7 @@ struct PageSeries {
 struct StatusName {
     code: u8,
     name: &'static str,
-    colour: &'static str,
+    colour: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -90,7 +91,7 @@ impl Document {
         });
         Self {
             runs: runs.map(|((run, label), series)| Run::new(run, label, series)).collect(),
-            colours: (0..=255).map(|index| hexadecimal(f64::from(index) / 255.0)).collect(),
+            colours: (0..=255).map(|index| hexadecimal(viridis(f64::from(index) / 255.0))).collect(),
             statuses: statuses(),
             pictures: pictures.collect(),
         }
@@ -195,15 +196,19 @@ impl PageSeries {
 }
 
 fn statuses() -> Vec<StatusName> {
-    let name = |status: Status, name, colour| StatusName { code: status as u8, name, colour };
-    vec![
-        name(Status::None, "none (resin)", "#c9c9c9"),
-        name(Status::Primary, "primary plateau", "#0072b2"),
-        name(Status::Secondary, "secondary plateau", "#e69f00"),
-    ]
+    let names = [
+        (Status::None, "none (resin)"),
+        (Status::Primary, "primary plateau"),
+        (Status::Secondary, "secondary plateau"),
+    ];
+    let status = |((status, name), colour): ((Status, _), RGBColor)| StatusName {
+        code: status as u8,
+        name,
+        colour: hexadecimal(colour),
+    };
+    names.into_iter().zip(STATUSES).map(status).collect()
 }
 
-fn hexadecimal(value: f64) -> String {
-    let colour = viridis(value);
+fn hexadecimal(colour: RGBColor) -> String {
     format!("{:02x}{:02x}{:02x}", colour.0, colour.1, colour.2)
 }

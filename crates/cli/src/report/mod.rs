@@ -39,3 +39,4 @@ mod thin;
 mod unit;
 
 pub use page::page;
+pub use picture::Pictures;

@@ -6,7 +6,7 @@ use super::document::Document;
 use super::html;
 use super::label::labels;
 use super::outcome::{self, Measure, UNKNOWN, readable};
-use super::picture::Picture;
+use super::picture::Pictures;
 use super::recorded::{MOST_POINTS, Recorded, recorded};
 use super::section::Section;
 use super::template::fill;
@@ -31,11 +31,11 @@ const SCRIPT: &str = concat!(
 ///
 /// # Errors
 /// [`ReadError::Damaged`] when a series or a map cannot be read.
-pub fn page(runs: &[RunFile], pictures: &[Picture]) -> Result<String, ReadError> {
+pub fn page(runs: &[RunFile], pictures: &Pictures) -> Result<String, ReadError> {
     let labels = labels(runs);
     let series = runs.iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
     let measures: Vec<_> = series.iter().map(|series| outcome::measures(series)).collect();
-    let mut document = Document::new(runs, &labels, &series, pictures);
+    let mut document = Document::new(runs, &labels, &series, &pictures.pictures);
     let parts = Parts { runs, labels: &labels, series: &series, measures: &measures };
     let around = TEMPLATE.len() + STYLE.len() + SCRIPT.len() + parts.provenance().len() + 20_000 * (1 + runs.len());
     document.add_maps(runs, MOST_BYTES.saturating_sub(around))?;
@@ -44,12 +44,20 @@ pub fn page(runs: &[RunFile], pictures: &[Picture]) -> Result<String, ReadError>
     let sections = [
         Section::new("summary", "Summary", parts.summary()),
         Section::new("comparison", "Comparison", parts.comparison()),
-        Section::new("figures", "Figures", if pictures.is_empty() { "" } else { "<div id=\"figure-list\"></div>\n" }),
+        Section::new(
+            "figures",
+            "Figures",
+            if pictures.pictures.is_empty() { "" } else { "<div id=\"figure-list\"></div>\n" },
+        ),
         Section::new("series", "Series", if has_samples { CHARTS } else { "" }),
         Section::new("maps", "Maps", if has_maps { MAPS } else { "" }),
         Section::new("residuals", "Residuals", if has_samples { parts.residuals() } else { String::new() }),
         Section::new("scenes", "Scenes and provenance", parts.provenance()),
-        Section::new("contents", "What this page holds", html::list(&parts.contents(&document))),
+        Section::new(
+            "contents",
+            "What this page holds",
+            html::list(&[parts.contents(&document), pictures.left_out.clone()].concat()),
+        ),
     ];
     let present = || sections.iter().filter(|section| !section.is_empty());
     let json = html::json_in_script(&document.to_json());

@@ -68,7 +68,7 @@ class MapView {
         const empty = pixel(scheme().empty.slice(1));
         const table = new Uint32Array(map.steps + 2).fill(empty);
         if (map.is_status) {
-            report.statuses.forEach((status) => (table[status.code] = pixel(status.colour.slice(1))));
+            report.statuses.forEach((status) => (table[status.code] = pixel(status.colour)));
             return table;
         }
         const ramp = report.colours.map(pixel);
@@ -234,7 +234,7 @@ class MapView {
         if (this.map.is_status) {
             const names = report.statuses.filter((status) => !(this.map.on_disc && status.code === 0));
             this.legend.className = "key";
-            this.legend.replaceChildren(...names.map((status) => element("span", {}, swatch(status.colour), `${status.name}: ${this.share(status.code)}`)));
+            this.legend.replaceChildren(...names.map((status) => element("span", {}, swatch(`#${status.colour}`), `${status.name}: ${this.share(status.code)}`)));
             return;
         }
         const bar = element("div");
