@@ -73,17 +73,18 @@ fn indices(packed: &Value) -> Vec<usize> {
     steps.scan(0, |at, step| (*at += step, Some(*at)).1).collect()
 }
 
-/// Codes of a map, time by time, of the differences between times that are on the page.
-fn codes(map: &Value) -> Vec<u32> {
+/// Codes of a map, time by time, of the differences that are on the page; `before` is what the first time is told from.
+fn codes(map: &Value, before: &[u32]) -> Vec<u32> {
     let wide = map["steps"].as_u64().unwrap() > 255;
     let mut codes: Vec<u32> = unpack(&map["codes"], if wide { 2 } else { 1 })
         .into_iter()
         .map(|bytes| bytes.iter().rev().fold(0, |code, byte| code << 8 | u32::from(*byte)))
         .collect();
-    let cells = map["shape"].as_array().unwrap().iter().map(|count| count.as_u64().unwrap() as usize).product();
+    let cells: usize = map["shape"].as_array().unwrap().iter().map(|count| count.as_u64().unwrap() as usize).product();
     let modulus = if wide { 1 << 16 } else { 1 << 8 };
-    for index in cells..codes.len() {
-        codes[index] = (codes[index] + codes[index - cells]) % modulus;
+    for index in 0..codes.len() {
+        let before = if index < cells { before.get(index).copied().unwrap_or(0) } else { codes[index - cells] };
+        codes[index] = (codes[index] + before) % modulus;
     }
     codes
 }
@@ -142,7 +143,9 @@ fn the_maps_of_the_page_are_those_of_the_run_file_within_half_a_step() {
     for (map, (name, path)) in maps.iter().zip(MAPS) {
         assert_eq!(numbers(&map["times"]), file.floats("/map_time"));
         assert_eq!(map["block"], serde_json::json!([1, 1]));
-        let codes = codes(map);
+        let before = maps.iter().find(|other| other["name"] == map["told_from"]);
+        assert_eq!(before.is_some(), name.ends_with("substrate"));
+        let codes = codes(map, &before.map(|before| codes(before, &[])).unwrap_or_default());
         if map["is_status"] == true {
             let statuses: Vec<u32> = file.statuses(path).into_iter().map(|status| status as u32).collect();
             assert!(codes == statuses, "{name}");
@@ -220,8 +223,13 @@ fn what_was_not_recorded_is_left_out() {
     run(&directory, "run.h5", &["output.maps=[]"]);
     let page = page(&directory, &["run.h5"]);
     assert!(!page.contains("<section id=\"maps\"") && page.contains("the runs did not record any"));
-    assert!(page.contains("<section id=\"series\"") && !page.contains("<section id=\"figures\""));
-    assert_eq!(document(&page)["runs"][0]["maps"], serde_json::json!([]));
+    let document = document(&page);
+    assert_eq!(document["runs"][0]["maps"], serde_json::json!([]));
+    // Of the figures, those of maps.
+    let figures: Vec<&str> =
+        document["pictures"].as_array().unwrap().iter().map(|picture| picture["name"].as_str().unwrap()).collect();
+    assert!(page.contains("<section id=\"series\"") && page.contains("<section id=\"figures\""));
+    assert!(!figures.is_empty() && figures.iter().all(|name| !name.contains("map")), "{figures:?}");
 }
 
 #[test]
@@ -234,7 +242,7 @@ fn one_cell_is_enough() {
     run(&directory, "run.h5", &[&mesh[..], &pin, &steps].concat());
     let document = document(&page(&directory, &["run.h5"]));
     let map = &document["runs"][0]["maps"][0];
-    assert_eq!((&map["shape"], codes(map).len()), (&serde_json::json!([1, 1]), numbers(&map["times"]).len()));
+    assert_eq!((&map["shape"], codes(map, &[]).len()), (&serde_json::json!([1, 1]), numbers(&map["times"]).len()));
 }
 
 /// Changes a run file.

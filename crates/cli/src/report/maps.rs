@@ -5,7 +5,7 @@ use plateau_io::run_file::{ReadError, RunFile};
 use serde::Serialize;
 
 use super::coarsen::{Blocks, Coarse};
-use super::quantise::{Fineness, Quantised};
+use super::quantise::{self, Fineness, Quantised};
 use super::reduction::Reduction;
 use super::unit::ReadingUnit;
 use crate::number;
@@ -43,6 +43,8 @@ pub struct PageMap {
     pub steps: u16,
     /// Values, less the reference, of the first and the last colour, SI.
     pub colours: [f64; 2],
+    /// The map from whose codes those of the first time are told.
+    pub told_from: Option<&'static str>,
     /// Codes, time by time, column by column, packed ([`Quantised::packed`]).
     pub codes: String,
 }
@@ -73,46 +75,92 @@ pub fn maps(run: &RunFile, reduction: Reduction) -> Result<Vec<PageMap>, ReadErr
     if times.is_empty() {
         return Ok(Vec::new());
     }
-    let recorded = Map::ALL.into_iter().filter(|map| run.has_map(*map));
-    recorded.map(|map| page_map(run, map, &times, reduction.cells)).collect()
+    let mut read: Vec<Recorded> = Vec::new();
+    for map in Map::ALL.into_iter().filter(|map| run.has_map(*map)) {
+        let height = read.iter().find(|read| Some(read.map) == height_above(map));
+        read.push(Recorded::read(run, map, &times, reduction.cells, height)?);
+    }
+    let seconds: Vec<f64> = times.iter().map(|index| run.map_time()[*index]).collect();
+    Ok(read.iter().map(|recorded| recorded.on_page(&read, &seconds)).collect())
 }
 
-fn page_map(run: &RunFile, map: Map, times: &[usize], most: usize) -> Result<PageMap, ReadError> {
-    let mesh = run.mesh();
-    let columns = if map.on_disc() { mesh.disc_columns() } else { mesh.pin_columns() };
-    let blocks = Blocks::at_most(most, [columns, mesh.rows()], [mesh.column_width(), mesh.row_height()]);
-    let (mut values, mut reference, mut statuses) = (Vec::new(), Vec::new(), Vec::new());
-    for index in times {
-        match run.map(map, *index)?.map(|values| blocks.coarsen(&values)) {
-            Some(Coarse::Float(floats)) => {
-                let zero = if is_pin_height(map) { median(&floats) } else { 0.0 };
-                values.extend(floats.into_iter().map(|value| value - zero));
-                reference.push(zero);
+/// The surface of the body of which a map shows the substrate: wherever there is no debris the two are alike.
+fn height_above(map: Map) -> Option<Map> {
+    match map {
+        Map::DiscSubstrate => Some(Map::DiscHeight),
+        Map::PinSubstrate => Some(Map::PinHeight),
+        _ => None,
+    }
+}
+
+/// A map as it was recorded, by blocks.
+struct Recorded {
+    map: Map,
+    blocks: Blocks,
+    /// See [`PageMap::reference`].
+    reference: Vec<f64>,
+    /// Heights and pressures less the reference, SI, time by time.
+    values: Vec<f64>,
+    /// Statuses, time by time.
+    statuses: Vec<u8>,
+}
+
+impl Recorded {
+    /// Reads a map; that of a substrate has the reference of the height above.
+    fn read(run: &RunFile, map: Map, times: &[usize], most: usize, height: Option<&Self>) -> Result<Self, ReadError> {
+        let mesh = run.mesh();
+        let columns = if map.on_disc() { mesh.disc_columns() } else { mesh.pin_columns() };
+        let blocks = Blocks::at_most(most, [columns, mesh.rows()], [mesh.column_width(), mesh.row_height()]);
+        let mut recorded = Self { map, blocks, reference: Vec::new(), values: Vec::new(), statuses: Vec::new() };
+        for (at, index) in times.iter().enumerate() {
+            match run.map(map, *index)?.map(|values| blocks.coarsen(&values)) {
+                Some(Coarse::Float(values)) => {
+                    let own = || if is_pin_height(map) { median(&values) } else { 0.0 };
+                    let reference = height.map_or_else(own, |height| height.reference[at]);
+                    recorded.values.extend(values.iter().map(|value| value - reference));
+                    recorded.reference.push(reference);
+                }
+                Some(Coarse::Status(codes)) => recorded.statuses.extend(codes),
+                None => {}
             }
-            Some(Coarse::Status(codes)) => statuses.extend(codes),
-            None => {}
+        }
+        Ok(recorded)
+    }
+
+    /// Its codes: a substrate and the height above it have equal codes for equal heights.
+    fn quantised(&self, all: &[Self]) -> Quantised {
+        if self.map.is_status() {
+            return Quantised::statuses(&self.statuses);
+        }
+        let surface = |map: Map| height_above(map).unwrap_or(map);
+        let alike = |other: &&Self| surface(other.map) == surface(self.map);
+        let range = quantise::range(all.iter().filter(alike).flat_map(|other| &other.values));
+        let fineness = if self.values.len() <= FINE_VALUES { Fineness::Word } else { Fineness::Byte };
+        Quantised::within(range, &self.values, fineness)
+    }
+
+    fn on_page(&self, all: &[Self], times: &[f64]) -> PageMap {
+        let quantised = self.quantised(all);
+        let height = all.iter().find(|other| Some(other.map) == height_above(self.map));
+        let before = height.map_or_else(Vec::new, |height| height.quantised(all).codes);
+        let cells = self.blocks.count();
+        PageMap {
+            name: self.map.name(),
+            title: title(self.map),
+            on_disc: self.map.on_disc(),
+            is_status: self.map.is_status(),
+            unit: unit(self.map),
+            times: times.to_vec(),
+            shape: self.blocks.shape(),
+            block: self.blocks.size,
+            reference: self.reference.clone(),
+            range: quantised.range,
+            steps: quantised.fineness.steps(),
+            colours: colours(self.map, self.values.clone()),
+            told_from: height.map(|height| height.map.name()),
+            codes: quantised.packed(cells, before.get(..cells).unwrap_or_default()),
         }
     }
-    let quantised = if map.is_status() {
-        Quantised::statuses(&statuses)
-    } else {
-        Quantised::of(&values, if values.len() <= FINE_VALUES { Fineness::Word } else { Fineness::Byte })
-    };
-    Ok(PageMap {
-        name: map.name(),
-        title: title(map),
-        on_disc: map.on_disc(),
-        is_status: map.is_status(),
-        unit: unit(map),
-        times: times.iter().map(|index| run.map_time()[*index]).collect(),
-        shape: blocks.shape(),
-        block: blocks.size,
-        reference,
-        range: quantised.range,
-        steps: quantised.fineness.steps(),
-        colours: colours(map, values),
-        codes: quantised.packed(blocks.count()),
-    })
 }
 
 fn is_pin_height(map: Map) -> bool {

@@ -21,10 +21,17 @@ impl Fineness {
     }
 }
 
+/// The lowest and the highest of those numbers that are finite; both 0 where there is none.
+pub fn range<'a>(values: impl IntoIterator<Item = &'a f64>) -> [f64; 2] {
+    let finite = values.into_iter().copied().filter(|value| value.is_finite());
+    let range = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
+    if range[0] <= range[1] { range } else { [0.0; 2] }
+}
+
 /// Numbers as codes: number = lowest + code · (highest − lowest)/steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantised {
-    /// The lowest and the highest number; both 0 where there is none.
+    /// The lowest and the highest number.
     pub range: [f64; 2],
     /// Steps between them.
     pub fineness: Fineness,
@@ -33,12 +40,8 @@ pub struct Quantised {
 }
 
 impl Quantised {
-    /// Numbers, of which those that are not finite get the code above the highest.
-    pub fn of(values: &[f64], fineness: Fineness) -> Self {
-        let finite = values.iter().copied().filter(|value| value.is_finite());
-        let range =
-            finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)]);
-        let range = if range[0] <= range[1] { range } else { [0.0; 2] };
+    /// Numbers between `range`, of which those that are not finite get the code above the highest.
+    pub fn within(range: [f64; 2], values: &[f64], fineness: Fineness) -> Self {
         let steps = f64::from(fineness.steps());
         let width = range[1] - range[0];
         let code = |value: &f64| match value {
@@ -56,12 +59,14 @@ impl Quantised {
         Self { range: [0.0, steps], fineness: Fineness::Byte, codes: codes.iter().copied().map(u16::from).collect() }
     }
 
-    /// The codes as text: those of the first `cells` as they are, all others as the difference from the code `cells`
-    /// before, which is 0 wherever nothing changed from one time to the next.
-    pub fn packed(&self, cells: usize) -> String {
+    /// The codes as text: as the difference from the code one time before, which is 0 wherever nothing changed. Those of
+    /// the first time are told from the codes `before`, or as they are where there are none.
+    ///
+    /// A time has `cells` codes.
+    pub fn packed(&self, cells: usize, before: &[u16]) -> String {
         let differences = (0..self.codes.len()).map(|index| {
-            let before = index.checked_sub(cells).map_or(0, |index| self.codes[index]);
-            self.codes[index].wrapping_sub(before)
+            let first = || before.get(index).copied().unwrap_or(0);
+            self.codes[index].wrapping_sub(index.checked_sub(cells).map_or_else(first, |index| self.codes[index]))
         });
         match self.fineness {
             Fineness::Byte => pack::bytes(differences.map(|code| code as u8)),
@@ -72,13 +77,17 @@ impl Quantised {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fineness, Quantised};
+    use super::{Fineness, Quantised, range};
+
+    fn of(values: &[f64], fineness: Fineness) -> Quantised {
+        Quantised::within(range(values), values, fineness)
+    }
 
     #[test]
     fn numbers_come_back_within_half_a_step() {
         let values: Vec<f64> = (0..1000).map(|index| (f64::from(index) * 0.37).sin() * 3e-6 - 1e-6).collect();
         for fineness in [Fineness::Byte, Fineness::Word] {
-            let quantised = Quantised::of(&values, fineness);
+            let quantised = of(&values, fineness);
             let step = (quantised.range[1] - quantised.range[0]) / f64::from(fineness.steps());
             for (value, code) in values.iter().zip(&quantised.codes) {
                 let back = quantised.range[0] + f64::from(*code) * step;
@@ -89,10 +98,10 @@ mod tests {
 
     #[test]
     fn what_is_no_number_and_what_is_alike() {
-        let quantised = Quantised::of(&[1.0, f64::NAN, 3.0, f64::INFINITY], Fineness::Byte);
+        let quantised = of(&[1.0, f64::NAN, 3.0, f64::INFINITY], Fineness::Byte);
         assert_eq!((quantised.range, &quantised.codes[..]), ([1.0, 3.0], &[0, 255, 254, 255][..]));
-        assert_eq!(Quantised::of(&[2.0; 3], Fineness::Word).codes, [0; 3]);
-        assert_eq!(Quantised::of(&[f64::NAN], Fineness::Word).codes, [4096]);
-        assert_eq!(Quantised::of(&[-1e308, 1e308], Fineness::Byte).codes, [0, 0]);
+        assert_eq!(of(&[2.0; 3], Fineness::Word).codes, [0; 3]);
+        assert_eq!(of(&[f64::NAN], Fineness::Word).codes, [4096]);
+        assert_eq!(of(&[-1e308, 1e308], Fineness::Byte).codes, [0, 0]);
     }
 }

@@ -36,14 +36,20 @@ async function readSeries(run, series) {
     return { times: Array.from(steps, (step) => times[(at += step)]), values: Array.from(values) };
 }
 
-/** Codes of a map at all its times, one after the other. */
-async function readCodes(map) {
+/** Codes of a map of a run at all its times, one after the other. */
+function readCodes(run, map) {
+    return (map.read ??= decodeCodes(run, map));
+}
+
+async function decodeCodes(run, map) {
     const wide = map.steps > 255;
     const codes = await (wide ? unpack(map.codes, 2, Uint16Array) : inflate(map.codes));
+    const before = map.told_from && (await readCodes(run, run.maps.find(({ name }) => name === map.told_from)));
     const cells = map.shape[0] * map.shape[1];
-    for (let index = cells; index < codes.length; index++) {
+    for (let index = 0; index < codes.length; index++) {
         // Both kinds of array wrap round as the differences do.
-        codes[index] += codes[index - cells];
+        if (index >= cells) codes[index] += codes[index - cells];
+        else if (before) codes[index] += before[index];
     }
     return codes;
 }

@@ -4,8 +4,9 @@
 async function showFigures() {
     const place = document.getElementById("figure-list");
     for (const picture of report.pictures) {
-        const image = element("img", { alt: picture.caption, loading: "lazy" });
+        const image = element("img", { alt: picture.caption });
         image.src = URL.createObjectURL(new Blob([await inflate(picture.svg)], { type: "image/svg+xml" }));
+        await image.decode();
         place?.append(element("figure", {}, image, element("figcaption", {}, picture.caption)));
     }
 }

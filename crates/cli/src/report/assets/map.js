@@ -290,7 +290,7 @@ async function showMaps() {
     };
     const choose = async () => {
         const chosen = report.runs.flatMap((run) => run.maps.filter((map) => map.name === choice.value).map((map) => ({ run, map })));
-        const codes = await Promise.all(chosen.map(({ map }) => (map.read ??= readCodes(map))));
+        const codes = await Promise.all(chosen.map(({ run, map }) => readCodes(run, map)));
         if (chosen[0]?.map.name !== choice.value) return;
         views.forEach((view) => view.remove());
         const places = views.map((view) => view.place);
