@@ -58,6 +58,9 @@ class ReportPage(unittest.TestCase):
     def assert_drawn(self):
         charts = self.browser.run("document.querySelectorAll('.plot').length")
         self.assertEqual(charts, 4)
+        figures = self.browser.run("[...document.querySelectorAll('#figure-list img')].map((image) => image.clientHeight)")
+        self.assertEqual(len(figures), self.browser.run("report.pictures.length"))
+        self.assertGreater(min(figures), 50)
         for canvas in [*(f"#charts .panel:nth-child({at}) canvas" for at in (1, 2, 3)), "#residual-chart canvas", MAP]:
             self.assertTrue(self.browser.run(DRAWN, canvas), f"{canvas} is blank")
 

@@ -1,6 +1,7 @@
 //! Several runs, compared with the first.
 
 use super::outcome::{Measure, UNKNOWN, readable};
+use crate::number;
 
 /// A row for every number: its name, its value in the first run, and for each other run its value with the difference.
 ///
@@ -27,7 +28,7 @@ fn compare(reference: &Measure, other: &Measure) -> String {
     if other.unit.symbol == "%" {
         format!("{} ({} points)", other.text(), signed(&four_digits(difference)))
     } else if percent.is_finite() {
-        format!("{} ({}, {} %)", other.text(), signed(&four_digits(difference)), signed(&one_decimal(percent)))
+        format!("{} ({}, {} %)", other.text(), signed(&four_digits(difference)), signed(&percentage(percent)))
     } else {
         format!("{} ({})", other.text(), signed(&four_digits(difference)))
     }
@@ -37,8 +38,13 @@ fn four_digits(value: f64) -> String {
     readable(format!("{value:.3e}").parse().unwrap_or(value)).trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn one_decimal(percent: f64) -> String {
-    let text = if percent.abs() < 1e5 { format!("{percent:.1}") } else { format!("{percent:.1e}") };
+/// With one decimal, or with one digit where that would say nothing.
+fn percentage(percent: f64) -> String {
+    let text = match percent.abs() {
+        small if small < 0.05 => number::significant(percent, 1),
+        large if large >= 1e5 => format!("{percent:.1e}"),
+        _ => format!("{percent:.1}"),
+    };
     text.replace('-', "\u{2212}")
 }
 
@@ -58,8 +64,9 @@ mod tests {
     #[test]
     fn differences_are_relative_to_the_first() {
         let run = |value| vec![measure("mm²", 1e6, value)];
-        // By hand: 5 is 25 % more than 4, 3 is 25 % less.
-        let rows = rows(&[run(4e-6), run(5e-6), run(3e-6), run(4e-6)]);
+        // By hand: 5 is 25 % more than 4, 3 is 25 % less,
+        // and 4.0012 is 0.03 % more.
+        let rows = rows(&[run(4e-6), run(5e-6), run(3e-6), run(4e-6), run(4.0012e-6)]);
         assert_eq!(
             rows,
             [[
@@ -67,7 +74,8 @@ mod tests {
                 "4.0000 mm²",
                 "5.0000 mm² (+1, +25.0 %)",
                 "3.0000 mm² (\u{2212}1, \u{2212}25.0 %)",
-                "4.0000 mm² (same)"
+                "4.0000 mm² (same)",
+                "4.0012 mm² (+0.0012, +0.03 %)"
             ]]
         );
     }

@@ -20,6 +20,9 @@ const TEMPLATE: &str = include_str!("assets/page.html");
 const STYLE: &str = concat!(include_str!("../../assets/uplot/uPlot.min.css"), include_str!("assets/style.css"));
 /// Scripts, each after those that it uses.
 const SCRIPT: &str = concat!(
+    "/*\n",
+    include_str!("../../assets/uplot/LICENSE-uPlot"),
+    "*/\n",
     include_str!("../../assets/uplot/uPlot.iife.min.js"),
     include_str!("assets/data.js"),
     include_str!("assets/chart.js"),

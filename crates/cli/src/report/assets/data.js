@@ -25,7 +25,11 @@ async function unpack(text, size, Kind) {
 }
 
 /** A series of a run: {times, values}, in s and SI units. */
-async function readSeries(run, series) {
+function readSeries(run, series) {
+    return (series.read ??= decodeSeries(run, series));
+}
+
+async function decodeSeries(run, series) {
     run.allTimes ??= unpack(run.time, 8, Float64Array);
     const [times, steps, values] = await Promise.all([
         run.allTimes,

@@ -1,12 +1,16 @@
 
 // Figures, and the start of everything.
 
+/** Figures are made for two columns of a journal; here a wide one fills the page, and letters are as large in all. */
+const enlarged = 1.7;
+
 async function showFigures() {
     const place = document.getElementById("figure-list");
     for (const picture of report.pictures) {
         const image = element("img", { alt: picture.caption });
         image.src = URL.createObjectURL(new Blob([await inflate(picture.svg)], { type: "image/svg+xml" }));
         await image.decode();
+        image.width = Math.round(enlarged * image.naturalWidth);
         place?.append(element("figure", {}, image, element("figcaption", {}, picture.caption)));
     }
 }
