@@ -37,7 +37,7 @@ pub fn colour(number: usize) -> RGBColor {
 /// Width of a run's lines, pixels: those that are drawn first are wider, or equal lines would hide each other.
 pub fn line_width(number: usize, runs: usize) -> u32 {
     let after = runs.saturating_sub(number + 1) as u32;
-    let step = if runs > 4 { 1 } else { 3 };
+    let step = if runs > 4 { 1 } else { 2 };
     LINE + 1 + step * after
 }
 

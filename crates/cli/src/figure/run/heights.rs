@@ -122,7 +122,10 @@ fn body_charts(body: &str, map: Map, runs: &[(usize, &Subject)], count: usize) -
             title: format!("{body}, distribution"),
             x,
             y: y.clone(),
-            contents: distributions.iter().map(|one| line(one, outline(&one.histogram))).collect(),
+            contents: distributions
+                .iter()
+                .flat_map(|one| outlines(&one.histogram).into_iter().map(|points| line(one, points)))
+                .collect(),
         },
         Chart {
             title: format!("{body}, Abbott-Firestone curve"),
@@ -139,16 +142,37 @@ fn wider(range: &RangeInclusive<f64>) -> RangeInclusive<f64> {
     range.start() - margin..=range.end() + margin
 }
 
-/// Per cent of the cells that are in a class against the height in its middle.
-fn outline(histogram: &Histogram) -> Vec<[f64; 2]> {
+/// Per cent of the cells that are in a class against the height in its middle: a line for all classes between two empty
+/// ones, those included.
+fn outlines(histogram: &Histogram) -> Vec<Vec<[f64; 2]>> {
     let (begin, end) = (*histogram.range.start(), *histogram.range.end());
-    let class = (end - begin) / histogram.fractions.len() as f64;
-    let middle = |(number, fraction): (usize, &f64)| [100.0 * fraction, begin + (number as f64 + 0.5) * class];
-    histogram.fractions.iter().enumerate().map(middle).collect()
+    let fractions = &histogram.fractions;
+    let class = (end - begin) / fractions.len() as f64;
+    let filled = |number: usize| fractions.get(number).is_some_and(|fraction| *fraction > 0.0);
+    let shown = |number: usize| filled(number) || filled(number + 1) || (number > 0 && filled(number - 1));
+    let numbers: Vec<usize> = (0..fractions.len()).collect();
+    let runs = numbers.chunk_by(|one, next| shown(*one) == shown(*next)).filter(|run| shown(run[0]));
+    let point = |number: &usize| [100.0 * fractions[*number], begin + (*number as f64 + 0.5) * class];
+    runs.map(|run| run.iter().map(point).collect()).collect()
 }
 
 /// Height against the per cent of the cells that reach it.
 fn ratio_curve(curve: &[f64]) -> Vec<[f64; 2]> {
     let last = curve.len().saturating_sub(1).max(1) as f64;
     curve.iter().enumerate().map(|(part, height)| [100.0 * part as f64 / last, *height]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_ends_where_there_are_no_heights() {
+        let fractions = vec![0.0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.0, 0.25];
+        let outlines = outlines(&Histogram { range: 0.0..=8.0, fractions, outside: 0.0 });
+        // By hand: classes are 1 wide.
+        let expected: [&[[f64; 2]]; 2] =
+            [&[[0.0, 1.5], [50.0, 2.5], [25.0, 3.5], [0.0, 4.5]], &[[0.0, 6.5], [25.0, 7.5]]];
+        assert_eq!(outlines, expected);
+    }
 }
