@@ -132,6 +132,19 @@ fn the_series_of_the_page_are_those_of_the_run_file() {
     }
 }
 
+/// Demands values within half a step of the codes of a map; answers the step.
+fn assert_shown(map: &Value, codes: &[u32], values: &[f64]) -> f64 {
+    let (range, steps) = (numbers(&map["range"]), map["steps"].as_f64().unwrap());
+    let (reference, cells) = (numbers(&map["reference"]), values.len() / numbers(&map["times"]).len());
+    let step = (range[1] - range[0]) / steps;
+    assert_eq!(codes.len(), values.len());
+    for (index, (code, value)) in codes.iter().zip(values).enumerate() {
+        let shown = reference[index / cells] + range[0] + f64::from(*code) * step;
+        assert!((shown - value).abs() <= 0.5001 * step, "{}: {value} is shown as {shown}", map["name"]);
+    }
+    step
+}
+
 #[test]
 fn the_maps_of_the_page_are_those_of_the_run_file_within_half_a_step() {
     let directory = short();
@@ -151,16 +164,10 @@ fn the_maps_of_the_page_are_those_of_the_run_file_within_half_a_step() {
             assert!(codes == statuses, "{name}");
             continue;
         }
-        let (range, steps, values) = (numbers(&map["range"]), map["steps"].as_f64().unwrap(), file.floats(path));
-        let (reference, cells) = (numbers(&map["reference"]), values.len() / file.shape("/map_time")[0]);
-        let step = (range[1] - range[0]) / steps;
+        let values = file.floats(path);
         // 6 s of wear leave the pin with more relief than 1 um, which is not told apart worse than this.
+        let step = assert_shown(map, &codes, &values);
         assert!(step < if name == "pressure" { 1e5 } else { 1e-7 }, "{name}: {step}");
-        assert_eq!(codes.len(), values.len());
-        for (index, (code, value)) in codes.iter().zip(values).enumerate() {
-            let shown = reference[index / cells] + range[0] + f64::from(*code) * step;
-            assert!((shown - value).abs() <= 0.5001 * step, "{name}: {value} is shown as {shown}");
-        }
     }
 }
 
@@ -230,6 +237,17 @@ fn what_was_not_recorded_is_left_out() {
         document["pictures"].as_array().unwrap().iter().map(|picture| picture["name"].as_str().unwrap()).collect();
     assert!(page.contains("<section id=\"series\"") && page.contains("<section id=\"figures\""));
     assert!(!figures.is_empty() && figures.iter().all(|name| !name.contains("map")), "{figures:?}");
+}
+
+#[test]
+fn a_substrate_needs_no_height_beside_it() {
+    let directory = short();
+    run(&directory, "run.h5", &["output.maps=[\"pin_substrate\"]"]);
+    let document = document(&page(&directory, &["run.h5"]));
+    let map = &document["runs"][0]["maps"][0];
+    assert_eq!((&map["name"], &map["told_from"]), (&"pin_substrate".into(), &Value::Null));
+    let values = RunFile::open(directory.path("run.h5")).floats("/pin/substrate");
+    assert_shown(map, &codes(map, &[]), &values);
 }
 
 #[test]
