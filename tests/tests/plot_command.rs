@@ -10,6 +10,8 @@ use plateau_tests::run_file::RunFile;
 
 /// Colour of the first run.
 const FIRST_RUN: &str = "#0072B2";
+/// The same, mixed with as much white.
+const FIRST_RUN_PALE: &str = "#80B9D9";
 /// Every figure.
 const ALL: [&str; 8] =
     ["contact-area", "debris", "filled", "heights", "plateau-sizes", "pressure", "status", "topography"];
@@ -33,31 +35,34 @@ fn plotted(directory: &WorkingDirectory, name: &str) -> Figure {
     Figure::read(&fs::read_to_string(directory.path(&format!("figures/{name}.svg"))).unwrap())
 }
 
-/// A polyline at a place along x.
-fn height_at(line: &[[f64; 2]], x: f64) -> f64 {
-    if x <= line[0][0] {
-        return line[0][1];
-    }
-    let pair = line.windows(2).find(|pair| pair[0][0] <= x && x <= pair[1][0]).unwrap_or(&line[line.len() - 2..]);
-    let length = pair[1][0] - pair[0][0];
-    let part = if length > 0.0 { ((x - pair[0][0]) / length).clamp(0.0, 1.0) } else { 1.0 };
-    pair[0][1] + part * (pair[1][1] - pair[0][1])
+/// Distance of a place from a polyline, pixels.
+fn distance([x, y]: [f64; 2], line: &[[f64; 2]]) -> f64 {
+    let from_segment = |pair: &[[f64; 2]]| {
+        let along = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+        let length = along[0].powi(2) + along[1].powi(2);
+        let part = ((x - pair[0][0]) * along[0] + (y - pair[0][1]) * along[1]) / length;
+        let part = if length > 0.0 { part.clamp(0.0, 1.0) } else { 0.0 };
+        (x - pair[0][0] - part * along[0]).hypot(y - pair[0][1] - part * along[1])
+    };
+    line.windows(2).map(from_segment).fold(f64::INFINITY, f64::min)
 }
 
 /// Whether a line in a box shows these values at these times, to the width of a drawn line.
 fn expect_curve(line: &[[f64; 2]], panel: &Panel, times: &[f64], values: &[f64]) {
     assert!(line.len() >= 2 && times.len() == values.len());
     for (time, value) in times.iter().zip(values) {
-        let (x, y) = (panel.x.place(*time), panel.y.place(*value));
-        // Steep parts are as near to the side as to above or below.
-        let near = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|beside| (height_at(line, x + beside) - y).abs());
-        let distance = near.into_iter().fold(f64::INFINITY, f64::min);
-        assert!(distance < 4.0, "{distance} pixels from {value} at {time}");
+        let distance = distance([panel.x.place(*time), panel.y.place(*value)], line);
+        assert!(distance < 3.0, "{distance} pixels from {value} at {time}");
     }
 }
 
 fn only(outcome: &Outcome) -> Vec<&str> {
     outcome.stderr.lines().collect()
+}
+
+/// A series of the contact area, mm².
+fn areas(run: &RunFile, name: &str) -> Vec<f64> {
+    run.floats(&format!("/series/{name}")).iter().map(|area| area * 1e6).collect()
 }
 
 #[test]
@@ -66,17 +71,24 @@ fn the_contact_area_is_that_of_the_series() {
     let figure = plotted(&directory, "contact-area");
     let run = RunFile::open(directory.path("run.h5"));
     let panel = figure.panel(figure.boxes()[0]);
-    let square_millimetres = |name: &str| run.floats(name).iter().map(|area| area * 1e6).collect::<Vec<_>>();
-    let (mean, single) = (square_millimetres("/series/contact_area_mean"), square_millimetres("/series/contact_area"));
-    let line = figure.line(FIRST_RUN, panel.frame);
-    expect_curve(&line, &panel, &run.floats("/time"), &mean);
-    // The band reaches from the least to the greatest single step.
+    for (colour, series) in [(FIRST_RUN, "contact_area_mean"), (FIRST_RUN_PALE, "contact_area")] {
+        expect_curve(&figure.line(colour, panel.frame), &panel, &run.floats("/time"), &areas(&run, series));
+    }
+    assert!(figure.areas.iter().all(|(colour, _)| colour != FIRST_RUN), "a band of few samples");
+}
+
+#[test]
+fn the_band_of_many_samples_reaches_from_the_least_to_the_greatest() {
+    let directory = with_run(&[]);
+    let figure = plotted(&directory, "contact-area");
+    let run = RunFile::open(directory.path("run.h5"));
+    let panel = figure.panel(figure.boxes()[0]);
     let (_, band) = figure.areas.iter().find(|(colour, area)| colour == FIRST_RUN && area.len() > 9).expect("a band");
     let ends = |values: &[f64]| {
         values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(*value), high.max(*value)])
     };
     let [top, bottom] = ends(&band.iter().map(|place| place[1]).collect::<Vec<_>>());
-    let [low, high] = ends(&single);
+    let [low, high] = ends(&areas(&run, "contact_area"));
     assert!((top - panel.y.place(high)).abs() < 2.0 && (bottom - panel.y.place(low)).abs() < 2.0);
 }
 
@@ -236,7 +248,7 @@ fn heights_are_those_that_parts_of_the_cells_reach() {
         let x = frame.x[0] + (frame.x[1] - frame.x[0]) * f64::from(per_cent) / 100.0;
         // By the definition of the material ratio.
         let expected = heights[(heights.len() * per_cent as usize / 100).saturating_sub(1)] * 1e6;
-        assert!((height_at(&curve, x) - left.y.place(expected)).abs() < 4.0, "{per_cent} %");
+        assert!(distance([x, left.y.place(expected)], &curve) < 3.0, "{per_cent} %");
     }
 }
 

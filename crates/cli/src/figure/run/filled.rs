@@ -3,7 +3,7 @@
 use plateau_io::run_file::ReadError;
 
 use super::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
-use super::spans::{means_between_ends, spans};
+use super::spans::{band, means_between_ends};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
 use crate::figure::page::Content;
@@ -33,7 +33,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             let times: Vec<f64> = subject.run.time().iter().map(|at| at * time.per_si).collect();
             let values: Vec<f64> = values.iter().map(|value| value * percent).collect();
             largest = values.iter().copied().fold(largest, f64::max);
-            bands.push(Content::Band { spans: spans(&times, &values), colour: colour(number), opacity: 0.28 });
+            bands.extend(band(&times, &values, colour(number)));
             let width = line_width(number, subjects.len());
             lines.push(Content::Line { points: means_between_ends(&times, &values), colour: colour(number), width });
         }

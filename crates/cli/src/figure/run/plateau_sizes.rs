@@ -14,6 +14,8 @@ use crate::figure::page::Content;
 use crate::figure::unit::ScaledUnit;
 
 const NAME: &str = "plateau-sizes";
+/// Count to which the axis reaches at least: ticks within a factor of two would stand at parts of a plateau.
+const LEAST_COUNT: usize = 10;
 
 /// A kind of plateau: what it is called, the map that tells, and the statuses that belong to it.
 type Kind = (&'static str, Map, &'static [Status]);
@@ -77,7 +79,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             colour: colour_at(sizes.run, sizes.first),
             width: line_width(sizes.run, subjects.len()),
         };
-        let y = Axis::logarithmic(floor..=1.6 * most as f64, "plateaus at least that large");
+        let y = Axis::logarithmic(floor..=1.6 * most.max(LEAST_COUNT) as f64, "plateaus at least that large");
         Chart {
             title: (*title).to_owned(),
             x: Axis::logarithmic(range[0]..=range[1], format!("area, {}", unit.symbol)),

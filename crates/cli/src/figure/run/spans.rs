@@ -1,7 +1,18 @@
 //! Many samples as few: their mean, and how far they reach, in spans of time.
 
+use plotters::style::RGBColor;
+
+use crate::figure::page::Content;
+
 /// Spans that a figure distinguishes, at most.
 const MOST_SPANS: usize = 250;
+/// How much of a band's colour hides what lies below.
+const OPACITY: f64 = 0.28;
+
+/// The band over which samples reach; none where they are so few that a line goes through each of them.
+pub fn band(times: &[f64], values: &[f64], colour: RGBColor) -> Option<Content> {
+    (times.len() > MOST_SPANS).then(|| Content::Band { spans: spans(times, values), colour, opacity: OPACITY })
+}
 
 /// Means of time and value in spans of time.
 pub fn means(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
@@ -21,7 +32,7 @@ pub fn means_between_ends(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
 }
 
 /// Least and greatest value in spans of time, each with the last value before it, so that the band has no gaps.
-pub fn spans(times: &[f64], values: &[f64]) -> Vec<[f64; 3]> {
+fn spans(times: &[f64], values: &[f64]) -> Vec<[f64; 3]> {
     let length = times.len().div_ceil(MOST_SPANS).max(1);
     let mut spans = Vec::with_capacity(2 * MOST_SPANS);
     for first in (0..times.len()).step_by(length) {
@@ -41,9 +52,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_samples_are_their_own_band() {
-        // By hand: a span of one sample reaches from the sample before to itself.
-        assert_eq!(spans(&[1.0, 2.0, 3.0], &[5.0, 4.0, 6.0]), [[1.0, 5.0, 5.0], [2.0, 4.0, 5.0], [3.0, 4.0, 6.0]]);
+    fn few_samples_have_no_band() {
+        let times: Vec<f64> = (0..=MOST_SPANS).map(|time| time as f64).collect();
+        let colour = RGBColor(1, 2, 3);
+        assert!(band(&times[1..], &times[1..], colour).is_none());
+        let Some(Content::Band { spans, .. }) = band(&times, &times, colour) else { panic!("no band") };
+        // By hand: two samples a span, and the sample before.
+        assert_eq!(spans[..4], [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [2.0, 1.0, 3.0], [3.0, 1.0, 3.0]]);
     }
 
     #[test]
