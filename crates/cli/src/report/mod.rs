@@ -5,10 +5,10 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the template with its parts filled in | [`page`], [`section`], [`template`] |
+//! | the template with its parts filled in | [`mod@page`], [`section`], [`template`] |
 //! | text as HTML, tables | [`html`] |
 //! | what the runs are called | [`label`] |
-//! | units in which people read a quantity | [`unit`] |
+//! | units in which people read a quantity | [`mod@unit`] |
 //! | a series with its last and largest value, thinned | [`recorded`], [`thin`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
 //! | scenes, and in which keys they differ | [`scene`] |
