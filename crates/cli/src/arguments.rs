@@ -52,6 +52,10 @@ pub enum Command {
     #[command(after_help = "Example:\n  plateau man run\n\n\
                       To read it: plateau man run | man -l -")]
     Man(ManArguments),
+    /// Make one HTML page of run files: numbers, charts, maps, scenes; several runs are compared
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+                      plateau report quick.h5 -o quick.html")]
+    Report(ReportArguments),
 }
 
 /// A scene, with changes.
@@ -158,6 +162,20 @@ pub struct SurfaceArguments {
     #[arg(long, value_name = "NAME")]
     pub dataset: Option<String>,
     /// Replace the files that --plot, --preview and --to name if they exist
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau report`.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Page to write
+    #[arg(short, long, value_name = "HTML", default_value = "report.html")]
+    pub output: PathBuf,
+    /// Replace the page if it exists
     #[arg(long)]
     pub force: bool,
 }

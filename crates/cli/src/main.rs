@@ -13,6 +13,7 @@ mod message;
 mod number;
 mod output;
 mod progress;
+mod report;
 mod stability;
 mod summary;
 mod table;

@@ -4,6 +4,7 @@ mod check;
 mod plot;
 mod completions;
 mod man;
+mod report;
 mod run;
 mod schema;
 mod surface;
@@ -24,6 +25,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Schema => schema::schema(),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
     }
 }
 

@@ -31,4 +31,5 @@ mod surface;
 mod ticks;
 mod unit;
 
+pub use colour::{STATUSES, viridis};
 pub use surface::{Drawn, SurfaceFigure, surfaces};
