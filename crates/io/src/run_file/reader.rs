@@ -10,7 +10,7 @@ use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
 use plateau_core::observe::{Map, MapValues};
 
-use super::layout::{FORMAT_VERSION, MAP_TIME, TIME, map_path, series_path};
+use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
 use super::read_error::ReadError;
 use crate::hdf5_file;
 use crate::units::{self, Dimension};
@@ -173,6 +173,24 @@ impl RunFile {
         } else {
             opening.level::<f64>(map_path(map), index, shape).map(|values| Some(MapValues::Float(values)))
         }
+    }
+
+    /// Base of every pin cell, column by column: 0 where it is resin, 1 where it is fibre; nothing if it was not recorded.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`] when it cannot be read or does not fit the mesh.
+    pub fn pin_base(&self) -> Result<Option<Vec<u8>>, ReadError> {
+        if !self.file.link_exists(PIN_BASE) {
+            return Ok(None);
+        }
+        let opening = Opening { path: &self.path, file: &self.file };
+        let base = opening.dataset(PIN_BASE)?.read_2d::<u8>();
+        let base = base.map_err(|error| opening.damaged(format!("/{PIN_BASE}: {}", reason(&error))))?;
+        let expected = (self.mesh.pin_columns(), self.mesh.rows());
+        if base.dim() != expected {
+            return Err(opening.damaged(format!("/{PIN_BASE} has shape {:?}, expected {expected:?}", base.dim())));
+        }
+        Ok(Some(base.into_raw_vec_and_offset().0))
     }
 }
 
