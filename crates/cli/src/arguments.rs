@@ -3,7 +3,7 @@
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use plateau_core::kernel::InstructionSet;
 use plateau_core::surface::Level;
 use plateau_io::units::{self, Dimension};
@@ -32,6 +32,13 @@ pub enum Command {
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),
+    /// Follow a run file that is being written: state, progress and contact area in the terminal
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau watch quick.h5")]
+    Watch(WatchArguments),
+    /// Write a run file in the format of other programs: tables, NumPy arrays, ParaView's grids
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+                      plateau export quick.h5 --to csv\n  plateau export quick.h5 --to vtk -o quick-vtk")]
+    Export(ExportArguments),
 }
 
 /// A scene, with changes.
@@ -140,6 +147,49 @@ pub struct SurfaceArguments {
     /// Replace the files that --plot, --preview and --to name if they exist
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `plateau watch`.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// Run file, which need not be there yet
+    pub run: PathBuf,
+    /// Print the state once and end
+    #[arg(long)]
+    pub once: bool,
+    /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    pub timeout: Option<u64>,
+}
+
+/// Arguments of `plateau export`.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// Run file, also of a run that goes on or was killed
+    pub run: PathBuf,
+    /// Format
+    #[arg(long)]
+    pub to: ExportFormat,
+    /// File to write, for vtk the folder; in the working directory and named like the run file unless given
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Write the maps too; for csv, as the other formats have them anyway
+    #[arg(long)]
+    pub maps: bool,
+    /// Replace what is to be written if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A format of other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// Comma-separated values: the series; with --maps the maps
+    Csv,
+    /// NumPy archive: series and maps as arrays
+    Npz,
+    /// ParaView: maps on the cells of ring and pin, as a time series
+    Vtk,
 }
 
 /// Distance of neighbouring points along x and y, m.

@@ -17,6 +17,7 @@ mod stability;
 mod summary;
 mod table;
 mod version;
+mod watch;
 
 use std::process::ExitCode;
 

@@ -1,8 +1,10 @@
 //! One file per command.
 
 mod check;
+mod export;
 mod run;
 mod surface;
+mod watch;
 
 use plateau_io::scene::{self, recipe::Scene};
 
@@ -16,6 +18,8 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Watch(arguments) => watch::watch(&arguments),
+        Command::Export(arguments) => export::export(&arguments),
     }
 }
 

@@ -3,16 +3,18 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use hdf5::{Dataset, H5Type};
 use ndarray::s;
 use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
-use plateau_core::observe::{Map, MapValues};
+use plateau_core::observe::{Map, MapValues, quantities};
 
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
 use super::read_error::ReadError;
 use crate::hdf5_file;
+use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
 
 /// What a run file says of how its run ended.
@@ -111,6 +113,11 @@ impl RunFile {
         self.file.attr(name).ok()?.read_scalar().ok()
     }
 
+    /// When its run began.
+    pub fn start_time(&self) -> Option<SystemTime> {
+        from_iso_8601(&self.attribute("start_time")?)
+    }
+
     /// The whole resolved scene.
     pub fn scene(&self) -> &toml::Table {
         &self.scene
@@ -131,7 +138,7 @@ impl RunFile {
         &self.map_time
     }
 
-    /// The series that it has besides the times.
+    /// The series that it has besides the times, in the order in which they are reported.
     pub fn series(&self) -> &[Series] {
         &self.series
     }
@@ -268,7 +275,11 @@ impl Opening<'_> {
             let text = |attribute| hdf5_file::text_attribute(&dataset, attribute).unwrap_or_default();
             Ok(Series { unit: text("units"), long_name: text("long_name"), name })
         });
-        series.collect()
+        let mut series: Vec<Series> = series.collect::<Result<_, _>>()?;
+        // As they are reported; what is not known here comes last.
+        let place = |name: &str| quantities(true).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
+        series.sort_by(|one, other| (place(&one.name), &one.name).cmp(&(place(&other.name), &other.name)));
+        Ok(series)
     }
 
     fn dataset(&self, path: &str) -> Result<Dataset, ReadError> {
