@@ -43,7 +43,7 @@ pub fn page(look: &Look, pace: &Pace, warning: Option<&str>, page: Style) -> Vec
         State::Interrupted => style(look.state.name()).yellow(),
         State::Failed => style(look.state.name()).red(),
     };
-    let mut lines = vec![format!("{}  {state}", style(readable(&look.title, unicode)).bold())];
+    let mut lines = vec![format!("{state}: {}", style(readable(&look.title, unicode)).bold())];
     let bar = look.progress().map(|done| bar(done, unicode) + "  ").unwrap_or_default();
     lines.push(format!("{bar}{}", progress(look)));
     let samples = format!("{} samples", number::grouped(look.times.len() as u64));
@@ -58,10 +58,10 @@ pub fn page(look: &Look, pace: &Pace, warning: Option<&str>, page: Style) -> Vec
 }
 
 fn progress(look: &Look) -> String {
-    let time = number::significant(look.time(), 6);
+    let time = number::short(look.time());
     match (look.duration, look.progress()) {
         (Some(duration), Some(done)) => {
-            format!("{time} of {} s ({} %)", number::significant(duration, 6), (100.0 * done).floor())
+            format!("{time} of {} s ({} %)", number::short(duration), (100.0 * done).floor())
         }
         _ => format!("{time} s"),
     }
@@ -170,7 +170,7 @@ mod tests {
         // 3 s in 6 s: 0.5 s a second, 9 s to go.
         assert_eq!(
             line(&look(), &pace, false),
-            "running: 3.00000 of 12.0000 s (25 %), 0.5000 simulated s per s, 18.0 s left, 3 samples, \
+            "running: 3.000 of 12.00 s (25 %), 0.5000 simulated s per s, 18.0 s left, 3 samples, \
              contact area 4.0000 mm2 (mean of the last revolution 2.0000 mm2), disc filled 25.0 %"
         );
     }
