@@ -7,8 +7,8 @@ use super::curve::{Dots, curve};
 use super::{Look, Pace};
 use crate::number;
 
-/// Characters of the progress bar.
-const BAR: usize = 28;
+/// Characters of the progress bar, at least and at most.
+const BAR: (usize, usize) = (8, 28);
 /// Lines of a curve, at least and at most.
 const CURVE_LINES: (usize, usize) = (3, 12);
 /// Characters of a curve in width, at least.
@@ -26,17 +26,19 @@ pub struct Style {
 }
 
 /// Everything in one line.
-pub fn line(look: &Look, pace: &Pace, unicode: bool) -> String {
+pub fn line(look: &Look, pace: &Pace, warning: Option<&str>, unicode: bool) -> String {
     let mut parts = vec![progress(look)];
-    parts.extend(speed(look, pace));
+    parts.extend(speed(look, pace, warning));
     parts.push(format!("{} samples", number::grouped(look.times.len() as u64)));
     parts.extend(contact_area(look));
     readable(&format!("{}: {}", look.state.name(), parts.join(", ")), unicode)
 }
 
-/// The lines of a page, none of them longer than the terminal is wide.
+/// The lines of a page, which fit the terminal and leave its last line to the cursor.
 pub fn page(look: &Look, pace: &Pace, warning: Option<&str>, page: Style) -> Vec<String> {
-    let Style { unicode, width, height } = page;
+    let Style { unicode, height, .. } = page;
+    // One character less than there is room for: some terminals begin a new line after the last.
+    let width = page.width.saturating_sub(1);
     let state = match look.state {
         State::Running => style(look.state.name()).cyan(),
         State::Finished => style(look.state.name()).green(),
@@ -44,34 +46,56 @@ pub fn page(look: &Look, pace: &Pace, warning: Option<&str>, page: Style) -> Vec
         State::Failed => style(look.state.name()).red(),
     };
     let mut lines = vec![format!("{state}: {}", style(readable(&look.title, unicode)).bold())];
-    let bar = look.progress().map(|done| bar(done, unicode) + "  ").unwrap_or_default();
-    lines.push(format!("{bar}{}", progress(look)));
+    let progress = progress(look);
+    let bar = look.progress().and_then(|done| bar(done, unicode, width.saturating_sub(progress.len() + 2)));
+    lines.push(bar.map(|bar| bar + "  ").unwrap_or_default() + &progress);
     let samples = format!("{} samples", number::grouped(look.times.len() as u64));
-    lines.push(speed(look, pace).into_iter().chain([samples]).collect::<Vec<_>>().join(", "));
-    lines.extend(contact_area(look).map(|text| readable(&text, unicode)));
-    lines.extend(warning.map(|warning| style(readable(warning, unicode)).yellow().to_string()));
+    let speed = speed(look, pace, warning).into_iter().chain([samples]).collect::<Vec<_>>().join(", ");
+    lines.extend(folded(&speed, width));
+    lines.extend(contact_area(look).iter().flat_map(|text| folded(&readable(text, unicode), width)));
+    let warning = warning.map(|warning| folded(&readable(warning, unicode), width)).unwrap_or_default();
+    lines.extend(warning.iter().map(|line| style(line).yellow().to_string()));
     let room = height.saturating_sub(lines.len() + 4);
     lines.extend(chart(look, unicode, width, room));
+    // A page that scrolls could not be drawn over.
+    lines.truncate(height.saturating_sub(1).max(1));
     let cut = if unicode { "…" } else { "~" };
-    // One character less than there is room for: some terminals begin a new line after the last.
-    lines.into_iter().map(|line| console::truncate_str(&line, width.saturating_sub(1), cut).into_owned()).collect()
+    lines.into_iter().map(|line| console::truncate_str(&line, width, cut).into_owned()).collect()
+}
+
+/// A text in lines of this width, as far as it can be broken after commas and semicolons.
+fn folded(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in text.split_inclusive([',', ';']).map(str::trim_start) {
+        match lines.last_mut() {
+            Some(line) if console::measure_text_width(line) + 1 + console::measure_text_width(part) <= width => {
+                *line += " ";
+                *line += part;
+            }
+            _ => lines.push(part.to_owned()),
+        }
+    }
+    lines
 }
 
 fn progress(look: &Look) -> String {
-    let time = number::short(look.time());
+    let time = look.time();
     match (look.duration, look.progress()) {
+        // The last step may end a little later than asked for.
         (Some(duration), Some(done)) => {
-            format!("{time} of {} s ({} %)", number::short(duration), (100.0 * done).floor())
+            let (time, duration) = (number::short(time.min(duration)), number::short(duration));
+            format!("{time} of {duration} s ({} %)", (100.0 * done).floor())
         }
-        _ => format!("{time} s"),
+        _ => format!("{} s", number::short(time)),
     }
 }
 
-fn speed(look: &Look, pace: &Pace) -> Option<String> {
+/// The speed, and the time left unless the run may have been killed.
+fn speed(look: &Look, pace: &Pace, warning: Option<&str>) -> Option<String> {
     let speed = pace.speed(look)?;
     let text = format!("{} simulated s per s", number::short(speed));
-    match (look.state, look.duration) {
-        (State::Running, Some(duration)) => {
+    match (look.state, look.duration, warning) {
+        (State::Running, Some(duration), None) => {
             Some(format!("{text}, {} left", number::duration((duration - look.time()).max(0.0) / speed)))
         }
         _ => Some(text),
@@ -82,7 +106,7 @@ fn contact_area(look: &Look) -> Option<String> {
     let area = look.contact_area.last()?;
     let mut text = format!("contact area {:.4} mm²", area * 1e6);
     if let Some(mean) = look.contact_area_mean.last() {
-        text += &format!(" (mean of the last revolution {:.4} mm²)", mean * 1e6);
+        text += &format!(", mean of the last revolution {:.4} mm²", mean * 1e6);
     }
     if let Some(filled) = look.filled_fraction {
         text += &format!(", disc filled {:.1} %", filled * 100.0);
@@ -90,10 +114,12 @@ fn contact_area(look: &Look) -> Option<String> {
     Some(text)
 }
 
-fn bar(done: f64, unicode: bool) -> String {
-    let full = ((done * BAR as f64) as usize).min(BAR);
+/// A bar of so many characters, where that is enough for one.
+fn bar(done: f64, unicode: bool, room: usize) -> Option<String> {
+    let length = room.min(BAR.1);
+    let full = ((done * length as f64) as usize).min(length);
     let (dark, light) = if unicode { ("█", "░") } else { ("#", "-") };
-    dark.repeat(full) + &light.repeat(BAR - full)
+    (length >= BAR.0).then(|| dark.repeat(full) + &light.repeat(length - full))
 }
 
 /// The contact area against time with its axes, where there is room for it and something to draw.
@@ -108,7 +134,7 @@ fn chart(look: &Look, unicode: bool, width: usize, room: usize) -> Vec<String> {
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     let labels = [number::short(high), number::short(low)];
     let margin = labels.iter().map(String::len).max().unwrap_or(0);
-    let columns = width.saturating_sub(margin + 3);
+    let columns = width.saturating_sub(margin + 2);
     if look.times.len() < 2 || low > high || columns < CURVE_WIDTH || room < CURVE_LINES.0 {
         return Vec::new();
     }
@@ -169,10 +195,12 @@ mod tests {
         let pace = Pace::new(Instant::now());
         // 3 s in 6 s: 0.5 s a second, 9 s to go.
         assert_eq!(
-            line(&look(), &pace, false),
+            line(&look(), &pace, None, false),
             "running: 3.000 of 12.00 s (25 %), 0.5000 simulated s per s, 18.0 s left, 3 samples, \
-             contact area 4.0000 mm2 (mean of the last revolution 2.0000 mm2), disc filled 25.0 %"
+             contact area 4.0000 mm2, mean of the last revolution 2.0000 mm2, disc filled 25.0 %"
         );
+        let warned = line(&look(), &pace, Some("no new sample"), true);
+        assert!(warned.contains(", 0.5000 simulated s per s, 3 samples, "), "{warned}");
     }
 
     #[test]
@@ -185,12 +213,24 @@ mod tests {
                         page(&look(), &pace, Some("the run may have been killed"), Style { unicode, width, height });
                     let longest = lines.iter().map(|line| console::measure_text_width(line)).max().unwrap();
                     assert!(longest < width.max(2), "{width} x {height}: {lines:?}");
-                    assert!(lines.len() <= height.max(5), "{width} x {height}: {lines:?}");
+                    assert!(lines.len() < height.max(2), "{width} x {height}: {lines:?}");
                     assert!(unicode || lines.iter().all(|line| line.is_ascii()), "{lines:?}");
                     assert!(!lines[0].contains("\u{1b}[2J"), "{lines:?}");
                 }
             }
         }
+        let narrow = page(&look(), &pace, None, Style { unicode: false, width: 40, height: 10 });
+        assert_eq!(
+            narrow[1..],
+            [
+                "###-----------  3.000 of 12.00 s (25 %)",
+                "0.5000 simulated s per s, 18.0 s left,",
+                "3 samples",
+                "contact area 4.0000 mm2,",
+                "mean of the last revolution 2.0000 mm2,",
+                "disc filled 25.0 %",
+            ]
+        );
         let lines = page(&look(), &pace, None, Style { unicode: false, width: 60, height: 24 });
         assert!(lines.iter().any(|line| line.starts_with("2.000 |") && line.ends_with('*')), "{lines:?}");
         assert!(lines.iter().any(|line| line.starts_with("1.000 |*")), "{lines:?}");

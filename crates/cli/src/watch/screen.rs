@@ -17,6 +17,8 @@ pub struct Screen {
     unicode: bool,
     /// Lines of the page that is shown.
     lines: usize,
+    /// Lines and characters of the terminal when it was drawn.
+    size: (u16, u16),
     /// What was said last, where there is no terminal.
     said: String,
     warned: bool,
@@ -31,6 +33,7 @@ impl Screen {
             terminal: (terminal.is_term() && can_move).then_some(terminal),
             unicode: is_unicode(|name| env::var(name).ok()),
             lines: 0,
+            size: (0, 0),
             said: String::new(),
             warned: false,
         }
@@ -43,11 +46,17 @@ impl Screen {
     pub fn show(&mut self, look: &Look, pace: &Pace, warning: Option<&str>) -> io::Result<()> {
         match &self.terminal {
             Some(terminal) => {
-                let (height, width) = terminal.size();
+                let size = terminal.size();
+                let (height, width) = size;
                 let style = Style { unicode: self.unicode, width: width.into(), height: height.into() };
                 let lines = page::page(look, pace, warning, style);
-                terminal.clear_last_lines(self.lines)?;
-                self.lines = lines.len();
+                if self.lines > 0 && size != self.size {
+                    // The terminal has broken the old lines anew: nobody knows how many they are now.
+                    terminal.clear_screen()?;
+                } else {
+                    terminal.clear_last_lines(self.lines)?;
+                }
+                (self.lines, self.size) = (lines.len(), size);
                 lines.iter().try_for_each(|line| terminal.write_line(line))?;
                 terminal.flush()
             }
@@ -62,7 +71,7 @@ impl Screen {
                 }
                 self.said = what;
                 let mut out = io::stdout().lock();
-                writeln!(out, "{}", page::line(look, pace, self.unicode))?;
+                writeln!(out, "{}", page::line(look, pace, warning, self.unicode))?;
                 out.flush()
             }
         }
