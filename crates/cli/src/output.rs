@@ -42,7 +42,7 @@ pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
 /// Writes a file piece by piece; it appears under its name when it is complete.
 ///
 /// # Errors
-/// Those of [`write`], and [`Failure::Input`] when the run file that it is made of cannot be read.
+/// Those of [`write()`], and [`Failure::Input`] when the run file that it is made of cannot be read.
 pub fn fill(
     path: &Path,
     force: bool,
