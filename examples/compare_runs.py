@@ -34,7 +34,7 @@ for path in arguments.runs:
         drawn = series[arguments.series]
         axes.plot(time, drawn[: len(time)], label=name)
         units = [f"{series[column].attrs['units']}" for column in COLUMNS]
-        axes.set(xlabel="time, s", ylabel=f"{drawn.attrs['long_name']}, {drawn.attrs['units']}")
+        axes.set(xlabel="time, s", ylabel=f"{arguments.series}, {drawn.attrs['units']}")
 print("unit".ljust(20), "s".rjust(12), *(unit.rjust(18) for unit in units))
 axes.legend()
 figure.savefig(arguments.output, dpi=150)

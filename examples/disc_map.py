@@ -30,7 +30,10 @@ angle, radius = field.dims
 field = field.assign_coords({angle: field[angle] * float(field["radius"].mean()) * 1e3, radius: field[radius] * 1e3})
 figure, axes = plt.subplots(figsize=(9, 3), layout="constrained")
 picture = axes.pcolormesh(field[angle], field[radius], field.values.T, shading="nearest")
-figure.colorbar(picture, label=f"{arguments.map}, {field.attrs['units']}")
+bar = figure.colorbar(picture, label=f"{arguments.map}, {field.attrs['units']}")
+if names := field.attrs.get("flag_meanings", "").split():
+    picture.set_clim(field.attrs["flag_values"][0], field.attrs["flag_values"][-1])
+    bar.set_ticks(field.attrs["flag_values"], labels=names)
 time = float(field["map_time"])
 axes.set(title=f"{time:.6g} s", xlabel="arc length, mm", ylabel="radius, mm")
 figure.savefig(arguments.output, dpi=150)

@@ -82,6 +82,10 @@ class Examples(unittest.TestCase):
         [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/pressure", "--time", "11", "-o", "pressure.png")
         self.close(numbers(line), [times[1], pressure[1].min(), pressure[1].max(), pressure[1].sum() / pressure[1].size])
         self.check_picture("pressure.png")
+        [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/status", "-o", "status.png")
+        self.close(numbers(line)[0], times[2])
+        self.assertIn("from 0 to 2 1,", line)
+        self.check_picture("status.png")
 
     def test_compare_runs(self):
         lines = self.example("compare_runs.py", "quick.h5", "strong.h5", "--series", "filled_fraction", "-o", "compare.png")
