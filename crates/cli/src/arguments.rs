@@ -29,15 +29,26 @@ pub enum Command {
     /// Check a scene without running it: what it resolves to, needs and costs
     #[command(after_help = "Example:\n  plateau check data/scenes/cermet.toml")]
     Check(CheckArguments),
-    /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
-    #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
-                      plateau surface --prepare data/scenes/quick.toml")]
-    Surface(SurfaceArguments),
     /// Draw the figures of a run, or of several side by side
     #[command(
         after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
     )]
     Plot(PlotArguments),
+    /// Make one HTML page of a run, or of several to compare: numbers, charts, maps
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+                      plateau report quick.h5 -o quick.html")]
+    Report(ReportArguments),
+    /// Follow a run in the terminal: state, progress, contact area
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau watch quick.h5")]
+    Watch(WatchArguments),
+    /// Write a run file for other programs: tables, NumPy arrays, ParaView's grids
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+                      plateau export quick.h5 --to csv\n  plateau export quick.h5 --to vtk -o quick-vtk")]
+    Export(ExportArguments),
+    /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
+    #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
+                      plateau surface --prepare data/scenes/quick.toml")]
+    Surface(SurfaceArguments),
     /// Print the JSON Schema of scenes, with which editors complete and check them
     #[command(
         after_help = "Example:\n  plateau schema\n\nFor an editor: plateau schema > scene.schema.json; see docs/scenes.md."
@@ -52,10 +63,6 @@ pub enum Command {
     #[command(after_help = "Example:\n  plateau man run\n\n\
                       To read it: plateau man run | man -l -")]
     Man(ManArguments),
-    /// Make one HTML page of run files: numbers, charts, maps, scenes; several runs are compared
-    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
-                      plateau report quick.h5 -o quick.html")]
-    Report(ReportArguments),
 }
 
 /// A scene, with changes.
@@ -241,6 +248,49 @@ pub struct ManArguments {
     /// Replace pages that are there
     #[arg(long, requires = "output")]
     pub force: bool,
+}
+
+/// Arguments of `plateau watch`.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// Run file, which need not be there yet
+    pub run: PathBuf,
+    /// Print the state once and end
+    #[arg(long)]
+    pub once: bool,
+    /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    pub timeout: Option<u64>,
+}
+
+/// Arguments of `plateau export`.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// Run file, also of a run that goes on or was killed
+    pub run: PathBuf,
+    /// Format
+    #[arg(long)]
+    pub to: ExportFormat,
+    /// File to write, for vtk the folder; in the working directory and named like the run file unless given
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Write the maps too; for csv, as the other formats have them anyway
+    #[arg(long)]
+    pub maps: bool,
+    /// Replace what is to be written if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A format of other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// Comma-separated values: the series; with --maps the maps
+    Csv,
+    /// NumPy archive: series and maps as arrays
+    Npz,
+    /// ParaView: maps on the cells of ring and pin, as a time series
+    Vtk,
 }
 
 /// Distance of neighbouring points along x and y, m.

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod deflate;
 mod drive;
 mod execution;
 mod failure;
@@ -18,6 +19,7 @@ mod stability;
 mod summary;
 mod table;
 mod version;
+mod watch;
 
 use std::process::ExitCode;
 

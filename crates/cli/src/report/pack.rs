@@ -3,12 +3,10 @@
 //! The bytes of equal weight stand together, the lowest first; where numbers are alike, so are the higher ones, which
 //! deflate then makes short. Browsers inflate it with `DecompressionStream("deflate")`.
 
-use std::io::Write as _;
-
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+
+use crate::deflate::deflate;
 
 /// Floating-point numbers, 8 bytes each.
 pub fn doubles(values: &[f64]) -> String {
@@ -50,12 +48,6 @@ fn pack<const N: usize>(values: impl ExactSizeIterator<Item = [u8; N]>) -> Strin
         }
     }
     STANDARD.encode(deflate(&planes))
-}
-
-fn deflate(bytes: &[u8]) -> Vec<u8> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
-    // A Vec takes every byte.
-    encoder.write_all(bytes).and_then(|()| encoder.finish()).unwrap_or_default()
 }
 
 #[cfg(test)]

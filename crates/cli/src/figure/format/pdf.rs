@@ -1,6 +1,5 @@
 //! A page as PDF, with the letters of the font that it uses.
 
-use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{CidFontType, FontFlags, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 use subsetter::GlyphRemapper;
@@ -8,14 +7,13 @@ use ttf_parser::{Face, GlyphId};
 
 use super::pdf_backend::{Operators, PdfBackend};
 use super::pixels;
+use crate::deflate::deflate;
 use crate::figure::canvas::{Canvas, FigureError, failed};
 use crate::figure::font::FONT;
 use crate::figure::page::{PER_MILLIMETRE, Page};
 
 /// Points of a pixel: there are 72 in 25.4 mm.
 const POINTS: f64 = 72.0 / 25.4 / PER_MILLIMETRE;
-/// How hard to compress.
-const LEVEL: u8 = 6;
 const FONT_NAME: Name = Name(b"PLATEA+DejaVuSans");
 /// How glyphs are numbered: by bytes, as they are.
 const IDENTITY: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
@@ -65,7 +63,7 @@ pub fn pdf(page: &Page, title: &str) -> Result<Vec<u8>, FigureError> {
     states.finish();
     resources.finish();
     leaf.finish();
-    let content = compress_to_vec_zlib(&content.finish().into_vec(), LEVEL);
+    let content = deflate(&content.finish().into_vec());
     pdf.stream(operators, &content).filter(Filter::FlateDecode);
     Ok(pdf.finish())
 }
@@ -88,7 +86,7 @@ impl Document {
         let mut names = Vec::new();
         for (number, (frame, picture)) in page.pictures().into_iter().enumerate() {
             let (name, reference) = (format!("M{number}"), self.next());
-            let data = compress_to_vec_zlib(&picture.indices, LEVEL);
+            let data = deflate(&picture.indices);
             let mut image = self.pdf.image_xobject(reference, &data);
             image.filter(Filter::FlateDecode);
             image.width(picture.columns as i32).height(picture.rows as i32);
@@ -139,7 +137,7 @@ impl Document {
             .stem_v(80.0)
             .font_file2(file);
         let subset = subsetter::subset(FONT, 0, glyphs).map_err(failed)?;
-        let data = compress_to_vec_zlib(&subset, LEVEL);
+        let data = deflate(&subset);
         self.pdf.stream(file, &data).filter(Filter::FlateDecode).pair(Name(b"Length1"), subset.len() as i32);
         let mut map = UnicodeCmap::new(Name(b"Custom"), IDENTITY);
         for (glyph, letter) in letters {
