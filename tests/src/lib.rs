@@ -1,6 +1,7 @@
 //! Helpers shared by the end-to-end tests.
 
 pub mod divergence;
+pub mod figure;
 pub mod patience;
 pub mod program;
 pub mod run_file;

@@ -83,11 +83,22 @@ fn command_lines() -> Vec<Case> {
         case("unknown option", &["run", "scene.toml", "--fast"], quick),
         case("option without its value", &["run", "scene.toml", "--set"], quick),
         case("two scenes", &["run", "scene.toml", "scene.toml"], quick),
+        case("scene without a command", &["scene.toml"], quick),
+        case("set with a space", &["run", "scene.toml", "--set", "operation.normal_force=20", "N"], quick),
+        case("shell that is none", &["completions", "tcsh"], |_| ()),
         case("set of no key", &["run", "scene.toml", "--set", "20 N"], quick),
         case("set of an unknown key", &["run", "scene.toml", "--set", "mesh.row=3"], quick),
         case("no workers", &["run", "scene.toml", "--workers", "0"], quick),
         case("workers that are no number", &["run", "scene.toml", "--workers", "many"], quick),
         case("unknown instruction set", &["run", "scene.toml", "--isa", "nonsense"], quick),
+        case("no run to plot", &["plot"], |_| ()),
+        case("unknown format of figures", &["plot", "run.h5", "--format", "jpg"], |_| ()),
+        case("nine runs to plot", &["plot", "1", "2", "3", "4", "5", "6", "7", "8", "9"], |_| ()),
+        case("run file is missing", &["plot", "run.h5"], |_| ()),
+        case("run file is a text", &["plot", "run.h5"], |directory| {
+            directory.write("run.h5", "no HDF5");
+        }),
+        case("run file of something else", &["plot", "surface.h5"], |directory| ring(directory, |_| 0.0)),
         case("no instruction set", &["run", "scene.toml", "--isa"], quick),
     ]
 }

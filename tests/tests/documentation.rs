@@ -4,10 +4,11 @@
 //! writes it anew.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use plateau_core::observe::{QUANTITIES, Quantity, ROUGHNESS_QUANTITIES};
-use plateau_io::scene::schema::{self, Key, Kind, Need};
+use plateau_core::observe::{Map, QUANTITIES, Quantity, ROUGHNESS_QUANTITIES};
+use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
+use plateau_io::units::Dimension;
 
 /// The text between the two marks of a table in a document is this, or is made so.
 fn expect_table(document: &str, name: &str, table: &str) {
@@ -24,16 +25,19 @@ fn expect_table(document: &str, name: &str, table: &str) {
 }
 
 fn kind(key: &Key) -> String {
+    let example = key.example().map(|example| format!(", such as `{example}`")).unwrap_or_default();
     match key.kind {
-        Kind::Quantity { unit, .. } => format!("quantity, such as `\"1 {unit}\"`"),
-        Kind::Lengths { single, count, unit, .. } => {
-            let list =
-                format!("list of {count} quantities, such as `[{}]`", vec![format!("\"1 {unit}\""); count].join(", "));
-            if single { format!("quantity, such as `\"1 {unit}\"`, or {list}") } else { list }
+        Kind::Quantity { dimension, .. } => format!("{}{example}", quantity(dimension)),
+        Kind::Lengths { single, count, .. } => {
+            if single {
+                format!("length{example}, or list of {count}")
+            } else {
+                format!("list of {count} lengths{example}")
+            }
         }
-        Kind::LengthUnit => "unit of length, such as `\"um\"`, or quantity".into(),
-        Kind::Number(_) => "number".into(),
-        Kind::NumberOr(_, word) => format!("number, or `\"{word}\"`"),
+        Kind::LengthUnit => format!("unit of length{example}, or length"),
+        Kind::Number(range) => format!("number{}", limits(range)),
+        Kind::NumberOr(range, word) => format!("number{}, or `\"{word}\"`", limits(range)),
         Kind::Integer(least) => format!("integer, at least {least}"),
         Kind::Bool => "`true`, `false`".into(),
         Kind::True => "`true`".into(),
@@ -41,15 +45,37 @@ fn kind(key: &Key) -> String {
         Kind::CountOr(word) => format!("integer, at least 1, or `\"{word}\"`"),
         Kind::Text => "text".into(),
         Kind::InputFile => "path".into(),
-        Kind::Times => "list of times, such as `[\"0 s\", \"10 s\"]`".into(),
-        Kind::Maps => "list of names of maps".into(),
+        Kind::Times => format!("list of times{example}"),
+        Kind::Maps => format!("list of {}", Map::ALL.map(|map| format!("`\"{}\"`", map.name())).join(", ")),
     }
+}
+
+/// The dimension as messages name it, without the article.
+fn quantity(dimension: Dimension) -> &'static str {
+    match dimension {
+        Dimension::Length => "length",
+        Dimension::Force => "force",
+        Dimension::Pressure => "pressure",
+        Dimension::Time => "time",
+        Dimension::Speed => "speed",
+        Dimension::RotationalSpeed => "rotational speed",
+        Dimension::SpecificWearRate => "specific wear rate",
+        Dimension::Area => "area",
+    }
+}
+
+fn limits(range: Range) -> String {
+    if range == Range::ANY { String::new() } else { format!(", {range}") }
 }
 
 fn need(key: &Key) -> String {
     match key.need {
         Need::Required => "required".into(),
-        Need::OneOf => "one of several".into(),
+        Need::OneOf => {
+            let group = key.group().expect("a group of the key");
+            let names: Vec<_> = group.members.iter().map(|(name, _)| format!("`{name}`")).collect();
+            format!("{} {}", if group.required { "one of" } else { "at most one of" }, names.join(", "))
+        }
         Need::Default(value) => format!("`{value}`"),
         Need::SameAs(table) => format!("as in `[{table}]`"),
         Need::Computed(what) => what.into(),
@@ -57,14 +83,86 @@ fn need(key: &Key) -> String {
     }
 }
 
+/// Tables that have the same keys, but for those that the last alone has.
+const ALIKE: &[&[&str]] = &[
+    &["materials.disc_primary", "materials.pin_primary", "materials.disc_secondary", "materials.pin_secondary"],
+    &["disc.surface", "pin.surface"],
+    &["disc.prepare", "pin.prepare"],
+];
+
+fn capitalised(text: &str) -> String {
+    let first = text.chars().next().expect("a text").to_uppercase();
+    first.chain(text.chars().skip(1)).collect()
+}
+
+fn keys_of(section: &str) -> Vec<&'static Key> {
+    schema::keys().iter().filter(|key| key.section == section).collect()
+}
+
+/// Heading, purpose and keys of tables that have the same keys.
+fn section(tables: &[&str]) -> String {
+    let (first, last) = (tables[0], tables[tables.len() - 1]);
+    let names: Vec<_> = tables.iter().map(|table| format!("`[{table}]`")).collect();
+    let mut text = if first.is_empty() {
+        "### At the top, before the first table\n".to_owned()
+    } else {
+        let purpose = |table: &str| schema::table_meaning(table).expect("what the table is for");
+        let purposes: Vec<_> = match tables {
+            [table] => vec![format!("{}.\n", capitalised(purpose(table)))],
+            _ => tables.iter().zip(&names).map(|(table, name)| format!("- {name}: {}\n", purpose(table))).collect(),
+        };
+        format!("### {}\n\n{}", names.join(", "), purposes.concat())
+    };
+    text.push_str("\n| key | value | default | meaning |\n|---|---|---|---|\n");
+    let shared = keys_of(first);
+    for (at, key) in keys_of(last).into_iter().enumerate() {
+        let (like, only) = match shared.get(at) {
+            Some(like) => (*like, String::new()),
+            None => (key, format!("only in `[{last}]`: ")),
+        };
+        for table in tables.iter().filter(|_| at < shared.len()) {
+            let other = keys_of(table)[at];
+            assert_eq!((other.name, other.kind, other.meaning), (like.name, like.kind, like.meaning), "{table}");
+        }
+        // Writing to a String cannot fail.
+        let meaning = format!("{only}{}", like.meaning).replace('|', "\\|");
+        let _ = writeln!(text, "| `{}` | {} | {} | {meaning} |", like.name, kind(like), need(like));
+    }
+    for table in tables {
+        if let Some(Need::SameAs(like)) = keys_of(table).first().map(|key| key.need) {
+            let _ = writeln!(text, "\nWhat `[{table}]` does not give is as in `[{like}]`.");
+        }
+    }
+    text.push('\n');
+    text
+}
+
 #[test]
 fn every_key_of_a_scene_is_documented() {
-    let mut table = String::from("| key | value | default | meaning |\n|---|---|---|---|\n");
-    for key in schema::keys() {
-        // Writing to a String cannot fail.
-        let _ = writeln!(table, "| `{}` | {} | {} | {} |", key.path(), kind(key), need(key), key.meaning);
+    let mut sections: Vec<&str> = schema::keys().iter().map(|key| key.section).collect();
+    sections.dedup();
+    let mut text = String::new();
+    for name in sections {
+        match ALIKE.iter().find(|alike| alike.contains(&name)) {
+            Some(alike) if alike[0] == name => text.push_str(&section(alike)),
+            Some(_) => {}
+            None => text.push_str(&section(&[name])),
+        }
     }
-    expect_table("scenes.md", "keys", &table);
+    expect_table("scenes.md", "keys", &text);
+}
+
+/// The copy that scenes name in `#:schema`, for editors.
+#[test]
+fn the_schema_of_scenes_is_up_to_date() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/scene.schema.json");
+    let text = format!("{:#}\n", schema::json_schema());
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        std::fs::write(&path, text).expect("a schema that can be written");
+    } else {
+        let found = std::fs::read_to_string(&path).expect("the schema");
+        assert!(found == text, "data/scene.schema.json is out of date; UPDATE_DOCS=1 writes it anew");
+    }
 }
 
 fn series(quantities: &[Quantity]) -> String {
@@ -79,4 +177,46 @@ fn series(quantities: &[Quantity]) -> String {
 fn every_series_is_documented() {
     expect_table("run-file.md", "series", &series(QUANTITIES));
     expect_table("run-file.md", "roughness series", &series(ROUGHNESS_QUANTITIES));
+}
+
+/// Markdown files of the repository, by their path from its root.
+fn documents() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let docs = std::fs::read_dir(root.join("docs")).expect("docs").map(|entry| entry.expect("an entry").path());
+    let docs = docs.filter(|path| path.extension().is_some_and(|end| end == "md"));
+    docs.chain([root.join("README.md")]).collect()
+}
+
+/// The name by which a link finds a heading: as GitHub makes it.
+fn anchor(heading: &str) -> String {
+    let kept = heading.trim().to_lowercase();
+    let kept = kept.chars().filter(|letter| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_'));
+    kept.map(|letter| if letter == ' ' { '-' } else { letter }).collect()
+}
+
+#[test]
+fn every_link_between_documents_leads_somewhere() {
+    let mut count = 0;
+    for path in documents() {
+        let text = std::fs::read_to_string(&path).expect("a document");
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.contains("://") {
+                continue;
+            }
+            let (file, heading) = link.split_once('#').map_or((link, None), |(file, heading)| (file, Some(heading)));
+            let target = if file.is_empty() { path.clone() } else { path.with_file_name(file) };
+            assert!(target.exists(), "{}: {link} is not there", path.display());
+            if let Some(heading) = heading {
+                let text = std::fs::read_to_string(&target).expect("a document");
+                let there = text.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#'));
+                assert!(
+                    there.into_iter().any(|line| anchor(line) == heading),
+                    "{}: {link}: no such heading",
+                    path.display()
+                );
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 30, "{count} links");
 }

@@ -28,7 +28,7 @@ fn runs(directory: &WorkingDirectory, example: &str) {
     let outcome = run(shell);
     assert_eq!(outcome.status, Some(0), "{example}: {}", outcome.stderr);
     assert_eq!(outcome.stderr, "", "{example}");
-    assert!(outcome.stdout.lines().count() > 5, "{example}: {}", outcome.stdout);
+    assert!(!outcome.stdout.trim().is_empty(), "{example} says nothing");
 }
 
 #[test]
@@ -39,9 +39,10 @@ fn the_example_of_every_command_works() {
         let help = WorkingDirectory::new().plateau([&command, "--help"]).quiet_success();
         let examples = examples(&help);
         assert!(!examples.is_empty(), "no example in {command} --help: {help}");
+        // One after the other, as they are read: the first may make what the next one needs.
+        let directory = WorkingDirectory::new();
+        symlink(repository().join("data"), directory.path("data")).unwrap();
         for example in examples {
-            let directory = WorkingDirectory::new();
-            symlink(repository().join("data"), directory.path("data")).unwrap();
             runs(&directory, example);
             if command == "run" {
                 let written = directory.names().into_iter().find(|name| name != "data").expect("a run file");

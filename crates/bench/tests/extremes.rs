@@ -7,7 +7,8 @@ fn every_case_keeps_its_bounds_and_is_in_the_document() {
     let output = Command::new(env!("CARGO_BIN_EXE_extremes")).arg("--quick").output().expect("the program");
     let printed = String::from_utf8(output.stdout).expect("UTF-8");
     assert!(output.status.success(), "{printed}");
-    let document = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/stability.md")).expect("docs");
+    let document =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/stability.md")).expect("docs");
     // A case, aligned, is parted from its figures by two blanks; that of many steps has another name in a short run.
     let names = printed.lines().skip(2).filter_map(|line| line.trim().split_once("  ")).map(|(name, _)| name);
     let missing: Vec<&str> =

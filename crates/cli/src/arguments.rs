@@ -3,7 +3,8 @@
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use plateau_core::kernel::InstructionSet;
 use plateau_core::surface::Level;
 use plateau_io::units::{self, Dimension};
@@ -28,10 +29,40 @@ pub enum Command {
     /// Check a scene without running it: what it resolves to, needs and costs
     #[command(after_help = "Example:\n  plateau check data/scenes/cermet.toml")]
     Check(CheckArguments),
+    /// Draw the figures of a run, or of several side by side
+    #[command(
+        after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
+    )]
+    Plot(PlotArguments),
+    /// Make one HTML page of a run, or of several to compare: numbers, charts, maps
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+                      plateau report quick.h5 -o quick.html")]
+    Report(ReportArguments),
+    /// Follow a run in the terminal: state, progress, contact area
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau watch quick.h5")]
+    Watch(WatchArguments),
+    /// Write a run file for other programs: tables, NumPy arrays, ParaView's grids
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
+                      plateau export quick.h5 --to csv\n  plateau export quick.h5 --to vtk -o quick-vtk")]
+    Export(ExportArguments),
     /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),
+    /// Print the JSON Schema of scenes, with which editors complete and check them
+    #[command(
+        after_help = "Example:\n  plateau schema\n\nFor an editor: plateau schema > scene.schema.json; see docs/scenes.md."
+    )]
+    Schema,
+    /// Print what lets a shell complete commands, options and files on the Tab key
+    #[command(after_help = "Example:\n  plateau completions bash\n\n\
+                      Once for all: plateau completions bash > ~/.local/share/bash-completion/completions/plateau\n\
+                      For zsh, fish and others see docs/recipes.md.")]
+    Completions(CompletionsArguments),
+    /// Print a manual page, or write all of them
+    #[command(after_help = "Example:\n  plateau man run\n\n\
+                      To read it: plateau man run | man -l -")]
+    Man(ManArguments),
 }
 
 /// A scene, with changes.
@@ -140,6 +171,126 @@ pub struct SurfaceArguments {
     /// Replace the files that --plot, --preview and --to name if they exist
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `plateau report`.
+#[derive(Debug, Args)]
+pub struct ReportArguments {
+    /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Page to write
+    #[arg(short, long, value_name = "HTML", default_value = "report.html")]
+    pub output: PathBuf,
+    /// Replace the page if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau plot`.
+#[derive(Debug, Args)]
+pub struct PlotArguments {
+    /// Run files, also of runs that go on or were stopped; at most 8
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Folder for the figures, made if it is not there; named like the run file, or "figures" for several, unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Format of the figures
+    #[arg(long, value_enum, default_value = "png")]
+    pub format: FigureFormat,
+    /// Show the whole ring from above instead of unrolled
+    #[arg(long)]
+    pub polar: bool,
+    /// Replace figures that exist
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Format of a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureFormat {
+    /// Pixels
+    Png,
+    /// Lines and letters, for web pages and for drawing programs
+    Svg,
+    /// Lines and letters, for papers
+    Pdf,
+}
+
+impl FigureFormat {
+    /// Ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        }
+    }
+}
+
+/// Arguments of `plateau completions`.
+#[derive(Debug, Args)]
+pub struct CompletionsArguments {
+    /// The shell
+    pub shell: Shell,
+}
+
+/// Arguments of `plateau man`.
+#[derive(Debug, Args)]
+pub struct ManArguments {
+    /// Command whose page is printed; that of the program unless given
+    #[arg(value_name = "COMMAND", conflicts_with = "output")]
+    pub page: Option<String>,
+    /// Directory into which the pages of the program and of every command are written
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Replace pages that are there
+    #[arg(long, requires = "output")]
+    pub force: bool,
+}
+
+/// Arguments of `plateau watch`.
+#[derive(Debug, Args)]
+pub struct WatchArguments {
+    /// Run file, which need not be there yet
+    pub run: PathBuf,
+    /// Print the state once and end
+    #[arg(long)]
+    pub once: bool,
+    /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
+    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    pub timeout: Option<u64>,
+}
+
+/// Arguments of `plateau export`.
+#[derive(Debug, Args)]
+pub struct ExportArguments {
+    /// Run file, also of a run that goes on or was killed
+    pub run: PathBuf,
+    /// Format
+    #[arg(long)]
+    pub to: ExportFormat,
+    /// File to write, for vtk the folder; in the working directory and named like the run file unless given
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Write the maps too; for csv, as the other formats have them anyway
+    #[arg(long)]
+    pub maps: bool,
+    /// Replace what is to be written if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A format of other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ExportFormat {
+    /// Comma-separated values: the series; with --maps the maps
+    Csv,
+    /// NumPy archive: series and maps as arrays
+    Npz,
+    /// ParaView: maps on the cells of ring and pin, as a time series
+    Vtk,
 }
 
 /// Distance of neighbouring points along x and y, m.

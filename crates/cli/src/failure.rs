@@ -3,7 +3,7 @@
 use std::fmt;
 use std::process::ExitCode;
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::message;
 
@@ -58,12 +58,32 @@ impl Failure {
 }
 
 /// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.
-pub fn answer(answer: &clap::Error) -> ExitCode {
+pub fn answer(mut answer: clap::Error) -> ExitCode {
     if !answer.use_stderr() || answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         // Nobody is left to tell when help cannot be written.
         let _ = answer.print();
         return ExitCode::from(answer.exit_code() as u8);
     }
+    if let Some(tip) = tip(&answer) {
+        answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
     let message = answer.to_string();
     Failure::input(message.trim_start_matches("error: ").trim_end()).report()
+}
+
+/// What one who is new to the program may have meant.
+fn tip(answer: &clap::Error) -> Option<String> {
+    let word = |kind| answer.get(kind).map(ToString::to_string);
+    match answer.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let scene = word(ContextKind::InvalidSubcommand).filter(|word| word.ends_with(".toml"))?;
+            Some(format!("to run a scene: plateau run {scene}"))
+        }
+        ErrorKind::UnknownArgument => {
+            let set = std::env::args_os().any(|argument| argument == "--set");
+            word(ContextKind::InvalidArg).filter(|word| set && !word.starts_with('-'))?;
+            Some("quote a value with a space in it: --set operation.normal_force=\"20 N\"".to_owned())
+        }
+        _ => None,
+    }
 }

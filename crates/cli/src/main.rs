@@ -2,6 +2,7 @@
 
 mod arguments;
 mod commands;
+mod deflate;
 mod drive;
 mod execution;
 mod failure;
@@ -13,10 +14,12 @@ mod message;
 mod number;
 mod output;
 mod progress;
+mod report;
 mod stability;
 mod summary;
 mod table;
 mod version;
+mod watch;
 
 use std::process::ExitCode;
 
@@ -25,7 +28,7 @@ use clap::Parser;
 fn main() -> ExitCode {
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(answer) => return failure::answer(&answer),
+        Err(answer) => return failure::answer(answer),
     };
     match commands::perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,

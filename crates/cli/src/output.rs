@@ -1,9 +1,10 @@
 //! Files that a command leaves beside its run file: whole, or not at all.
 
-use std::fs;
-use std::io::ErrorKind;
+use std::fs::{self, File};
+use std::io::{BufWriter, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
+use plateau_io::export::ExportError;
 use plateau_io::temporary::Temporary;
 
 use crate::failure::Failure;
@@ -35,14 +36,41 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
 /// # Errors
 /// [`Failure::Input`] when there is a file that is not to be replaced, [`Failure::Run`] when the system refuses.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
+    fill(path, force, |mut file| Ok(file.write_all(content).and_then(|()| file.flush())?))
+}
+
+/// Writes a file piece by piece; it appears under its name when it is complete.
+///
+/// # Errors
+/// Those of [`write()`], and [`Failure::Input`] when the run file that it is made of cannot be read.
+pub fn fill(
+    path: &Path,
+    force: bool,
+    fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
+) -> Result<(), Failure> {
     // The target of a link is replaced, not the link.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
     let temporary = Temporary::beside(&target);
-    let written = fs::write(temporary.path(), content).and_then(|()| temporary.publish(force));
-    written.map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => exists(path),
-        _ => Failure::run(format_args!("cannot write {}: {error}", path.display())),
+    let file = File::create(temporary.path()).map(BufWriter::new).map_err(ExportError::Write);
+    let written = file.and_then(fill).and_then(|()| Ok(temporary.publish(force)?));
+    written.map_err(|error| match error {
+        ExportError::Write(error) if error.kind() == ErrorKind::AlreadyExists => exists(path),
+        ExportError::Write(error) => Failure::run(format_args!("cannot write {}: {error}", path.display())),
+        ExportError::Read(error) => Failure::input(error),
     })
+}
+
+/// Makes a directory unless it is there.
+///
+/// # Errors
+/// [`Failure::Input`] when something else has its name or the system refuses.
+pub fn make_directory(path: &Path) -> Result<(), Failure> {
+    match fs::create_dir(path) {
+        Err(_) if path.is_dir() => Ok(()),
+        made => {
+            made.map_err(|error| Failure::input(format_args!("cannot make the folder {}: {error}", path.display())))
+        }
+    }
 }
 
 fn directory(path: &Path) -> &Path {

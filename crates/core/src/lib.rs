@@ -59,6 +59,7 @@ pub mod pair;
 pub mod parameters;
 pub mod parts;
 pub mod plateau;
+pub mod plateau_size;
 pub mod roughness;
 pub mod schedule;
 pub mod sector;

@@ -6,9 +6,11 @@
 //! | quantities with units | [`units`] |
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
+//! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | files that appear when they are complete | [`temporary`] |
 
 mod digest;
+pub mod export;
 mod hdf5_file;
 pub mod run_file;
 pub mod scene;

@@ -11,6 +11,27 @@ pub(crate) fn iso_8601(time: SystemTime) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{:03}Z", since.subsec_millis())
 }
 
+/// The time that a text of [`iso_8601`] stands for.
+pub(crate) fn from_iso_8601(text: &str) -> Option<SystemTime> {
+    let (date, time) = text.strip_suffix('Z')?.split_once('T')?;
+    let [year, month, day] = numbers(date, '-')?;
+    let (time, milliseconds) = time.split_once('.')?;
+    let [hour, minute, second] = numbers(time, ':')?;
+    if !(1..=12).contains(&month) || !(1..=31).contains(&day) || !(1970..10_000).contains(&year) {
+        return None;
+    }
+    let seconds = days_since_1970(year, month, day) * 86_400 + hour * 3600 + minute * 60 + second;
+    Some(
+        UNIX_EPOCH + Duration::from_secs(seconds) + Duration::from_millis(u64::from(milliseconds.parse::<u16>().ok()?)),
+    )
+}
+
+/// Three numbers with a mark between them.
+fn numbers(text: &str, mark: char) -> Option<[u64; 3]> {
+    let numbers: Option<Vec<u64>> = text.split(mark).map(|part| Some(u64::from(part.parse::<u16>().ok()?))).collect();
+    numbers?.try_into().ok()
+}
+
 /// Day, month, year, hour and minute in UTC without anything between them, for instance `151220190830`.
 pub(crate) fn day_month_year(time: SystemTime) -> String {
     let seconds = since_1970(time).as_secs();
@@ -39,6 +60,15 @@ fn civil_date(days: u64) -> (u64, u64, u64) {
     (400 * era + year_of_era + u64::from(month <= 2), month, day)
 }
 
+/// Days from 1970-01-01 to a date in the Gregorian calendar, as [`civil_date`] counts years and months.
+fn days_since_1970(year: u64, month: u64, day: u64) -> u64 {
+    let year = year - u64::from(month <= 2);
+    let (era, year_of_era) = (year / 400, year % 400);
+    let day_of_year = (153 * ((month + 9) % 12) + 2) / 5 + day - 1;
+    let day_of_era = year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year;
+    era * 146_097 + day_of_era - 719_468
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,8 +85,19 @@ mod tests {
             (1_798_761_599, "2026-12-31T23:59:59.000Z"),
             (4_107_542_400, "2100-03-01T00:00:00.000Z"),
         ] {
-            assert_eq!(iso_8601(UNIX_EPOCH + Duration::from_secs(seconds)), text);
+            let time = UNIX_EPOCH + Duration::from_secs(seconds);
+            assert_eq!(iso_8601(time), text);
+            assert_eq!(from_iso_8601(text), Some(time));
         }
+    }
+
+    #[test]
+    fn what_is_no_time_is_refused() {
+        for text in ["", "2019-12-15", "2019-12-15T08:30:00Z", "2019-13-15T08:30:00.000Z", "1969-12-31T23:59:59.999Z"] {
+            assert_eq!(from_iso_8601(text), None, "{text}");
+        }
+        let time = UNIX_EPOCH + Duration::from_millis(1_576_398_600_123);
+        assert_eq!(from_iso_8601("2019-12-15T08:30:00.123Z"), Some(time));
     }
 
     #[test]
@@ -72,6 +113,7 @@ mod tests {
         for days in 0..146_097 {
             assert_eq!(civil_date(days), expected, "{days} days after 1970-01-01");
             let (year, month, day) = expected;
+            assert_eq!(days_since_1970(year, month, day), days);
             let length = [31, 28 + u64::from(leap(year)), 31, 30, 31, 30, 31, 31, 30, 31, 30, 31][month as usize - 1];
             expected = match (month, day) {
                 (12, 31) => (year + 1, 1, 1),

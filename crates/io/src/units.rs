@@ -4,6 +4,7 @@
 //! taken into the decimal exponent before the number is rounded, so that "50 um" is the same double as `5e-5`.
 
 mod expression;
+pub mod pattern;
 
 use std::fmt;
 

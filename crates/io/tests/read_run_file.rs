@@ -44,6 +44,7 @@ fn a_finished_run_is_read_as_it_was_sent() {
     assert_eq!(run.time(), (1..=100).map(|step| 0.25 * f64::from(step)).collect::<Vec<_>>());
     assert_eq!(run.map_time(), [0.0, 25.0]);
     assert_eq!(run.series().len(), QUANTITIES.len());
+    assert!(run.series().iter().zip(QUANTITIES).all(|(series, quantity)| series.name == quantity.name));
     for quantity in QUANTITIES {
         let series = run.series().iter().find(|series| series.name == quantity.name).unwrap();
         assert_eq!((series.unit.as_str(), series.long_name.as_str()), (quantity.unit, quantity.long_name));

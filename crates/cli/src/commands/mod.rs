@@ -1,8 +1,15 @@
 //! One file per command.
 
 mod check;
+mod completions;
+mod export;
+mod man;
+mod plot;
+mod report;
 mod run;
+mod schema;
 mod surface;
+mod watch;
 
 use plateau_io::scene::{self, recipe::Scene};
 
@@ -15,7 +22,14 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
+        Command::Watch(arguments) => watch::watch(&arguments),
+        Command::Export(arguments) => export::export(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Schema => schema::schema(),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => man::man(&arguments),
     }
 }
 

@@ -6,14 +6,17 @@ use plotters::prelude::DrawingBackend;
 
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
 use super::colour::INK;
-use super::ticks::ticks;
+use super::font::text_width;
+use super::ticks::{logarithmic_ticks, ticks};
 
 /// Length of a tick, pixels.
 const TICK: f64 = 10.0;
 /// Room between a tick and its label, pixels.
 const GAP: f64 = 6.0;
 /// Pixels along an axis for one tick, at least.
-pub const PER_TICK: [f64; 2] = [100.0, 70.0];
+const PER_TICK: [f64; 2] = [120.0, 70.0];
+/// The same for an axis so short that ticks stand as close as their numbers can.
+const LEAST_PER_TICK: f64 = 40.0;
 
 /// A rectangle of the page, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,8 +45,17 @@ impl Frame {
     }
 }
 
+/// How values lie along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal differences take equal lengths.
+    Linear,
+    /// Equal ratios take equal lengths; the range is positive.
+    Logarithmic,
+}
+
 /// What an axis says.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Values at its ends.
     pub range: RangeInclusive<f64>,
@@ -51,10 +63,61 @@ pub struct Axis {
     pub label: String,
     /// Whether ticks have numbers; an axis that shares those of its neighbour has none.
     pub numbered: bool,
+    /// How values lie along it.
+    pub scale: Scale,
+}
+
+impl Axis {
+    /// An axis with numbers and equal differences.
+    pub fn linear(range: RangeInclusive<f64>, label: impl Into<String>) -> Self {
+        Self { range, label: label.into(), numbered: true, scale: Scale::Linear }
+    }
+
+    /// An axis with numbers and equal ratios.
+    pub fn logarithmic(range: RangeInclusive<f64>, label: impl Into<String>) -> Self {
+        Self { scale: Scale::Logarithmic, ..Self::linear(range, label) }
+    }
+
+    /// The same without numbers and label, which a neighbour has.
+    pub fn shared(self) -> Self {
+        Self { numbered: false, label: String::new(), ..self }
+    }
+
+    /// Where a value lies: 0 at the begin of the range, 1 at its end.
+    pub fn part(&self, value: f64) -> f64 {
+        let (begin, end) = (*self.range.start(), *self.range.end());
+        match self.scale {
+            Scale::Linear => (value - begin) / (end - begin),
+            Scale::Logarithmic => (value / begin).ln() / (end / begin).ln(),
+        }
+    }
+
+    /// Places of ticks and what they say, at most `most` of them.
+    pub fn ticks(&self, most: usize) -> Vec<(f64, String)> {
+        match self.scale {
+            Scale::Linear => ticks(&self.range, most),
+            Scale::Logarithmic => logarithmic_ticks(&self.range, most),
+        }
+    }
+
+    /// Room that an axis of this length takes to the left of its box, with numbers and label, pixels.
+    pub fn room_beside(&self, length: f64) -> f64 {
+        let labels = if self.numbered { self.ticks(most_ticks_upward(length)) } else { Vec::new() };
+        let widest = labels.iter().map(|(_, label)| text_width(label, TEXT)).fold(0.0, f64::max);
+        let label = if self.label.is_empty() { 0.0 } else { 1.2 * f64::from(TEXT) };
+        TICK + 3.0 * GAP + widest + label
+    }
+
+    /// Room that an axis takes below its box, pixels.
+    pub fn room_below(&self) -> f64 {
+        let letter = f64::from(TEXT);
+        let label = if self.label.is_empty() { 0.0 } else { 1.2 * letter };
+        TICK + 2.0 * GAP + label + if self.numbered { letter } else { 0.0 }
+    }
 }
 
 /// A box with an axis below and one to the left.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axes {
     /// The box.
     pub frame: Frame,
@@ -67,9 +130,8 @@ pub struct Axes {
 impl Axes {
     /// Place of a pair of values, which need not be in the box.
     pub fn place(&self, x: f64, y: f64) -> Place {
-        let part = |value: f64, range: &RangeInclusive<f64>| (value - range.start()) / (range.end() - range.start());
         let ([left, _], [_, bottom]) = (self.frame.x, self.frame.y);
-        (left + part(x, &self.x.range) * self.frame.width(), bottom - part(y, &self.y.range) * self.frame.height())
+        (left + self.x.part(x) * self.frame.width(), bottom - self.y.part(y) * self.frame.height())
     }
 
     /// Place of a pair of values, moved into the box.
@@ -86,31 +148,38 @@ impl Axes {
         let mut corners = self.frame.corners().to_vec();
         corners.push(corners[0]);
         canvas.line(&corners, INK, LINE)?;
-        for (value, label) in ticks(&self.x.range, most_ticks(self.frame.width(), PER_TICK[0])) {
-            let (x, _) = self.place(value, 0.0);
+        for (value, label) in self.x.ticks(most_ticks(self.frame.width())) {
+            let x = left + self.x.part(value) * self.frame.width();
             canvas.line(&[(x, bottom), (x, bottom + TICK)], INK, LINE)?;
             if self.x.numbered {
                 canvas.text(&label, (x, bottom + TICK + GAP), Anchor::Below, TEXT)?;
             }
         }
         let mut widest = 0.0_f64;
-        for (value, label) in ticks(&self.y.range, most_ticks(self.frame.height(), PER_TICK[1])) {
-            let (_, y) = self.place(0.0, value);
+        for (value, label) in self.y.ticks(most_ticks_upward(self.frame.height())) {
+            let y = bottom - self.y.part(value) * self.frame.height();
             canvas.line(&[(left - TICK, y), (left, y)], INK, LINE)?;
             if self.y.numbered {
                 canvas.text(&label, (left - TICK - GAP, y), Anchor::Left, TEXT)?;
-                widest = widest.max(canvas.text_width(&label, TEXT));
+                widest = widest.max(text_width(&label, TEXT));
             }
         }
         let letter = f64::from(TEXT);
         let middle = [0.5 * (self.frame.x[0] + self.frame.x[1]), 0.5 * (self.frame.y[0] + self.frame.y[1])];
-        canvas.text(&self.x.label, (middle[0], bottom + TICK + 2.0 * GAP + letter), Anchor::Below, TEXT)?;
+        let below = bottom + TICK + GAP + if self.x.numbered { GAP + letter } else { 0.0 };
+        canvas.text(&self.x.label, (middle[0], below), Anchor::Below, TEXT)?;
         let beside = left - TICK - 3.0 * GAP - widest;
-        canvas.upward_text(&self.y.label, (beside, middle[1]), TEXT)
+        canvas.text(&self.y.label, (beside, middle[1]), Anchor::Upward, TEXT)
     }
 }
 
-/// Ticks that have room.
-pub fn most_ticks(length: f64, per_tick: f64) -> usize {
-    ((length / per_tick) as usize + 1).max(2)
+/// Ticks that have room on an axis from left to right.
+fn most_ticks(length: f64) -> usize {
+    ((length / PER_TICK[0]) as usize + 1).max(2)
+}
+
+/// Ticks that have room on an axis from below upward.
+pub fn most_ticks_upward(length: f64) -> usize {
+    let each = PER_TICK[1].min(0.5 * length).max(LEAST_PER_TICK);
+    ((length / each) as usize + 1).max(2)
 }

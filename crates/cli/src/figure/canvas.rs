@@ -1,19 +1,15 @@
 //! A page and what is put on it, in pixels from the upper left corner.
 
 use std::fmt;
-use std::sync::Once;
 
 use plotters::coord::Shift;
 use plotters::element::{BitMapElement, PathElement, Polygon};
 use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea as _, IntoFont as _, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontStyle, FontTransform, RGBColor, ShapeStyle, WHITE, register_font};
+use plotters::style::{Color as _, FontTransform, RGBColor, ShapeStyle, WHITE};
 
 use super::colour::INK;
-
-/// DejaVu Sans, which has the letters of most names that files have; its licence is beside it.
-const FONT: &[u8] = include_bytes!("../../fonts/DejaVuSans.ttf");
-const FONT_NAME: &str = "figure";
+use super::font::{self, FONT_NAME};
 
 /// Height of the letters of numbers and words, pixels.
 pub const TEXT: u32 = 34;
@@ -51,6 +47,8 @@ pub enum Anchor {
     Right,
     /// Below it, to its right.
     BelowRight,
+    /// Above it, in its middle, read upward.
+    Upward,
 }
 
 impl Anchor {
@@ -60,6 +58,7 @@ impl Anchor {
             Self::Left => (HPos::Right, VPos::Center),
             Self::Right => (HPos::Left, VPos::Center),
             Self::BelowRight => (HPos::Left, VPos::Top),
+            Self::Upward => (HPos::Center, VPos::Bottom),
         };
         Pos::new(horizontal, vertical)
     }
@@ -73,12 +72,15 @@ pub struct Canvas<B: DrawingBackend> {
 impl<B: DrawingBackend> Canvas<B> {
     /// A white page.
     pub fn new(backend: B) -> Result<Self, FigureError> {
-        static FONT_ONCE: Once = Once::new();
-        // A font that is part of the program is a font; where it were not, drawing text would fail with a reason.
-        FONT_ONCE.call_once(|| drop(register_font(FONT_NAME, FontStyle::Normal, FONT)));
-        let area = backend.into_drawing_area();
-        area.fill(&WHITE).map_err(failed)?;
-        Ok(Self { area })
+        let canvas = Self::clear(backend);
+        canvas.area.fill(&WHITE).map_err(failed)?;
+        Ok(canvas)
+    }
+
+    /// A page without a ground, to be laid over what is there.
+    pub fn clear(backend: B) -> Self {
+        font::register();
+        Self { area: backend.into_drawing_area() }
     }
 
     /// Finishes the page.
@@ -90,13 +92,25 @@ impl<B: DrawingBackend> Canvas<B> {
     pub fn line(&self, places: &[Place], colour: RGBColor, width: u32) -> Result<(), FigureError> {
         let style = ShapeStyle { color: colour.into(), filled: false, stroke_width: width };
         let places: Vec<_> = places.iter().map(pixels).collect();
-        self.area.draw(&PathElement::new(places, style)).map_err(failed)
+        let mut begin = 0;
+        for end in (1..places.len()).filter(|at| at + 1 == places.len() || turns_back(&places[at - 1..=at + 1])) {
+            // The drawing library would draw the outer corner of a sharp turn far out.
+            self.area.draw(&PathElement::new(&places[begin..=end], style)).map_err(failed)?;
+            begin = end;
+        }
+        Ok(())
     }
 
     /// A filled polygon.
     pub fn area(&self, places: &[Place], colour: RGBColor) -> Result<(), FigureError> {
         let places: Vec<_> = places.iter().map(pixels).collect();
         self.area.draw(&Polygon::new(places, colour)).map_err(failed)
+    }
+
+    /// A filled polygon through which what is below can be seen.
+    pub fn tint(&self, places: &[Place], colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
+        let places: Vec<_> = places.iter().map(pixels).collect();
+        self.area.draw(&Polygon::new(places, colour.mix(opacity))).map_err(failed)
     }
 
     /// A bitmap with its upper left corner there; three bytes a pixel, row by row.
@@ -107,25 +121,23 @@ impl<B: DrawingBackend> Canvas<B> {
 
     /// A text.
     pub fn text(&self, text: &str, place: Place, anchor: Anchor, size: u32) -> Result<(), FigureError> {
-        let style = (FONT_NAME, size).into_font().color(&INK).pos(anchor.position());
+        if text.is_empty() {
+            return Ok(());
+        }
+        let turn = if anchor == Anchor::Upward { FontTransform::Rotate270 } else { FontTransform::None };
+        let style = (FONT_NAME, size).into_font().transform(turn).color(&INK).pos(anchor.position());
         // Centred is the line with the room above its letters; the letters themselves shall be.
         let beside = matches!(anchor, Anchor::Left | Anchor::Right);
         let place = (place.0, if beside { place.1 + 0.12 * f64::from(size) } else { place.1 });
         self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
     }
+}
 
-    /// A text that is read upward, in the middle of its place.
-    pub fn upward_text(&self, text: &str, place: Place, size: u32) -> Result<(), FigureError> {
-        let font = (FONT_NAME, size).into_font().transform(FontTransform::Rotate270);
-        let style = font.color(&INK).pos(Pos::new(HPos::Center, VPos::Bottom));
-        self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
-    }
-
-    /// Width of a text, pixels.
-    pub fn text_width(&self, text: &str, size: u32) -> f64 {
-        let style = (FONT_NAME, size).into_font().color(&INK);
-        self.area.estimate_text_size(text, &style).map_or(0.0, |(width, _)| f64::from(width))
-    }
+/// Whether a line through three places turns by more than 120 degrees in the middle.
+fn turns_back(places: &[(i32, i32)]) -> bool {
+    let step = |from: (i32, i32), to: (i32, i32)| (f64::from(to.0 - from.0), f64::from(to.1 - from.1));
+    let (before, after) = (step(places[0], places[1]), step(places[1], places[2]));
+    before.0 * after.0 + before.1 * after.1 < -0.5 * before.0.hypot(before.1) * after.0.hypot(after.1)
 }
 
 fn pixels(place: &Place) -> (i32, i32) {

@@ -3,21 +3,33 @@
 //! | what | where |
 //! |---|---|
 //! | a page and what is put on it: lines, areas, bitmaps, text | [`canvas`] |
+//! | the font | [`font`] |
 //! | colours and the colour map | [`colour`] |
 //! | a box with axes round it | [`axes`] |
 //! | where ticks are and what they say | [`ticks`] |
 //! | a map of heights, reduced to what a picture shows | [`raster`] |
-//! | its colour bar | [`colour_bar`] |
+//! | a bitmap of few colours | [`picture`] |
+//! | the colour bar of a map | [`colour_bar`] |
+//! | curves with no more places than there is to see | [`simplify`] |
+//! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface`] |
+//! | the figures of runs | [`run`] |
 
 mod axes;
 mod canvas;
 mod colour;
 mod colour_bar;
+mod font;
+mod format;
 mod histogram;
+mod page;
+mod picture;
 mod raster;
+pub mod run;
+mod simplify;
 mod surface;
 mod ticks;
 mod unit;
 
+pub use colour::{STATUSES, viridis};
 pub use surface::{Drawn, SurfaceFigure, surfaces};

@@ -11,6 +11,7 @@ use super::axes::{Axes, Axis, Frame};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT, TITLE, failed};
 use super::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT, MISSING};
 use super::colour_bar::ColourBar;
+use super::font::{shortened, text_width};
 use super::histogram::Histogram;
 use super::raster::Raster;
 use super::unit::AxisUnit;
@@ -122,7 +123,7 @@ impl SurfaceFigure<'_> {
 
     /// The name, and what is to know of the map.
     fn draw_title<B: DrawingBackend>(&self, canvas: &Canvas<B>, [x, y]: [f64; 2]) -> Result<(), FigureError> {
-        canvas.text(&shortened(canvas, &self.title, WIDTH - LEFT - 40.0), (x, y + 30.0), Anchor::BelowRight, TITLE)?;
+        canvas.text(&shortened(&self.title, TITLE, WIDTH - LEFT - 40.0), (x, y + 30.0), Anchor::BelowRight, TITLE)?;
         let (middle, mut begin) = (y + 106.0, x);
         let missing = 1.0 - self.description.measured as f64 / (self.points[0] * self.points[1]) as f64;
         if missing > 0.0 {
@@ -130,7 +131,7 @@ impl SurfaceFigure<'_> {
             canvas.area(&key.corners(), MISSING)?;
             let text = format!("no height: {} %", percent(missing));
             canvas.text(&text, (key.x[1] + 12.0, middle), Anchor::Right, TEXT)?;
-            begin = key.x[1] + 12.0 + canvas.text_width(&text, TEXT) + 40.0;
+            begin = key.x[1] + 12.0 + text_width(&text, TEXT) + 40.0;
         }
         let [stretched_x, stretched_y] = self.stretch();
         for (axis, stretched) in [("x", stretched_x), ("y", stretched_y)] {
@@ -172,7 +173,7 @@ impl SurfaceFigure<'_> {
         let axis = |extent: f64, name: &str| {
             let unit = if self.pitch.is_some() { AxisUnit::for_length(extent) } else { AxisUnit::POINTS };
             let label = format!("{name}, {}", unit.symbol);
-            Axis { range: 0.0..=extent * unit.per_metre, label, numbered: true }
+            Axis::linear(0.0..=extent * unit.per_metre, label)
         };
         let colours = colour_range(self.description);
         let (width, height) = (frame.width() as u32, frame.height() as u32);
@@ -181,7 +182,8 @@ impl SurfaceFigure<'_> {
         let unit = self.height_unit();
         // Points at its ends and room for them.
         let bar = Frame { x: [frame.x[1] + 40.0, frame.x[1] + 80.0], y: [frame.y[0] + 28.0, frame.y[1] - 28.0] };
-        ColourBar { frame: bar, range: scaled(&colours, unit), label: format!("height, {}", unit.symbol) }.draw(canvas)
+        let axis = Axis::linear(scaled(&colours, unit), format!("height, {}", unit.symbol));
+        ColourBar { frame: bar, axis }.draw(canvas)
     }
 
     fn draw_histogram<B: DrawingBackend>(
@@ -193,8 +195,8 @@ impl SurfaceFigure<'_> {
     ) -> Result<(), FigureError> {
         let fractions = &self.drawn.histogram.fractions;
         let largest = fractions.iter().copied().fold(0.0, f64::max).max(1e-6);
-        let y = Axis { range: range.clone(), label: format!("height, {}", unit.symbol), numbered: true };
-        let x = Axis { range: 0.0..=105.0 * largest, label: "points per class, %".to_owned(), numbered: true };
+        let y = Axis::linear(range.clone(), format!("height, {}", unit.symbol));
+        let x = Axis::linear(0.0..=105.0 * largest, "points per class, %");
         let axes = Axes { frame, x, y };
         let class = (range.end() - range.start()) / fractions.len() as f64;
         let end = |class_number: usize| range.start() + class_number as f64 * class;
@@ -227,9 +229,8 @@ impl SurfaceFigure<'_> {
         range: &RangeInclusive<f64>,
         unit: AxisUnit,
     ) -> Result<(), FigureError> {
-        let y = Axis { range: range.clone(), label: String::new(), numbered: false };
-        let axes =
-            Axes { frame, x: Axis { range: 0.0..=100.0, label: "material ratio, %".to_owned(), numbered: true }, y };
+        let y = Axis::linear(range.clone(), "").shared();
+        let axes = Axes { frame, x: Axis::linear(0.0..=100.0, "material ratio, %"), y };
         let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, upper, lower } =
             self.description.core;
         let place = |ratio: f64, height: f64| axes.place_within(100.0 * ratio, height * unit.per_metre);
@@ -337,22 +338,4 @@ fn number(value: f64) -> String {
 
 fn percent(fraction: f64) -> String {
     if fraction.is_nan() { "\u{2013}".to_owned() } else { crate::number::significant(100.0 * fraction, 3) }
-}
-
-/// A text that is too long for its room, with its middle left out.
-fn shortened<B: DrawingBackend>(canvas: &Canvas<B>, text: &str, room: f64) -> String {
-    let letters: Vec<char> = text.chars().collect();
-    let mut kept = letters.len();
-    loop {
-        let shown: String = if kept == letters.len() {
-            text.to_owned()
-        } else {
-            let (begin, end) = (&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]);
-            begin.iter().chain(&['\u{2026}']).chain(end).collect()
-        };
-        if kept == 0 || canvas.text_width(&shown, TITLE) <= room {
-            return shown;
-        }
-        kept -= 1;
-    }
 }

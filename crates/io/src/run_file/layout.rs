@@ -36,13 +36,16 @@ pub(super) const TIME: &str = "time";
 /// See [`TIME`].
 pub(super) const MAP_TIME: &str = "map_time";
 
+/// Path of the base of the pin's cells.
+pub(super) const PIN_BASE: &str = "pin/base";
+
 /// Path of a series.
 pub(super) fn series_path(name: &str) -> String {
     format!("series/{name}")
 }
 
 /// Path of a map.
-pub(super) fn map_path(map: Map) -> &'static str {
+pub(crate) fn map_path(map: Map) -> &'static str {
     match map {
         Map::DiscHeight => "disc/height",
         Map::DiscSubstrate => "disc/substrate",
@@ -54,7 +57,8 @@ pub(super) fn map_path(map: Map) -> &'static str {
     }
 }
 
-fn map_unit(map: Map) -> &'static str {
+/// SI unit of a map.
+pub(crate) fn map_unit(map: Map) -> &'static str {
     match map {
         Map::DiscStatus | Map::PinStatus => "1",
         Map::Pressure => "Pa",
@@ -202,7 +206,7 @@ impl<'a> Layout<'a> {
     fn pin_base(&mut self, header: &Header) -> hdf5::Result<()> {
         let dimensions = ["pin_angle", "radius"];
         let dataset =
-            self.dataset("pin/base", &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
+            self.dataset(PIN_BASE, &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
         write_flags(&dataset)?;
         self.dimensions.attach(&dataset, &dimensions)?;
         let base: Vec<StoredStatus> = header.pin_base.iter().copied().map(StoredStatus::from).collect();

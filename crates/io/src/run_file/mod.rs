@@ -32,6 +32,7 @@ mod writer;
 pub use end::End;
 pub use error::RunFileError;
 pub use header::{Header, InputFile};
+pub(crate) use layout::{map_path, map_unit};
 pub use limit::report_file_size_limit;
 pub use place::check_place;
 pub use read_error::ReadError;

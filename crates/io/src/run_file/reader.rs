@@ -3,16 +3,18 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use hdf5::{Dataset, H5Type};
 use ndarray::s;
 use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
-use plateau_core::observe::{Map, MapValues};
+use plateau_core::observe::{Map, MapValues, quantities};
 
-use super::layout::{FORMAT_VERSION, MAP_TIME, TIME, map_path, series_path};
+use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
 use super::read_error::ReadError;
 use crate::hdf5_file;
+use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
 
 /// What a run file says of how its run ended.
@@ -113,6 +115,11 @@ impl RunFile {
         self.file.attr(name).ok()?.read_scalar().ok()
     }
 
+    /// When its run began.
+    pub fn start_time(&self) -> Option<SystemTime> {
+        from_iso_8601(&self.attribute("start_time")?)
+    }
+
     /// The whole resolved scene.
     pub fn scene(&self) -> &toml::Table {
         &self.scene
@@ -133,7 +140,7 @@ impl RunFile {
         &self.map_time
     }
 
-    /// The series that it has besides the times.
+    /// The series that it has besides the times, in the order in which they are reported.
     pub fn series(&self) -> &[Series] {
         &self.series
     }
@@ -175,6 +182,24 @@ impl RunFile {
         } else {
             opening.level::<f64>(map_path(map), index, shape).map(|values| Some(MapValues::Float(values)))
         }
+    }
+
+    /// Base of every pin cell, column by column: 0 where it is resin, 1 where it is fibre; nothing if it was not recorded.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`] when it cannot be read or does not fit the mesh.
+    pub fn pin_base(&self) -> Result<Option<Vec<u8>>, ReadError> {
+        if !self.file.link_exists(PIN_BASE) {
+            return Ok(None);
+        }
+        let opening = Opening { path: &self.path, file: &self.file };
+        let base = opening.dataset(PIN_BASE)?.read_2d::<u8>();
+        let base = base.map_err(|error| opening.damaged(format!("/{PIN_BASE}: {}", reason(&error))))?;
+        let expected = (self.mesh.pin_columns(), self.mesh.rows());
+        if base.dim() != expected {
+            return Err(opening.damaged(format!("/{PIN_BASE} has shape {:?}, expected {expected:?}", base.dim())));
+        }
+        Ok(Some(base.into_raw_vec_and_offset().0))
     }
 }
 
@@ -256,7 +281,11 @@ impl Opening<'_> {
             };
             Ok(Series { unit: text("units")?, long_name: text("long_name")?, name })
         });
-        series.collect()
+        let mut series: Vec<Series> = series.collect::<Result<_, _>>()?;
+        // As they are reported; what is not known here comes last.
+        let place = |name: &str| quantities(true).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
+        series.sort_by(|one, other| (place(&one.name), &one.name).cmp(&(place(&other.name), &other.name)));
+        Ok(series)
     }
 
     fn dataset(&self, path: &str) -> Result<Dataset, ReadError> {

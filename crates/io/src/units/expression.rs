@@ -47,7 +47,7 @@ const PLAIN: &[(&str, Scale)] = &[
 ];
 
 /// Decimal prefixes; micro also as either of the two Unicode letters.
-const PREFIXES: &[(char, i32)] = &[
+pub(super) const PREFIXES: &[(char, i32)] = &[
     ('p', -12),
     ('n', -9),
     ('u', -6),

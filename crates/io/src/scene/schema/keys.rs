@@ -55,9 +55,9 @@ pub(super) fn all() -> Vec<Key> {
     table.section = "mesh";
     table.key("inner_radius", length("mm", Range::POSITIVE), Required, "inner radius of the ring");
     table.key("outer_radius", length("mm", Range::POSITIVE), Required, "outer radius of the ring");
-    table.key("rows", Integer(1), Required, "radial cells");
+    table.key("rows", Integer(1), Required, "cells along the radius");
     table.key("disc_columns", Integer(1), Required, "cells around the ring");
-    table.key("pin_columns", Integer(1), Required, "cells of the ring that the pin covers");
+    table.key("pin_columns", Integer(1), Required, "cells that the pin covers along the ring, at most disc_columns");
 
     table.section = "operation";
     let force = Kind::Quantity { dimension: Force, unit: "N", range: Range::POSITIVE };
@@ -67,10 +67,15 @@ pub(super) fn all() -> Vec<Key> {
     let speed = Kind::Quantity { dimension: Speed, unit: "m/s", range: Range::POSITIVE };
     table.key("sliding_speed", speed, OneOf, "sliding speed at the mean radius");
     table.key("duration", time(Range::POSITIVE), OneOf, "physical time to simulate");
-    table.key("steps", Integer(1), OneOf, "steps to simulate");
+    table.key("steps", Integer(1), OneOf, "steps to simulate, each by one column of cells");
 
     table.section = "contact";
-    table.key("foundation_height", length("um", Range::POSITIVE), Required, "height of the elastic foundation");
+    table.key(
+        "foundation_height",
+        length("um", Range::POSITIVE),
+        Required,
+        "height h of the elastic foundation, which is E*/h stiff per area",
+    );
     table.key("load_tolerance", Number(BETWEEN_0_AND_1), Default("1e-9"), "accepted |sum k A u - F| / F");
 
     table.material("materials.disc_primary", None);
@@ -87,10 +92,15 @@ pub(super) fn all() -> Vec<Key> {
         "captured_fraction",
         Number(Range::FRACTION),
         Required,
-        "fraction of the wear debris that stays in the contact",
+        "fraction of the wear debris that stays in the contact; the rest leaves",
     );
     table.key("pad_share", Number(Range::FRACTION), Default("0.5"), "pin's share of a deposit on both surfaces");
-    table.key("debris_pool", Choice(&["contact", "track"]), Default("\"contact\""), "one pool, or one per radius");
+    table.key(
+        "debris_pool",
+        Choice(&["contact", "track"]),
+        Default("\"contact\""),
+        "where loose debris is kept: one pool, or one for each row of cells",
+    );
     table.key("formation", Bool, Default("true"), "whether plateaus form at all");
     table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up");
 
@@ -100,7 +110,7 @@ pub(super) fn all() -> Vec<Key> {
     table.preparation();
 
     table.section = "pin.base";
-    table.key("synthetic.seed", Integer(0), Default("0"), "seed of the fibres");
+    table.key("synthetic.seed", Integer(0), Default("0"), "seed of the random fibres");
     table.key("synthetic.fibre_fraction", Number(Range::FRACTION), Required, "area fraction that is fibre");
     table.key("synthetic.fibre_length", length("um", Range::POSITIVE), Required, "length of a fibre from end to end");
     table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
@@ -145,14 +155,19 @@ pub(super) fn all() -> Vec<Key> {
         "time_acceleration.tolerance",
         Number(BETWEEN_0_AND_1),
         Required,
-        "error at which the run chooses its acceleration",
+        "error at which the run chooses its acceleration; not yet in this version",
     );
-    table.key("time_acceleration.max", Number(AT_LEAST_1), Required, "largest acceleration that the run chooses");
+    table.key(
+        "time_acceleration.max",
+        Number(AT_LEAST_1),
+        Required,
+        "largest acceleration that the run chooses; not yet in this version",
+    );
     table.key(
         "integrator",
         Choice(&["explicit", "exponential"]),
         Default("\"explicit\""),
-        "how wear follows from contact",
+        "how much a step wears; exponential is stable for any step, docs/model.md",
     );
     table.key("workers", CountOr("auto"), Default("1"), "threads that share the ring");
 
@@ -167,8 +182,18 @@ pub(super) fn all() -> Vec<Key> {
     );
     table.key("maps_at", Times, Default("[]"), "physical times of maps; the last state is always written");
     table.key("maps", Maps, Computed("all seven"), "maps that are written");
-    table.key("roughness", Bool, Default("false"), "Sa, Sq, Ssk and Sku of disc and pin with every sample");
-    table.key("checkpoint_every", time(Range::POSITIVE), Optional, "wall time between checkpoints");
+    table.key(
+        "roughness",
+        Bool,
+        Default("false"),
+        "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
+    );
+    table.key(
+        "checkpoint_every",
+        time(Range::POSITIVE),
+        Optional,
+        "wall time between checkpoints; not yet in this version, which warns",
+    );
     table.keys
 }
 
@@ -210,7 +235,7 @@ impl Table {
         );
         let range = Kind::Lengths { count: 2, single: false, unit: "um", range: Range::ANY };
         self.key("height_range", range, Optional, "heights of black and white, for images");
-        self.key("synthetic.seed", Integer(0), Default("0"), "seed of the heights");
+        self.key("synthetic.seed", Integer(0), Default("0"), "seed of the random heights");
         self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
         let positive = length("um", Range::POSITIVE);
         self.key("synthetic.correlation_length", positive, OneOf, "length l of the autocorrelation exp(-(r/l)^2)");
@@ -221,7 +246,7 @@ impl Table {
             "synthetic.hurst",
             Number(Range::FRACTION),
             Optional,
-            "Hurst exponent of the power law, with roll_off",
+            "Hurst exponent of the power law, 0 rough to 1 smooth; required beside roll_off",
         );
         self.key("synthetic.short_cutoff", positive, Optional, "wavelength at which the power law ends");
         self.key("synthetic.patch", length("mm", Range::POSITIVE), Optional, "length after which the heights repeat");
@@ -233,14 +258,19 @@ impl Table {
 
     fn preparation(&mut self) {
         let levels = Choice(&["quadratic", "plane", "mean", "none"]);
-        self.key("level", levels, Default("\"none\""), "what is taken out first");
+        self.key("level", levels, Default("\"none\""), "form that is taken out first");
         let outliers = "robust standard deviations from the median beyond which points are taken out";
         self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
         let fills = Choice(&["level", "interpolate"]);
         self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
         self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
         self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
-        self.key("repeat", Bool, Default("false"), "whether the patch is tiled round the ring");
+        self.key(
+            "repeat",
+            Bool,
+            Default("false"),
+            "whether the patch is tiled round the ring, mirrored from tile to tile",
+        );
         self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
     }
 }

@@ -3,17 +3,22 @@
 //! One table ([`keys`]) serves for checking, for messages about unknown keys, for the resolved scene and for
 //! documentation. The order is that of formats.md.
 
+mod example;
+mod json_schema;
 mod keys;
 mod suggest;
+mod tables;
 
 use std::fmt;
 use std::sync::LazyLock;
 
 use crate::units::Dimension;
 
+pub use json_schema::document as json_schema;
 pub use keys::GROUPS;
 pub(crate) use keys::ROTATIONS;
 pub(crate) use suggest::{nearest, unknown};
+pub use tables::table_meaning;
 
 /// One key of a scene.
 #[derive(Debug, Clone)]
@@ -34,6 +39,16 @@ impl Key {
     /// Full path, for instance `disc.surface.synthetic.seed`.
     pub fn path(&self) -> String {
         join(self.section, self.name)
+    }
+
+    /// A value as a scene may give it, in TOML, where a value's form has to be seen.
+    pub fn example(&self) -> Option<String> {
+        example::of(self)
+    }
+
+    /// The group of alternatives of which the key is one.
+    pub fn group(&self) -> Option<&'static Group> {
+        GROUPS.iter().find(|group| group.section == self.section && group.has(self.name))
     }
 
     /// Path of the inline table that holds the key, if it is in one.
@@ -125,6 +140,11 @@ impl Group {
         self.members
             .iter()
             .all(|(name, _)| name.rsplit_once('.').is_none_or(|(table, _)| given(&join(self.section, table))))
+    }
+
+    /// Whether this name is one of the alternatives.
+    fn has(&self, name: &str) -> bool {
+        self.members.iter().any(|(member, _)| *member == name)
     }
 
     /// The alternatives as a list: `file, synthetic, flat`.

@@ -68,7 +68,7 @@ fn known(path: &str) -> bool {
 }
 
 /// Names directly below a table, in the order of formats.md.
-fn children(table: &str) -> Vec<String> {
+pub(super) fn children(table: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for path in keys().iter().map(super::Key::path) {
         let rest = if table.is_empty() {

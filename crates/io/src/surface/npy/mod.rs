@@ -3,6 +3,7 @@
 mod error;
 mod header;
 mod number;
+mod preamble;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Cursor, Read, Write};
@@ -14,6 +15,7 @@ use zip::ZipArchive;
 pub use error::NpyError;
 use header::{HEAD, Header};
 use number::Number;
+pub(crate) use preamble::preamble;
 
 use super::limits::inflated;
 
@@ -139,17 +141,8 @@ pub fn write(path: &Path, patch: &Patch) -> io::Result<()> {
     if patch.columns.checked_mul(patch.rows) != Some(patch.heights.len()) {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "the patch has other than columns times rows heights"));
     }
-    let mut dictionary =
-        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", patch.columns, patch.rows);
-    // The data start at a multiple of 64 bytes; the header ends with a line feed.
-    const PREFIX: usize = 10;
-    let padded = (PREFIX + dictionary.len() + 1).next_multiple_of(64) - PREFIX - 1;
-    dictionary = format!("{dictionary:padded$}\n");
-    let length = u16::try_from(dictionary.len()).map_err(io::Error::other)?;
     let mut file = BufWriter::new(File::create(path)?);
-    file.write_all(b"\x93NUMPY\x01\x00")?;
-    file.write_all(&length.to_le_bytes())?;
-    file.write_all(dictionary.as_bytes())?;
+    file.write_all(&preamble("<f8", &[patch.columns, patch.rows])?)?;
     for height in &patch.heights {
         file.write_all(&height.to_le_bytes())?;
     }

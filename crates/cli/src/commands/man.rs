@@ -1,0 +1,62 @@
+//! `plateau man`: manual pages, of the program and of each command.
+
+use std::path::Path;
+
+use clap::{Command, CommandFactory};
+use clap_mangen::Man;
+
+use crate::arguments::{Arguments, ManArguments};
+use crate::failure::Failure;
+use crate::{output, table};
+
+/// Prints a page, or writes all of them.
+pub fn man(arguments: &ManArguments) -> Result<(), Failure> {
+    let mut program = Arguments::command().disable_help_subcommand(true);
+    // Only then do the commands know their full names.
+    program.build();
+    match &arguments.output {
+        Some(directory) => write(&program, directory, arguments.force),
+        None => print(&program, arguments.page.as_deref()),
+    }
+}
+
+fn print(program: &Command, page: Option<&str>) -> Result<(), Failure> {
+    let command = match page {
+        Some(name) => program.find_subcommand(name).ok_or_else(|| unknown(program, name))?,
+        None => program,
+    };
+    table::print(&Page::of(command)?.text)
+}
+
+/// Pages are written all or none, as far as that can be told beforehand.
+fn write(program: &Command, directory: &Path, force: bool) -> Result<(), Failure> {
+    let commands = [program].into_iter().chain(program.get_subcommands());
+    let pages = commands.map(Page::of).collect::<Result<Vec<_>, _>>()?;
+    for page in &pages {
+        output::check(&directory.join(&page.file), force, &[])?;
+    }
+    for page in &pages {
+        output::write(&directory.join(&page.file), page.text.as_bytes(), force)?;
+    }
+    Ok(())
+}
+
+/// A manual page in roff.
+struct Page {
+    file: String,
+    text: String,
+}
+
+impl Page {
+    fn of(command: &Command) -> Result<Self, Failure> {
+        let man = Man::new(command.clone());
+        let mut text = Vec::new();
+        man.render(&mut text).map_err(|error| Failure::run(format_args!("cannot make the manual page: {error}")))?;
+        Ok(Self { file: man.get_filename(), text: String::from_utf8_lossy(&text).into_owned() })
+    }
+}
+
+fn unknown(program: &Command, name: &str) -> Failure {
+    let names: Vec<_> = program.get_subcommands().map(Command::get_name).collect();
+    Failure::input(format_args!("no command is called \"{name}\", there are {}", names.join(", ")))
+}

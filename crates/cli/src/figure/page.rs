@@ -1,0 +1,165 @@
+//! A page as plain data: what is plotted where, before any of it is drawn.
+
+use plotters::prelude::DrawingBackend;
+use plotters::style::RGBColor;
+
+use super::axes::{Axes, Frame};
+use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
+use super::colour_bar::ColourBar;
+use super::picture::Picture;
+use super::simplify::simplified;
+
+/// Pixels of a millimetre on paper: letters are of 6 points then.
+pub const PER_MILLIMETRE: f64 = 16.0;
+
+/// A page; lengths and places in pixels.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Page {
+    /// Width and height.
+    pub size: [f64; 2],
+    /// Texts beside the panels.
+    pub texts: Vec<Words>,
+    /// Explanations of colours.
+    pub keys: Vec<Key>,
+    /// Boxes with axes.
+    pub panels: Vec<Panel>,
+    /// Scales of the maps.
+    pub colour_bars: Vec<ColourBar>,
+}
+
+/// A text at a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Words {
+    /// The text.
+    pub text: String,
+    /// Where.
+    pub place: Place,
+    /// How it stands there.
+    pub anchor: Anchor,
+    /// Height of its letters.
+    pub size: u32,
+}
+
+/// A sample of a colour; what it means is one of the page's texts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// Where.
+    pub frame: Frame,
+    /// The colour.
+    pub colour: RGBColor,
+    /// How it is shown.
+    pub style: KeyStyle,
+}
+
+/// What a colour is the colour of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeyStyle {
+    /// A line.
+    Line,
+    /// An area.
+    Area,
+}
+
+/// A box with axes and what is in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Box and axes.
+    pub axes: Axes,
+    /// What is in it, from below.
+    pub contents: Vec<Content>,
+}
+
+/// What a panel shows; values in the units of its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// A line through points.
+    Line {
+        /// The points.
+        points: Vec<[f64; 2]>,
+        /// Its colour.
+        colour: RGBColor,
+        /// Its width, pixels.
+        width: u32,
+    },
+    /// What lies between two values.
+    Band {
+        /// x with the lower and the upper value there.
+        spans: Vec<[f64; 3]>,
+        /// Its colour.
+        colour: RGBColor,
+        /// Whether one sees through it.
+        opacity: f64,
+    },
+    /// A map that fills the box.
+    Map(Picture),
+}
+
+impl Page {
+    /// The bitmaps of the page, which lie below all else.
+    pub fn pictures(&self) -> Vec<(Frame, Picture)> {
+        let maps = self.panels.iter().flat_map(|panel| {
+            panel.contents.iter().filter_map(|content| match content {
+                Content::Map(picture) => Some((panel.axes.frame, picture.clone())),
+                _ => None,
+            })
+        });
+        maps.chain(self.colour_bars.iter().map(|bar| (bar.frame, bar.strip()))).collect()
+    }
+
+    /// Draws all but the bitmaps.
+    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        self.panels.iter().try_for_each(|panel| panel.draw(canvas))?;
+        self.colour_bars.iter().try_for_each(|bar| bar.draw_scale(canvas))?;
+        self.keys.iter().try_for_each(|key| key.draw(canvas))?;
+        self.texts.iter().try_for_each(|words| canvas.text(&words.text, words.place, words.anchor, words.size))
+    }
+
+    /// Adds a text.
+    pub fn write(&mut self, text: impl Into<String>, place: Place, anchor: Anchor, size: u32) {
+        self.texts.push(Words { text: text.into(), place, anchor, size });
+    }
+}
+
+impl Key {
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        let middle = 0.5 * (self.frame.y[0] + self.frame.y[1]);
+        match self.style {
+            KeyStyle::Line => {
+                canvas.line(&[(self.frame.x[0], middle), (self.frame.x[1], middle)], self.colour, LINE + 2)
+            }
+            KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
+        }
+    }
+}
+
+impl Panel {
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        for content in &self.contents {
+            match content {
+                Content::Line { points, colour, width } => {
+                    let places: Vec<Place> = points.iter().map(|[x, y]| self.axes.place_within(*x, *y)).collect();
+                    match simplified(&places)[..] {
+                        [place] => canvas.area(&around(place), *colour)?,
+                        ref places => canvas.line(places, *colour, *width)?,
+                    }
+                }
+                Content::Band { spans, colour, opacity } => {
+                    let lower = spans.iter().map(|[x, low, _]| self.axes.place_within(*x, *low));
+                    let upper = spans.iter().rev().map(|[x, _, high]| self.axes.place_within(*x, *high));
+                    canvas.tint(&lower.chain(upper).collect::<Vec<_>>(), *colour, *opacity)?;
+                }
+                Content::Map(_) => {}
+            }
+        }
+        self.axes.draw(canvas)
+    }
+}
+
+/// The corners of a dot: a line through one place only would not be seen.
+fn around((x, y): Place) -> [Place; 4] {
+    let side = [-8.0, 8.0];
+    Frame { x: side.map(|side| x + side), y: side.map(|side| y + side) }.corners()
+}
+
+/// The letters of a text, in lines of their own.
+pub const LINE_OF_TEXT: f64 = 1.35 * TEXT as f64;

@@ -1,0 +1,55 @@
+//! Maps at the moments that figures show: the first and the last that were recorded.
+
+use plateau_core::observe::{Map, MapValues};
+use plateau_io::run_file::{ReadError, RunFile};
+
+use crate::figure::unit::ScaledUnit;
+
+/// Indices of the first and the last moment of the maps; one of them if it is both.
+pub fn ends(run: &RunFile) -> Vec<usize> {
+    match run.map_time().len() {
+        0 => Vec::new(),
+        1 => vec![0],
+        count => vec![0, count - 1],
+    }
+}
+
+/// The moment, in words.
+pub fn moment(run: &RunFile, index: usize) -> String {
+    let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
+    let unit = if seconds > 0.0 { ScaledUnit::for_time(seconds) } else { ScaledUnit::SECOND };
+    format!("{} {}", rounded(seconds * unit.per_si, 4), unit.symbol)
+}
+
+/// A number with so many significant digits at most.
+pub fn rounded(value: f64, digits: usize) -> String {
+    let text = crate::number::significant(value, digits);
+    let text = if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    };
+    text.replace('-', "\u{2212}")
+}
+
+/// Heights or pressures of a map, column by column; nothing if there are none.
+pub fn floats(run: &RunFile, map: Map, index: usize) -> Result<Vec<f64>, ReadError> {
+    match run.map(map, index)? {
+        Some(MapValues::Float(values)) => Ok(values),
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// Statuses of a map, column by column; nothing if there are none.
+pub fn statuses(run: &RunFile, map: Map, index: usize) -> Result<Vec<u8>, ReadError> {
+    match run.map(map, index)? {
+        Some(MapValues::Status(values)) => Ok(values),
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// Mean of the values that are numbers.
+pub fn mean(values: &[f64]) -> f64 {
+    let numbers = values.iter().filter(|value| value.is_finite());
+    numbers.clone().sum::<f64>() / numbers.count().max(1) as f64
+}

@@ -1,0 +1,167 @@
+//! How the cells of a body are laid out on paper: unrolled, in windows below each other, or as the ring is.
+
+use std::f64::consts::TAU;
+use std::ops::{Range, RangeInclusive};
+
+use plateau_core::mesh::Mesh;
+use plotters::style::RGBColor;
+
+use crate::figure::picture::Picture;
+
+/// Length of a window of an unrolled ring over its height, about.
+const ELONGATION: f64 = 8.6;
+/// Windows that an unrolled ring is broken into, at most.
+const MOST_WINDOWS: usize = 6;
+const MILLIMETRES: f64 = 1e3;
+
+/// How a body is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Shape {
+    /// Arc length at the mean radius against radius.
+    Unrolled,
+    /// From above; column 0 on the right, columns counted to the left round the middle.
+    Polar,
+}
+
+/// A part of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Window {
+    /// Its columns.
+    pub columns: Range<usize>,
+    /// Its extent along x, mm.
+    pub x: RangeInclusive<f64>,
+}
+
+impl Shape {
+    /// What the axis below measures.
+    pub fn x_label(self) -> String {
+        match self {
+            Self::Unrolled => "arc length at the mean radius, mm".to_owned(),
+            Self::Polar => "x, mm".to_owned(),
+        }
+    }
+
+    /// What the axis to the left measures.
+    pub fn y_label(self) -> String {
+        match self {
+            Self::Unrolled => "radius, mm".to_owned(),
+            Self::Polar => "y, mm".to_owned(),
+        }
+    }
+
+    /// Extent of the body along y, mm.
+    pub fn y_range(self, mesh: &Mesh) -> RangeInclusive<f64> {
+        let [inner, outer] = radii(mesh).map(|radius| radius * MILLIMETRES);
+        match self {
+            Self::Unrolled => inner..=outer,
+            Self::Polar => -outer..=outer,
+        }
+    }
+
+    /// The windows in which a body of so many columns is shown.
+    pub fn windows(self, mesh: &Mesh, columns: usize) -> Vec<Window> {
+        let width = mesh.column_width() * MILLIMETRES;
+        if self == Self::Polar {
+            return vec![Window { columns: 0..columns, x: self.y_range(mesh) }];
+        }
+        let [inner, outer] = radii(mesh).map(|radius| radius * MILLIMETRES);
+        let elongation = columns as f64 * width / (outer - inner);
+        let count = ((elongation / ELONGATION).round() as usize).clamp(1, MOST_WINDOWS).min(columns);
+        let begin = |window: usize| window * columns / count;
+        let window =
+            |columns: Range<usize>| Window { x: columns.start as f64 * width..=columns.end as f64 * width, columns };
+        (0..count).map(|number| window(begin(number)..begin(number + 1))).collect()
+    }
+
+    /// The cells of a window, as many points as there are to see on so many pixels; `cells` has the number of the colour
+    /// of every cell, and the last colour is that of what is no cell.
+    pub fn picture(
+        self,
+        mesh: &Mesh,
+        window: &Window,
+        cells: &[u8],
+        palette: &[RGBColor],
+        [width, height]: [usize; 2],
+    ) -> Picture {
+        let (columns, rows) = match self {
+            Self::Unrolled => (window.columns.len().min(width), mesh.rows().min(height)),
+            Self::Polar => (width, height),
+        };
+        let ground = (palette.len() - 1) as u8;
+        let mut indices = Vec::with_capacity(columns * rows);
+        for line in 0..rows {
+            for point in 0..columns {
+                // From 0 to 1, of the middle of the point; y grows upward.
+                let x = (point as f64 + 0.5) / columns as f64;
+                let y = 1.0 - (line as f64 + 0.5) / rows as f64;
+                let cell = match self {
+                    Self::Unrolled => {
+                        let column = window.columns.start + (x * window.columns.len() as f64) as usize;
+                        Some(column * mesh.rows() + (y * mesh.rows() as f64) as usize)
+                    }
+                    Self::Polar => polar_cell(mesh, x, y),
+                };
+                indices.push(cell.and_then(|cell| cells.get(cell)).copied().unwrap_or(ground));
+            }
+        }
+        Picture { columns, rows, indices, palette: palette.to_vec() }
+    }
+}
+
+/// The disc cell at a place of the square round the ring, from 0 to 1 along its sides.
+fn polar_cell(mesh: &Mesh, x: f64, y: f64) -> Option<usize> {
+    let [inner, outer] = radii(mesh);
+    let (x, y) = ((2.0 * x - 1.0) * outer, (2.0 * y - 1.0) * outer);
+    let row = (x.hypot(y) - inner) / mesh.row_height();
+    if row < 0.0 || row >= mesh.rows() as f64 {
+        return None;
+    }
+    let angle = y.atan2(x).rem_euclid(TAU);
+    let column = ((angle / mesh.column_angle()) as usize).min(mesh.disc_columns() - 1);
+    Some(column * mesh.rows() + row as usize)
+}
+
+/// Inner and outer radius, m.
+fn radii(mesh: &Mesh) -> [f64; 2] {
+    let half = 0.5 * mesh.row_height() * mesh.rows() as f64;
+    [mesh.mean_radius() - half, mesh.mean_radius() + half]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PALETTE: [RGBColor; 9] = [RGBColor(0, 0, 0); 9];
+
+    #[test]
+    fn windows_hold_every_column_once() {
+        let paper = Mesh::new(80, 2764, 161, 20e-3, 24e-3).unwrap();
+        let windows = Shape::Unrolled.windows(&paper, 2764);
+        // By hand: 2π · 22 mm = 138.2 mm over 4 mm is 34.6, of which each window takes about 8.6.
+        let bounds: Vec<_> = windows.iter().map(|window| window.columns.clone()).collect();
+        assert_eq!(bounds, [0..691, 691..1382, 1382..2073, 2073..2764]);
+        assert!((windows[3].x.end() - 138.230_077).abs() < 1e-5);
+        let cell = Mesh::new(1, 1, 1, 20e-3, 24e-3).unwrap();
+        assert_eq!(Shape::Unrolled.windows(&cell, 1).len(), 1);
+    }
+
+    #[test]
+    fn unrolled_the_outermost_row_is_on_top() {
+        let mesh = Mesh::new(2, 3, 1, 1.0, 2.0).unwrap();
+        let window = &Shape::Unrolled.windows(&mesh, 3)[0];
+        let picture = Shape::Unrolled.picture(&mesh, window, &[0, 1, 2, 3, 4, 5], &PALETTE, [90, 90]);
+        assert_eq!((picture.columns, picture.rows), (3, 2));
+        assert_eq!(picture.indices, [1, 3, 5, 0, 2, 4]);
+    }
+
+    #[test]
+    fn from_above_columns_go_round_against_the_clock() {
+        // One row of four columns: the quarters of the ring, the first one from the right to the top.
+        let mesh = Mesh::new(1, 4, 1, 1e-6, 1.0).unwrap();
+        let window = &Shape::Polar.windows(&mesh, 4)[0];
+        let picture = Shape::Polar.picture(&mesh, window, &[0, 1, 2, 3], &PALETTE, [4, 4]);
+        let ground = 8;
+        let expected = [[ground, 1, 0, ground], [1, 1, 0, 0], [2, 2, 3, 3], [ground, 2, 3, ground]];
+        assert_eq!(picture.indices, expected.concat());
+    }
+}

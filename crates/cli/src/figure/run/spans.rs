@@ -1,0 +1,88 @@
+//! Many samples as few: their mean, and how far they reach, in spans of time.
+
+use plotters::style::RGBColor;
+
+use crate::figure::page::Content;
+
+/// Spans that a figure distinguishes, at most.
+const MOST_SPANS: usize = 250;
+/// How much of a band's colour hides what lies below.
+const OPACITY: f64 = 0.28;
+
+/// The band over which samples reach; none where they are so few that a line goes through each of them.
+pub fn band(times: &[f64], values: &[f64], colour: RGBColor) -> Option<Content> {
+    (times.len() > MOST_SPANS).then(|| Content::Band { spans: spans(times, values), colour, opacity: OPACITY })
+}
+
+/// Means of time and value in spans of time.
+pub fn means(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+    let length = times.len().div_ceil(MOST_SPANS).max(1);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    times.chunks(length).zip(values.chunks(length)).map(|(times, values)| [mean(times), mean(values)]).collect()
+}
+
+/// The first sample, the means in spans of time, and the last sample.
+pub fn means_between_ends(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+    let end = |at: Option<(&f64, &f64)>| at.map(|(time, value)| [*time, *value]);
+    let mut points: Vec<[f64; 2]> = end(times.first().zip(values.first())).into_iter().collect();
+    points.extend(means(times, values));
+    points.extend(end(times.last().zip(values.last())));
+    points.dedup();
+    points
+}
+
+/// Least and greatest value in spans of time, each with the last value before it, so that the band has no gaps.
+fn spans(times: &[f64], values: &[f64]) -> Vec<[f64; 3]> {
+    let length = times.len().div_ceil(MOST_SPANS).max(1);
+    let mut spans = Vec::with_capacity(2 * MOST_SPANS);
+    for first in (0..times.len()).step_by(length) {
+        let last = (first + length).min(times.len()) - 1;
+        let span = &values[first.saturating_sub(1)..=last];
+        let (low, high) = span
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
+        spans.extend([[times[first], low, high], [times[last], low, high]]);
+    }
+    spans.dedup();
+    spans
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_samples_have_no_band() {
+        let times: Vec<f64> = (0..=MOST_SPANS).map(|time| time as f64).collect();
+        let colour = RGBColor(1, 2, 3);
+        assert!(band(&times[1..], &times[1..], colour).is_none());
+        let Some(Content::Band { spans, .. }) = band(&times, &times, colour) else { panic!("no band") };
+        // By hand: two samples a span, and the sample before.
+        assert_eq!(spans[..4], [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [2.0, 1.0, 3.0], [3.0, 1.0, 3.0]]);
+    }
+
+    #[test]
+    fn the_line_goes_through_samples_or_through_their_means() {
+        assert_eq!(means(&[1.0, 2.0], &[5.0, 4.0]), [[1.0, 5.0], [2.0, 4.0]]);
+        let times: Vec<f64> = (0..3 * MOST_SPANS).map(|time| time as f64).collect();
+        let values: Vec<f64> = times.iter().map(|time| time % 3.0).collect();
+        // By hand: three samples a span, the values 0, 1 and 2 in each.
+        let means = means(&times, &values);
+        assert_eq!((means.len(), means[0], means[1]), (MOST_SPANS, [1.0, 1.0], [4.0, 1.0]));
+        let whole = means_between_ends(&times, &values);
+        assert_eq!((whole.len(), whole[0], whole[1]), (MOST_SPANS + 2, [0.0, 0.0], [1.0, 1.0]));
+        assert_eq!(whole[MOST_SPANS + 1], [(3 * MOST_SPANS - 1) as f64, 2.0]);
+    }
+
+    #[test]
+    fn no_extreme_of_many_samples_is_lost() {
+        let times: Vec<f64> = (0..10_001).map(f64::from).collect();
+        let mut values = vec![1.0; times.len()];
+        (values[4321], values[9999]) = (7.0, -2.0);
+        let spans = spans(&times, &values);
+        assert!(spans.len() <= 2 * MOST_SPANS);
+        let at = |time: f64| spans.windows(2).find(|pair| pair[0][0] <= time && time <= pair[1][0]).unwrap()[1];
+        assert_eq!((at(4321.0)[2], at(9999.0)[1]), (7.0, -2.0));
+        assert_eq!((spans[0][0], spans[spans.len() - 1][0]), (0.0, 10_000.0));
+    }
+}

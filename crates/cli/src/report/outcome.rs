@@ -1,0 +1,146 @@
+//! How a run ended, in words and numbers.
+
+use std::fs;
+
+use plateau_io::run_file::{RunFile, State};
+
+use super::recorded::Recorded;
+use super::unit::ReadingUnit;
+use crate::number;
+
+/// Shown where a run file does not say.
+pub const UNKNOWN: &str = "–";
+
+/// A number that says how a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// What it is.
+    pub name: &'static str,
+    /// The unit in which it is read.
+    pub unit: ReadingUnit,
+    /// Its value, SI; none if the run file does not have it.
+    pub value: Option<f64>,
+}
+
+impl Measure {
+    /// The number with its unit.
+    pub fn text(&self) -> String {
+        self.value.map_or_else(|| UNKNOWN.into(), |value| self.unit.with_symbol(&readable(value * self.unit.scale)))
+    }
+}
+
+/// A number with five digits and a true minus.
+pub fn readable(value: f64) -> String {
+    // Adding 0 makes a negative zero a plain one.
+    number::significant(value + 0.0, 5).replace('-', "\u{2212}")
+}
+
+const PERCENT: ReadingUnit = ReadingUnit { symbol: "%", scale: 100.0 };
+const AREA: ReadingUnit = ReadingUnit { symbol: "mm²", scale: 1e6 };
+const VOLUME: ReadingUnit = ReadingUnit { symbol: "mm³", scale: 1e9 };
+const LENGTH: ReadingUnit = ReadingUnit { symbol: "m", scale: 1.0 };
+
+/// The numbers of a run, the same ones in the same order for every run.
+pub fn measures(series: &[Recorded]) -> Vec<Measure> {
+    let find = |name: &str| series.iter().find(|series| series.name == name);
+    let last = |name: &str| find(name).and_then(|series| series.last);
+    let largest = |name: &str| find(name).and_then(|series| series.largest).map(f64::abs);
+    let worn = ["worn_pin", "worn_resin", "worn_disc"].map(last);
+    let all_worn = worn.into_iter().sum::<Option<f64>>();
+    let measure = |name, unit, value| Measure { name, unit, value };
+    vec![
+        measure("Sliding distance", LENGTH, last("sliding_distance")),
+        measure("Contact area of the last step", AREA, last("contact_area")),
+        measure("Contact area, mean of the last revolution", AREA, last("contact_area_mean")),
+        measure("Contact area over the area of the pin", PERCENT, last("contact_ratio")),
+        measure("Mean contact pressure", ReadingUnit::PRESSURE, last("mean_pressure")),
+        measure("Largest contact pressure", ReadingUnit::PRESSURE, last("max_pressure")),
+        measure("Disc filled", PERCENT, last("filled_fraction")),
+        measure("Disc covered by secondary plateaus", PERCENT, last("disc_secondary")),
+        measure("Pin covered by secondary plateaus", PERCENT, last("pin_secondary")),
+        measure("Pin covered by primary plateaus", PERCENT, last("pin_primary")),
+        measure("Pin without plateaus", PERCENT, last("pin_none")),
+        measure("Worn volume", VOLUME, all_worn),
+        measure("– of the pin's plateaus", VOLUME, worn[0]),
+        measure("– of the resin", VOLUME, worn[1]),
+        measure("– of the disc", VOLUME, worn[2]),
+        measure("Emitted debris", VOLUME, last("emitted")),
+        measure("Debris deposited on the pin", VOLUME, last("deposited_pin")),
+        measure("Debris deposited on the disc", VOLUME, last("deposited_disc")),
+        measure("Debris in the pool", VOLUME, last("pool")),
+        measure("Largest residual of the load balance", ReadingUnit::NUMBER, largest("load_residual")),
+        measure("Largest residual of the debris balance", ReadingUnit::NUMBER, largest("balance_residual")),
+    ]
+}
+
+/// What there is to tell of a run besides its numbers: name and text.
+pub fn facts(run: &RunFile) -> Vec<(&'static str, String)> {
+    let attribute = |name: &str| run.attribute(name).unwrap_or_else(|| UNKNOWN.into());
+    let mesh = run.mesh();
+    let size = fs::metadata(run.path()).map_or_else(|_| UNKNOWN.into(), |file| number::bytes(file.len()));
+    vec![
+        ("Run file", format!("{} ({size})", run.path().display())),
+        ("State", state(run)),
+        ("Simulated time", simulated(run)),
+        ("Samples and times of maps", format!("{} and {}", run.time().len(), run.map_time().len())),
+        (
+            "Mesh",
+            format!(
+                "{} rows, {} columns of the disc, {} of the pin",
+                mesh.rows(),
+                mesh.disc_columns(),
+                mesh.pin_columns()
+            ),
+        ),
+        ("Wall time", run.number("wall_time").map_or_else(|| UNKNOWN.into(), number::duration)),
+        (
+            "Workers",
+            format!(
+                "{}, {}",
+                run.number("workers").map_or_else(|| UNKNOWN.into(), |workers| workers.to_string()),
+                attribute("instruction_set")
+            ),
+        ),
+        ("Program", attribute("program")),
+    ]
+}
+
+/// The state in words that say what it means.
+fn state(run: &RunFile) -> String {
+    match run.state() {
+        State::Finished => "finished".into(),
+        State::Running => "running, or killed: there was no end yet when this page was made".into(),
+        State::Interrupted => "interrupted by its user".into(),
+        State::Failed => match run.attribute("error") {
+            Some(reason) => format!("failed: {reason}"),
+            None => "failed".into(),
+        },
+    }
+}
+
+fn simulated(run: &RunFile) -> String {
+    let time = run.time().last().or(run.map_time().last()).copied().unwrap_or(0.0);
+    let duration = run.scene().get("operation").and_then(|operation| operation.get("duration"));
+    match duration.and_then(toml::Value::as_str) {
+        Some(duration) if run.state() != State::Finished => format!("{} s of {duration}", readable(time)),
+        _ => format!("{} s", readable(time)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Measure, ReadingUnit, measures};
+
+    #[test]
+    fn numbers_carry_their_units() {
+        let measure = |value| Measure { name: "area", unit: ReadingUnit { symbol: "mm²", scale: 1e6 }, value }.text();
+        assert_eq!(measure(Some(4.690_52e-6)), "4.6905 mm²");
+        assert_eq!(measure(Some(-0.0)), "0 mm²");
+        assert_eq!(measure(None), "–");
+    }
+
+    #[test]
+    fn what_is_not_recorded_has_no_value() {
+        assert!(measures(&[]).iter().all(|measure| measure.value.is_none()));
+    }
+}

@@ -1,0 +1,39 @@
+//! Figures that the program made, for the page.
+
+use crate::failure::Failure;
+use crate::figure::run::{Figure, Figures};
+
+/// A figure: a drawing in SVG with what is said below it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// A short name, such as that of its file.
+    pub name: String,
+    /// What it shows.
+    pub caption: String,
+    /// The drawing.
+    pub svg: String,
+}
+
+/// The pictures of a page, and what was left out of them.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Pictures {
+    /// The pictures, in the order of the page.
+    pub pictures: Vec<Picture>,
+    /// In words, what is missing and why.
+    pub left_out: Vec<String>,
+}
+
+impl Pictures {
+    /// Draws figures.
+    ///
+    /// # Errors
+    /// [`Failure::Run`] when one cannot be drawn.
+    pub fn draw(figures: &Figures) -> Result<Self, Failure> {
+        let picture = |figure: &Figure| {
+            let svg = figure.svg().map_err(Failure::run)?;
+            Ok(Picture { name: figure.name.to_owned(), caption: figure.caption.clone(), svg })
+        };
+        let pictures = figures.figures.iter().map(picture).collect::<Result<_, Failure>>()?;
+        Ok(Self { pictures, left_out: figures.left_out.iter().map(|reason| format!("Figures: {reason}.")).collect() })
+    }
+}

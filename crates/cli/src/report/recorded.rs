@@ -1,0 +1,55 @@
+//! The series of a run as the page has them.
+
+use plateau_core::observe::quantities;
+use plateau_io::run_file::{ReadError, RunFile, Series};
+
+use super::thin::thin;
+use super::unit::ReadingUnit;
+
+/// Points of a series on the page, at most.
+pub const MOST_POINTS: usize = 1500;
+
+/// A series: what it says in numbers, and its points for a chart.
+#[derive(Debug, Clone)]
+pub struct Recorded {
+    /// Name in the run file.
+    pub name: String,
+    /// What it is, in words.
+    pub long_name: String,
+    /// The unit in which people read it.
+    pub unit: ReadingUnit,
+    /// The last value, SI; none without samples.
+    pub last: Option<f64>,
+    /// The value farthest from 0, SI; none without finite values.
+    pub largest: Option<f64>,
+    /// Which samples are on the page, in order.
+    pub at: Vec<usize>,
+    /// Their values, SI.
+    pub values: Vec<f64>,
+}
+
+/// Every series of a run, in the order in which run files report them, with any others behind.
+///
+/// # Errors
+/// [`ReadError::Damaged`].
+pub fn recorded(run: &RunFile) -> Result<Vec<Recorded>, ReadError> {
+    let mut series: Vec<&Series> = run.series().iter().collect();
+    let place = |name: &str| quantities(true).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
+    series.sort_by_key(|series| place(&series.name));
+    series.into_iter().filter_map(|series| read(run, series).transpose()).collect()
+}
+
+fn read(run: &RunFile, series: &Series) -> Result<Option<Recorded>, ReadError> {
+    let Some(values) = run.values(&series.name)? else { return Ok(None) };
+    let at = thin(&values, MOST_POINTS);
+    let finite = values.iter().copied().filter(|value| value.is_finite());
+    Ok(Some(Recorded {
+        name: series.name.clone(),
+        long_name: if series.long_name.is_empty() { series.name.clone() } else { series.long_name.clone() },
+        unit: ReadingUnit::of_series(&series.name, &series.unit),
+        last: values.last().copied(),
+        largest: finite.max_by(|one, other| one.abs().total_cmp(&other.abs())),
+        values: at.iter().map(|index| values[*index]).collect(),
+        at,
+    }))
+}

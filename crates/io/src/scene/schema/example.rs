@@ -1,0 +1,41 @@
+//! Examples of values, for documentation and editors.
+
+use super::{Key, Kind};
+
+/// Lengths and times of the paper's baseline or of its kind, by the last name of the key.
+const USUAL: &[(&str, &str)] = &[
+    ("inner_radius", "20 mm"),
+    ("outer_radius", "24 mm"),
+    ("wear_height", "5 um"),
+    ("pitch", "0.5 um"),
+    ("height_range", "12 um"),
+    ("rms_height", "3 um"),
+    ("correlation_length", "120 um"),
+    ("correlation_length_across", "40 um"),
+    ("roll_off", "200 um"),
+    ("short_cutoff", "20 um"),
+    ("patch", "8 mm"),
+    ("pixel", "10 um"),
+    ("cutoff", "3 um"),
+    ("fibre_length", "400 um"),
+    ("fibre_width", "100 um"),
+    ("smooth", "25 um"),
+    ("resin_recess", "8 um"),
+    ("sample_every", "1 s"),
+    ("checkpoint_every", "60 s"),
+];
+
+/// A value that the key may have, in TOML; `None` where its form is plain.
+pub(super) fn of(key: &Key) -> Option<String> {
+    let name = key.name.rsplit('.').next().unwrap_or(key.name);
+    let usual = USUAL.iter().find(|(known, _)| *known == name).map(|(_, example)| *example);
+    match key.kind {
+        Kind::Quantity { dimension, .. } => Some(format!("\"{}\"", usual.unwrap_or(dimension.example()))),
+        Kind::Lengths { single: true, .. } => usual.map(|length| format!("\"{length}\"")),
+        Kind::Lengths { .. } => usual.map(|length| format!("[\"0 um\", \"{length}\"]")),
+        Kind::LengthUnit => Some("\"um\"".to_owned()),
+        Kind::Times => Some("[\"0 s\", \"500 s\"]".to_owned()),
+        Kind::Maps => Some("[\"disc_height\", \"pressure\"]".to_owned()),
+        _ => None,
+    }
+}

@@ -1,0 +1,76 @@
+//! What a scene that extends no other must say.
+
+use serde_json::{Map, Value, json};
+
+use super::super::suggest::children;
+use super::super::{GROUPS, Group, Key, Need, find, is_below, is_table, join, keys};
+use super::exclusion::{members, name_in};
+
+/// What must be in a table, and in the tables in it.
+pub(super) fn table(path: &str) -> Map<String, Value> {
+    let (mut required, mut properties) = (Vec::new(), Map::new());
+    for name in children(path) {
+        let child = join(path, &name);
+        if find(&child).is_some_and(|key| key.need == Need::Required) {
+            required.push(name);
+        } else if is_table(&child) {
+            let below = table(&child);
+            if below.is_empty() {
+                continue;
+            }
+            if is_needed(&child) {
+                required.push(name.clone());
+            }
+            properties.insert(name, below.into());
+        }
+    }
+
+    let mut schema = Map::new();
+    if !required.is_empty() {
+        schema.insert("required".into(), required.into());
+    }
+    if !properties.is_empty() {
+        schema.insert("properties".into(), properties.into());
+    }
+    let choices = choices(path);
+    if !choices.is_empty() {
+        schema.insert("allOf".into(), choices.into());
+    }
+    let companions = companions(path);
+    if !companions.is_empty() {
+        schema.insert("dependencies".into(), companions.into());
+    }
+    schema
+}
+
+/// Whether a table holds anything that is required, but for tables that are themselves a choice.
+fn is_needed(path: &str) -> bool {
+    let in_it = |section: &str| section == path || is_below(section, path);
+    let key = |key: &Key| key.need == Need::Required && key.inline_table().is_none() && in_it(key.section);
+    let group = |group: &Group| {
+        let plain = group.members.iter().all(|(name, _)| !name.contains('.'));
+        group.required && plain && in_it(group.section)
+    };
+    keys().iter().any(key) || GROUPS.iter().any(group)
+}
+
+/// One of each group is given.
+fn choices(path: &str) -> Vec<Value> {
+    let groups = GROUPS.iter().filter(|group| group.required).filter_map(|group| members(group, path));
+    let one = |name: &str| json!({ "required": [name] });
+    groups.map(|names| json!({ "anyOf": names.into_iter().map(one).collect::<Vec<_>>() })).collect()
+}
+
+/// Keys that have a meaning only beside an alternative, each with that alternative.
+fn companions(path: &str) -> Map<String, Value> {
+    let mut dependencies: Map<String, Value> = Map::new();
+    for group in GROUPS {
+        for (member, companions) in group.members {
+            let Some(member) = name_in(path, group.section, member) else { continue };
+            for companion in companions.iter().filter_map(|name| name_in(path, group.section, name)) {
+                dependencies.insert(companion.into(), json!([member]));
+            }
+        }
+    }
+    dependencies
+}

@@ -1,0 +1,44 @@
+//! What an editor shows about a key.
+
+use super::super::{Key, Kind, Need, Range};
+use crate::units::Dimension;
+
+/// Meaning, units, range, and what happens when the key is absent.
+pub(super) fn of(key: &Key) -> String {
+    let sentences = [Some(key.meaning.to_owned()), units(key.kind), range(key.kind), absent(key)];
+    let sentences: Vec<_> = sentences.into_iter().flatten().collect();
+    format!("{}.", sentences.join(". "))
+}
+
+fn units(kind: Kind) -> Option<String> {
+    let dimension = match kind {
+        Kind::Quantity { dimension, .. } => dimension,
+        Kind::Lengths { .. } | Kind::LengthUnit => Dimension::Length,
+        Kind::Times => Dimension::Time,
+        _ => return None,
+    };
+    Some(format!("Units: {}", dimension.units()))
+}
+
+fn range(kind: Kind) -> Option<String> {
+    let range = match kind {
+        Kind::Quantity { range, .. } | Kind::Lengths { range, .. } => range,
+        Kind::Number(range) | Kind::NumberOr(range, _) => range,
+        _ => return None,
+    };
+    (range != Range::ANY).then(|| format!("Range: {range}"))
+}
+
+fn absent(key: &Key) -> Option<String> {
+    match key.need {
+        Need::Required => Some("Required".to_owned()),
+        Need::Default(default) => Some(format!("Default: {default}")),
+        Need::SameAs(table) => Some(format!("Default: as in [{table}]")),
+        Need::Computed(what) => Some(format!("Default: {}", what.replace('`', ""))),
+        Need::OneOf => key.group().map(|group| {
+            let count = if group.required { "One of" } else { "At most one of" };
+            format!("{count} {}", group.names())
+        }),
+        Need::Optional => None,
+    }
+}

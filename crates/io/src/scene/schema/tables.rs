@@ -1,0 +1,52 @@
+//! What each table of a scene is for.
+
+/// Path of every table and what it is for; the first is the top of a scene.
+const TABLES: &[(&str, &str)] = &[
+    ("", "a simulation of a pin on a coated disc"),
+    ("mesh", "the ring that the pin slides on, and its cells"),
+    ("operation", "load, speed and how long"),
+    ("contact", "the elastic foundation that carries the load"),
+    ("materials", "stiffness and wear of what touches"),
+    ("materials.disc_primary", "the disc's coating"),
+    ("materials.disc_secondary", "compacted debris on the disc"),
+    ("materials.pin_primary", "the pin's fibres"),
+    ("materials.pin_secondary", "compacted debris on the pin"),
+    ("materials.pin_resin", "the pin between its fibres"),
+    ("plateaus", "how wear debris becomes secondary plateaus"),
+    ("disc", "the disc's initial surface"),
+    ("disc.surface", "where the disc's initial heights come from"),
+    ("disc.surface.synthetic", "random heights with given statistics"),
+    ("disc.prepare", "what is done to the disc's heights, in this order"),
+    ("pin", "the pin's fibres and initial surface"),
+    ("pin.base", "where the pin has fibre and where resin"),
+    ("pin.base.synthetic", "random fibres with given statistics"),
+    ("pin.surface", "where the pin's initial heights come from; they grow away from the disc"),
+    ("pin.surface.synthetic", "random heights with given statistics"),
+    ("pin.prepare", "what is done to the pin's heights, in this order"),
+    ("numerics", "how time is stepped, and on how many cores"),
+    ("numerics.time_acceleration", "acceleration that the run chooses itself; this version cannot yet: give a number"),
+    ("output", "the run file and what is written to it"),
+];
+
+/// What a table is for, in one line; `None` if no scene has it.
+pub fn table_meaning(path: &str) -> Option<&'static str> {
+    TABLES.iter().find(|(known, _)| *known == path).map(|(_, meaning)| *meaning)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{is_table, keys};
+    use super::*;
+
+    #[test]
+    fn every_table_of_the_keys_is_explained_and_no_other() {
+        for path in keys().iter().map(super::super::Key::path) {
+            for (end, _) in path.match_indices('.') {
+                assert!(table_meaning(&path[..end]).is_some(), "{}", &path[..end]);
+            }
+        }
+        for (path, _) in TABLES {
+            assert!(is_table(path), "{path}");
+        }
+    }
+}

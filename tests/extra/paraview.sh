@@ -1,0 +1,20 @@
+#!/bin/sh
+# The files of `plateau export --to vtk` in VTK's own readers, which are ParaView's, and through pyvista, which reads .pvd.
+# Installs the Python package vtk (800 MB with what it needs) into a folder of its own.
+set -u
+cd "$(dirname "$0")/../.." || exit 1
+root=$PWD
+. scripts/paths.sh
+. scripts/say.sh
+. scripts/lock.sh
+. scripts/toolchain.sh
+
+venv=$root/.venv-paraview
+with_lock .venv-paraview.lock make_venv "$venv" || exit 1
+if ! "$venv/bin/python" -m pip install --quiet vtk==9.7.2 pyvista h5py==3.16.0 numpy==2.4.6; then
+    echo 'the Python package vtk could not be installed'
+    exit 77
+fi
+prepare_toolchain
+sh scripts/build.sh || exit 1
+PLATEAU_PROGRAM=$program "$venv/bin/python" -B tests/extra/paraview.py

@@ -1,0 +1,135 @@
+"""The scripts in examples/ run as they stand, and what they print and draw is what the run file holds.
+
+The numbers are found another way than the scripts find them: by netCDF4, and by sums written out here.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import netCDF4
+import numpy as np
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+
+
+def numbers(line):
+    return [float(text) for text in re.findall(r"-?\d+\.?\d*(?:e[-+]?\d+)?", line)]
+
+
+class Examples(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        for name, force in [("quick", "5 N"), ("strong", "20 N")]:
+            changes = [f"operation.normal_force={force}", 'operation.duration="20 s"', 'output.maps_at=["0 s", "10 s"]']
+            sets = [argument for change in changes for argument in ("--set", change)]
+            command = [PROGRAM, "run", str(ROOT / "data/scenes/quick.toml"), "-o", f"{name}.h5", *sets]
+            subprocess.run(command, check=True, capture_output=True, timeout=300, cwd=cls.folder)
+
+    def example(self, name, *arguments):
+        """Lines that an example prints."""
+        command = [sys.executable, "-W", "error::DeprecationWarning", str(ROOT / "examples" / name), *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        return done.stdout.splitlines()
+
+    def close(self, found, expected):
+        # Six digits are printed.
+        np.testing.assert_allclose(found, expected, rtol=1e-5, atol=0)
+
+    def check_picture(self, name):
+        """The picture decodes and is not blank: many places differ from the background."""
+        with Image.open(self.folder / name) as picture:
+            pixels = np.asarray(picture.convert("RGB"), dtype=int)
+        different = (abs(pixels - pixels[0, 0]).sum(axis=2) > 30).mean()
+        self.assertGreater(different, 0.005, name)
+        self.assertGreater(min(pixels.shape[:2]), 200, name)
+
+    def test_every_example_is_tested(self):
+        found = {path.stem for path in (ROOT / "examples").glob("*.py")}
+        tested = {name.removeprefix("test_") for name in dir(self) if name.startswith("test_")}
+        self.assertLessEqual(found, tested)
+        guide = (ROOT / "docs/python.md").read_text()
+        for name in found:
+            self.assertIn(f"examples/{name}.py", guide)
+
+    def test_contact_area(self):
+        [line] = self.example("contact_area.py", "quick.h5", "-o", "contact_area.png")
+        with netCDF4.Dataset(self.folder / "quick.h5") as run:
+            series = run["series"]
+            expected = [run["time"][-1], series["contact_area"][-1] * 1e6, series["contact_area_mean"][-1] * 1e6]
+        found = numbers(line.replace("mm2", "mm"))
+        self.close(found, expected)
+        self.check_picture("contact_area.png")
+
+    def test_disc_map(self):
+        with netCDF4.Dataset(self.folder / "quick.h5") as run:
+            height, pressure, times = run["disc/height"][:], run["pin/pressure"][:], run["map_time"][:]
+        self.assertEqual(len(times), 3)
+        [line] = self.example("disc_map.py", "quick.h5", "-o", "disc_map.png")
+        self.assertTrue(line.startswith("disc/height at "), line)
+        self.close(numbers(line), [times[2], height[2].min(), height[2].max(), height[2].sum() / height[2].size])
+        self.check_picture("disc_map.png")
+        [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/pressure", "--time", "11", "-o", "pressure.png")
+        self.close(numbers(line), [times[1], pressure[1].min(), pressure[1].max(), pressure[1].sum() / pressure[1].size])
+        self.check_picture("pressure.png")
+        [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/status", "-o", "status.png")
+        self.close(numbers(line)[0], times[2])
+        self.assertIn("from 0 to 2 1,", line)
+        self.check_picture("status.png")
+
+    def test_compare_runs(self):
+        lines = self.example("compare_runs.py", "quick.h5", "strong.h5", "--series", "filled_fraction", "-o", "compare.png")
+        self.assertEqual(len(lines), 4)
+        names = lines[0].split()[2:]
+        for name, line in zip(["quick", "strong"], lines[1:3]):
+            with netCDF4.Dataset(self.folder / f"{name}.h5") as run:
+                expected = [run["time"][-1], *(run["series"][series][-1] for series in names)]
+            self.assertEqual(line.split()[0], name)
+            self.close([float(word) for word in line.split()[1:]], expected)
+        self.assertEqual(lines[3].split(), ["unit", "s", "m2", "Pa", "1", "1", "m3"])
+        self.check_picture("compare.png")
+
+    def test_coverage(self):
+        lines = self.example("coverage.py", "quick.h5")
+        with netCDF4.Dataset(self.folder / "quick.h5") as run:
+            radius, times = np.asarray(run["radius"][:]), run["map_time"][:]
+            disc, pin = np.asarray(run["disc/status"][:]), np.asarray(run["pin/status"][:])
+            last = [run["series"][name][-1] for name in ("disc_secondary", "pin_primary", "pin_secondary")]
+        self.assertEqual(len(lines), 1 + len(times))
+        for index, line in enumerate(lines[1:]):
+            found = [float(word) for word in line.split()]
+            mean = [np.average(status == value, axis=1, weights=radius).mean()
+                    for status, value in ((disc[index], 2), (pin[index], 1), (pin[index], 2))]
+            np.testing.assert_allclose(found[1:], mean, rtol=0, atol=1e-6)
+            self.close(found[0], times[index])
+        # The program counts the cells of the last map itself.
+        np.testing.assert_allclose(found[1:], last, rtol=0, atol=1e-6)
+        self.assertGreater(found[1], 0)
+
+    def test_to_pandas(self):
+        lines = self.example("to_pandas.py", "quick.h5", "--parts", "2")
+        with netCDF4.Dataset(self.folder / "quick.h5") as run:
+            time = run["time"][:]
+            names = ["contact_area_mean", "mean_pressure", "filled_fraction"]
+            series = {name: run["series"][name][:] for name in names}
+            self.assertEqual(lines[0], f"{len(time)} samples of {len(run['series'].variables)} series")
+        self.assertEqual(lines[1].split(), names)
+        first = time <= time[-1] / 2
+        for line, part in zip(lines[2:], [first, ~first]):
+            found = [float(word) for word in line.split("]")[1].split()]
+            self.close(found, [series[name][part].mean() for name in names])
+        self.assertEqual(len(lines), 4)
+
+
+if __name__ == "__main__":
+    unittest.main()

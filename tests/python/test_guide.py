@@ -1,0 +1,56 @@
+"""The Python of the user guide works as it stands, in a folder with the run file that it reads."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+QUICK = str(ROOT / "data" / "scenes" / "quick.toml")
+
+
+class Recipes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def plateau(self, *arguments):
+        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_every_block_runs(self):
+        self.plateau("run", QUICK)
+        text = (ROOT / "docs" / "recipes.md").read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        self.assertGreater(len(blocks), 2)
+        for block in blocks:
+            done = subprocess.run(
+                [sys.executable, "-c", block],
+                cwd=self.folder,
+                env={**os.environ, "MPLBACKEND": "agg"},
+                capture_output=True,
+                text=True,
+                timeout=300,
+            )
+            self.assertEqual(done.returncode, 0, block + done.stderr)
+        self.assertGreater((self.folder / "contact-area.png").stat().st_size, 1000)
+
+        # The scene in a run file gives the same run again; the stripes are every fourth column.
+        self.plateau("run", "again.toml", "-o", "again.h5")
+        stripes = ["--set", f"pin.base.file={self.folder / 'stripes.h5'}", "--set", "pin.base.dataset=/base"]
+        self.plateau("run", QUICK, "-o", "stripes-run.h5", *stripes)
+        with h5py.File(self.folder / "quick.h5") as one, h5py.File(self.folder / "again.h5") as other:
+            for name in ("series/contact_area", "disc/height", "pin/height"):
+                np.testing.assert_array_equal(one[name][:], other[name][:])
+        with h5py.File(self.folder / "stripes-run.h5") as run:
+            base = run["pin/base"][:]
+        self.assertTrue((base[::4] == 1).all())
+        self.assertEqual(base.sum(), 10 * 20)

@@ -1,0 +1,60 @@
+//! Every command of the user guide works as it stands.
+
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::process::Command;
+
+use plateau_tests::program::{WorkingDirectory, program, repository, run};
+use plateau_tests::run_file::RunFile;
+
+/// The blocks of a document that are in this language.
+fn blocks(document: &str, language: &str) -> Vec<String> {
+    let text = fs::read_to_string(repository().join("docs").join(document)).expect("a document");
+    let fence = format!("\n```{language}\n");
+    let blocks: Vec<_> =
+        text.split(&fence).skip(1).map(|rest| rest.split("\n```").next().unwrap_or(rest).to_owned()).collect();
+    assert!(!blocks.is_empty(), "{document} has no block of {language}");
+    blocks
+}
+
+/// Runs the shell blocks of a document, one after the other, in a folder that looks like the repository; gives it.
+fn walk_through(document: &str) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    symlink(repository().join("data"), directory.path("data")).unwrap();
+    symlink(program(), directory.path("plateau")).unwrap();
+    for block in blocks(document, "sh") {
+        let mut shell = Command::new("sh");
+        shell.current_dir(directory.path(".")).args(["-e", "-c", &block]);
+        let outcome = run(shell);
+        assert_eq!(outcome.status, Some(0), "{document}:\n{block}\n{}", outcome.stderr);
+        assert!(!outcome.stderr.contains("warning"), "{document}:\n{block}\n{}", outcome.stderr);
+    }
+    directory
+}
+
+#[test]
+fn the_first_run_works_as_it_is_told() {
+    let names = walk_through("first-run.md").names();
+    for file in ["quick.h5", "heavier.h5", "mine.h5", "afm.png", "my-disc.h5"] {
+        assert!(names.iter().any(|name| name == file), "{file} in {names:?}");
+    }
+}
+
+#[test]
+fn every_recipe_works() {
+    let directory = walk_through("recipes.md");
+    let names = directory.names();
+    for file in ["measured.png", "fibres.png", "fibres.h5", "disc-13.h5", "load-2.5.h5", "job.h5", "stopped.h5", "man"]
+    {
+        assert!(names.iter().any(|name| name == file), "{file} in {names:?}");
+    }
+    // Expected: model.md. Without formation no cell becomes a secondary plateau; without resin none is worn.
+    let last = |file: &str, series: &str| {
+        let values = RunFile::open(directory.path(file)).floats(&format!("series/{series}"));
+        *values.last().expect("a sample")
+    };
+    assert_eq!(last("wear-only.h5", "disc_secondary"), 0.0);
+    assert_eq!((last("plain.h5", "worn_resin"), last("plain.h5", "pin_none")), (0.0, 0.0));
+    assert!(last("worn-disc.h5", "worn_disc") > 0.0);
+    assert_eq!(RunFile::open(directory.path("stopped.h5")).text("state"), "interrupted");
+}
