@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use plateau_core::observe::{self, Map, MapValues, QUANTITIES, Sample};
+use plateau_core::observe::{self, ChosenAcceleration, Extras, Map, MapValues, QUANTITIES, Sample};
 use plateau_core::roughness::BothRoughness;
 use plateau_core::simulation::Simulation;
 
@@ -10,8 +10,10 @@ use plateau_core::simulation::Simulation;
 const STEPS_BETWEEN: u64 = 100;
 
 // A sample is its step, its time and the quantities: none of its numbers is left out of a comparison.
-const _: () =
-    assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + size_of::<Option<BothRoughness>>());
+const _: () = {
+    let options = size_of::<Option<BothRoughness>>() + size_of::<Option<ChosenAcceleration>>();
+    assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + options);
+};
 
 /// The first step after which two simulations differ, and in what.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +108,7 @@ impl Moment {
         let (sample, snapshot) =
             told().map_err(|error: plateau_core::simulation::SimulationError| error.to_string())?;
         let mut quantities = vec![("step", sample.step as f64), ("time", sample.time)];
-        quantities.extend(observe::quantities(true).map(|quantity| (quantity.name, (quantity.value)(&sample))));
+        quantities.extend(observe::quantities(Extras::ALL).map(|quantity| (quantity.name, (quantity.value)(&sample))));
         let numbers = |values| match values {
             MapValues::Float(values) => values,
             MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),

@@ -2,8 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use plateau_core::observe::{Sample, Snapshot};
+use plateau_core::observe::{ChosenAcceleration, Sample, Snapshot};
 use plateau_core::schedule::Schedule;
+use plateau_core::scout::Scout;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
 
@@ -36,43 +37,59 @@ pub trait Sink {
     }
 }
 
-/// Runs all steps; the samples and maps that `output` asks for go to `sink`.
+/// Runs all steps; the samples and maps that `output` asks for go to `sink`. A run with a scout chooses its acceleration.
 ///
 /// # Errors
 /// When a step fails or the sink does.
 pub fn drive<S: Sink>(
     simulation: &mut Simulation,
-    schedule: &Schedule,
+    mut scout: Option<Scout>,
+    mut schedule: Schedule,
     output: &OutputRecipe,
     sink: &mut S,
 ) -> Result<(), S::Error> {
     let OutputRecipe { maps, roughness, .. } = output;
-    let last = simulation.parameters().steps;
     let mut steps_per_look = 1;
     if schedule.has_maps(0) && !maps.is_empty() {
         sink.snapshot(simulation.snapshot(maps)?)?;
     }
-    while simulation.steps_done() < last {
-        let event = schedule.next_event(simulation.steps_done());
-        let sampled = schedule.next_sample(simulation.steps_done()) == event;
+    while simulation.steps_done() < schedule.last() {
+        let done = simulation.steps_done();
+        let event = schedule.next_event(done).min(scout.as_ref().map_or(u64::MAX, Scout::comparison));
+        let (sampled, mapped) = (schedule.next_sample(done) == event, schedule.has_maps(event) && !maps.is_empty());
         while simulation.steps_done() < event {
             let start = Instant::now();
             match simulation.steps_done().saturating_add(steps_per_look) {
                 before if before < event => simulation.pass_to(before)?,
-                _ => simulation.advance_to(event)?,
+                _ if sampled || mapped => simulation.advance_to(event)?,
+                _ => simulation.pass_to(event)?,
             }
             steps_per_look = sink.look(simulation, adapted(steps_per_look, start.elapsed()))?;
         }
         if sampled {
             let mut sample = simulation.sample()?;
             sample.roughness = roughness.then(|| simulation.roughness()).transpose()?;
+            sample.acceleration = scout.as_ref().map(chosen);
             sink.sample(sample)?;
         }
-        if schedule.has_maps(event) && !maps.is_empty() {
+        if mapped {
             sink.snapshot(simulation.snapshot(maps)?)?;
+        }
+        if let Some(scout) = scout.as_mut().filter(|scout| scout.comparison() == event && event < schedule.last()) {
+            while !scout.advance(steps_per_look)? {
+                sink.look(simulation, steps_per_look)?;
+            }
+            if scout.compare(simulation)? {
+                schedule.change(event, simulation.parameters().step_time());
+            }
         }
     }
     Ok(())
+}
+
+/// The acceleration of a run and the error that it is thought to cause.
+fn chosen(scout: &Scout) -> ChosenAcceleration {
+    ChosenAcceleration { acceleration: scout.choice().acceleration(), error: scout.choice().error() }
 }
 
 /// The number of steps between two looks, after that many took so long.

@@ -7,6 +7,8 @@ use plateau_core::simulation::Simulation;
 
 use crate::number;
 
+/// Parts of the bar.
+const PARTS: u64 = 1_000_000;
 /// Time between two looks at the bar.
 const INTERVAL: Duration = Duration::from_millis(200);
 
@@ -14,17 +16,21 @@ const INTERVAL: Duration = Duration::from_millis(200);
 #[derive(Debug)]
 pub struct Progress {
     bar: ProgressBar,
+    /// Simulated time of the whole run, s.
+    duration: f64,
+    start: Instant,
     looked: Instant,
 }
 
 impl Progress {
-    /// A bar for this many steps, to be seen or not.
-    pub fn new(steps: u64, visible: bool) -> Self {
-        let bar = if visible { ProgressBar::new(steps) } else { ProgressBar::hidden() };
+    /// A bar for so much simulated time (s), to be seen or not.
+    pub fn new(duration: f64, visible: bool) -> Self {
+        let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }
-        Self { bar, looked: Instant::now() }
+        let now = Instant::now();
+        Self { bar, duration, start: now, looked: now }
     }
 
     /// Shows how far the simulation is, if the last look was long enough ago.
@@ -33,15 +39,14 @@ impl Progress {
             return;
         }
         self.looked = Instant::now();
-        let parameters = simulation.parameters();
         self.bar.set_message(format!(
             "{:.1} of {:.1} s  {} steps/s  contact {:.3} mm²",
             simulation.time(),
-            parameters.clock().time_at(parameters.steps),
-            number::grouped(self.bar.per_sec() as u64),
+            self.duration,
+            number::grouped((simulation.steps_done() as f64 / self.start.elapsed().as_secs_f64()) as u64),
             simulation.course().contact_area * 1e6
         ));
-        self.bar.set_position(simulation.steps_done());
+        self.bar.set_position((simulation.time() / self.duration * PARTS as f64) as u64);
     }
 
     /// Takes the bar away.

@@ -36,7 +36,8 @@ impl Clock {
 
     /// The same clock whose steps take `step_time` (s) after `step`.
     pub fn changed(&self, step: u64, step_time: f64) -> Self {
-        Self { step, time: self.time_at(step), step_time }
+        // Nothing is rounded once more where nothing changes.
+        if step_time == self.step_time { *self } else { Self { step, time: self.time_at(step), step_time } }
     }
 }
 

@@ -167,9 +167,7 @@ fn work<C: Communicator>(
 fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answer, SimulationError> {
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
-        Order::Accelerate(acceleration) => {
-            worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course()))
-        }
+        Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),
         Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
         Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),
     }

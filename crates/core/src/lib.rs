@@ -42,6 +42,7 @@
 //! an approximation. The explicit wear rule overshoots when the stiffness number Π = κ k m r Δθ exceeds 1 and is
 //! unstable above 2 ([`parameters::Parameters::stiffness_number`]); the exponential rule never is.
 
+pub mod acceleration;
 pub mod clock;
 pub mod comm;
 pub mod contact;
@@ -62,6 +63,7 @@ pub mod plateau;
 pub mod plateau_size;
 pub mod roughness;
 pub mod schedule;
+pub mod scout;
 pub mod sector;
 pub mod simulation;
 pub mod state;

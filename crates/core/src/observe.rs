@@ -58,8 +58,19 @@ pub struct Sample {
     pub load_residual: f64,
     /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
     pub balance_residual: f64,
+    /// Acceleration that the run chose itself, if it does so.
+    pub acceleration: Option<ChosenAcceleration>,
     /// Roughness of disc and pin, if it was asked for ([`crate::simulation::Simulation::roughness`]).
     pub roughness: Option<BothRoughness>,
+}
+
+/// Acceleration at the end of a step, in a run that chooses it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChosenAcceleration {
+    /// m.
+    pub acceleration: f64,
+    /// Estimate of the relative error of the contact area.
+    pub error: f64,
 }
 
 /// Name, unit and meaning of one reported quantity, and where a [`Sample`] keeps it.
@@ -136,9 +147,41 @@ pub const ROUGHNESS_QUANTITIES: &[Quantity] = roughness_quantities! {
     "pin_sku", pin.kurtosis, "1", "kurtosis Sku of the pin heights";
 };
 
-/// The series of a run file but the time, with or without roughness.
-pub fn quantities(roughness: bool) -> impl Iterator<Item = &'static Quantity> {
-    QUANTITIES.iter().chain(if roughness { ROUGHNESS_QUANTITIES } else { &[] })
+/// The series that a run file has besides if the run chooses its acceleration; NaN in a sample without it.
+pub const ACCELERATION_QUANTITIES: &[Quantity] = &[
+    Quantity {
+        name: "time_acceleration",
+        unit: "1",
+        long_name: "revolutions that one simulated revolution stands for",
+        value: |sample| sample.acceleration.map_or(f64::NAN, |chosen| chosen.acceleration),
+    },
+    Quantity {
+        name: "acceleration_error",
+        unit: "1",
+        long_name: "estimate of the relative error of the contact area that the time acceleration causes",
+        value: |sample| sample.acceleration.map_or(f64::NAN, |chosen| chosen.error),
+    },
+];
+
+/// Series that not every run file has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Extras {
+    /// Those of the roughness.
+    pub roughness: bool,
+    /// Those of an acceleration that the run chooses.
+    pub acceleration: bool,
+}
+
+impl Extras {
+    /// All of them.
+    pub const ALL: Self = Self { roughness: true, acceleration: true };
+}
+
+/// The series of a run file but the time.
+pub fn quantities(extras: Extras) -> impl Iterator<Item = &'static Quantity> {
+    let roughness = if extras.roughness { ROUGHNESS_QUANTITIES } else { &[] };
+    let acceleration = if extras.acceleration { ACCELERATION_QUANTITIES } else { &[] };
+    QUANTITIES.iter().chain(roughness).chain(acceleration)
 }
 
 /// A field that can be recorded as a map.

@@ -1,7 +1,6 @@
 //! When samples and maps are taken (formats.md, run file).
 
 use crate::clock::Clock;
-use crate::parameters::Parameters;
 
 /// When samples are taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,21 +34,19 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// Plans samples and the maps of the physical times `maps_at` (s) of a run whose acceleration never changes; times
-    /// beyond the end fall on the last step.
-    pub fn new(parameters: &Parameters, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
-        Self::with_end(parameters.clock(), End::Steps(parameters.steps), sample_every, maps_at)
-    }
-
-    /// The same with steps by `clock`, until `end`.
-    pub fn with_end(clock: Clock, end: End, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
+    /// Plans samples and the maps of the physical times `maps_at` (s) until `end`; times beyond it fall on the last step.
+    pub fn new(clock: Clock, end: End, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
         let mut schedule = Self { clock, sample_every, maps_at: maps_at.to_vec(), end, last: 0, map_steps: Vec::new() };
-        schedule.change(clock);
+        schedule.plan(clock);
         schedule
     }
 
-    /// Plans anew what lies ahead when the acceleration has changed.
-    pub fn change(&mut self, clock: Clock) {
+    /// Plans anew what lies ahead where steps take `step_time` (s) after `step`.
+    pub fn change(&mut self, step: u64, step_time: f64) {
+        self.plan(self.clock.changed(step, step_time));
+    }
+
+    fn plan(&mut self, clock: Clock) {
         self.clock = clock;
         self.last = match self.end {
             End::Steps(steps) => steps,
@@ -59,6 +56,11 @@ impl Schedule {
         self.map_steps.push(self.last);
         self.map_steps.sort_unstable();
         self.map_steps.dedup();
+    }
+
+    /// Physical time at the end of the last step, s.
+    pub fn end_time(&self) -> f64 {
+        self.clock.time_at(self.last)
     }
 
     /// The last step.

@@ -8,7 +8,7 @@ use ndarray::{Array2, Array3};
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
-use plateau_core::schedule::SampleEvery;
+use plateau_core::schedule::{End, SampleEvery};
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
@@ -50,6 +50,8 @@ fn scene() -> Scene {
             time_acceleration: 1.0,
             integrator: Integrator::Explicit,
         },
+        adaptive: None,
+        end: End::Steps(1),
         disc_surface: flat.clone(),
         pin_surface: flat,
         resin_recess: 0.0,

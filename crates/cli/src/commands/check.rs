@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use plateau_core::parts::{Part, parts};
-use plateau_core::schedule::Schedule;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::{memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
@@ -70,6 +69,8 @@ struct Check {
     workers: usize,
     instruction_set: &'static str,
     estimated_time: f64,
+    /// Of a run that chooses it.
+    largest_acceleration: Option<f64>,
     stiffness_number: f64,
     warns_of_stiffness: bool,
     needed: Vec<Reasoned>,
@@ -87,7 +88,7 @@ impl Check {
     fn new(scene: &Scene, surfaces: Vec<String>, parts: &[Part], execution: Execution, seconds_per_step: f64) -> Self {
         let parameters = &scene.parameters;
         let mesh = &parameters.mesh;
-        let schedule = Schedule::new(parameters, scene.output.sample_every, &scene.output.maps_at);
+        let schedule = scene.schedule();
         let mut reasoned: Vec<(bool, Reasoned)> = parts
             .iter()
             .map(|part| (part.needed, Reasoned { part: part.name.into(), reason: part.reason.into() }))
@@ -99,6 +100,10 @@ impl Check {
             let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
             (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })
         }));
+        let adaptive = scene.adaptive.is_some();
+        let reason =
+            if adaptive { "numerics.time_acceleration has a tolerance" } else { "time_acceleration is a number" };
+        reasoned.push((adaptive, Reasoned { part: "scout for the acceleration".into(), reason: reason.into() }));
         let roughness = scene.output.roughness;
         let reason = format!("output.roughness = {roughness}");
         reasoned.push((roughness, Reasoned { part: "roughness with every sample".into(), reason }));
@@ -124,6 +129,7 @@ impl Check {
             instruction_set: execution.instructions.name(),
             estimated_time: seconds_per_step * parameters.steps as f64,
             stiffness_number,
+            largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
             warns_of_stiffness: stability::is_doubtful(parameters),
             needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
             left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
@@ -155,7 +161,8 @@ impl Check {
             (
                 "steps",
                 format!(
-                    "{} of {} s: {} revolutions, {} s",
+                    "{}{} of {} s: {} revolutions, {} s",
+                    if self.largest_acceleration.is_some() { "without acceleration " } else { "" },
                     number::grouped(self.steps),
                     number::short(self.step_time),
                     number::short(self.revolutions),
@@ -166,7 +173,17 @@ impl Check {
             ("stiffness number", stiffness),
             ("memory for cells and maps", number::bytes(self.memory)),
             ("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)),
-            ("estimated time", format!("{} (from a short trial)", number::duration(self.estimated_time))),
+            (
+                "estimated time",
+                match self.largest_acceleration {
+                    None => format!("{} (from a short trial)", number::duration(self.estimated_time)),
+                    Some(largest) => format!(
+                        "{} without acceleration (from a short trial), at best {} times less",
+                        number::duration(self.estimated_time),
+                        number::short(largest)
+                    ),
+                },
+            ),
         ];
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
         // Writing to a String cannot fail.

@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use plateau_core::acceleration::Choice;
 use plateau_core::comm::CommError;
-use plateau_core::observe::{Sample, Snapshot};
-use plateau_core::schedule::Schedule;
-use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_core::observe::{Extras, Sample, Snapshot};
+use plateau_core::schedule::End as RunEnd;
+use plateau_core::scout::Scout;
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::state::InitialSurfaces;
 use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
@@ -18,6 +21,7 @@ use crate::execution::decide;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::job::Job;
+use crate::message;
 use crate::progress::Progress;
 use crate::stability;
 use crate::summary::Summary;
@@ -43,12 +47,13 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
-    let schedule = Schedule::new(&scene.parameters, scene.output.sample_every, &scene.output.maps_at);
+    let schedule = scene.schedule();
     let Loaded { surfaces, inputs, report: surface_report } = loaded;
     let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
     let execution = execution.map_err(Failure::run)?;
+    let scout = scout(&scene, &surfaces, execution, job)?;
     let mut simulation = job.simulation(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
-    let header = header(&scene, &simulation, &inputs, &surface_report, schedule.samples())?;
+    let header = header(&scene, &simulation, scout.is_some(), &inputs, &surface_report, schedule.samples())?;
     job.compare(
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
     )?;
@@ -57,9 +62,9 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let writer = writer.map_err(create_failure)?;
 
     let start = Instant::now();
-    let progress = Progress::new(scene.parameters.steps, job.leads());
+    let progress = Progress::new(schedule.end_time(), job.leads());
     let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default() };
-    let result = drive(&mut simulation, &schedule, &scene.output, &mut recorder);
+    let result = drive(&mut simulation, scout, schedule, &scene.output, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
     let Some(writer) = writer else {
@@ -89,6 +94,20 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
 }
 
+/// What goes before a run that chooses its acceleration, where there is something to choose.
+fn scout(scene: &Scene, surfaces: &InitialSurfaces, execution: Execution, job: &Job) -> Result<Option<Scout>, Failure> {
+    let (Some(adaptive), RunEnd::Time(duration)) = (&scene.adaptive, scene.end) else { return Ok(None) };
+    let choice = Choice::new(adaptive, &scene.parameters, duration);
+    if !choice.is_free() {
+        message::warning(
+            "numerics.time_acceleration: nothing to choose, the run is not accelerated; see docs/accuracy.md",
+        );
+        return Ok(None);
+    }
+    let simulation = job.simulation(scene.parameters.clone(), surfaces.clone(), execution).map_err(Failure::input)?;
+    Scout::new(simulation, choice).map(Some).map_err(Failure::run)
+}
+
 /// Refuses an output that is a file which the run reads: not even `--force` is meant like that.
 fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Result<(), Failure> {
     let Ok(existing) = output.canonicalize() else { return Ok(()) };
@@ -106,6 +125,7 @@ fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Re
 fn header(
     scene: &Scene,
     simulation: &Simulation,
+    accelerates: bool,
     surface_files: &[(PathBuf, String)],
     surfaces: &[String],
     expected_samples: u64,
@@ -122,7 +142,7 @@ fn header(
         mesh: scene.parameters.mesh.clone(),
         pin_base: simulation.pin_base().to_vec(),
         maps: scene.output.maps.clone(),
-        roughness: scene.output.roughness,
+        extras: Extras { roughness: scene.output.roughness, acceleration: accelerates },
         expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),

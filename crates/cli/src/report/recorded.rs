@@ -1,6 +1,5 @@
 //! The series of a run as the page has them.
 
-use plateau_core::observe::quantities;
 use plateau_io::run_file::{ReadError, RunFile, Series};
 
 use super::thin::thin;
@@ -33,10 +32,7 @@ pub struct Recorded {
 /// # Errors
 /// [`ReadError::Damaged`].
 pub fn recorded(run: &RunFile) -> Result<Vec<Recorded>, ReadError> {
-    let mut series: Vec<&Series> = run.series().iter().collect();
-    let place = |name: &str| quantities(true).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
-    series.sort_by_key(|series| place(&series.name));
-    series.into_iter().filter_map(|series| read(run, series).transpose()).collect()
+    run.series().iter().filter_map(|series| read(run, series).transpose()).collect()
 }
 
 fn read(run: &RunFile, series: &Series) -> Result<Option<Recorded>, ReadError> {

@@ -38,6 +38,8 @@ pub struct Course {
     pub time: f64,
     /// Contact area of the last step, m².
     pub contact_area: f64,
+    /// Σ contact area · m Δt since t = 0, m² s.
+    pub contact_area_integral: f64,
     /// Largest load residual of any step.
     pub largest_load_residual: f64,
     /// Passes over the pin beyond one a step: each is a bracket that missed the displacement.
@@ -220,6 +222,6 @@ impl<C: Communicator> Worker<C> {
 
     /// What the steps so far were like.
     pub fn course(&self) -> Course {
-        self.course
+        Course { contact_area_integral: self.history.integral(), ..self.course }
     }
 }

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use plateau_core::mesh::Mesh;
-use plateau_core::observe::Map;
+use plateau_core::observe::{Extras, Map};
 use plateau_core::state::Base;
 use serde::Serialize;
 
@@ -22,8 +22,8 @@ pub struct Header {
     pub pin_base: Vec<Base>,
     /// The maps to be recorded; no others exist in the file.
     pub maps: Vec<Map>,
-    /// Whether the samples have the roughness of disc and pin.
-    pub roughness: bool,
+    /// Series besides those that every run has.
+    pub extras: Extras,
     /// About how many samples will be sent; any number will do, a good one makes the file small and quick to write.
     pub expected_samples: u64,
     /// The whole resolved scene, TOML.

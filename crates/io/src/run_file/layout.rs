@@ -85,7 +85,7 @@ pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime) -> hdf5::
     write_provenance(file, header, start)?;
     let mut layout = Layout::new(file, header)?;
     layout.coordinates(!header.maps.is_empty())?;
-    for quantity in quantities(header.roughness) {
+    for quantity in quantities(header.extras) {
         layout.series(quantity.name, quantity.unit, quantity.long_name)?;
     }
     for map in Map::ALL.into_iter().filter(|map| header.maps.contains(map)) {

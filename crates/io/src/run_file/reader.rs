@@ -9,7 +9,7 @@ use hdf5::{Dataset, H5Type};
 use ndarray::s;
 use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
-use plateau_core::observe::{Map, MapValues, quantities};
+use plateau_core::observe::{Extras, Map, MapValues, quantities};
 
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
 use super::read_error::ReadError;
@@ -283,7 +283,8 @@ impl Opening<'_> {
         });
         let mut series: Vec<Series> = series.collect::<Result<_, _>>()?;
         // As they are reported; what is not known here comes last.
-        let place = |name: &str| quantities(true).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
+        let place =
+            |name: &str| quantities(Extras::ALL).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
         series.sort_by(|one, other| (place(&one.name), &one.name).cmp(&(place(&other.name), &other.name)));
         Ok(series)
     }

@@ -128,7 +128,7 @@ impl Datasets {
         let maps = Map::ALL.into_iter().filter(|map| header.maps.contains(map));
         Ok(Self {
             time: file.dataset(TIME)?,
-            series: quantities(header.roughness)
+            series: quantities(header.extras)
                 .map(|quantity| Ok((quantity, file.dataset(&layout::series_path(quantity.name))?)))
                 .collect::<hdf5::Result<_>>()?,
             map_time: if header.maps.is_empty() { None } else { Some(file.dataset(MAP_TIME)?) },

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use plateau_core::acceleration::Adaptive;
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::{Mesh, MeshError};
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
-use plateau_core::schedule::SampleEvery;
+use plateau_core::schedule::{End, SampleEvery};
 use plateau_core::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
@@ -13,11 +14,13 @@ use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Prepar
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
 use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
-use super::schema::ROTATIONS;
+use super::schema::{ROTATIONS, join};
 use super::settings::Settings;
 use super::{later, memory, resolved};
 use crate::surface::ReadOptions;
 
+/// A number, or a table with how the run chooses it.
+const ACCELERATION: &str = "numerics.time_acceleration";
 /// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
 const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 
@@ -25,7 +28,9 @@ const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
     later::warn(&settings, &mut warnings);
+    let adaptive = adaptive(&settings)?;
     let parameters = parameters(&settings)?;
+    let duration = settings.optional_number("operation.duration")?;
     let output = output(&mut settings, &parameters, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
@@ -46,6 +51,9 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
         resolved: resolved::write(&settings),
         files,
         warnings,
+        // The time of a step is rounded, so a number of steps is the better end where it does not change.
+        end: duration.filter(|_| adaptive.is_some()).map_or(End::Steps(parameters.steps), End::Time),
+        adaptive,
         parameters,
         output,
     })
@@ -54,6 +62,17 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
 /// A count that is too large for this machine's addresses is too large in any case, and refused as such later.
 fn address(count: u64) -> usize {
     usize::try_from(count).unwrap_or(usize::MAX)
+}
+
+/// How the run chooses its acceleration, if it does.
+fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
+    let [tolerance, max] = ["tolerance", "max"].map(|name| join(ACCELERATION, name));
+    let Some(tolerance) = settings.optional_number(&tolerance)? else { return Ok(None) };
+    if settings.get("operation.steps").is_some() {
+        let message = "a run that chooses its acceleration has no certain number of steps, give operation.duration";
+        return Err(Problem::new(&settings.origin("operation.steps"), "operation.steps", message));
+    }
+    Ok(Some(Adaptive { tolerance, largest: settings.number(&max)? }))
 }
 
 fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
@@ -74,7 +93,7 @@ fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
         load_tolerance: settings.number("contact.load_tolerance")?,
         materials: materials(settings)?,
         plateaus: plateaus(settings)?,
-        time_acceleration: settings.number("numerics.time_acceleration")?,
+        time_acceleration: settings.optional_number(ACCELERATION)?.unwrap_or(1.0),
         integrator: match settings.text("numerics.integrator")? {
             "exponential" => Integrator::Exponential,
             _ => Integrator::Explicit,
@@ -107,7 +126,7 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let needed = memory::estimate(counts, maps, settings.bool("output.roughness")?);
+        let needed = memory::estimate(counts, maps, settings.bool("output.roughness")?, adaptive(settings)?.is_some());
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
                 "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",

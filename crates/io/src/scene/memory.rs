@@ -20,16 +20,23 @@ const STATUS: u128 = size_of::<u8>() as u128;
 pub fn memory_estimate(scene: &Scene) -> u64 {
     let mesh = &scene.parameters.mesh;
     let counts = [mesh.rows(), mesh.disc_columns(), mesh.pin_columns()].map(|count| count as u64);
-    estimate(counts, &scene.output.maps, scene.output.roughness)
+    estimate(counts, &scene.output.maps, scene.output.roughness, scene.adaptive.is_some())
 }
 
 /// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
-pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map], roughness: bool) -> u64 {
+pub(super) fn estimate(
+    [rows, disc_columns, pin_columns]: [u64; 3],
+    maps: &[Map],
+    roughness: bool,
+    scouted: bool,
+) -> u64 {
     let cells = |columns: u64| u128::from(rows) * u128::from(columns);
     let (disc, pin) = (cells(disc_columns), cells(pin_columns));
     let sum = |parts: &[(u128, u128)]| {
         parts.iter().fold(0_u128, |sum, (count, bytes)| sum.saturating_add(count.saturating_mul(*bytes)))
     };
+    // A run that chooses its acceleration has a scout with a state of its own.
+    let simulations = if scouted { 2 } else { 1 };
     // Height and substrate of both, the pin's base, two working arrays over the pin, radius and area of every row.
     let state = sum(&[(disc, 2 * FLOAT), (pin, 4 * FLOAT + STATUS), (rows.into(), 2 * FLOAT)]);
     let surfaces = sum(&[(disc, 2 * FLOAT), (pin, 2 * (FLOAT + STATUS))]);
@@ -41,7 +48,7 @@ pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map]
     let gathered = if roughness { 2 * FLOAT } else { 0 };
     let maps = maps.iter().map(size).chain([(disc, gathered), (pin, gathered)]);
     let output = sum(&maps.collect::<Vec<_>>());
-    u64::try_from(state.saturating_add(surfaces.max(output))).unwrap_or(u64::MAX)
+    u64::try_from(state.saturating_mul(simulations).saturating_add(surfaces.max(output))).unwrap_or(u64::MAX)
 }
 
 /// Bytes that this process can have; `None` where the system does not say.

@@ -40,7 +40,6 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
         settings::refuse_missing(&entries, path, &mut problems);
     }
     settings::refuse_lone_companions(&entries, &mut problems);
-    later::refuse(&entries, &mut problems);
     let settings = Settings::read(&entries, path, &mut problems);
     if !problems.is_empty() {
         return Err(SceneError::new(problems));

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use plateau_core::acceleration::Adaptive;
 use plateau_core::observe::Map;
 use plateau_core::parameters::Parameters;
-use plateau_core::schedule::SampleEvery;
+use plateau_core::schedule::{End, SampleEvery, Schedule};
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
 
@@ -17,8 +18,12 @@ pub struct Scene {
     pub title: String,
     /// The scene file.
     pub path: PathBuf,
-    /// Everything core is told.
+    /// Everything core is told; where the run chooses its acceleration, with m = 1.
     pub parameters: Parameters,
+    /// How the run chooses its acceleration, if it does.
+    pub adaptive: Option<Adaptive>,
+    /// When it is over.
+    pub end: End,
     /// Disc heights.
     pub disc_surface: HeightRecipe,
     /// Pin heights.
@@ -41,6 +46,14 @@ pub struct Scene {
     pub files: Vec<PathBuf>,
     /// Things worth telling the user that are no errors (for instance a map time beyond the end).
     pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// When samples and maps are due.
+    pub fn schedule(&self) -> Schedule {
+        let OutputRecipe { sample_every, maps_at, .. } = &self.output;
+        Schedule::new(self.parameters.clock(), self.end, *sample_every, maps_at)
+    }
 }
 
 /// Heights and how they are prepared.

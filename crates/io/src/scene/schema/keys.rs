@@ -155,14 +155,9 @@ pub(super) fn all() -> Vec<Key> {
         "time_acceleration.tolerance",
         Number(BETWEEN_0_AND_1),
         Required,
-        "error at which the run chooses its acceleration; not yet in this version",
+        "relative error of the contact area that the acceleration may cause",
     );
-    table.key(
-        "time_acceleration.max",
-        Number(AT_LEAST_1),
-        Required,
-        "largest acceleration that the run chooses; not yet in this version",
-    );
+    table.key("time_acceleration.max", Number(AT_LEAST_1), Required, "largest acceleration that the run chooses");
     table.key(
         "integrator",
         Choice(&["explicit", "exponential"]),

@@ -24,7 +24,7 @@ const TABLES: &[(&str, &str)] = &[
     ("pin.surface.synthetic", "random heights with given statistics"),
     ("pin.prepare", "what is done to the pin's heights, in this order"),
     ("numerics", "how time is stepped, and on how many cores"),
-    ("numerics.time_acceleration", "acceleration that the run chooses itself; this version cannot yet: give a number"),
+    ("numerics.time_acceleration", "acceleration that the run chooses itself, see docs/accuracy.md"),
     ("output", "the run file and what is written to it"),
 ];
 

@@ -1,0 +1,162 @@
+//! Acceleration that changes, and a run that chooses it itself.
+
+use std::thread;
+
+use plateau_core::simulation::{Execution, Simulation};
+use plateau_io::{scene as scene_file, surface};
+use plateau_tests::divergence::differences;
+use plateau_tests::program::{WorkingDirectory, scene};
+use plateau_tests::run_file::RunFile;
+use plateau_tests::scenes::{all_primary, wear_only};
+
+const CHOSEN: &str = "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }";
+
+/// `quick.toml` at an acceleration of 20, on some workers.
+fn quick(workers: usize) -> Simulation {
+    let scene = scene_file::load(scene("quick.toml").as_ref(), &[]).unwrap();
+    let surfaces = surface::load(&scene).unwrap().surfaces;
+    Simulation::with_execution(scene.parameters, surfaces, Execution { workers, ..Execution::default() }).unwrap()
+}
+
+#[test]
+fn wear_and_time_go_on_with_another_acceleration() {
+    // Closed form for flat surfaces of one row: every step wears κ F_N m r Δθ, whatever carries the load.
+    let parameters = wear_only(1, 60, 10);
+    let (force, radius, angle) = (parameters.normal_force, parameters.mesh.radius()[0], parameters.mesh.column_angle());
+    let wear_rate = parameters.materials.pin_primary.specific_wear_rate;
+    let step_time = angle / parameters.angular_velocity;
+    let mut simulation = all_primary(parameters, vec![0.0; 60], vec![0.0; 10]);
+    let mut revolutions = 0.0;
+    for (step, acceleration) in [(50, 1.0), (130, 7.0), (131, 1000.0), (400, 2.5)] {
+        let steps = step - simulation.steps_done();
+        simulation.accelerate(acceleration).unwrap();
+        simulation.advance_to(step).unwrap();
+        revolutions += acceleration * steps as f64;
+        let sample = simulation.sample().unwrap();
+        for (found, expected) in [
+            (sample.worn_pin, wear_rate * force * radius * angle * revolutions),
+            (sample.time, step_time * revolutions),
+            (sample.sliding_distance, radius * angle * revolutions),
+            (sample.contact_area_integral, sample.contact_area * step_time * revolutions),
+        ] {
+            assert!((found / expected - 1.0).abs() < 1e-12, "step {step}: {found}, expected {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_same_acceleration_once_more_changes_no_bit() {
+    let mut pair = [quick(1), quick(1)];
+    for step in 1..=40 {
+        pair[1].accelerate(20.0).unwrap();
+        pair.iter_mut().for_each(|simulation| simulation.advance_to(40 * step).unwrap());
+        assert_eq!(differences(&mut pair, 40 * step), []);
+    }
+}
+
+#[test]
+fn workers_agree_on_every_bit_where_the_acceleration_changes() {
+    for workers in [2, 3, 5] {
+        let mut pair = [quick(1), quick(workers)];
+        for (round, acceleration) in [20.0, 3.0, 400.0, 1.0, 700.0, 55.5].into_iter().cycle().take(24).enumerate() {
+            let step = 101 * (round as u64 + 1);
+            for simulation in &mut pair {
+                simulation.accelerate(acceleration).unwrap();
+                simulation.advance_to(step).unwrap();
+            }
+            assert_eq!(differences(&mut pair, step), [], "{workers} workers");
+        }
+    }
+}
+
+/// Runs `quick.toml`, changed, for `duration` seconds, and opens its run file.
+fn run(duration: u32, sets: &[String]) -> RunFile {
+    let directory = WorkingDirectory::new();
+    let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
+    let usual =
+        [format!("operation.duration={duration} s"), "output.maps=[]".into(), "output.sample_every=0.5 s".into()];
+    arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), set.clone()]));
+    directory.plateau(arguments).quiet_success();
+    RunFile::open(directory.path("run.h5"))
+}
+
+/// Means of the contact area over windows of `width` seconds, m².
+fn history(run: &RunFile, duration: u32, width: u32) -> Vec<f64> {
+    let (time, integral) = (run.floats("/time"), run.floats("/series/contact_area_integral"));
+    let at = |moment: f64| {
+        let after = time.partition_point(|time| *time < moment).min(time.len() - 1);
+        let (start, from) = if after == 0 { (0.0, 0.0) } else { (time[after - 1], integral[after - 1]) };
+        from + (integral[after] - from) * (moment - start) / (time[after] - start)
+    };
+    let edges: Vec<f64> = (0..=duration / width).map(|window| at(f64::from(window * width))).collect();
+    edges.windows(2).map(|edge| (edge[1] - edge[0]) / f64::from(width)).collect()
+}
+
+/// Root mean square of the difference of two histories, over that of the first.
+fn error(reference: &[f64], other: &[f64]) -> f64 {
+    let differences: f64 = reference.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum();
+    (differences / reference.iter().map(|mean| mean.powi(2)).sum::<f64>()).sqrt()
+}
+
+#[test]
+fn the_tolerance_is_kept_on_twenty_small_scenes() {
+    const DURATION: u32 = 60;
+    let check = |seed: u32| {
+        let surfaces = ["disc.surface", "pin.base", "pin.surface"];
+        let seeds = surfaces.iter().enumerate();
+        let mut sets: Vec<_> =
+            seeds.map(|(which, key)| format!("{key}.synthetic.seed={}", 100 * which as u32 + seed)).collect();
+        sets.push("numerics.time_acceleration=1".into());
+        let reference = history(&run(DURATION, &sets), DURATION, 5);
+        sets.pop();
+        sets.push(CHOSEN.into());
+        let run = run(DURATION, &sets);
+        let error = error(&reference, &history(&run, DURATION, 5));
+        assert!(error < 0.01, "seed {seed}: {error}");
+        // It is worth having: the last windows are run at a multiple of the speed.
+        let accelerations = run.floats("/series/time_acceleration");
+        assert!(accelerations.last() > Some(&5.0), "seed {seed}: {accelerations:?}");
+    };
+    thread::scope(|scope| {
+        for half in [1..=10, 11..=20] {
+            scope.spawn(move || half.for_each(check));
+        }
+    });
+}
+
+#[test]
+fn the_run_file_tells_how_the_acceleration_was_chosen() {
+    let chosen = run(100, &[CHOSEN.to_owned()]);
+    let accelerations = chosen.floats("/series/time_acceleration");
+    assert!(accelerations[0] <= 2.0, "{accelerations:?}: it begins with 1 and doubles at most every four revolutions");
+    // Windows of 5 s that hold three revolutions of 60/850 s: m is at most 23.6.
+    assert!(accelerations.iter().all(|acceleration| (1.0..=850.0 / 36.0).contains(acceleration)));
+    assert!(accelerations.iter().any(|acceleration| *acceleration > 15.0));
+    let errors = chosen.floats("/series/acceleration_error");
+    assert!(errors.iter().all(|error| (0.0..0.1).contains(error)) && errors.last() > Some(&0.0));
+    // A step ends at most m Δt after a sample's time, and the run after its end; Δt = 60 s/(850 · 690).
+    let step = 60.0 / (850.0 * 690.0);
+    let time = chosen.floats("/time");
+    assert_eq!(time.len(), 200);
+    for (sample, (time, acceleration)) in time.iter().zip(&accelerations).enumerate() {
+        let late = time - 0.5 * (sample + 1) as f64;
+        assert!(late > -1e-9 && late < acceleration * step, "sample {sample}: {late} s late");
+    }
+    assert!(!run(1, &[]).has("/series/time_acceleration"), "a number that never changes is in the scene");
+}
+
+#[test]
+fn what_leaves_nothing_to_choose_is_said() {
+    let directory = WorkingDirectory::new();
+    let run = |sets: &[&str]| {
+        let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
+        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+        directory.plateau(arguments)
+    };
+    let refused = run(&[CHOSEN, "operation.steps=10"]);
+    assert_eq!(refused.status, Some(2));
+    assert!(refused.stderr.contains("give operation.duration"), "{}", refused.stderr);
+    let idle = run(&["numerics.time_acceleration={ tolerance = 0.01, max = 1 }", "operation.duration=0.1 s"]);
+    assert_eq!(idle.status, Some(0));
+    assert!(idle.stderr.contains("nothing to choose"), "{}", idle.stderr);
+}
