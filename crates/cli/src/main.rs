@@ -9,6 +9,7 @@ mod failure;
 mod figure;
 mod interrupt;
 mod job;
+mod label;
 mod machine;
 mod message;
 mod number;

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 use crate::failure::Failure;
+use crate::label::on_one_line;
 
 /// Prints text on standard output.
 ///
@@ -18,10 +19,10 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// A heading and rows of a name and a value, aligned.
+/// A heading, which may be anybody's title, and rows of a name and a value, aligned.
 pub fn table(heading: &str, rows: &[(impl AsRef<str>, String)]) -> String {
     let width = rows.iter().map(|(name, _)| name.as_ref().chars().count()).max().unwrap_or(0);
-    let mut text = format!("{heading}\n");
+    let mut text = format!("{}\n", on_one_line(heading));
     for (name, value) in rows {
         let name = name.as_ref();
         // Writing to a String cannot fail.

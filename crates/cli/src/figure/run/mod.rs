@@ -14,7 +14,7 @@
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
 //! What they have in common: charts in [`chart`], maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
-//! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`label`].
+//! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
 
 mod bodies;
 mod chart;
@@ -22,7 +22,6 @@ mod contact_area;
 mod debris;
 mod filled;
 mod heights;
-mod label;
 mod map_page;
 mod moments;
 mod plateau_sizes;
@@ -41,7 +40,7 @@ use plateau_io::run_file::{ReadError, RunFile};
 use super::canvas::FigureError;
 use super::format;
 use super::page::Page;
-use label::labels;
+use crate::label::labels;
 use shape::Shape;
 
 /// More runs make no legible figure, and have no colours of their own.
