@@ -31,7 +31,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Draw the figures of a run, or of several side by side
     #[command(
-        after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
+        after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
     )]
     Plot(PlotArguments),
     /// Make one HTML page of a run, or of several to compare: numbers, charts, maps
@@ -179,9 +179,9 @@ pub struct ReportArguments {
     /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
     #[arg(value_name = "RUN", required = true)]
     pub runs: Vec<PathBuf>,
-    /// Page to write
-    #[arg(short, long, value_name = "HTML", default_value = "report.html")]
-    pub output: PathBuf,
+    /// Page to write; named like the run file, or "report.html" for several, unless given
+    #[arg(short, long, value_name = "HTML")]
+    pub output: Option<PathBuf>,
     /// Replace the page if it exists
     #[arg(long)]
     pub force: bool,
@@ -242,10 +242,10 @@ pub struct ManArguments {
     /// Command whose page is printed; that of the program unless given
     #[arg(value_name = "COMMAND", conflicts_with = "output")]
     pub page: Option<String>,
-    /// Directory into which the pages of the program and of every command are written
+    /// Folder for the pages of the program and of every command, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace pages that are there
+    /// Replace pages that exist
     #[arg(long, requires = "output")]
     pub force: bool,
 }
@@ -259,25 +259,30 @@ pub struct WatchArguments {
     #[arg(long)]
     pub once: bool,
     /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
-    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub timeout: Option<u64>,
+}
+
+/// A value of `--timeout`.
+fn seconds(text: &str) -> Result<u64, &'static str> {
+    text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
 }
 
 /// Arguments of `plateau export`.
 #[derive(Debug, Args)]
 pub struct ExportArguments {
-    /// Run file, also of a run that goes on or was killed
+    /// Run file, also of a run that goes on or was stopped
     pub run: PathBuf,
-    /// Format
-    #[arg(long)]
+    /// Format of the files
+    #[arg(long, value_name = "FORMAT")]
     pub to: ExportFormat,
-    /// File to write, for vtk the folder; in the working directory and named like the run file unless given
+    /// File to write, for vtk the folder, made if it is not there; named like the run file unless given
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Write the maps too; for csv, as the other formats have them anyway
     #[arg(long)]
     pub maps: bool,
-    /// Replace what is to be written if it exists
+    /// Replace files that exist
     #[arg(long)]
     pub force: bool,
 }

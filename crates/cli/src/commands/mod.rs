@@ -7,6 +7,7 @@ mod man;
 mod plot;
 mod report;
 mod run;
+mod runs;
 mod schema;
 mod surface;
 mod watch;
@@ -16,6 +17,7 @@ use plateau_io::scene::{self, recipe::Scene};
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
 use crate::message;
+use runs::{figures, named_like, open_run, open_runs};
 
 /// Does what the command line asks for.
 pub fn perform(arguments: Arguments) -> Result<(), Failure> {
