@@ -183,6 +183,7 @@ fn the_only_suitable_dataset_needs_no_name() {
     group.new_dataset_builder().with_data(&base).create("fibre").unwrap();
     // A link to a group above must not send the search round and round.
     out.link_hard("/a", "/a/b/again").unwrap();
+    drop(group);
     out.close().unwrap();
     let mut scene = scene();
     scene.disc_surface.source = file(&path, None);

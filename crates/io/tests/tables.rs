@@ -216,7 +216,7 @@ fn attributes_that_say_otherwise_are_refused() {
         let units: VarLenUnicode = units.parse().unwrap();
         dataset.new_attr::<VarLenUnicode>().create("units").unwrap().write_scalar(&units).unwrap();
         dataset.new_attr::<f64>().shape(pitch.len()).create("pitch").unwrap().write_raw(pitch).unwrap();
-        file.close().unwrap();
+        drop((dataset, file));
         read(&path, &options())
     };
     assert_eq!(case("m", &[1e-5]).unwrap().pitch, Some([1e-5; 2]));

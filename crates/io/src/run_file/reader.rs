@@ -82,8 +82,10 @@ impl RunFile {
             return Err(ReadError::NotHdf5 { path: path.into() });
         }
         let damaged = |error: hdf5::Error| ReadError::Damaged { path: path.into(), reason: reason(&error) };
-        let file = hdf5_file::open(path).map_err(damaged)?;
-        Opening { path, file: &file }.read()
+        hdf5_file::guarded(0, || {
+            let file = hdf5_file::open(path).map_err(damaged)?;
+            Opening { path, file: &file }.read()
+        })
     }
 
     /// Where it is.
@@ -103,7 +105,7 @@ impl RunFile {
 
     /// A text of its root attributes, such as `program` or `host`, if it is there.
     pub fn attribute(&self, name: &str) -> Option<String> {
-        hdf5_file::text_attribute(&self.file, name)
+        hdf5_file::text_attribute(&self.file, name).ok().flatten()
     }
 
     /// A number of its root attributes, such as `workers` or `wall_time`, if it is there.
@@ -194,7 +196,8 @@ impl Opening<'_> {
             return Err(ReadError::Newer { path: self.path.into(), found: version, expected: FORMAT_VERSION });
         }
         let text = |name: &str| {
-            hdf5_file::text_attribute(self.file, name).ok_or_else(|| foreign(&format!("root attribute {name}")))
+            let text = hdf5_file::text_attribute(self.file, name).map_err(|error| self.damaged(reason(&error)))?;
+            text.ok_or_else(|| foreign(&format!("root attribute {name}")))
         };
         let state = text("state")?;
         let state = State::of(&state).ok_or_else(|| self.damaged(format!("its state is \"{state}\"")))?;
@@ -247,8 +250,11 @@ impl Opening<'_> {
         let names = group.member_names().map_err(|error| self.damaged(reason(&error)))?;
         let series = names.into_iter().map(|name| {
             let dataset = self.dataset(&series_path(&name))?;
-            let text = |attribute| hdf5_file::text_attribute(&dataset, attribute).unwrap_or_default();
-            Ok(Series { unit: text("units"), long_name: text("long_name"), name })
+            let text = |attribute| match hdf5_file::text_attribute(&dataset, attribute) {
+                Ok(text) => Ok(text.unwrap_or_default()),
+                Err(error) => Err(self.damaged(format!("/series/{name}: {}", reason(&error)))),
+            };
+            Ok(Series { unit: text("units")?, long_name: text("long_name")?, name })
         });
         series.collect()
     }

@@ -148,11 +148,14 @@ pub(super) struct Heights {
 /// # Errors
 /// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
 pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf5Error> {
-    let dataset = find(path, dataset, Wanted::Heights)?;
+    let (dataset, pitch) = hdf5_file::guarded(0, || {
+        let dataset = find(path, dataset, Wanted::Heights)?;
+        refuse_other_units(&dataset)?;
+        let pitch = pitch(&dataset)?;
+        Ok::<_, Hdf5Error>((dataset, pitch))
+    })?;
     let (name, (columns, rows)) = (dataset.name(), bounded_shape(&dataset)?);
-    refuse_other_units(&dataset)?;
-    let pitch = pitch(&dataset)?;
-    let heights = dataset.read_raw::<f64>()?;
+    let heights = hdf5_file::guarded(columns * rows * size_of::<f64>(), || dataset.read_raw::<f64>())?;
     let count = heights.iter().filter(|height| height.is_infinite()).count();
     if count > 0 {
         return Err(Hdf5Error::Infinite { dataset: name, count, points: heights.len() });
@@ -162,7 +165,7 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf
 
 /// Refuses heights that say of themselves that they are not in m.
 fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
-    let Some(found) = text_attribute(dataset, "units") else { return Ok(()) };
+    let Some(found) = text_attribute(dataset, "units")? else { return Ok(()) };
     if ["m", "metre", "metres", "meter", "meters"].contains(&found.as_str()) {
         return Ok(());
     }
@@ -223,9 +226,10 @@ pub(super) fn base(
     dataset: Option<&str>,
     shape: (usize, usize),
 ) -> Result<(String, Vec<Base>), Hdf5Error> {
-    let dataset = find(path, dataset, Wanted::Base(shape))?;
+    let dataset = hdf5_file::guarded(0, || find(path, dataset, Wanted::Base(shape)))?;
     let name = dataset.name();
-    let base = dataset.read_raw::<i64>()?.into_iter().enumerate().map(|(cell, number)| match number {
+    let numbers = hdf5_file::guarded(shape.0 * shape.1 * size_of::<i64>(), || dataset.read_raw::<i64>())?;
+    let base = numbers.into_iter().enumerate().map(|(cell, number)| match number {
         0 => Ok(Base::None),
         1 => Ok(Base::Primary),
         found => Err(Hdf5Error::Base { dataset: name.clone(), found, column: cell / shape.1, row: cell % shape.1 }),

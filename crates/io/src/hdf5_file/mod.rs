@@ -1,0 +1,108 @@
+//! HDF5 files that somebody else made, or that were damaged since: opened only if the library comes back from them.
+
+mod global_heap;
+mod memory;
+
+use std::fs::File;
+use std::io;
+use std::os::unix::fs::FileExt;
+use std::path::Path;
+
+use hdf5::file::FileBuilder;
+use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenUnicode};
+use hdf5::{Location, OpenMode};
+
+/// How often the library tries to read an object of a file that is being written and is not whole yet. It waits 1 ns, then
+/// twice as long each time: 33 ms in all. Left to itself it tries a hundred times, which no one lives to see.
+const READ_ATTEMPTS: u32 = 25;
+/// Bytes that everything but the data may take: names, attributes, and what the library keeps of a file.
+const STRUCTURE: u64 = 256 << 20;
+/// What an HDF5 file starts with, at byte 0 or at 512, 1024 and so on.
+const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// Opens a file for reading, also one that another program is writing, or was writing when it was killed.
+///
+/// Locks are not asked for: many network file systems have none, and a reader needs none.
+///
+/// # Errors
+/// What the system or the library says, and a message when the library would not come back: see [`global_heap`].
+pub(crate) fn open(path: &Path) -> hdf5::Result<hdf5::File> {
+    let system = |error: io::Error| hdf5::Error::from(error.to_string());
+    let file = File::open(path).map_err(system)?;
+    if let Some(superblock) = superblock(&file).map_err(system)?
+        && let Some(at) = global_heap::endless_object(&file, &superblock).map_err(system)?
+    {
+        return Err(format!("the global heap is damaged at byte {at}").into());
+    }
+    let mode = if is_being_written(&file).map_err(system)? { OpenMode::ReadSWMR } else { OpenMode::Read };
+    let mut builder = FileBuilder::new();
+    builder.with_fapl(|list| list.file_locking(false).metadata_read_attempts(READ_ATTEMPTS));
+    builder.open_as(path, mode)
+}
+
+/// Does `work` on a file, for `data` bytes of data, with no more memory than that needs.
+///
+/// The library takes what a file asks for before it looks whether that is there: a text of 4 GiB in a damaged file of
+/// 10 kB takes ten seconds and all that memory to refuse.
+pub(crate) fn guarded<T>(data: usize, work: impl FnOnce() -> T) -> T {
+    // Twice, for a chunk as large as all the data.
+    memory::limited(STRUCTURE.saturating_add((data as u64).saturating_mul(2)), work)
+}
+
+/// Whether a file has a superblock, which is where an HDF5 file begins.
+pub(crate) fn is_hdf5(path: &Path) -> io::Result<bool> {
+    Ok(superblock(&File::open(path)?)?.is_some())
+}
+
+/// An attribute that is one text of any kind, if there is one.
+///
+/// # Errors
+/// What the library says when it is there and cannot be read.
+pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Option<String>> {
+    // There is no other way to ask whether it is there.
+    let Ok(attribute) = location.attr(name) else { return Ok(None) };
+    if attribute.size() != 1 {
+        return Ok(None);
+    }
+    match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::VarLenUnicode => text(attribute.read_scalar::<VarLenUnicode>()),
+        TypeDescriptor::VarLenAscii => text(attribute.read_scalar::<VarLenAscii>()),
+        TypeDescriptor::FixedAscii(_) => text(attribute.read_scalar::<FixedAscii<64>>()),
+        TypeDescriptor::FixedUnicode(_) => text(attribute.read_scalar::<FixedUnicode<64>>()),
+        _ => Ok(None),
+    }
+}
+
+fn text(read: hdf5::Result<impl ToString>) -> hdf5::Result<Option<String>> {
+    read.map(|text| Some(text.to_string()))
+}
+
+/// Whether the superblock says that a program has the file open for writing; if it was killed, it still does.
+fn is_being_written(file: &File) -> io::Result<bool> {
+    Ok(superblock(file)?.is_some_and(|superblock| superblock.version == 3 && superblock.consistency & 1 != 0))
+}
+
+/// What the first bytes of an HDF5 file tell.
+struct Superblock {
+    version: u8,
+    /// Bytes of a length in this file.
+    length_width: u8,
+    /// Flags of a file that is open for writing.
+    consistency: u8,
+}
+
+/// A file's superblock, if it has one.
+fn superblock(file: &File) -> io::Result<Option<Superblock>> {
+    let length = file.metadata()?.len();
+    let mut bytes = [0; 16];
+    let mut at = 0;
+    while at < length {
+        if file.read_at(&mut bytes, at)? == bytes.len() && bytes.starts_with(SIGNATURE) {
+            let version = bytes[8];
+            let length_width = if version < 2 { bytes[14] } else { bytes[10] };
+            return Ok(Some(Superblock { version, length_width, consistency: bytes[11] }));
+        }
+        at = if at == 0 { 512 } else { 2 * at };
+    }
+    Ok(None)
+}
