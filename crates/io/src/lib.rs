@@ -6,8 +6,10 @@
 //! | quantities with units | [`units`] |
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
+//! | HDF5 files of named results | [`dataset_file`] |
 //! | files that appear when they are complete | [`temporary`] |
 
+pub mod dataset_file;
 mod digest;
 mod hdf5_file;
 pub mod run_file;

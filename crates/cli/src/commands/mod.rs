@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod accuracy;
 mod check;
 mod plot;
 mod run;
@@ -18,6 +19,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Check(arguments) => check::check(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
+        Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
     }
 }
 

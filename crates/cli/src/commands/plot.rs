@@ -52,7 +52,7 @@ fn usual_directory(paths: &[PathBuf]) -> PathBuf {
     }
 }
 
-fn make_directory(directory: &Path) -> Result<(), Failure> {
+pub(super) fn make_directory(directory: &Path) -> Result<(), Failure> {
     let shown = directory.display();
     fs::create_dir_all(directory).map_err(|error| {
         Failure::input(format_args!("cannot make the folder {shown}: {error}; name another one with -o"))
