@@ -42,6 +42,11 @@ pub fn significant(number: f64, digits: usize) -> String {
     }
 }
 
+/// A number with the sign that is as wide as a plus.
+pub fn with_minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
 /// A duration given in seconds.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {

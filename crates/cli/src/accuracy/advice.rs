@@ -1,7 +1,7 @@
 //! Which run to choose for an error, in a sentence.
 
-use super::pareto::{Cost, most_exact, quickest_within};
-use super::report::{Report, Row};
+use super::pareto::{most_exact, quickest_within};
+use super::report::Report;
 use crate::number;
 
 /// Errors of the contact area for which runs are advised.
@@ -9,10 +9,10 @@ const ERRORS: [f64; 2] = [1e-2, 1e-3];
 
 /// One sentence for each of the errors.
 pub fn advice(report: &Report) -> Vec<String> {
-    let costs: Vec<Cost> = report.rows.iter().map(Row::cost).collect();
+    let costs = report.choices();
     let of = |index: usize| {
         let (row, cost) = (&report.rows[index], costs[index]);
-        (row.rung.full_name(), number::duration(cost.time), percent(cost.error))
+        (row.setting(), number::duration(cost.time), percent(cost.error))
     };
     let reference = number::duration(report.reference.outcome.wall_time);
     let sentence = |error: f64| match (quickest_within(&costs, error), most_exact(&costs)) {
@@ -34,7 +34,7 @@ pub fn percent(fraction: f64) -> String {
     if fraction.is_nan() {
         return "–".to_owned();
     }
-    let text = number::significant(100.0 * fraction, 2);
+    let text = number::with_minus(&number::significant(100.0 * fraction, 2));
     let text = if text.contains('.') && !text.contains('e') {
         text.trim_end_matches('0').trim_end_matches('.')
     } else {
@@ -54,7 +54,7 @@ mod tests {
         assert_eq!(percent(0.002_84), "0.28 %");
         assert_eq!(percent(1.5), "150 %");
         assert_eq!(percent(0.0), "0 %");
-        assert_eq!(percent(1.234e-9), "1.2e-7 %");
+        assert_eq!(percent(1.234e-9), "1.2e\u{2212}7 %");
         assert_eq!(percent(f64::NAN), "–");
     }
 }

@@ -143,7 +143,7 @@ mod tests {
         let mesh = Mesh::new(6, 48, 13, 20e-3, 24e-3).unwrap();
         let height = |cell: usize| (cell * 7919 % 101) as f64 * 1e-8;
         // Every third column is fibre.
-        let base = |cell: usize| if (cell / 6) % 3 == 0 { Base::Primary } else { Base::None };
+        let base = |cell: usize| if (cell / 6).is_multiple_of(3) { Base::Primary } else { Base::None };
         let surfaces = InitialSurfaces {
             disc_height: (0..6 * 48).map(height).collect(),
             pin_height: (0..6 * 13).map(|cell| if base(cell).is_resin() { 8e-6 } else { -1e-6 }).collect(),

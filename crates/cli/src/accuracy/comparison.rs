@@ -50,7 +50,7 @@ impl Comparison {
         let pin_area = coarsening.map_or(mesh, |coarsening| &coarsening.mesh).pin_area();
         Self {
             contact_area: HistoryError::of(&areas, &expected_areas),
-            filled: last(history.filled()) - last(expected.filled()),
+            filled: run.end.filled - reference.end.filled,
             filled_largest: largest_difference(history.filled(), expected.filled()),
             worn: relative(run.end.worn, reference.end.worn),
             emitted: relative(run.end.emitted, reference.end.emitted),

@@ -26,10 +26,15 @@ impl History {
         self.filled.push(filled);
     }
 
-    /// The same at the ends of windows, interpolated between the moments that are known. A moment that follows the end of
-    /// a window by less than a step, as every run takes them for these windows, is that end.
+    /// Moments after the start.
+    pub fn moments(&self) -> usize {
+        self.time.len() - 1
+    }
+
+    /// The same at the ends of windows, interpolated between the moments that are known. As many moments as windows are
+    /// their ends, as every run made here has them: each follows the end of its window by less than a step.
     pub fn at(&self, windows: &Windows) -> Self {
-        if self.time.len() == windows.count + 1 {
+        if self.moments() == windows.count {
             return self.clone();
         }
         let mut history = Self::start();
@@ -75,9 +80,9 @@ mod tests {
     #[test]
     fn dense_moments_are_interpolated_at_the_ends_of_windows() {
         let moments: Vec<f64> = (1..=4000).map(|number| f64::from(number) * 2e-3).collect();
-        // 8 s in three windows of 2.667 s, which end between moments.
-        let history = known_at(&moments).at(&Windows::new(8.0, 2.5));
-        let width = 8.0 / 3.0;
+        // Windows that end between moments.
+        let width = 2.6665;
+        let history = known_at(&moments).at(&Windows { width, count: 3 });
         for (number, mean) in history.mean_areas().into_iter().enumerate() {
             let expected = 1.0 + (2.0 * number as f64 + 1.0) * width;
             // Linear interpolation of a parabola errs by at most (2e-3)²/4 at each end.
@@ -89,6 +94,6 @@ mod tests {
     #[test]
     fn moments_at_the_ends_stay_as_they_are() {
         let history = known_at(&[5.001, 10.0]);
-        assert_eq!(history.at(&Windows::new(10.0, 5.0)), history);
+        assert_eq!(history.at(&Windows { width: 5.0, count: 2 }), history);
     }
 }

@@ -17,10 +17,10 @@ use super::ladder::{COARSENINGS, Rung, rungs, time_accelerations};
 use super::measure::{Unfinished, measure};
 use super::numerics::Numerics;
 use super::outcome::Outcome;
-use super::plan::{Plan, plan};
+use super::plan::{Plan, TooSmall, plan, plan_beside};
 use super::reference::{Provenance, ReadReference, Reference};
 use super::report::{Measured, Report, Row};
-use super::windows::Windows;
+use super::windows::{Windows, common_multiple};
 use crate::arguments::Ladder;
 use crate::execution::{cores, time_per_step};
 use crate::failure::Failure;
@@ -140,46 +140,20 @@ impl<'a> Laboratory<'a> {
 
     fn plan(&mut self, wish: &Wish) -> Result<Plan, Failure> {
         let own = Numerics::of(&self.scene.parameters);
-        let mesh = &self.scene.parameters.mesh;
-        let revolution = std::f64::consts::TAU / self.scene.parameters.angular_velocity;
-        let accelerations = time_accelerations(own.time_acceleration, self.scene.duration / revolution);
+        let revolutions = self.scene.duration / self.revolution();
+        let accelerations = time_accelerations(own.time_acceleration, revolutions);
         let factors: Vec<usize> = self.coarsenings.keys().copied().collect();
         let rungs = |reference: f64| rungs(&wish.ladders, own, &accelerations, &factors, reference);
+        let seconds = |numerics: &Numerics| self.seconds(numerics);
         let plan = match &wish.reference {
-            Some(ReadReference { reference, .. }) => {
-                let (base, rungs) = rungs(reference.time_acceleration);
-                if rungs.is_empty() {
-                    return Err(Failure::input(format_args!(
-                        "nothing is coarser than the reference with time_acceleration = {}; choose other ladders, or a \
-                         reference with a smaller time_acceleration",
-                        reference.time_acceleration
-                    )));
-                }
-                let quickest = rungs.iter().map(|rung| self.seconds(&rung.numerics)).fold(f64::INFINITY, f64::min);
-                if quickest > wish.budget {
-                    return Err(too_small(wish.budget, &format!("the quickest run takes about {}", duration(quickest)), quickest));
-                }
-                Plan { reference: reference.time_acceleration, base, rungs }
-            }
-            None => plan(&accelerations, own, rungs, |numerics| self.seconds(numerics), wish.budget).map_err(|quickest| {
-                if quickest.needed == 0.0 {
-                    return Failure::input(format_args!(
-                        "nothing is coarser than the scene itself: {} rows, {} columns under the pin, {} s; choose other \
-                         ladders or a longer duration",
-                        mesh.rows(),
-                        mesh.pin_columns(),
-                        number::short(self.scene.duration)
-                    ));
-                }
-                let m = quickest.reference;
-                let why = format!("even with time_acceleration = {m} as the reference all runs take about {}", duration(quickest.needed));
-                too_small(wish.budget, &why, quickest.needed)
-            })?,
+            Some(read) => plan_beside(read.reference.time_acceleration, rungs, seconds, wish.budget),
+            None => plan(&accelerations, own, rungs, seconds, wish.budget),
         };
+        let plan = plan.map_err(|too_small| refusal(&too_small, wish.budget))?;
         if plan.reference > 1.0 && wish.reference.is_none() {
             self.notes.push(format!(
-                "the reference has time_acceleration = {}, the finest that the budget of {} allows: errors against the model \
-                 itself (1) are larger",
+                "the reference has time_acceleration = {}, the finest that the budget of {} allows: errors against the \
+                 model itself (1) are larger",
                 plan.reference,
                 number::duration(wish.budget)
             ));
@@ -193,12 +167,22 @@ impl<'a> Laboratory<'a> {
         Ok(plan)
     }
 
-    /// The same windows for all runs: none has less than a revolution in one of them, or less than two samples.
+    /// Time of a revolution, s.
+    fn revolution(&self) -> f64 {
+        std::f64::consts::TAU / self.scene.parameters.angular_velocity
+    }
+
+    /// The same windows for all runs: whole revolutions of each of them, if that can be, and at least two samples of the
+    /// reference.
     fn windows(&self, plan: &Plan, wish: &Wish) -> Windows {
-        let revolution = std::f64::consts::TAU / self.scene.parameters.angular_velocity;
-        let coarsest = plan.rungs.iter().map(|rung| rung.numerics.time_acceleration).fold(plan.reference, f64::max);
+        let mut accelerations: Vec<f64> = plan.rungs.iter().map(|rung| rung.numerics.time_acceleration).collect();
+        accelerations.push(plan.reference);
         let samples = wish.reference.as_ref().map_or(0.0, |reference| 2.0 * reference.sample_every);
-        Windows::new(self.scene.duration, LEAST_WINDOW.max(coarsest * revolution).max(samples))
+        Windows::new(
+            self.scene.duration,
+            common_multiple(&accelerations) * self.revolution(),
+            LEAST_WINDOW.max(samples),
+        )
     }
 
     fn make_reference(&mut self, time_acceleration: f64, windows: &Windows) -> Result<Reference, Failure> {
@@ -312,15 +296,20 @@ impl<'a> Laboratory<'a> {
     }
 }
 
-fn too_small(budget: f64, why: &str, needed: f64) -> Failure {
+/// Says why there is no plan.
+fn refusal(too_small: &TooSmall, budget: f64) -> Failure {
+    let TooSmall { needed, reference } = *too_small;
+    if needed == 0.0 {
+        return Failure::input(format_args!(
+            "nothing is coarser than the reference with time_acceleration = {reference}: choose other ladders, a longer \
+             duration or a finer reference"
+        ));
+    }
     // With room, for the estimate is one.
     let enough = (1.2 * needed).ceil().max(1.0);
+    let (budget, needed) = (number::duration(budget), number::duration(needed));
     Failure::input(format_args!(
-        "the budget of {} is too small: {why}; give --budget {enough}s or more",
-        number::duration(budget)
+        "the budget of {budget} is too small: with time_acceleration = {reference} as the reference the runs take about \
+         {needed}; give --budget {enough}s or more"
     ))
-}
-
-fn duration(seconds: f64) -> String {
-    number::duration(seconds)
 }

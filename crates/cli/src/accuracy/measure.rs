@@ -67,6 +67,7 @@ pub fn measure(
     let mut record = Record {
         progress: Progress::named(parameters.steps, name),
         interrupt,
+        windows: windows.count,
         history: History::start(),
         last: Sample::default(),
         heights: Heights::default(),
@@ -89,6 +90,7 @@ pub fn measure(
 struct Record<'a> {
     progress: Progress,
     interrupt: &'a Interrupt,
+    windows: usize,
     history: History,
     last: Sample,
     heights: Heights,
@@ -101,7 +103,10 @@ impl Sink for Record<'_> {
         if !(sample.contact_area_integral.is_finite() && sample.filled_fraction.is_finite()) {
             return Err(Unfinished::NotFinite { step: sample.step });
         }
-        self.history.record(sample.time, sample.contact_area_integral, sample.filled_fraction);
+        // What comes after the last window is its end.
+        if self.history.moments() < self.windows {
+            self.history.record(sample.time, sample.contact_area_integral, sample.filled_fraction);
+        }
         self.last = sample;
         Ok(())
     }

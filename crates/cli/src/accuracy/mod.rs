@@ -45,6 +45,6 @@ pub use csv::csv;
 pub use hdf5::{Making, content};
 pub use json::json;
 pub use laboratory::{Found, Laboratory, Wish};
-pub use reference::read as read_reference;
+pub use reference::{ReadReference, read as read_reference};
 pub use report::{Report, Row};
 pub use text::text;

@@ -54,6 +54,23 @@ pub fn observed(finer: Point, coarser: Point, reference_size: f64) -> Result<f64
     }
 }
 
+/// The order over all rungs that are [`FAR`] from the reference: the slope of a line through log(error) against log(size),
+/// by least squares; none for less than three rungs.
+pub fn fitted(points: &[Point], reference_size: f64) -> Option<f64> {
+    let usable = |point: &&Point| point.size >= FAR * reference_size && point.error > 0.0 && point.error.is_finite();
+    let logarithms: Vec<[f64; 2]> =
+        points.iter().filter(usable).map(|point| [point.size.ln(), point.error.ln()]).collect();
+    if logarithms.len() < 3 {
+        return None;
+    }
+    let mean = |axis: usize| logarithms.iter().map(|point| point[axis]).sum::<f64>() / logarithms.len() as f64;
+    let middle = [mean(0), mean(1)];
+    let (products, squares) = logarithms.iter().fold((0.0, 0.0), |(products, squares), [size, error]| {
+        (products + (size - middle[0]) * (error - middle[1]), squares + (size - middle[0]).powi(2))
+    });
+    (squares > 0.0).then(|| products / squares)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,6 +86,20 @@ mod tests {
             let order = observed(law(10.0), law(30.0), 1.0).unwrap();
             assert!((order - power).abs() < 1e-12, "{order}, expected {power}");
         }
+    }
+
+    #[test]
+    fn the_fitted_order_of_a_power_law_is_its_exponent() {
+        let mut points: Vec<Point> =
+            [3.0, 10.0, 30.0, 100.0].map(|size: f64| point(size, 1e-5 * size.powf(0.7))).to_vec();
+        // Too near to the reference, and without an error: they do not count.
+        points.extend([point(2.0, 1.0), point(50.0, 0.0)]);
+        assert!((fitted(&points, 1.0).unwrap() - 0.7).abs() < 1e-12);
+        assert_eq!(fitted(&points[..2], 1.0), None);
+        // By hand: errors e^0, e^2, e^1 at sizes e^2, e^3, e^4 have the slope (−1·−1 + 1·0)/2 = 1/2.
+        let scattered =
+            [(2.0, 0.0), (3.0, 2.0), (4.0, 1.0)].map(|(size, error): (f64, f64)| point(size.exp(), error.exp()));
+        assert!((fitted(&scattered, 1.0).unwrap() - 0.5).abs() < 1e-12);
     }
 
     #[test]

@@ -31,6 +31,8 @@ pub struct Heights {
 /// Quantities at the end of a run; NaN where one is not known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
+    /// Filled fraction.
+    pub filled: f64,
     /// Worn volume of both bodies, m³.
     pub worn: f64,
     /// Debris that left the contact, m³.
@@ -49,6 +51,7 @@ impl End {
     /// Of the last sample of a run, the largest load residual of which was this.
     pub fn of(sample: &Sample, load_residual: f64) -> Self {
         Self {
+            filled: sample.filled_fraction,
             worn: sample.worn_pin + sample.worn_resin + sample.worn_disc,
             emitted: sample.emitted,
             disc_secondary: sample.disc_secondary,

@@ -17,10 +17,10 @@ pub struct Plan {
     pub rungs: Vec<Rung>,
 }
 
-/// The budget does not suffice.
+/// The budget does not suffice, or there is nothing to run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TooSmall {
-    /// Wall time of the quickest plan, s.
+    /// Wall time of the quickest plan, s; 0 where there is nothing to run.
     pub needed: f64,
     /// Time acceleration of its reference.
     pub reference: f64,
@@ -30,7 +30,7 @@ pub struct TooSmall {
 /// beside a reference of some time acceleration; `seconds` estimates the wall time of a run.
 ///
 /// # Errors
-/// [`TooSmall`] when there is none; nothing at all to run counts as such, too, and needs no time.
+/// [`TooSmall`] when there is none.
 pub fn plan(
     accelerations: &[f64],
     own: Numerics,
@@ -54,6 +54,25 @@ pub fn plan(
         }
     }
     Err(quickest)
+}
+
+/// The plan beside a reference that is there: of its runs at least the quickest fits into the budget (s).
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_beside(
+    reference: f64,
+    rungs: impl Fn(f64) -> (Numerics, Vec<Rung>),
+    seconds: impl Fn(&Numerics) -> f64,
+    budget: f64,
+) -> Result<Plan, TooSmall> {
+    let (base, rungs) = rungs(reference);
+    let quickest = rungs.iter().map(|rung| seconds(&rung.numerics)).fold(f64::INFINITY, f64::min);
+    match rungs.is_empty() {
+        true => Err(TooSmall { needed: 0.0, reference }),
+        false if quickest > budget => Err(TooSmall { needed: quickest, reference }),
+        false => Ok(Plan { reference, base, rungs }),
+    }
 }
 
 #[cfg(test)]
@@ -84,6 +103,13 @@ mod tests {
         let plan = within(159.0).unwrap();
         assert_eq!((plan.reference, plan.rungs.len()), (2.0, 1));
         let too_small = within(59.0).unwrap_err();
+        let beside = |reference, budget| {
+            let rungs = |reference| rungs(&[Ladder::TimeAcceleration], own, &accelerations, &[], reference);
+            plan_beside(reference, rungs, seconds, budget)
+        };
+        assert_eq!(beside(1.0, 10.0).unwrap().rungs.len(), 2);
+        assert_eq!(beside(1.0, 8.0), Err(TooSmall { needed: 9.0, reference: 1.0 }));
+        assert_eq!(beside(10.0, 8.0), Err(TooSmall { needed: 0.0, reference: 10.0 }));
         assert!((too_small.needed - 60.0).abs() < 1e-9 && too_small.reference == 2.0, "{too_small:?}");
     }
 }

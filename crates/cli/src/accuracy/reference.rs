@@ -119,6 +119,7 @@ fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outco
     let series = |name: &str| run.values(name).map_err(Failure::input).map(Option::unwrap_or_default);
     let last = |name: &str| series(name).map(|values| values.last().copied().unwrap_or(f64::NAN));
     let end = End {
+        filled: last("filled_fraction")?,
         worn: last("worn_pin")? + last("worn_resin")? + last("worn_disc")?,
         emitted: last("emitted")?,
         disc_secondary: last("disc_secondary")?,

@@ -79,6 +79,18 @@ impl Row {
         Self { rung, cells, stiffness_number, result, on_front: false, order: f64::NAN, order_note: String::new() }
     }
 
+    /// Keys and values that make this run, as a scene has them.
+    pub fn setting(&self) -> String {
+        let [rows, disc_columns, pin_columns] = self.cells;
+        match self.rung.ladder {
+            Ladder::Mesh => format!(
+                "time_acceleration = {}, rows = {rows}, disc_columns = {disc_columns}, pin_columns = {pin_columns}",
+                self.rung.numerics.time_acceleration
+            ),
+            _ => self.rung.full_name(),
+        }
+    }
+
     /// Error of the contact areas; NaN where the run failed.
     pub fn error(&self) -> f64 {
         self.result.as_ref().map_or(f64::NAN, |measured| measured.comparison.contact_area.mean_square)
@@ -88,6 +100,13 @@ impl Row {
     pub fn cost(&self) -> Cost {
         let time = self.result.as_ref().map_or(f64::NAN, |measured| measured.wall_time);
         Cost { time, error: self.error() }
+    }
+
+    /// Wall time and error as they count for a choice: a run that equals the scene's own, step by step, is none, and only
+    /// chance makes it the quicker of the two.
+    fn choice(&self) -> Cost {
+        let same = self.result.as_ref().is_ok_and(|measured| measured.change == 0.0);
+        Cost { error: if same { f64::NAN } else { self.error() }, ..self.cost() }
     }
 }
 
@@ -99,8 +118,8 @@ impl Report {
             let ((one_ladder, one), (other_ladder, other)) = (place(one), place(other));
             one_ladder.cmp(&other_ladder).then(one.total_cmp(&other))
         });
-        let costs: Vec<Cost> = self.rows.iter().map(Row::cost).collect();
-        for (row, on_front) in self.rows.iter_mut().zip(front(&costs)) {
+        let on_front = front(&self.choices());
+        for (row, on_front) in self.rows.iter_mut().zip(on_front) {
             row.on_front = on_front;
         }
         let reference = self.reference.time_acceleration;
@@ -109,6 +128,38 @@ impl Report {
         });
         // The scene's mesh is the reference of the other meshes.
         self.observe_orders(Ladder::Mesh, 1.0, |measured| measured.change);
+        self.note_ladders();
+    }
+
+    /// Wall time and error of every row that is a choice; the error of the others is NaN.
+    pub fn choices(&self) -> Vec<Cost> {
+        self.rows.iter().map(Row::choice).collect()
+    }
+
+    /// Says what the rows of a ladder show together.
+    fn note_ladders(&mut self) {
+        let tolerances = || self.rows.iter().filter(|row| row.rung.ladder == Ladder::LoadTolerance);
+        let found: Vec<&Measured> = tolerances().filter_map(|row| row.result.as_ref().ok()).collect();
+        if !found.is_empty() && found.iter().all(|measured| measured.change == 0.0) {
+            let residual = found.iter().map(|measured| measured.load_residual).fold(0.0, f64::max);
+            self.notes.push(format!(
+                "load_tolerance changes nothing: the load balance is solved to rounding in any case (residual \
+                 {residual:.1e})"
+            ));
+        }
+        let points: Vec<Point> = self
+            .rows
+            .iter()
+            .filter(|row| row.rung.ladder == Ladder::TimeAcceleration)
+            .map(|row| Point { size: row.rung.value(), error: row.error() })
+            .collect();
+        if let Some(order) = order::fitted(&points, self.reference.time_acceleration) {
+            self.notes.push(format!(
+                "the errors of all time accelerations together grow with order {order:.2} (least squares, from {} times the \
+                 reference's on)",
+                order::FAR
+            ));
+        }
     }
 
     fn observe_orders(&mut self, ladder: Ladder, reference: f64, error: impl Fn(&Measured) -> f64) {

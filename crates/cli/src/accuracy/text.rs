@@ -1,5 +1,7 @@
 //! What was found, as tables for people.
 
+use plateau_core::parameters::Integrator;
+
 use super::advice::{advice, percent};
 use super::report::{Measured, Report, Row};
 use crate::number;
@@ -45,13 +47,13 @@ fn reference(report: &Report) -> String {
 }
 
 fn errors(rows: &[Row]) -> String {
-    let names = ["run", "wall time", "steps", "contact area", "largest", "from own", "order", "filled, largest", ""];
+    let names = ["run", "wall time", "steps", "contact area", "largest", "by itself", "order", "filled, largest", ""];
     let line = |row: &Row, run: &Measured| {
         let area = run.comparison.contact_area;
         let order = match (row.order.is_nan(), row.order_note.is_empty()) {
             (true, _) => String::new(),
-            (_, true) => format!("{:.2}", row.order),
-            _ => format!("({:.2})", row.order),
+            (_, true) => number::with_minus(&format!("{:.2}", row.order)),
+            _ => format!("({})", number::with_minus(&format!("{:.2}", row.order))),
         };
         vec![
             number::duration(run.wall_time),
@@ -64,14 +66,35 @@ fn errors(rows: &[Row]) -> String {
             if row.on_front { "*" } else { "" }.to_owned(),
         ]
     };
-    let text =
-        columns("Errors against the reference (* no other run is as quick and as exact)", &names, &lines(rows, line));
-    let mut reasons: Vec<&str> =
-        rows.iter().map(|row| row.order_note.as_str()).filter(|note| !note.is_empty()).collect();
+    let heading = "Errors against the reference (* no other run is as quick and as exact)";
+    columns(heading, &names, &lines(rows, line)) + &remarks(rows)
+}
+
+/// What the table of errors cannot say in a few letters.
+fn remarks(rows: &[Row]) -> String {
+    let mut remarks = Vec::new();
+    let changed = |row: &Row| row.result.as_ref().is_ok_and(|run| !run.change.is_nan());
+    if rows.iter().any(changed) {
+        remarks.push(
+            "(by itself) contact area against the scene's own run, from which it differs in nothing else".to_owned(),
+        );
+    }
+    let mut reasons: Vec<&str> = rows.iter().map(|row| row.order_note.as_str()).filter(|why| !why.is_empty()).collect();
     reasons.sort_unstable();
     reasons.dedup();
-    let why = if reasons.is_empty() { String::new() } else { format!("  (order) {}\n", reasons.join("; ")) };
-    text + &why
+    if !reasons.is_empty() {
+        remarks.push(format!("(order) in brackets: {}", reasons.join("; ")));
+    }
+    let overshoots = |row: &&Row| row.rung.numerics.integrator == Integrator::Explicit && row.stiffness_number > 1.0;
+    remarks.extend(rows.iter().filter(overshoots).map(|row| {
+        let (name, stiffness) = (row.rung.full_name(), number::short(row.stiffness_number));
+        format!(
+            "{name}: the stiffness number is {stiffness}, above 1 the explicit rule overshoots, above 2 it is unstable"
+        )
+    }));
+    let failed = |row: &Row| row.result.as_ref().err().map(|why| format!("{} failed: {why}", row.rung.full_name()));
+    remarks.extend(rows.iter().filter_map(failed));
+    remarks.into_iter().map(|remark| format!("  {remark}\n")).collect()
 }
 
 fn ends(rows: &[Row]) -> String {
@@ -102,12 +125,12 @@ fn ends(rows: &[Row]) -> String {
     columns("Differences from the reference at the end (heights: rms)", &names, &lines(rows, line))
 }
 
-/// A line for every row, with its name; a failed run says why.
+/// A line for every row, with its name; a failed run has no numbers.
 fn lines(rows: &[Row], line: impl Fn(&Row, &Measured) -> Vec<String>) -> Vec<Vec<String>> {
     let cells = |row: &Row| {
         let rest = match &row.result {
             Ok(run) => line(row, run),
-            Err(failure) => vec![format!("failed: {failure}")],
+            Err(_) => vec!["failed".to_owned()],
         };
         std::iter::once(row.rung.name()).chain(rest).collect()
     };
@@ -116,6 +139,8 @@ fn lines(rows: &[Row], line: impl Fn(&Row, &Measured) -> Vec<String>) -> Vec<Vec
 
 /// A difference in per cent, with its sign.
 fn signed(difference: f64) -> String {
+    // Sums of areas are rounded.
+    let difference = if difference.abs() < 1e-12 { 0.0 } else { difference };
     let sign = if difference > 0.0 {
         "+"
     } else if difference < 0.0 {

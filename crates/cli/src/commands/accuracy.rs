@@ -1,15 +1,16 @@
 //! `plateau accuracy`: error of a scene's runs against their run time.
 
+use std::fs;
 use std::path::PathBuf;
 
 use plateau_io::dataset_file;
 use plateau_io::run_file::InputFile;
 use plateau_io::scene::recipe::Scene;
-use plateau_io::surface;
+use plateau_io::surface::{self, Loaded};
 
 use super::load_scene;
 use super::plot::make_directory;
-use crate::accuracy::{Found, Laboratory, Making, Wish, content, csv, json, read_reference, text};
+use crate::accuracy::{Found, Laboratory, Making, ReadReference, Wish, content, csv, json, read_reference, text};
 use crate::arguments::{AccuracyArguments, Ladder};
 use crate::execution::decide;
 use crate::failure::Failure;
@@ -29,8 +30,24 @@ pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let reference = arguments.reference.as_deref();
     let reference = reference.map(|path| read_reference(path, &scene, &loaded.inputs)).transpose()?;
-    let places = places(arguments, &scene, &loaded.inputs)?;
+    let is_new = !arguments.output.exists();
+    make_directory(&arguments.output)?;
+    let result = measure_into(arguments, &scene, loaded, reference);
+    if is_new && result.is_err() {
+        // Where nothing was written the folder is empty and goes; where something was it stays.
+        let _ = fs::remove_dir(&arguments.output);
+    }
+    result
+}
 
+/// The same, with a folder to write to.
+fn measure_into(
+    arguments: &AccuracyArguments,
+    scene: &Scene,
+    loaded: Loaded,
+    reference: Option<ReadReference>,
+) -> Result<(), Failure> {
+    let places = places(arguments, scene, &loaded.inputs)?;
     let start_time = dataset_file::now();
     let parameters = &scene.parameters;
     let execution =
@@ -39,12 +56,12 @@ pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
         .into_iter()
         .filter(|ladder| arguments.ladders.is_empty() || arguments.ladders.contains(ladder))
         .collect();
-    let laboratory = Laboratory::new(&scene, &loaded.surfaces, execution, &ladders)?;
+    let laboratory = Laboratory::new(scene, &loaded.surfaces, execution, &ladders)?;
     let Found { report, stopped } = laboratory.search(Wish { ladders, budget: arguments.budget, reference })?;
 
     let making = Making {
         scene: scene.resolved.clone(),
-        inputs: inputs(&scene, &loaded.inputs)?,
+        inputs: inputs(scene, &loaded.inputs)?,
         workers: execution.workers,
         instruction_set: execution.instructions.name(),
         budget: arguments.budget,
@@ -83,7 +100,6 @@ fn places(
     let mut inputs = scene.files.clone();
     inputs.extend(surfaces.iter().map(|(path, _)| path.clone()));
     inputs.extend(arguments.reference.clone());
-    make_directory(&arguments.output)?;
     let places = FILES.map(|name| arguments.output.join(name));
     places.iter().try_for_each(|path| output::check(path, arguments.force, &inputs))?;
     Ok(places)

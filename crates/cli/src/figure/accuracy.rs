@@ -4,9 +4,10 @@ use std::ops::RangeInclusive;
 
 use plotters::style::RGBColor;
 
-use super::axes::Axis;
-use super::canvas::{Anchor, LINE, TEXT};
+use super::axes::{Axis, Frame};
+use super::canvas::{Anchor, LINE, Place, TEXT};
 use super::colour::{APART, FAINT, RUNS};
+use super::font::text_width;
 use super::page::{Content, KeyStyle, Page};
 use super::run::Figure;
 use super::run::chart::{COLUMN, Chart, Meaning, page};
@@ -17,6 +18,8 @@ use crate::arguments::Ladder;
 const HEIGHT: f64 = 860.0;
 /// Room between the largest value and the end of an axis, as a ratio.
 const ROOM: f64 = 1.6;
+/// Half the side of a dot, pixels, with a little room round it.
+const DOT: f64 = 10.0;
 
 /// A ladder's colour.
 fn colour(ladder: Ladder) -> RGBColor {
@@ -88,19 +91,50 @@ fn front(rows: &[&Row]) -> Vec<[f64; 2]> {
     points
 }
 
-/// Writes beside the points of the first two ladders what they are.
+/// Writes beside the points of the first two ladders what they are, where there is room; first beside those of the front.
 fn label(page: &mut Page, rows: &[&Row]) {
     let Some(axes) = page.panels.first().map(|panel| panel.axes.clone()) else { return };
-    for row in rows {
-        let (text, anchor, shift) = match row.rung.ladder {
-            Ladder::TimeAcceleration => (format!("{}", row.rung.value()), Anchor::Right, (16.0, -22.0)),
-            Ladder::Mesh => (format!("{}\u{d7} coarser", row.rung.value()), Anchor::Right, (16.0, 22.0)),
+    let place = |row: &Row| {
+        let [x, y] = point(row);
+        axes.place_within(x, y)
+    };
+    let dot = |row: &&Row| around(place(row), [2.0 * DOT, 2.0 * DOT]);
+    let mut taken: Vec<Frame> = rows.iter().map(dot).collect();
+    let mut waiting: Vec<&&Row> = rows.iter().collect();
+    waiting.sort_by_key(|row| !row.on_front);
+    for row in waiting {
+        let text = match row.rung.ladder {
+            Ladder::TimeAcceleration => format!("{}", row.rung.value()),
+            Ladder::Mesh => format!("{}\u{d7} coarser", row.rung.value()),
             _ => continue,
         };
-        let [x, y] = point(row);
-        let place = axes.place_within(x, y);
-        page.write(text, (place.0 + shift.0, place.1 + shift.1), anchor, TEXT);
+        let size = [text_width(&text, TEXT), f64::from(TEXT)];
+        let (x, y) = place(row);
+        let [beside, above] = [0.5 * size[0] + DOT + 6.0, 0.5 * size[1] + DOT];
+        let middles = [(beside, -above), (beside, above), (-beside, above), (-beside, -above)];
+        let frames = middles.map(|(right, down)| around((x + right, y + down), size));
+        let free = frames
+            .into_iter()
+            .find(|frame| is_within(frame, &axes.frame) && !taken.iter().any(|other| overlap(frame, other)));
+        if let Some(frame) = free {
+            page.write(text, (frame.x[0], 0.5 * (frame.y[0] + frame.y[1])), Anchor::Right, TEXT);
+            taken.push(frame);
+        }
     }
+}
+
+fn around((x, y): Place, [width, height]: [f64; 2]) -> Frame {
+    Frame { x: [x - 0.5 * width, x + 0.5 * width], y: [y - 0.5 * height, y + 0.5 * height] }
+}
+
+fn overlap(one: &Frame, other: &Frame) -> bool {
+    let meet = |one: [f64; 2], other: [f64; 2]| one[0] < other[1] && other[0] < one[1];
+    meet(one.x, other.x) && meet(one.y, other.y)
+}
+
+fn is_within(frame: &Frame, whole: &Frame) -> bool {
+    let inside = |part: [f64; 2], whole: [f64; 2]| whole[0] <= part[0] && part[1] <= whole[1];
+    inside(frame.x, whole.x) && inside(frame.y, whole.y)
 }
 
 /// A range with room round positive values; where there are none, any.
