@@ -37,7 +37,7 @@ pub enum Command {
         after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
     )]
     Plot(PlotArguments),
-    /// Measure the error of a scene's runs against their run time: time acceleration, mesh, load tolerance, integrator
+    /// Measure how exact a scene's runs are against the time they take
     #[command(after_help = "Example:\n  plateau accuracy data/scenes/quick.toml --budget 20s -o quick-accuracy")]
     Accuracy(AccuracyArguments),
 }
@@ -178,7 +178,7 @@ pub struct AccuracyArguments {
     /// Wall time that all runs together may take; the reference is as fine as it allows
     #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
     pub budget: f64,
-    /// Ladder that is climbed; may be repeated; all of them unless given
+    /// Ladder that is climbed; may be repeated; all but perturbation unless given
     #[arg(long = "ladder", value_enum, value_name = "NAME")]
     pub ladders: Vec<Ladder>,
     /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here
@@ -206,6 +206,8 @@ pub enum Ladder {
     LoadTolerance,
     /// The other integrator of wear
     Integrator,
+    /// The reference anew with initial heights that differ a little: how much of the errors is chance
+    Perturbation,
 }
 
 impl Ladder {
@@ -216,6 +218,7 @@ impl Ladder {
             Self::Mesh => "mesh",
             Self::LoadTolerance => "load_tolerance",
             Self::Integrator => "integrator",
+            Self::Perturbation => "perturbation",
         }
     }
 }

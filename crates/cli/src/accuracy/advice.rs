@@ -24,9 +24,11 @@ pub fn advice(report: &Report) -> Vec<String> {
             let (name, time, found) = of(index);
             format!("no run reaches {} error in contact area; the best has {found}: {name}, {time}", percent(error))
         }
-        (None, None) => format!("no run reaches {} error in contact area: all failed", percent(error)),
+        (None, None) => "there is no run to choose".to_owned(),
     };
-    ERRORS.map(sentence).to_vec()
+    let mut advice = ERRORS.map(sentence).to_vec();
+    advice.dedup();
+    advice
 }
 
 /// A fraction in per cent, with two digits that count.

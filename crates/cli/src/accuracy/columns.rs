@@ -27,7 +27,7 @@ fn measured(row: &Row, value: impl Fn(&Measured) -> f64) -> f64 {
 /// All of them.
 pub const COLUMNS: &[Column] = columns! {
     "value", "1",
-        "what the ladder changes: time acceleration, cells of the scene's mesh along one, load tolerance",
+        "what the ladder changes: time acceleration, cells of the scene's mesh along one, load tolerance, perturbation",
         |row| row.rung.value();
     "time_acceleration", "1",
         "revolutions that a simulated one stands for",
@@ -44,6 +44,9 @@ pub const COLUMNS: &[Column] = columns! {
     "load_tolerance", "1",
         "load tolerance",
         |row| row.rung.numerics.load_tolerance;
+    "perturbation", "1",
+        "part of themselves by which the initial heights of the disc are changed",
+        |row| row.rung.numerics.perturbation;
     "stiffness_number", "1",
         "stiffness number of a step: above 1 the explicit rule overshoots, above 2 it is unstable",
         |row| row.stiffness_number;

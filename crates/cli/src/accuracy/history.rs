@@ -48,6 +48,14 @@ impl History {
         history
     }
 
+    /// Whether there is a moment at the end of each window, or less than `step` (s) after it.
+    pub fn knows(&self, windows: &Windows, step: f64) -> bool {
+        windows.ends().all(|end| {
+            let after = self.time.partition_point(|time| *time < end - 1e-6 * step);
+            self.time.get(after).is_some_and(|time| *time < end + step)
+        })
+    }
+
     /// Mean contact area between each moment and the next, m²: differences of the integral.
     pub fn mean_areas(&self) -> Vec<f64> {
         let spans = self.time.windows(2).zip(self.area_integral.windows(2));
@@ -89,6 +97,14 @@ mod tests {
             assert!((mean - expected).abs() < 2.0 * 1e-6 / width, "{mean}, expected {expected}");
         }
         assert!((history.filled()[1] - 2.0 * width / 10.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn moments_just_after_the_ends_are_known() {
+        let history = known_at(&[2.5, 5.001, 7.5, 10.0]);
+        let windows = Windows { width: 5.0, count: 2 };
+        assert!(history.knows(&windows, 0.002) && !history.knows(&windows, 0.0005));
+        assert!(!known_at(&[4.999, 10.0]).knows(&windows, 0.002) && !known_at(&[5.0]).knows(&windows, 0.002));
     }
 
     #[test]

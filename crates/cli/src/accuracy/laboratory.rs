@@ -31,6 +31,8 @@ use crate::{machine, number, version};
 const TRIAL: Duration = Duration::from_millis(200);
 /// Narrowest window, s.
 const LEAST_WINDOW: f64 = 5.0;
+/// Samples of a reference in a window that ends between them, at least: interpolation errs by a part of their distance.
+const SAMPLES_PER_WINDOW: f64 = 20.0;
 
 /// What is asked for.
 #[derive(Debug)]
@@ -172,17 +174,17 @@ impl<'a> Laboratory<'a> {
         std::f64::consts::TAU / self.scene.parameters.angular_velocity
     }
 
-    /// The same windows for all runs: whole revolutions of each of them, if that can be, and at least two samples of the
-    /// reference.
+    /// The same windows for all runs: whole revolutions of each of them, if that can be.
     fn windows(&self, plan: &Plan, wish: &Wish) -> Windows {
         let mut accelerations: Vec<f64> = plan.rungs.iter().map(|rung| rung.numerics.time_acceleration).collect();
         accelerations.push(plan.reference);
-        let samples = wish.reference.as_ref().map_or(0.0, |reference| 2.0 * reference.sample_every);
-        Windows::new(
-            self.scene.duration,
-            common_multiple(&accelerations) * self.revolution(),
-            LEAST_WINDOW.max(samples),
-        )
+        let unit = common_multiple(&accelerations) * self.revolution();
+        let windows = |least: f64| Windows::new(self.scene.duration, unit, LEAST_WINDOW.max(least));
+        let Some(ReadReference { reference, sample_every, .. }) = &wish.reference else { return windows(0.0) };
+        let narrow = windows(2.0 * sample_every);
+        let step =
+            self.scene.parameters.step_time() * reference.time_acceleration / self.scene.parameters.time_acceleration;
+        if reference.outcome.history.knows(&narrow, step) { narrow } else { windows(SAMPLES_PER_WINDOW * sample_every) }
     }
 
     fn make_reference(&mut self, time_acceleration: f64, windows: &Windows) -> Result<Reference, Failure> {
@@ -258,7 +260,7 @@ impl<'a> Laboratory<'a> {
                     let mesh = &self.scene.parameters.mesh;
                     let comparison = Comparison::of(&outcome, &reference.outcome, windows, mesh, coarsening);
                     let change = match (rung.ladder, &own) {
-                        (Ladder::TimeAcceleration, _) | (_, None) => f64::NAN,
+                        (Ladder::TimeAcceleration | Ladder::Perturbation, _) | (_, None) => f64::NAN,
                         (_, Some(own)) => {
                             let areas = |history: &History| history.at(windows).mean_areas();
                             HistoryError::of(&areas(&outcome.history), &areas(own)).mean_square
@@ -278,7 +280,10 @@ impl<'a> Laboratory<'a> {
 
     fn simulation(&self, numerics: &Numerics) -> Result<Simulation, SimulationError> {
         let coarsening = self.coarsenings.get(&numerics.coarsening);
-        let surfaces = coarsening.map_or_else(|| self.surfaces.clone(), |coarse| coarse.surfaces(self.surfaces));
+        let mut surfaces = coarsening.map_or_else(|| self.surfaces.clone(), |coarse| coarse.surfaces(self.surfaces));
+        if numerics.perturbation != 0.0 {
+            surfaces.disc_height.iter_mut().for_each(|height| *height *= 1.0 + numerics.perturbation);
+        }
         Simulation::with_execution(numerics.parameters(self.scene, coarsening), surfaces, self.execution)
     }
 

@@ -14,6 +14,8 @@ const FEWEST_REVOLUTIONS: f64 = 8.0;
 pub const COARSENINGS: [usize; 3] = [2, 4, 8];
 /// Load tolerances that are tried, besides the scene's own.
 const LOAD_TOLERANCES: [f64; 4] = [1e-12, 1e-9, 1e-6, 1e-3];
+/// Parts of themselves by which initial heights are changed.
+const PERTURBATIONS: [f64; 3] = [1e-9, 1e-6, 1e-4];
 
 /// One run of a ladder.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +34,7 @@ impl Rung {
             Ladder::Mesh => self.numerics.coarsening as f64,
             Ladder::LoadTolerance => self.numerics.load_tolerance,
             Ladder::Integrator => f64::NAN,
+            Ladder::Perturbation => self.numerics.perturbation,
         }
     }
 
@@ -42,6 +45,7 @@ impl Rung {
             Ladder::Mesh => format!("mesh coarsened {} times", self.value()),
             Ladder::LoadTolerance => format!("load_tolerance = {:e}", self.value()),
             Ladder::Integrator => format!("integrator = \"{}\"", integrator_name(self.numerics.integrator)),
+            Ladder::Perturbation => format!("disc heights times 1 + {:e}", self.value()),
         }
     }
 
@@ -63,8 +67,8 @@ pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
     accelerations
 }
 
-/// The rungs of these ladders that are coarser than a reference with the time acceleration `reference`; `own` are the
-/// scene's numerics. The first one is the scene's own run, unless that is the reference. Where the scene's own time
+/// The rungs of these ladders that are coarser than a reference with the time acceleration `reference`, or that are the
+/// reference with other heights; `own` are the scene's numerics. The first one is the scene's own run, unless that is the reference. Where the scene's own time
 /// acceleration is finer than that of the reference, all other ladders have the reference's.
 pub fn rungs(
     ladders: &[Ladder],
@@ -103,6 +107,9 @@ pub fn rungs(
                 };
                 rungs.push(rung(*ladder, Numerics { integrator, ..base }));
             }
+            Ladder::Perturbation => rungs.extend(PERTURBATIONS.iter().map(|perturbation| {
+                rung(*ladder, Numerics { perturbation: *perturbation, ..own.accelerated(reference) })
+            })),
         }
     }
     (base, rungs)
@@ -112,8 +119,13 @@ pub fn rungs(
 mod tests {
     use super::*;
 
-    const OWN: Numerics =
-        Numerics { time_acceleration: 20.0, coarsening: 1, load_tolerance: 1e-9, integrator: Integrator::Explicit };
+    const OWN: Numerics = Numerics {
+        time_acceleration: 20.0,
+        coarsening: 1,
+        load_tolerance: 1e-9,
+        integrator: Integrator::Explicit,
+        perturbation: 0.0,
+    };
 
     #[test]
     fn a_scene_has_the_accelerations_that_its_revolutions_allow() {
@@ -125,7 +137,8 @@ mod tests {
     #[test]
     fn rungs_are_coarser_than_the_reference_and_differ_in_one_thing() {
         let accelerations = [1.0, 5.0, 20.0, 50.0];
-        let all = [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::LoadTolerance, Ladder::Integrator];
+        let all =
+            [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::LoadTolerance, Ladder::Integrator, Ladder::Perturbation];
         let (base, all) = rungs(&all, OWN, &accelerations, &[2], 1.0);
         assert_eq!(base, OWN);
         let names: Vec<String> = all.iter().map(Rung::name).collect();
@@ -140,8 +153,12 @@ mod tests {
                 "load_tolerance = 1e-6",
                 "load_tolerance = 1e-3",
                 "integrator = \"exponential\"",
+                "disc heights times 1 + 1e-9",
+                "disc heights times 1 + 1e-6",
+                "disc heights times 1 + 1e-4",
             ]
         );
+        assert_eq!(all[8].numerics.time_acceleration, 1.0);
         assert_eq!(all[3].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
         // A reference that is coarser than the scene takes its place.
         let (base, few) = rungs(&[Ladder::TimeAcceleration], OWN, &accelerations, &[], 30.0);

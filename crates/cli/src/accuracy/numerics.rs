@@ -16,6 +16,8 @@ pub struct Numerics {
     pub load_tolerance: f64,
     /// How wear follows from contact.
     pub integrator: Integrator,
+    /// Initial heights of the disc are changed by this part of themselves; 0 leaves them as they are.
+    pub perturbation: f64,
 }
 
 impl Numerics {
@@ -26,6 +28,7 @@ impl Numerics {
             coarsening: 1,
             load_tolerance: parameters.load_tolerance,
             integrator: parameters.integrator,
+            perturbation: 0.0,
         }
     }
 

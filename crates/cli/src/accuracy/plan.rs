@@ -85,8 +85,13 @@ mod tests {
 
     #[test]
     fn the_finest_reference_that_fits_is_taken() {
-        let own =
-            Numerics { time_acceleration: 10.0, coarsening: 1, load_tolerance: 1e-9, integrator: Integrator::Explicit };
+        let own = Numerics {
+            time_acceleration: 10.0,
+            coarsening: 1,
+            load_tolerance: 1e-9,
+            integrator: Integrator::Explicit,
+            perturbation: 0.0,
+        };
         let accelerations = [1.0, 2.0, 10.0];
         let seconds = |numerics: &Numerics| 90.0 / numerics.time_acceleration;
         let within = |budget| {

@@ -1,5 +1,6 @@
 //! All that was found: what the table, the files and the figure show.
 
+use super::advice::percent;
 use super::comparison::Comparison;
 use super::history::History;
 use super::ladder::Rung;
@@ -102,11 +103,12 @@ impl Row {
         Cost { time, error: self.error() }
     }
 
-    /// Wall time and error as they count for a choice: a run that equals the scene's own, step by step, is none, and only
-    /// chance makes it the quicker of the two.
+    /// Wall time and error as they count for a choice. A run that equals the scene's own, step by step, is none, for only
+    /// chance makes it the quicker of the two; nor is a perturbed reference.
     fn choice(&self) -> Cost {
         let same = self.result.as_ref().is_ok_and(|measured| measured.change == 0.0);
-        Cost { error: if same { f64::NAN } else { self.error() }, ..self.cost() }
+        let none = same || self.rung.ladder == Ladder::Perturbation;
+        Cost { error: if none { f64::NAN } else { self.error() }, ..self.cost() }
     }
 }
 
@@ -145,6 +147,14 @@ impl Report {
             self.notes.push(format!(
                 "load_tolerance changes nothing: the load balance is solved to rounding in any case (residual \
                  {residual:.1e})"
+            ));
+        }
+        let perturbed = self.rows.iter().filter(|row| row.rung.ladder == Ladder::Perturbation).map(Row::error);
+        if let Some(error) = perturbed.filter(|error| !error.is_nan()).reduce(f64::max) {
+            self.notes.push(format!(
+                "small changes of the initial heights change the contact area of the reference by up to {}: smaller errors \
+                 are chance",
+                percent(error)
             ));
         }
         let points: Vec<Point> = self

@@ -18,8 +18,8 @@ use crate::figure::accuracy::figure;
 use crate::output;
 use crate::table::print;
 
-/// Every ladder, in the order of the tables.
-const LADDERS: [Ladder; 4] = [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::LoadTolerance, Ladder::Integrator];
+/// The ladders that are climbed unless others are asked for.
+const USUAL: [Ladder; 4] = [Ladder::TimeAcceleration, Ladder::Mesh, Ladder::LoadTolerance, Ladder::Integrator];
 
 /// Files that are written, by their endings.
 const FILES: [&str; 4] = ["accuracy.csv", "accuracy.h5", "accuracy.png", "accuracy.svg"];
@@ -52,10 +52,9 @@ fn measure_into(
     let parameters = &scene.parameters;
     let execution =
         decide(scene.workers, 1, &arguments.execution, parameters, &loaded.surfaces).map_err(Failure::run)?;
-    let ladders: Vec<Ladder> = LADDERS
-        .into_iter()
-        .filter(|ladder| arguments.ladders.is_empty() || arguments.ladders.contains(ladder))
-        .collect();
+    let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
+    ladders.sort_unstable();
+    ladders.dedup();
     let laboratory = Laboratory::new(scene, &loaded.surfaces, execution, &ladders)?;
     let Found { report, stopped } = laboratory.search(Wish { ladders, budget: arguments.budget, reference })?;
 
