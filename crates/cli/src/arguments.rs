@@ -178,8 +178,8 @@ pub struct AccuracyArguments {
     /// Wall time that all runs together may take; the reference is as fine as it allows
     #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
     pub budget: f64,
-    /// Ladder that is climbed; may be repeated; all but perturbation unless given
-    #[arg(long = "ladder", value_enum, value_name = "NAME")]
+    /// Ladders that are climbed, with commas between; all but perturbation unless given
+    #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
     pub ladders: Vec<Ladder>,
     /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here
     #[arg(long, value_name = "RUN")]

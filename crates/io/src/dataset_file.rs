@@ -207,6 +207,18 @@ mod tests {
     }
 
     #[test]
+    fn there_may_be_nothing_along_a_dimension() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("results.h5");
+        let mut content = content();
+        content.dimensions[0].values.clear();
+        content.variables[0].values = Values::Float(Vec::new());
+        content.variables[1].values = Values::Text(Vec::new());
+        write(&path, false, &content).unwrap();
+        assert_eq!(File::open(&path).unwrap().dataset("area").unwrap().shape(), [0, 3]);
+    }
+
+    #[test]
     fn another_file_is_replaced_only_on_demand() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("results.h5");

@@ -92,14 +92,21 @@ impl<'a> Laboratory<'a> {
         if ladders.contains(&Ladder::Mesh) {
             laboratory.coarsen().map_err(Failure::run)?;
         }
-        let own = Numerics::of(&scene.parameters);
-        for coarsening in std::iter::once(1).chain(laboratory.coarsenings.keys().copied().collect::<Vec<_>>()) {
-            let simulation = laboratory.simulation(&Numerics { coarsening, ..own });
-            let mut simulation = simulation.map_err(Failure::input)?;
-            let time = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;
+        let time = laboratory.try_steps(1)?;
+        laboratory.step_times.insert(1, time);
+        for coarsening in laboratory.coarsenings.keys().copied().collect::<Vec<_>>() {
+            // If it fails, its run will, too, and say so; no step takes longer than on the scene's mesh.
+            let time = laboratory.try_steps(coarsening).unwrap_or(time);
             laboratory.step_times.insert(coarsening, time);
         }
         Ok(laboratory)
+    }
+
+    /// Wall time of the first steps on a mesh, s each; without time acceleration, which could be too much for the scene.
+    fn try_steps(&self, coarsening: usize) -> Result<f64, Failure> {
+        let numerics = Numerics { coarsening, ..Numerics::of(&self.scene.parameters).accelerated(1.0) };
+        let mut simulation = self.simulation(&numerics).map_err(Failure::input)?;
+        time_per_step(&mut simulation, TRIAL).map_err(Failure::run)
     }
 
     fn coarsen(&mut self) -> Result<(), MeshError> {
@@ -175,16 +182,25 @@ impl<'a> Laboratory<'a> {
     }
 
     /// The same windows for all runs: whole revolutions of each of them, if that can be.
-    fn windows(&self, plan: &Plan, wish: &Wish) -> Windows {
+    fn windows(&mut self, plan: &Plan, wish: &Wish) -> Windows {
         let mut accelerations: Vec<f64> = plan.rungs.iter().map(|rung| rung.numerics.time_acceleration).collect();
         accelerations.push(plan.reference);
         let unit = common_multiple(&accelerations) * self.revolution();
-        let windows = |least: f64| Windows::new(self.scene.duration, unit, LEAST_WINDOW.max(least));
+        let duration = self.scene.duration;
+        let windows = |least: f64| Windows::new(duration, unit, LEAST_WINDOW.max(least));
         let Some(ReadReference { reference, sample_every, .. }) = &wish.reference else { return windows(0.0) };
         let narrow = windows(2.0 * sample_every);
         let step =
             self.scene.parameters.step_time() * reference.time_acceleration / self.scene.parameters.time_acceleration;
-        if reference.outcome.history.knows(&narrow, step) { narrow } else { windows(SAMPLES_PER_WINDOW * sample_every) }
+        if reference.outcome.history.knows(&narrow, step) {
+            return narrow;
+        }
+        self.notes.push(format!(
+            "windows end between samples of the reference, which are {} s apart: interpolation adds an error of its own, \
+             larger the larger its time_acceleration; with one sample a revolution there is none",
+            number::short(*sample_every)
+        ));
+        windows(SAMPLES_PER_WINDOW * sample_every)
     }
 
     fn make_reference(&mut self, time_acceleration: f64, windows: &Windows) -> Result<Reference, Failure> {
@@ -232,50 +248,70 @@ impl<'a> Laboratory<'a> {
         let mut own: Option<History> = own_is_reference.then(|| reference.outcome.history.clone());
         let mut rows = Vec::new();
         for rung in waiting {
-            let left = budget - self.started.elapsed().as_secs_f64();
-            let needed = self.seconds(&rung.numerics);
-            if needed > left {
-                self.notes.push(format!(
-                    "{}: not run, it takes about {} and {} of the budget are left",
-                    rung.full_name(),
-                    number::duration(needed),
-                    number::duration(left.max(0.0))
-                ));
+            if !self.has_time(&rung, budget) {
                 continue;
             }
-            let coarsening = self.coarsenings.get(&rung.numerics.coarsening);
-            let parameters = rung.numerics.parameters(self.scene, coarsening);
-            let cells = [parameters.mesh.rows(), parameters.mesh.disc_columns(), parameters.mesh.pin_columns()];
-            let outcome = self.simulation(&rung.numerics).map_err(Unfinished::from);
-            let outcome = outcome.and_then(|mut run| measure(&mut run, windows, &rung.full_name(), &self.interrupt));
-            let result = match outcome {
+            let outcome = match self.run(&rung, windows) {
                 Err(Unfinished::Stopped(signal)) if rows.is_empty() => {
                     let message =
                         format!("stopped by signal {signal} before any run could be compared; nothing is written");
                     return Err(Failure::Stopped { signal, message: Some(message) });
                 }
                 Err(Unfinished::Stopped(signal)) => return Ok((rows, Some(signal))),
-                Err(failed) => Err(failed.to_string()),
-                Ok(outcome) => {
-                    let mesh = &self.scene.parameters.mesh;
-                    let comparison = Comparison::of(&outcome, &reference.outcome, windows, mesh, coarsening);
-                    let change = match (rung.ladder, &own) {
-                        (Ladder::TimeAcceleration | Ladder::Perturbation, _) | (_, None) => f64::NAN,
-                        (_, Some(own)) => {
-                            let areas = |history: &History| history.at(windows).mean_areas();
-                            HistoryError::of(&areas(&outcome.history), &areas(own)).mean_square
-                        }
-                    };
-                    if rung.numerics == plan.base {
-                        own = Some(outcome.history.clone());
-                    }
-                    self.learn(&rung.numerics, &outcome);
-                    Ok(Measured::of(outcome, comparison, change))
-                }
+                outcome => outcome.map_err(|failed| failed.to_string()),
             };
-            rows.push(Row::new(rung, cells, parameters.stiffness_number(), result));
+            if rung.numerics == plan.base {
+                own = outcome.as_ref().ok().map(|outcome| outcome.history.clone());
+            }
+            rows.push(self.row(rung, outcome, reference, windows, own.as_ref()));
         }
         Ok((rows, None))
+    }
+
+    /// Whether a run fits into what is left of the budget (s); if not, that is noted.
+    fn has_time(&mut self, rung: &Rung, budget: f64) -> bool {
+        let left = budget - self.started.elapsed().as_secs_f64();
+        let needed = self.seconds(&rung.numerics);
+        if needed > left {
+            self.notes.push(format!(
+                "{}: not run, it takes about {} and {} of the budget are left",
+                rung.full_name(),
+                number::duration(needed),
+                number::duration(left.max(0.0))
+            ));
+        }
+        needed <= left
+    }
+
+    fn run(&mut self, rung: &Rung, windows: &Windows) -> Result<Outcome, Unfinished> {
+        let mut simulation = self.simulation(&rung.numerics)?;
+        let outcome = measure(&mut simulation, windows, &rung.full_name(), &self.interrupt)?;
+        self.learn(&rung.numerics, &outcome);
+        Ok(outcome)
+    }
+
+    /// Holds a run against the reference, and against the scene's own run, from which all ladders but that of time
+    /// accelerations and that of perturbed references start.
+    fn row(
+        &self,
+        rung: Rung,
+        outcome: Result<Outcome, String>,
+        reference: &Reference,
+        windows: &Windows,
+        own: Option<&History>,
+    ) -> Row {
+        let coarsening = self.coarsenings.get(&rung.numerics.coarsening);
+        let parameters = rung.numerics.parameters(self.scene, coarsening);
+        let cells = [parameters.mesh.rows(), parameters.mesh.disc_columns(), parameters.mesh.pin_columns()];
+        let own = own.filter(|_| !matches!(rung.ladder, Ladder::TimeAcceleration | Ladder::Perturbation));
+        let result = outcome.map(|outcome| {
+            let mesh = &self.scene.parameters.mesh;
+            let comparison = Comparison::of(&outcome, &reference.outcome, windows, mesh, coarsening);
+            let areas = |history: &History| history.at(windows).mean_areas();
+            let change = own.map(|own| HistoryError::of(&areas(&outcome.history), &areas(own)).mean_square);
+            Measured::of(outcome, comparison, change.unwrap_or(f64::NAN))
+        });
+        Row::new(rung, cells, parameters.stiffness_number(), result)
     }
 
     fn simulation(&self, numerics: &Numerics) -> Result<Simulation, SimulationError> {

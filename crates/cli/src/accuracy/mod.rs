@@ -9,13 +9,13 @@
 //! | which runs fit into a budget | [`mod@plan`] |
 //! | one run | [`mod@measure`] |
 //! | what is kept of it | [`outcome`], [`history`] |
-//! | a reference, made or read | [`reference`] |
+//! | a reference, made or read | [`mod@reference`] |
 //! | windows of physical time | [`windows`] |
 //! | a run held against the reference | [`comparison`], [`history_error`], [`topography`] |
 //! | order of convergence | [`order`] |
 //! | which runs are worth their time | [`pareto`], [`mod@advice`] |
 //! | all that was found | [`report`], its numbers in [`columns`] |
-//! | as text, CSV, JSON and HDF5 | [`text`], [`mod@csv`], [`json`], [`hdf5`] |
+//! | as text, CSV, JSON and HDF5 | [`mod@text`], [`mod@csv`], [`mod@json`], [`hdf5`] |
 
 mod advice;
 mod coarsening;

@@ -28,7 +28,7 @@ fn colour(ladder: Ladder) -> RGBColor {
 
 /// The figure.
 pub fn figure(report: &Report) -> Figure {
-    let shown: Vec<&Row> = report.rows.iter().filter(|row| row.error() > 0.0 && row.error().is_finite()).collect();
+    let shown = shown(&report.rows);
     let reference = report.reference.outcome.wall_time;
     let times = shown.iter().map(|row| row.cost().time).chain([reference]);
     let errors = shown.iter().map(|row| 100.0 * row.error());
@@ -78,6 +78,16 @@ pub fn figure(report: &Report) -> Figure {
                 .to_owned(),
         page,
     }
+}
+
+/// The rows that have a place. Perturbed references far below all other errors would take most of the room, and say no more
+/// than that they are there.
+fn shown(rows: &[Row]) -> Vec<&Row> {
+    let has_place = |row: &&Row| row.error() > 0.0 && row.error().is_finite();
+    let perturbed = |row: &Row| row.rung.ladder == Ladder::Perturbation;
+    let others = rows.iter().filter(has_place).filter(|row| !perturbed(row)).map(Row::error);
+    let least = others.reduce(f64::min).unwrap_or(0.0);
+    rows.iter().filter(has_place).filter(|row| !perturbed(row) || row.error() >= 0.1 * least).collect()
 }
 
 fn point(row: &Row) -> [f64; 2] {
