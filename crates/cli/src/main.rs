@@ -1,5 +1,6 @@
 //! The program `plateau`.
 
+mod accuracy;
 mod arguments;
 mod commands;
 mod deflate;

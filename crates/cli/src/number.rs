@@ -47,6 +47,11 @@ pub fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
 }
 
+/// A number with the sign that is as wide as a plus.
+pub fn with_minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
 /// A duration given in seconds.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {

@@ -21,10 +21,17 @@ impl Progress {
     /// A bar for this many steps, to be seen or not.
     pub fn new(steps: u64, visible: bool) -> Self {
         let bar = if visible { ProgressBar::new(steps) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }
         Self { bar, looked: Instant::now() }
+    }
+
+    /// A bar for this many steps with the name of what they are steps of.
+    pub fn named(steps: u64, name: &str) -> Self {
+        let progress = Self::new(steps, true);
+        progress.bar.set_prefix(format!("{name}  "));
+        progress
     }
 
     /// Shows how far the simulation is, if the last look was long enough ago.

@@ -50,6 +50,7 @@ fn scene() -> Scene {
             time_acceleration: 1.0,
             integrator: Integrator::Explicit,
         },
+        duration: 1.0,
         disc_surface: flat.clone(),
         pin_surface: flat,
         resin_recess: 0.0,

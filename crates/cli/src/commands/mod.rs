@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod accuracy;
 mod check;
 mod completions;
 mod export;
@@ -28,6 +29,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Report(arguments) => report::report(&arguments),
         Command::Watch(arguments) => watch::watch(&arguments),
         Command::Export(arguments) => export::export(&arguments),
+        Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Schema => schema::schema(),
         Command::Completions(arguments) => completions::completions(&arguments),

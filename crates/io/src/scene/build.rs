@@ -26,6 +26,7 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
     let mut warnings = Vec::new();
     later::warn(&settings, &mut warnings);
     let parameters = parameters(&settings)?;
+    let duration = settings.optional_number("operation.duration")?;
     let output = output(&mut settings, &parameters, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
@@ -46,6 +47,7 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
         resolved: resolved::write(&settings),
         files,
         warnings,
+        duration: duration.unwrap_or_else(|| parameters.time_at(parameters.steps)),
         parameters,
         output,
     })

@@ -19,6 +19,8 @@ pub struct Scene {
     pub path: PathBuf,
     /// Everything core is told.
     pub parameters: Parameters,
+    /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
+    pub duration: f64,
     /// Disc heights.
     pub disc_surface: HeightRecipe,
     /// Pin heights.

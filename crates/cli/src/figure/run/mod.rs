@@ -17,7 +17,7 @@
 //! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
 
 mod bodies;
-mod chart;
+pub(super) mod chart;
 mod contact_area;
 mod debris;
 mod filled;
@@ -70,7 +70,7 @@ pub struct Figure {
     /// What it shows, in a sentence or two.
     pub caption: String,
     /// What is plotted where.
-    page: Page,
+    pub(super) page: Page,
 }
 
 impl Figure {
