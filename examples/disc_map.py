@@ -2,7 +2,7 @@
 """Draws a map of a run, by default the last heights of the disc, and prints what is in it.
 
     python examples/disc_map.py quick.h5 -o disc_map.png                  # pip install "xarray>=2024.10" h5netcdf matplotlib
-    python examples/disc_map.py quick.h5 --map pin/pressure --time 30
+    python examples/disc_map.py quick.h5 --map pin/pressure --time 60
 """
 
 import argparse

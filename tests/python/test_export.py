@@ -179,7 +179,7 @@ class Export(unittest.TestCase):
         finally:
             run.send_signal(signal.SIGKILL)
             run.wait()
-        self.assertIn("still written, or its run was killed", done.stderr)
+        self.assertIn("is not finished: its state is running (or it was killed)", done.stderr)
         self.assertEqual(self.export("run.h5", "--to", "npz", "-o", "killed.npz").returncode, 0)
         with np.load(self.folder / "alive.npz") as alive, np.load(self.folder / "killed.npz") as killed:
             samples = alive["time"].size

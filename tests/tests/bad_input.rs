@@ -84,6 +84,7 @@ fn command_lines() -> Vec<Case> {
         case("option without its value", &["run", "scene.toml", "--set"], quick),
         case("two scenes", &["run", "scene.toml", "scene.toml"], quick),
         case("scene without a command", &["scene.toml"], quick),
+        case("run file without a command", &["run.h5"], |_| ()),
         case("set with a space", &["run", "scene.toml", "--set", "operation.normal_force=20", "N"], quick),
         case("shell that is none", &["completions", "tcsh"], |_| ()),
         case("set of no key", &["run", "scene.toml", "--set", "20 N"], quick),
@@ -99,6 +100,14 @@ fn command_lines() -> Vec<Case> {
             directory.write("run.h5", "no HDF5");
         }),
         case("run file of something else", &["plot", "surface.h5"], |directory| ring(directory, |_| 0.0)),
+        case("nine runs to report", &["report", "1", "2", "3", "4", "5", "6", "7", "8", "9"], |_| ()),
+        case("export to nothing", &["export", "run.h5"], |_| ()),
+        case("export to something else", &["export", "run.h5", "--to", "xlsx"], |_| ()),
+        case("no patience", &["watch", "run.h5", "--timeout", "0"], |_| ()),
+        case("manual pages into a file", &["man", "-o", "scene.toml"], quick),
+        // Not even the superuser makes files there.
+        case("manual pages where none can be", &["man", "-o", "/proc/man1"], |_| ()),
+        case("picture where none can be", &["surface", "--prepare", "scene.toml", "--plot", "/proc/a.png"], quick),
         case("no instruction set", &["run", "scene.toml", "--isa"], quick),
     ]
 }

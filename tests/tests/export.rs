@@ -90,6 +90,21 @@ fn files_that_are_there_are_replaced_only_by_force_and_never_the_run_file() {
 }
 
 #[test]
+fn grids_of_a_run_without_maps_are_none() {
+    let directory = WorkingDirectory::new();
+    let edits = [("duration = \"60 s\"", "steps = 1"), ("maps_at = [\"0 s\"]", "maps = []")];
+    directory.write("scene.toml", quick_scene_with(&edits));
+    directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
+    let outcome = directory.plateau(["export", "run.h5", "--to", "vtk"]);
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    let notes: Vec<_> = outcome.stderr.lines().collect();
+    assert_eq!(notes.last(), Some(&"plateau: nothing is written: this format has maps only"));
+    let said = directory.plateau(["export", "run.h5", "--to", "npz"]).quiet_success();
+    assert!(said.contains("run.npz  1 sample of 23 series, 0 maps at 0 times"), "{said}");
+    assert_eq!(directory.names(), ["run.h5", "run.npz", "scene.toml"]);
+}
+
+#[test]
 fn a_damaged_run_file_leaves_no_output() {
     let directory = directory_with_run();
     let run = fs::read(directory.path("run.h5")).unwrap();

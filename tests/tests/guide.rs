@@ -41,6 +41,21 @@ fn the_first_run_works_as_it_is_told() {
 }
 
 #[test]
+fn the_pages_about_results_work() {
+    let expected = [
+        ("figures.md", &["quick/topography.png", "quick/topography.pdf", "compared/heights.png"][..]),
+        ("report.md", &["quick.html", "report.html"]),
+        ("export.md", &["quick.csv", "quick-pin-0001.csv", "quick.npz", "quick-vtk/disc.pvd"]),
+    ];
+    for (document, files) in expected {
+        let directory = walk_through(document);
+        for file in files {
+            assert!(directory.path(file).exists(), "{document}: {file} in {:?}", directory.names());
+        }
+    }
+}
+
+#[test]
 fn every_recipe_works() {
     let directory = walk_through("recipes.md");
     let names = directory.names();

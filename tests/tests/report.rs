@@ -38,10 +38,12 @@ fn run(directory: &WorkingDirectory, file: &str, sets: &[&str]) {
     directory.plateau(["run", "scene.toml", "-o", file].into_iter().chain(sets)).quiet_success();
 }
 
-/// The page about run files.
+/// The page about run files; nothing but what the figures leave out is told.
 fn page(directory: &WorkingDirectory, files: &[&str]) -> String {
     let arguments = std::iter::once(&"report").chain(files).chain(&["-o", "report.html", "--force"]);
-    directory.plateau(arguments).quiet_success();
+    let outcome = directory.plateau(arguments);
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert!(outcome.stderr.lines().all(|line| line.contains(": left out of ")), "{}", outcome.stderr);
     fs::read_to_string(directory.path("report.html")).unwrap()
 }
 
@@ -286,10 +288,27 @@ fn a_run_that_did_not_finish_is_told_of() {
     let outcome = directory.plateau(["report", "run.h5"]);
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
     assert!(outcome.stderr.contains("run.h5 is not finished: its state is running"), "{}", outcome.stderr);
-    let page = fs::read_to_string(directory.path("report.html")).unwrap();
+    let page = fs::read_to_string(directory.path("run.html")).unwrap();
     assert!(page.contains("Quick look is not finished: its state is running. It has no samples."));
     for left_out in ["series", "maps", "residuals"] {
         assert!(!page.contains(&format!("<section id=\"{left_out}\"")), "{left_out}");
+    }
+}
+
+#[test]
+fn what_is_left_out_and_a_run_named_twice_are_told() {
+    let directory = short();
+    run(&directory, "run.h5", &["output.maps=[]"]);
+    let outcome = directory.plateau(["report", "run.h5", "./run.h5"]);
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("plateau: warning: ./run.h5 is named more than once"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("plateau: run.h5 has no map pressure: left out of pressure"), "{}", outcome.stderr);
+    // The runs go by the same names on the page and in figures.
+    let page = fs::read_to_string(directory.path("report.html")).unwrap();
+    assert_eq!(directory.plateau(["plot", "run.h5", "./run.h5", "--format", "svg"]).status, Some(0));
+    let figure = fs::read_to_string(directory.path("figures/contact-area.svg")).unwrap();
+    for label in ["Quick look (run)", "Quick look (./run)"] {
+        assert!(page.contains(&format!(">{label}</th>")) && figure.contains(label), "{label}");
     }
 }
 
@@ -315,7 +334,7 @@ fn what_is_no_run_file_is_refused() {
         (&["run.h5", "-o", "taken.html"], "taken.html exists; give --force to replace it"),
         (&["run.h5", "-o", "run.h5", "--force"], "run.h5 is an input and is not replaced"),
         (&["run.h5", "-o", "nowhere/report.html"], "nowhere is no directory"),
-        (&["run.h5"; 9], "a report is about 8 runs at most, these are 9"),
+        (&["run.h5"; 9], "9 runs: expected at most 8"),
         (&[], "<RUN>..."),
     ] {
         let outcome = directory.plateau(std::iter::once(&"report").chain(arguments));

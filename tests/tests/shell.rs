@@ -108,9 +108,12 @@ fn manual_pages_are_replaced_only_with_force() {
     directory.plateau(["man", "-o", ".", "--force"]).quiet_success();
     assert!(std::fs::read_to_string(mine).unwrap().starts_with(".ie"));
 
-    let outcome = directory.plateau(["man", "-o", "not/there"]);
+    let said = directory.plateau(["man", "-o", "not/there"]).quiet_success();
+    assert!(said.contains("wrote not/there/plateau-run.1\n"), "{said}");
+    let outcome = directory.plateau(["man", "-o", "plateau-run.1"]);
     assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("not/there is no directory; make it first"), "{}", outcome.stderr);
+    let message = "cannot make the folder plateau-run.1: there is a file of that name; name another one with -o";
+    assert!(outcome.stderr.contains(message), "{}", outcome.stderr);
     let outcome = directory.plateau(["man", "rum"]);
     assert_eq!(outcome.status, Some(2));
     assert!(outcome.stderr.contains("no command is called \"rum\", there are run, "), "{}", outcome.stderr);

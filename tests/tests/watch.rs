@@ -149,7 +149,10 @@ fn what_is_no_run_file_is_refused() {
     for command in [&["watch", "notes.txt"][..], &["export", "notes.txt", "--to", "csv"]] {
         let outcome = directory.plateau(command);
         assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
-        assert_eq!(outcome.stderr, "plateau: notes.txt is no HDF5 file, expected a run file of plateau\n");
+        assert_eq!(
+            outcome.stderr,
+            "plateau: notes.txt is no HDF5 file, expected a run file of plateau, which `plateau run` writes\n"
+        );
     }
     assert_eq!(fs::read(file).unwrap(), b"precious");
     assert_eq!(directory.names(), ["notes.txt"]);

@@ -31,7 +31,7 @@ pub enum Command {
     Check(CheckArguments),
     /// Draw the figures of a run, or of several side by side
     #[command(
-        after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
+        after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau plot quick.h5 -o figures"
     )]
     Plot(PlotArguments),
     /// Make one HTML page of a run, or of several to compare: numbers, charts, maps
@@ -45,6 +45,9 @@ pub enum Command {
     #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  \
                       plateau export quick.h5 --to csv\n  plateau export quick.h5 --to vtk -o quick-vtk")]
     Export(ExportArguments),
+    /// Measure how exact a scene's runs are against the time they take
+    #[command(after_help = "Example:\n  plateau accuracy data/scenes/quick.toml --budget 20s -o quick-accuracy")]
+    Accuracy(AccuracyArguments),
     /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
@@ -179,9 +182,9 @@ pub struct ReportArguments {
     /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
     #[arg(value_name = "RUN", required = true)]
     pub runs: Vec<PathBuf>,
-    /// Page to write
-    #[arg(short, long, value_name = "HTML", default_value = "report.html")]
-    pub output: PathBuf,
+    /// Page to write; named like the run file, or "report.html" for several, unless given
+    #[arg(short, long, value_name = "HTML")]
+    pub output: Option<PathBuf>,
     /// Replace the page if it exists
     #[arg(long)]
     pub force: bool,
@@ -205,6 +208,68 @@ pub struct PlotArguments {
     /// Replace figures that exist
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `plateau accuracy`.
+#[derive(Debug, Args)]
+pub struct AccuracyArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Wall time that all runs together may take; the reference is as fine as it allows
+    #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
+    pub budget: f64,
+    /// Ladders that are climbed, with commas between; all but perturbation unless given
+    #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
+    pub ladders: Vec<Ladder>,
+    /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here
+    #[arg(long, value_name = "RUN")]
+    pub reference: Option<PathBuf>,
+    /// Folder for accuracy.csv, .h5, .png and .svg, made if it is not there
+    #[arg(short, long, value_name = "DIR", default_value = "accuracy")]
+    pub output: PathBuf,
+    /// Replace these files if they exist
+    #[arg(long)]
+    pub force: bool,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
+}
+
+/// What runs differ in whose errors are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum Ladder {
+    /// Revolutions that a simulated one stands for
+    TimeAcceleration,
+    /// Accelerations that the run chooses itself, by the error that it may make
+    Tolerance,
+    /// Coarser meshes, with the initial surfaces averaged
+    Mesh,
+    /// Load tolerance
+    LoadTolerance,
+    /// The other integrator of wear
+    Integrator,
+    /// The reference anew with initial heights that differ a little: how much of the errors is chance
+    Perturbation,
+}
+
+impl Ladder {
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TimeAcceleration => "time_acceleration",
+            Self::Tolerance => "tolerance",
+            Self::Mesh => "mesh",
+            Self::LoadTolerance => "load_tolerance",
+            Self::Integrator => "integrator",
+            Self::Perturbation => "perturbation",
+        }
+    }
+}
+
+/// A value of `--budget`, s.
+fn budget(text: &str) -> Result<f64, String> {
+    let time = units::parse(text.trim(), Dimension::Time).map_err(|error| error.to_string())?;
+    if time > 0.0 && time.is_finite() { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
 }
 
 /// Format of a figure.
@@ -242,10 +307,10 @@ pub struct ManArguments {
     /// Command whose page is printed; that of the program unless given
     #[arg(value_name = "COMMAND", conflicts_with = "output")]
     pub page: Option<String>,
-    /// Directory into which the pages of the program and of every command are written
+    /// Folder for the pages of the program and of every command, made if it is not there
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Replace pages that are there
+    /// Replace pages that exist
     #[arg(long, requires = "output")]
     pub force: bool,
 }
@@ -259,25 +324,30 @@ pub struct WatchArguments {
     #[arg(long)]
     pub once: bool,
     /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
-    #[arg(long, value_name = "SECONDS", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub timeout: Option<u64>,
+}
+
+/// A value of `--timeout`.
+fn seconds(text: &str) -> Result<u64, &'static str> {
+    text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
 }
 
 /// Arguments of `plateau export`.
 #[derive(Debug, Args)]
 pub struct ExportArguments {
-    /// Run file, also of a run that goes on or was killed
+    /// Run file, also of a run that goes on or was stopped
     pub run: PathBuf,
-    /// Format
-    #[arg(long)]
+    /// Format of the files
+    #[arg(long, value_name = "FORMAT")]
     pub to: ExportFormat,
-    /// File to write, for vtk the folder; in the working directory and named like the run file unless given
+    /// File to write, for vtk the folder, made if it is not there; named like the run file unless given
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Write the maps too; for csv, as the other formats have them anyway
     #[arg(long)]
     pub maps: bool,
-    /// Replace what is to be written if it exists
+    /// Replace files that exist
     #[arg(long)]
     pub force: bool,
 }

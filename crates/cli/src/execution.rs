@@ -55,7 +55,7 @@ pub fn decide(
 }
 
 /// Cores that this process may use.
-fn cores() -> usize {
+pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 

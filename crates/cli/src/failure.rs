@@ -76,8 +76,12 @@ fn tip(answer: &clap::Error) -> Option<String> {
     let word = |kind| answer.get(kind).map(ToString::to_string);
     match answer.kind() {
         ErrorKind::InvalidSubcommand => {
-            let scene = word(ContextKind::InvalidSubcommand).filter(|word| word.ends_with(".toml"))?;
-            Some(format!("to run a scene: plateau run {scene}"))
+            let file = word(ContextKind::InvalidSubcommand)?;
+            match file.rsplit_once('.')?.1 {
+                "toml" => Some(format!("to run a scene: plateau run {file}")),
+                "h5" => Some(format!("to see a run: plateau report {file}, or plateau plot {file}")),
+                _ => None,
+            }
         }
         ErrorKind::UnknownArgument => {
             let set = std::env::args_os().any(|argument| argument == "--set");

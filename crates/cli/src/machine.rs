@@ -12,6 +12,18 @@ pub fn host() -> String {
         .unwrap_or_else(|| "unknown".into())
 }
 
+/// Name of the processor.
+pub fn processor() -> String {
+    let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("model name"));
+    line.map_or(std::env::consts::ARCH, |name| name.trim_matches([' ', '\t', ':'])).to_owned()
+}
+
+/// How many threads wanted to run, mean over the last minute; none where the system does not tell.
+pub fn load() -> Option<f64> {
+    fs::read_to_string("/proc/loadavg").ok()?.split_whitespace().next()?.parse().ok()
+}
+
 /// Largest memory that this process held so far, bytes; none where the system does not tell.
 pub fn peak_memory() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;

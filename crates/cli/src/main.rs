@@ -1,5 +1,6 @@
 //! The program `plateau`.
 
+mod accuracy;
 mod arguments;
 mod commands;
 mod deflate;
@@ -9,6 +10,7 @@ mod failure;
 mod figure;
 mod interrupt;
 mod job;
+mod label;
 mod machine;
 mod message;
 mod number;

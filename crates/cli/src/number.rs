@@ -42,6 +42,16 @@ pub fn significant(number: f64, digits: usize) -> String {
     }
 }
 
+/// So many of a thing, of which there may be one.
+pub fn count(number: usize, one: &str) -> String {
+    if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }
+}
+
+/// A number with the sign that is as wide as a plus.
+pub fn with_minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
 /// A duration given in seconds.
 pub fn duration(seconds: f64) -> String {
     if seconds < 1.0 {
@@ -80,6 +90,7 @@ mod tests {
         assert_eq!(significant(-1_234_567.0, 6), "-1234567");
         assert_eq!(significant(1.5e-14, 3), "1.50e-14");
         assert_eq!(significant(0.0, 3), "0");
+        assert_eq!((count(1, "map"), count(0, "map")), ("1 map".into(), "0 maps".into()));
         assert_eq!(duration(0.25), "250 ms");
         assert_eq!(duration(119.9), "1 min 59 s");
         assert_eq!(bytes(2_500_000), "2.5 MB");

@@ -1,7 +1,7 @@
 //! Files that a command leaves beside its run file: whole, or not at all.
 
 use std::fs::{self, File};
-use std::io::{BufWriter, ErrorKind, Write as _};
+use std::io::{self, BufWriter, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use plateau_io::export::ExportError;
@@ -34,7 +34,8 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
 /// Writes a file that appears under its name when it is complete.
 ///
 /// # Errors
-/// [`Failure::Input`] when there is a file that is not to be replaced, [`Failure::Run`] when the system refuses.
+/// [`Failure::Input`] when there is a file that is not to be replaced or none can be made there, [`Failure::Run`] when the
+/// system fails while it is written.
 pub fn write(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
     fill(path, force, |mut file| Ok(file.write_all(content).and_then(|()| file.flush())?))
 }
@@ -51,8 +52,8 @@ pub fn fill(
     // The target of a link is replaced, not the link.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
     let temporary = Temporary::beside(&target);
-    let file = File::create(temporary.path()).map(BufWriter::new).map_err(ExportError::Write);
-    let written = file.and_then(fill).and_then(|()| Ok(temporary.publish(force)?));
+    let file = File::create(temporary.path()).map(BufWriter::new).map_err(|error| unwritable(path, &error))?;
+    let written = fill(file).and_then(|()| Ok(temporary.publish(force)?));
     written.map_err(|error| match error {
         ExportError::Write(error) if error.kind() == ErrorKind::AlreadyExists => exists(path),
         ExportError::Write(error) => Failure::run(format_args!("cannot write {}: {error}", path.display())),
@@ -60,17 +61,24 @@ pub fn fill(
     })
 }
 
-/// Makes a directory unless it is there.
+/// Makes a folder, with those that it is in, unless it is there.
 ///
 /// # Errors
 /// [`Failure::Input`] when something else has its name or the system refuses.
 pub fn make_directory(path: &Path) -> Result<(), Failure> {
-    match fs::create_dir(path) {
-        Err(_) if path.is_dir() => Ok(()),
-        made => {
-            made.map_err(|error| Failure::input(format_args!("cannot make the folder {}: {error}", path.display())))
-        }
-    }
+    fs::create_dir_all(path).map_err(|error| {
+        let reason = if path.exists() { "there is a file of that name".to_owned() } else { error.to_string() };
+        Failure::input(format_args!("cannot make the folder {}: {reason}; name another one with -o", path.display()))
+    })
+}
+
+/// No file can be made where one was asked for.
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    let directory = directory(path).display();
+    let path = path.display();
+    Failure::input(format_args!(
+        "cannot write {path}: {error}; make the directory {directory} writable, or name a file elsewhere"
+    ))
 }
 
 fn directory(path: &Path) -> &Path {

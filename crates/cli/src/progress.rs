@@ -26,11 +26,18 @@ impl Progress {
     /// A bar for so much simulated time (s), to be seen or not.
     pub fn new(duration: f64, visible: bool) -> Self {
         let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
-        if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }
         let now = Instant::now();
         Self { bar, duration, start: now, looked: now }
+    }
+
+    /// A bar for so much simulated time (s) with the name of what is simulated.
+    pub fn named(duration: f64, name: &str) -> Self {
+        let progress = Self::new(duration, true);
+        progress.bar.set_prefix(format!("{name}  "));
+        progress
     }
 
     /// Shows how far the simulation is, if the last look was long enough ago.

@@ -3,6 +3,9 @@
 use crate::parameters::{DebrisPool, Integrator, Parameters};
 use crate::state::Base;
 
+/// Name of the part that accelerates.
+pub const ACCELERATION: &str = "time acceleration";
+
 /// A part of the model that a scene can do without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
@@ -92,7 +95,7 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
             "integrator = \"explicit\"",
         ),
         part(
-            "time acceleration",
+            ACCELERATION,
             parameters.time_acceleration > 1.0,
             "time_acceleration above 1: an approximation, compare with 1",
             "time_acceleration = 1",

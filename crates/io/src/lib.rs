@@ -7,8 +7,10 @@
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
+//! | HDF5 files of named results | [`dataset_file`] |
 //! | files that appear when they are complete | [`temporary`] |
 
+pub mod dataset_file;
 mod digest;
 pub mod export;
 mod hdf5_file;

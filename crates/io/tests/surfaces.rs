@@ -8,7 +8,7 @@ use ndarray::{Array2, Array3};
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
-use plateau_core::schedule::{End, SampleEvery};
+use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
@@ -51,7 +51,7 @@ fn scene() -> Scene {
             integrator: Integrator::Explicit,
         },
         adaptive: None,
-        end: End::Steps(1),
+        duration: 1.0,
         disc_surface: flat.clone(),
         pin_surface: flat,
         resin_recess: 0.0,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use plateau_core::parts::{Part, parts};
+use plateau_core::parts::{ACCELERATION, Part, parts};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::{memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
@@ -78,7 +78,7 @@ struct Check {
 }
 
 /// A part of the model or of the output, and what in the scene decides over it.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 struct Reasoned {
     part: String,
     reason: String,
@@ -100,10 +100,11 @@ impl Check {
             let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
             (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })
         }));
-        let adaptive = scene.adaptive.is_some();
-        let reason =
-            if adaptive { "numerics.time_acceleration has a tolerance" } else { "time_acceleration is a number" };
-        reasoned.push((adaptive, Reasoned { part: "scout for the acceleration".into(), reason: reason.into() }));
+        if scene.adaptive.is_some() {
+            let reason = "the run chooses it, by what a scout before it finds".to_owned();
+            let chosen = (true, Reasoned { part: ACCELERATION.into(), reason });
+            reasoned.iter_mut().filter(|(_, part)| part.part == ACCELERATION).for_each(|part| *part = chosen.clone());
+        }
         let roughness = scene.output.roughness;
         let reason = format!("output.roughness = {roughness}");
         reasoned.push((roughness, Reasoned { part: "roughness with every sample".into(), reason }));

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::surface::Body;
 use plateau_io::export::{csv, maps_of, npz, vtk};
-use plateau_io::run_file::{RunFile, State};
+use plateau_io::run_file::RunFile;
 
 use crate::arguments::{ExportArguments, ExportFormat};
 use crate::failure::Failure;
@@ -14,17 +14,8 @@ use crate::{message, number, output};
 
 /// Writes a run file in another format and says what was written.
 pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
-    let run = RunFile::open(&arguments.run).map_err(Failure::input)?;
-    if run.state() == State::Running {
-        let (run, samples) = (arguments.run.display(), run.time().len());
-        message::note(format_args!("{run} is still written, or its run was killed: it has {samples} samples so far"));
-    }
-    let stem = arguments.run.file_stem().unwrap_or(arguments.run.as_os_str());
-    let named = |ending: &str| {
-        let mut name = stem.to_owned();
-        name.push(ending);
-        arguments.output.clone().unwrap_or_else(|| name.into())
-    };
+    let run = super::open_run(&arguments.run)?;
+    let named = |ending| arguments.output.clone().unwrap_or_else(|| super::named_like(&arguments.run, ending));
     let mut job = Job { run: &run, force: arguments.force, written: Vec::new() };
     match arguments.to {
         ExportFormat::Csv => job.csv(&named(".csv"), arguments.maps)?,
@@ -68,7 +59,8 @@ impl Job<'_> {
         self.check(path)?;
         output::fill(path, self.force, |file| npz::write(self.run, file))?;
         let maps = BODIES.iter().map(|(body, _)| maps_of(self.run, *body).count()).sum::<usize>();
-        self.note(path, format!("{}, {maps} maps at {} times", self.series(), self.run.map_time().len()));
+        let (maps, times) = (number::count(maps, "map"), number::count(self.run.map_time().len(), "time"));
+        self.note(path, format!("{}, {maps} at {times}", self.series()));
         Ok(())
     }
 
@@ -84,6 +76,7 @@ impl Job<'_> {
             }
         }
         if collections.is_empty() {
+            message::note("nothing is written: this format has maps only");
             return Ok(());
         }
         output::make_directory(directory)?;
@@ -95,7 +88,7 @@ impl Job<'_> {
         }
         for (path, moments) in &collections {
             output::fill(path, self.force, |file| Ok(vtk::write_collection(moments, file)?))?;
-            self.note(path, format!("{} times: open this one", moments.len()));
+            self.note(path, format!("{}: open this one", number::count(moments.len(), "time")));
         }
         Ok(())
     }
@@ -109,7 +102,12 @@ impl Job<'_> {
                 message::note(format_args!("{run} has no maps of the {name}: they are left out"));
                 continue;
             }
-            files.extend((0..self.run.map_time().len()).map(|index| MapFile { path: path(name, index), body, index }));
+            files.extend((0..self.run.map_time().len()).map(|index| MapFile {
+                path: path(name, index),
+                body,
+                name,
+                index,
+            }));
         }
         files
     }
@@ -119,7 +117,7 @@ impl Job<'_> {
     }
 
     fn series(&self) -> String {
-        format!("{} samples of {} series", self.run.time().len(), self.run.series().len())
+        format!("{} of {} series", number::count(self.run.time().len(), "sample"), self.run.series().len())
     }
 
     fn note(&mut self, path: &Path, content: String) {
@@ -132,12 +130,14 @@ impl Job<'_> {
 struct MapFile {
     path: PathBuf,
     body: Body,
+    /// What the body is called.
+    name: &'static str,
     /// Which of the times of the maps.
     index: usize,
 }
 
 impl MapFile {
     fn content(&self, run: &RunFile) -> String {
-        format!("{} at {} s", self.body.name(), number::short(run.map_time()[self.index]))
+        format!("{} at {} s", self.name, number::short(run.map_time()[self.index]))
     }
 }

@@ -28,15 +28,18 @@ fn print(program: &Command, page: Option<&str>) -> Result<(), Failure> {
     table::print(&Page::of(command)?.text)
 }
 
-/// Pages are written all or none, as far as that can be told beforehand.
+/// Pages are written all or none, as far as that can be told beforehand; the folder is made unless it is there.
 fn write(program: &Command, directory: &Path, force: bool) -> Result<(), Failure> {
     let commands = [program].into_iter().chain(program.get_subcommands());
     let pages = commands.map(Page::of).collect::<Result<Vec<_>, _>>()?;
+    output::make_directory(directory)?;
     for page in &pages {
         output::check(&directory.join(&page.file), force, &[])?;
     }
     for page in &pages {
-        output::write(&directory.join(&page.file), page.text.as_bytes(), force)?;
+        let path = directory.join(&page.file);
+        output::write(&path, page.text.as_bytes(), force)?;
+        table::print(&format!("wrote {}\n", path.display()))?;
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! One file per command.
 
+mod accuracy;
 mod check;
 mod completions;
 mod export;
@@ -7,6 +8,7 @@ mod man;
 mod plot;
 mod report;
 mod run;
+mod runs;
 mod schema;
 mod surface;
 mod watch;
@@ -16,6 +18,7 @@ use plateau_io::scene::{self, recipe::Scene};
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
 use crate::message;
+use runs::{figures, named_like, open_run, open_runs};
 
 /// Does what the command line asks for.
 pub fn perform(arguments: Arguments) -> Result<(), Failure> {
@@ -26,6 +29,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Report(arguments) => report::report(&arguments),
         Command::Watch(arguments) => watch::watch(&arguments),
         Command::Export(arguments) => export::export(&arguments),
+        Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Schema => schema::schema(),
         Command::Completions(arguments) => completions::completions(&arguments),

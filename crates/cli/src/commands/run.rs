@@ -6,7 +6,6 @@ use std::time::Instant;
 use plateau_core::acceleration::Choice;
 use plateau_core::comm::CommError;
 use plateau_core::observe::{Extras, Sample, Snapshot};
-use plateau_core::schedule::End as RunEnd;
 use plateau_core::scout::Scout;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
@@ -96,8 +95,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
 
 /// What goes before a run that chooses its acceleration, where there is something to choose.
 fn scout(scene: &Scene, surfaces: &InitialSurfaces, execution: Execution, job: &Job) -> Result<Option<Scout>, Failure> {
-    let (Some(adaptive), RunEnd::Time(duration)) = (&scene.adaptive, scene.end) else { return Ok(None) };
-    let choice = Choice::new(adaptive, &scene.parameters, duration);
+    let Some(adaptive) = &scene.adaptive else { return Ok(None) };
+    let choice = Choice::new(adaptive, &scene.parameters, scene.duration);
     if !choice.is_free() {
         message::warning(
             "numerics.time_acceleration: nothing to choose, the run is not accelerated; see docs/accuracy.md",

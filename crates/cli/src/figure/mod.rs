@@ -14,7 +14,9 @@
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface`] |
 //! | the figures of runs | [`run`] |
+//! | error against run time | [`accuracy`] |
 
+pub mod accuracy;
 mod axes;
 mod canvas;
 mod colour;

@@ -7,7 +7,6 @@
 //! |---|---|
 //! | the template with its parts filled in | [`mod@page`], [`section`], [`template`] |
 //! | text as HTML, tables | [`html`] |
-//! | what the runs are called | [`label`] |
 //! | units in which people read a quantity | [`mod@unit`] |
 //! | a series with its last and largest value, thinned | [`recorded`], [`thin`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
@@ -22,7 +21,6 @@ mod coarsen;
 mod comparison;
 mod document;
 mod html;
-mod label;
 mod maps;
 mod outcome;
 mod pack;

@@ -4,13 +4,13 @@ use plateau_io::run_file::{ReadError, RunFile, State};
 
 use super::document::Document;
 use super::html;
-use super::label::labels;
 use super::outcome::{self, Measure, UNKNOWN, readable};
 use super::picture::Pictures;
 use super::recorded::{MOST_POINTS, Recorded, recorded};
 use super::section::Section;
 use super::template::fill;
 use super::{comparison, provenance, scene};
+use crate::label::labels;
 use crate::version;
 
 /// Bytes of a page, as far as maps can be reduced to meet it.

@@ -5,6 +5,7 @@ use plateau_io::run_file::State;
 
 use super::curve::{Dots, curve};
 use super::{Look, Pace};
+use crate::label::on_one_line;
 use crate::number;
 
 /// Characters of the progress bar, at least and at most.
@@ -160,13 +161,12 @@ fn chart(look: &Look, unicode: bool, width: usize, room: usize) -> Vec<String> {
 
 /// A text without control characters, and without other letters than the terminal has.
 fn readable(text: &str, unicode: bool) -> String {
-    let text = text.chars().map(|letter| if letter.is_control() { ' ' } else { letter });
-    text.map(|letter| match letter {
+    let readable = |letter| match letter {
         '²' if !unicode => '2',
         letter if unicode || letter.is_ascii() => letter,
         _ => '?',
-    })
-    .collect()
+    };
+    on_one_line(text).chars().map(readable).collect()
 }
 
 #[cfg(test)]

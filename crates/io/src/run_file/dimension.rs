@@ -19,7 +19,7 @@ use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 ///     attribute = h5py.h5a.create(file.id, b"CLASS", text, h5py.h5s.create(h5py.h5s.SCALAR))
 ///     attribute.write(numpy.array(b"DIMENSION_SCALE", dtype="S16"))
 /// ```
-pub(super) const EMPTY_FILE: &[u8] = include_bytes!("empty.h5");
+pub(crate) const EMPTY_FILE: &[u8] = include_bytes!("empty.h5");
 
 type Text = FixedAscii<16>;
 
@@ -32,7 +32,7 @@ struct Axis {
 }
 
 /// The dimension scales of a file that started as [`EMPTY_FILE`].
-pub(super) struct Dimensions {
+pub(crate) struct Dimensions {
     file: File,
     text: Datatype,
     users: BTreeMap<&'static str, Vec<Axis>>,
@@ -40,14 +40,14 @@ pub(super) struct Dimensions {
 
 impl Dimensions {
     /// Takes the string type out of the file.
-    pub(super) fn new(file: &File) -> hdf5::Result<Self> {
+    pub(crate) fn new(file: &File) -> hdf5::Result<Self> {
         let text = file.attr("CLASS")?.dtype()?;
         file.delete_attr("CLASS")?;
         Ok(Self { file: file.clone(), text, users: BTreeMap::new() })
     }
 
     /// Makes a dataset of the root group the scale of the dimension that has its name.
-    pub(super) fn make_scale(&mut self, dataset: &Dataset, name: &'static str) -> hdf5::Result<()> {
+    pub(crate) fn make_scale(&mut self, dataset: &Dataset, name: &'static str) -> hdf5::Result<()> {
         for (attribute, value) in [("CLASS", "DIMENSION_SCALE"), ("NAME", name)] {
             let value = Text::from_ascii(value).map_err(|error| hdf5::Error::from(error.to_string()))?;
             dataset.new_attr_builder().empty_as(self.text.clone()).create(attribute)?.write_scalar(&value)?;
@@ -57,7 +57,7 @@ impl Dimensions {
     }
 
     /// Names the axes of a dataset by scales made before.
-    pub(super) fn attach(&mut self, dataset: &Dataset, dimensions: &[&'static str]) -> hdf5::Result<()> {
+    pub(crate) fn attach(&mut self, dataset: &Dataset, dimensions: &[&'static str]) -> hdf5::Result<()> {
         let itself: ObjectReference1 = self.file.reference(&dataset.name())?;
         let mut scales = Vec::with_capacity(dimensions.len());
         for (dimension, name) in (0..).zip(dimensions) {
@@ -72,7 +72,7 @@ impl Dimensions {
     }
 
     /// Writes into every scale which datasets it describes.
-    pub(super) fn finish(self) -> hdf5::Result<()> {
+    pub(crate) fn finish(self) -> hdf5::Result<()> {
         for (name, users) in self.users.iter().filter(|(_, users)| !users.is_empty()) {
             let scale = self.file.dataset(name)?;
             scale.new_attr::<Axis>().shape(users.len()).create("REFERENCE_LIST")?.write_raw(users)?;

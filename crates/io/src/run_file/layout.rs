@@ -16,7 +16,7 @@ use crate::timestamp::iso_8601;
 
 /// `format_version` of the files written here.
 pub(super) const FORMAT_VERSION: i32 = 1;
-const CONVENTIONS: &str = "CF-1.11";
+pub(crate) const CONVENTIONS: &str = "CF-1.11";
 const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Contact Area and Pressure Dependence of \
     Initial Surface Roughness for Cermet-Coated Discs Used in Disc Brakes, Tribology in Industry 41 (2019)";
 
@@ -118,7 +118,7 @@ fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Re
 }
 
 /// Sets a text attribute, new or not.
-pub(super) fn write_text(location: &Location, name: &str, text: &str) -> hdf5::Result<()> {
+pub(crate) fn write_text(location: &Location, name: &str, text: &str) -> hdf5::Result<()> {
     // HDF5 ends a text at a null character; there is no other way to store one.
     let text = VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))
         .map_err(|error| hdf5::Error::from(error.to_string()))?;
@@ -129,7 +129,7 @@ pub(super) fn write_text(location: &Location, name: &str, text: &str) -> hdf5::R
 }
 
 /// Adds an attribute that is one number.
-pub(super) fn write_number<T: H5Type>(location: &Location, name: &str, number: T) -> hdf5::Result<()> {
+pub(crate) fn write_number<T: H5Type>(location: &Location, name: &str, number: T) -> hdf5::Result<()> {
     location.new_attr::<T>().create(name)?.write_scalar(&number)
 }
 

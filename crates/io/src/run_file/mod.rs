@@ -16,11 +16,11 @@
 //! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.
 //!
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands.
-mod dimension;
+pub(crate) mod dimension;
 mod end;
 mod error;
 mod header;
-mod layout;
+pub(crate) mod layout;
 mod limit;
 mod place;
 mod read_error;

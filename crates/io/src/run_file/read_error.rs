@@ -16,7 +16,7 @@ pub enum ReadError {
         reason: String,
     },
     /// It is no HDF5 file.
-    #[error("{} is no HDF5 file, expected a run file of plateau", path.display())]
+    #[error("{} is no HDF5 file, expected a run file of plateau, which `plateau run` writes", path.display())]
     NotHdf5 {
         /// The file.
         path: PathBuf,
@@ -42,7 +42,7 @@ pub enum ReadError {
         expected: i32,
     },
     /// A part of it is missing, cut off or changed.
-    #[error("{} is damaged: {reason}", path.display())]
+    #[error("{} is damaged: {reason}; if it is being written or copied try again, else run its scene again", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,

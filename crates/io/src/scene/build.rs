@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use plateau_core::acceleration::Adaptive;
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::{Mesh, MeshError};
+use plateau_core::observe::Extras;
 use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
-use plateau_core::schedule::{End, SampleEvery};
+use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
@@ -51,9 +52,8 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
         resolved: resolved::write(&settings),
         files,
         warnings,
-        // The time of a step is rounded, so a number of steps is the better end where it does not change.
-        end: duration.filter(|_| adaptive.is_some()).map_or(End::Steps(parameters.steps), End::Time),
         adaptive,
+        duration: duration.unwrap_or_else(|| parameters.clock().time_at(parameters.steps)),
         parameters,
         output,
     })
@@ -126,7 +126,9 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let needed = memory::estimate(counts, maps, settings.bool("output.roughness")?, adaptive(settings)?.is_some());
+        let (roughness, acceleration) = (settings.bool("output.roughness")?, adaptive(settings)?.is_some());
+        let extras = Extras { roughness, acceleration };
+        let needed = memory::estimate(counts, maps, extras);
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
                 "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",

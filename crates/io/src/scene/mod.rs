@@ -8,6 +8,7 @@
 //! ```
 
 mod build;
+mod difference;
 mod document;
 mod error;
 mod interpret;
@@ -21,6 +22,7 @@ mod settings;
 
 use std::path::Path;
 
+pub use difference::{Difference, differences};
 pub use error::{Origin, Problem, SceneError};
 pub use memory::memory_estimate;
 use recipe::Scene;

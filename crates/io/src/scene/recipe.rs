@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plateau_core::acceleration::Adaptive;
-use plateau_core::observe::Map;
+use plateau_core::observe::{Extras, Map};
 use plateau_core::parameters::Parameters;
 use plateau_core::schedule::{End, SampleEvery, Schedule};
 use plateau_core::surface::micrograph::Micrograph;
@@ -22,8 +22,8 @@ pub struct Scene {
     pub parameters: Parameters,
     /// How the run chooses its acceleration, if it does.
     pub adaptive: Option<Adaptive>,
-    /// When it is over.
-    pub end: End,
+    /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
+    pub duration: f64,
     /// Disc heights.
     pub disc_surface: HeightRecipe,
     /// Pin heights.
@@ -52,7 +52,18 @@ impl Scene {
     /// When samples and maps are due.
     pub fn schedule(&self) -> Schedule {
         let OutputRecipe { sample_every, maps_at, .. } = &self.output;
-        Schedule::new(self.parameters.clock(), self.end, *sample_every, maps_at)
+        Schedule::new(self.parameters.clock(), self.end(), *sample_every, maps_at)
+    }
+
+    /// Series besides those that every run has.
+    pub fn extras(&self) -> Extras {
+        Extras { roughness: self.output.roughness, acceleration: self.adaptive.is_some() }
+    }
+
+    /// When the run is over.
+    fn end(&self) -> End {
+        // The time of a step is rounded, so a number of steps is the better end where it does not change.
+        if self.adaptive.is_some() { End::Time(self.duration) } else { End::Steps(self.parameters.steps) }
     }
 }
 

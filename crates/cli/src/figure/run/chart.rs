@@ -76,7 +76,7 @@ impl Meaning {
     }
 
     /// That of a run's lines.
-    pub fn of_run(number: usize, subject: &Subject) -> Self {
+    pub(super) fn of_run(number: usize, subject: &Subject) -> Self {
         Self { colour: colour(number), style: KeyStyle::Line, text: subject.label.clone() }
     }
 }

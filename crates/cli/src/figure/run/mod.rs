@@ -14,15 +14,14 @@
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
 //! What they have in common: charts in [`chart`], maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
-//! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`label`].
+//! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
 
 mod bodies;
-mod chart;
+pub(super) mod chart;
 mod contact_area;
 mod debris;
 mod filled;
 mod heights;
-mod label;
 mod map_page;
 mod moments;
 mod plateau_sizes;
@@ -41,7 +40,7 @@ use plateau_io::run_file::{ReadError, RunFile};
 use super::canvas::FigureError;
 use super::format;
 use super::page::Page;
-use label::labels;
+use crate::label::labels;
 use shape::Shape;
 
 /// More runs make no legible figure, and have no colours of their own.
@@ -71,7 +70,7 @@ pub struct Figure {
     /// What it shows, in a sentence or two.
     pub caption: String,
     /// What is plotted where.
-    page: Page,
+    pub(super) page: Page,
 }
 
 impl Figure {

@@ -1,0 +1,214 @@
+//! Ladders: runs of a scene that differ in one of its numerics.
+
+use plateau_core::acceleration::Adaptive;
+use plateau_core::parameters::Integrator;
+
+use super::numerics::{Numerics, integrator_name};
+use crate::arguments::Ladder;
+
+/// Time accelerations that are tried, besides the scene's own: they have small common multiples, so that there are windows
+/// of whole revolutions of all of them.
+const TIME_ACCELERATIONS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];
+/// A run has at least so many simulated revolutions.
+const FEWEST_REVOLUTIONS: f64 = 8.0;
+/// How many cells of the scene's mesh go along one of a coarser mesh.
+pub const COARSENINGS: [usize; 3] = [2, 4, 8];
+/// Tolerances of a run that chooses its acceleration that are tried, besides the scene's own.
+const TOLERANCES: [f64; 4] = [0.01, 0.02, 0.05, 0.1];
+/// Largest acceleration of such a run, unless the scene says another.
+const LARGEST: f64 = 1000.0;
+/// Load tolerances that are tried, besides the scene's own.
+const LOAD_TOLERANCES: [f64; 4] = [1e-12, 1e-9, 1e-6, 1e-3];
+/// Parts of themselves by which initial heights are changed.
+const PERTURBATIONS: [f64; 3] = [1e-9, 1e-6, 1e-4];
+
+/// One run of a ladder.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rung {
+    /// The ladder.
+    pub ladder: Ladder,
+    /// All numerics of the run.
+    pub numerics: Numerics,
+}
+
+impl Rung {
+    /// What the ladder changes, as a number; an integrator is none.
+    pub fn value(&self) -> f64 {
+        match self.ladder {
+            Ladder::TimeAcceleration => self.numerics.time_acceleration,
+            Ladder::Tolerance => self.numerics.adaptive.map_or(f64::NAN, |adaptive| adaptive.tolerance),
+            Ladder::Mesh => self.numerics.coarsening as f64,
+            Ladder::LoadTolerance => self.numerics.load_tolerance,
+            Ladder::Integrator => f64::NAN,
+            Ladder::Perturbation => self.numerics.perturbation,
+        }
+    }
+
+    /// What the ladder changes, in words.
+    pub fn name(&self) -> String {
+        match self.ladder {
+            Ladder::TimeAcceleration => format!("time_acceleration = {}", self.value()),
+            Ladder::Tolerance => self.acceleration(),
+            Ladder::Mesh => format!("mesh coarsened {} times", self.value()),
+            Ladder::LoadTolerance => format!("load_tolerance = {:e}", self.value()),
+            Ladder::Integrator => format!("integrator = \"{}\"", integrator_name(self.numerics.integrator)),
+            Ladder::Perturbation => format!("disc heights times 1 + {:e}", self.value()),
+        }
+    }
+
+    /// The same with the time acceleration, which no ladder but its own names.
+    pub fn full_name(&self) -> String {
+        match self.ladder {
+            Ladder::TimeAcceleration | Ladder::Tolerance => self.name(),
+            _ => format!("{}, {}", self.acceleration(), self.name()),
+        }
+    }
+
+    /// The time acceleration as a scene gives it.
+    pub fn acceleration(&self) -> String {
+        match self.numerics.adaptive {
+            None => format!("time_acceleration = {}", self.numerics.time_acceleration),
+            Some(Adaptive { tolerance, largest }) => {
+                format!("time_acceleration = {{ tolerance = {tolerance}, max = {largest} }}")
+            }
+        }
+    }
+}
+
+/// The time accelerations of a scene, increasing: 1, the scene's own, and others with which there are enough revolutions.
+pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
+    let room = |acceleration: &f64| *acceleration == 1.0 || revolutions / acceleration >= FEWEST_REVOLUTIONS;
+    let mut accelerations: Vec<f64> = TIME_ACCELERATIONS.into_iter().filter(room).chain([own]).collect();
+    accelerations.sort_by(f64::total_cmp);
+    accelerations.dedup();
+    accelerations
+}
+
+/// The rungs of these ladders that are coarser than a reference with the time acceleration `reference`, or that are the
+/// reference with other heights; `own` are the scene's numerics. The first one is the scene's own run, unless that is the reference. Where the scene's own time
+/// acceleration is finer than that of the reference, all other ladders have the reference's.
+pub fn rungs(
+    ladders: &[Ladder],
+    own: Numerics,
+    accelerations: &[f64],
+    coarsenings: &[usize],
+    reference: f64,
+) -> (Numerics, Vec<Rung>) {
+    let base = if own.adaptive.is_some() { own } else { own.accelerated(own.time_acceleration.max(reference)) };
+    let rung = |ladder, numerics| Rung { ladder, numerics };
+    let mut rungs = Vec::new();
+    if base.adaptive.is_some() {
+        rungs.push(rung(Ladder::Tolerance, base));
+    } else if base.time_acceleration > reference {
+        rungs.push(rung(Ladder::TimeAcceleration, base));
+    }
+    for ladder in ladders {
+        match ladder {
+            Ladder::TimeAcceleration => rungs.extend(
+                accelerations
+                    .iter()
+                    .filter(|other| {
+                        **other > reference && (base.adaptive.is_some() || **other != base.time_acceleration)
+                    })
+                    .map(|other| rung(*ladder, own.accelerated(*other))),
+            ),
+            Ladder::Tolerance => {
+                let largest = own.adaptive.map_or(LARGEST, |adaptive| adaptive.largest);
+                let wanted = TOLERANCES.iter().map(|tolerance| Adaptive { tolerance: *tolerance, largest });
+                let other = wanted.filter(|adaptive| own.adaptive != Some(*adaptive));
+                rungs.extend(
+                    other.map(|adaptive| rung(*ladder, Numerics { adaptive: Some(adaptive), ..own.accelerated(1.0) })),
+                );
+            }
+            Ladder::Mesh => {
+                rungs.extend(coarsenings.iter().map(|factor| rung(*ladder, Numerics { coarsening: *factor, ..base })));
+            }
+            Ladder::LoadTolerance => rungs.extend(
+                LOAD_TOLERANCES
+                    .iter()
+                    .filter(|tolerance| **tolerance != own.load_tolerance)
+                    .map(|tolerance| rung(*ladder, Numerics { load_tolerance: *tolerance, ..base })),
+            ),
+            Ladder::Integrator => {
+                let integrator = match own.integrator {
+                    Integrator::Explicit => Integrator::Exponential,
+                    Integrator::Exponential => Integrator::Explicit,
+                };
+                rungs.push(rung(*ladder, Numerics { integrator, ..base }));
+            }
+            Ladder::Perturbation => rungs.extend(PERTURBATIONS.iter().map(|perturbation| {
+                rung(*ladder, Numerics { perturbation: *perturbation, ..own.accelerated(reference) })
+            })),
+        }
+    }
+    (base, rungs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OWN: Numerics = Numerics {
+        time_acceleration: 20.0,
+        coarsening: 1,
+        load_tolerance: 1e-9,
+        integrator: Integrator::Explicit,
+        perturbation: 0.0,
+        adaptive: None,
+    };
+
+    #[test]
+    fn a_scene_has_the_accelerations_that_its_revolutions_allow() {
+        assert_eq!(time_accelerations(20.0, 850.0), [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0]);
+        assert_eq!(time_accelerations(7.5, 16.0), [1.0, 2.0, 7.5]);
+        assert_eq!(time_accelerations(1.0, 0.1), [1.0]);
+    }
+
+    #[test]
+    fn rungs_are_coarser_than_the_reference_and_differ_in_one_thing() {
+        let accelerations = [1.0, 5.0, 20.0, 50.0];
+        let all = [
+            Ladder::TimeAcceleration,
+            Ladder::Tolerance,
+            Ladder::Mesh,
+            Ladder::LoadTolerance,
+            Ladder::Integrator,
+            Ladder::Perturbation,
+        ];
+        let (base, all) = rungs(&all, OWN, &accelerations, &[2], 1.0);
+        assert_eq!(base, OWN);
+        let names: Vec<String> = all.iter().map(Rung::name).collect();
+        assert_eq!(
+            names,
+            [
+                "time_acceleration = 20",
+                "time_acceleration = 5",
+                "time_acceleration = 50",
+                "time_acceleration = { tolerance = 0.01, max = 1000 }",
+                "time_acceleration = { tolerance = 0.02, max = 1000 }",
+                "time_acceleration = { tolerance = 0.05, max = 1000 }",
+                "time_acceleration = { tolerance = 0.1, max = 1000 }",
+                "mesh coarsened 2 times",
+                "load_tolerance = 1e-12",
+                "load_tolerance = 1e-6",
+                "load_tolerance = 1e-3",
+                "integrator = \"exponential\"",
+                "disc heights times 1 + 1e-9",
+                "disc heights times 1 + 1e-6",
+                "disc heights times 1 + 1e-4",
+            ]
+        );
+        assert_eq!(all[12].numerics.time_acceleration, 1.0);
+        assert_eq!(all[7].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
+        // A scene that chooses is run first, and the others with its choice.
+        let chosen = Numerics { adaptive: Some(Adaptive { tolerance: 0.02, largest: 300.0 }), ..OWN.accelerated(1.0) };
+        let (base, few) = rungs(&[Ladder::Tolerance, Ladder::Mesh], chosen, &accelerations, &[2], 1.0);
+        assert_eq!(base, chosen);
+        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [0.02, 0.01, 0.05, 0.1, 2.0]);
+        assert_eq!(few[4].full_name(), "time_acceleration = { tolerance = 0.02, max = 300 }, mesh coarsened 2 times");
+        // A reference that is coarser than the scene takes its place.
+        let (base, few) = rungs(&[Ladder::TimeAcceleration], OWN, &accelerations, &[], 30.0);
+        assert_eq!(base.time_acceleration, 30.0);
+        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [50.0]);
+    }
+}

@@ -1,0 +1,68 @@
+//! The numerics of one run of a scene: what a ladder changes.
+
+use plateau_core::acceleration::Adaptive;
+use plateau_core::parameters::{Integrator, Parameters};
+use plateau_io::scene::recipe::Scene;
+
+use super::coarsening::Coarsening;
+
+/// The numerics of one run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numerics {
+    /// m: how many revolutions a simulated one stands for; where the run chooses it, at the start.
+    pub time_acceleration: f64,
+    /// How the run chooses its acceleration, if it does.
+    pub adaptive: Option<Adaptive>,
+    /// Cells of the scene's mesh along a cell; 1 is the scene's mesh.
+    pub coarsening: usize,
+    /// Load tolerance.
+    pub load_tolerance: f64,
+    /// How wear follows from contact.
+    pub integrator: Integrator,
+    /// Initial heights of the disc are changed by this part of themselves; 0 leaves them as they are.
+    pub perturbation: f64,
+}
+
+impl Numerics {
+    /// Those of the scene itself.
+    pub fn of(scene: &Scene) -> Self {
+        let parameters = &scene.parameters;
+        Self {
+            time_acceleration: parameters.time_acceleration,
+            adaptive: scene.adaptive,
+            coarsening: 1,
+            load_tolerance: parameters.load_tolerance,
+            integrator: parameters.integrator,
+            perturbation: 0.0,
+        }
+    }
+
+    /// The same with another time acceleration, which never changes.
+    pub fn accelerated(self, time_acceleration: f64) -> Self {
+        Self { time_acceleration, adaptive: None, ..self }
+    }
+
+    /// What a simulation of the scene with these numerics is told; `coarsening` is that of the mesh, if there is one.
+    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>) -> Parameters {
+        let mut parameters = Parameters {
+            time_acceleration: self.time_acceleration,
+            load_tolerance: self.load_tolerance,
+            integrator: self.integrator,
+            ..scene.parameters.clone()
+        };
+        if let Some(coarsening) = coarsening {
+            parameters.mesh = coarsening.mesh.clone();
+        }
+        // As when the scene is run with these numerics.
+        parameters.steps = parameters.clock().steps_until(scene.duration).max(1);
+        parameters
+    }
+}
+
+/// Name of an integrator in a scene.
+pub fn integrator_name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Explicit => "explicit",
+        Integrator::Exponential => "exponential",
+    }
+}

@@ -1,0 +1,215 @@
+//! The reference: a run of the same scene, made here or read from a run file.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use plateau_core::observe::{Map, MapValues};
+use plateau_io::run_file::{InputFile, ReadError, RunFile, State};
+use plateau_io::scene::{Difference, differences, recipe::Scene};
+
+use super::history::History;
+use super::outcome::{End, Heights, Outcome};
+use crate::failure::Failure;
+
+/// What every other run is held against.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// Its time acceleration.
+    pub time_acceleration: f64,
+    /// What is kept of it.
+    pub outcome: Outcome,
+    /// Where it comes from.
+    pub provenance: Provenance,
+}
+
+/// Where a reference comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Provenance {
+    /// The run file; none for a run made here.
+    pub file: Option<InputFile>,
+    /// Program and version that made it.
+    pub program: String,
+    /// Revision of the program's source.
+    pub source_revision: String,
+    /// Machine.
+    pub host: String,
+    /// Workers.
+    pub workers: u64,
+    /// When it was started.
+    pub start_time: String,
+}
+
+/// A reference of a run file, and how far its samples are apart.
+#[derive(Debug)]
+pub struct ReadReference {
+    /// The reference.
+    pub reference: Reference,
+    /// Longest time between two samples, s.
+    pub sample_every: f64,
+    /// What it did not record.
+    pub missing: Vec<String>,
+}
+
+/// Series that a reference must have.
+const NEEDED: [&str; 2] = ["contact_area_integral", "filled_fraction"];
+/// How many different keys a message names.
+const MOST_KEYS: usize = 5;
+
+/// Reads the reference of a scene; `inputs` are the surface files that the scene reads, with their digests.
+///
+/// # Errors
+/// [`Failure::Input`] when it is no finished run with samples of this scene.
+pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<ReadReference, Failure> {
+    let shown = path.display();
+    let run = RunFile::open(path).map_err(Failure::input)?;
+    if run.state() != State::Finished {
+        return Err(Failure::input(format_args!(
+            "the reference {shown} is {}, expected a run that is finished",
+            run.state().name()
+        )));
+    }
+    refuse_another_scene(&run, scene, inputs)?;
+    let time_acceleration = run.scene().get("numerics").and_then(|numerics| numerics.get("time_acceleration"));
+    let time_acceleration =
+        time_acceleration.and_then(|value| value.as_float().or(value.as_integer().map(|m| m as f64)));
+    let Some(time_acceleration) = time_acceleration else {
+        return Err(Failure::input(format_args!(
+            "the scene of the reference {shown} has no numerics.time_acceleration"
+        )));
+    };
+    let mut parameters = scene.parameters.clone();
+    parameters.time_acceleration = time_acceleration;
+    let end = run.time().last().copied().unwrap_or(0.0);
+    // A run ends at its duration or up to a step later.
+    if (end - scene.duration).abs() > 1.01 * parameters.step_time() {
+        return Err(Failure::input(format_args!(
+            "the reference {shown} ends at {end} s, expected {} s as the scene says",
+            scene.duration
+        )));
+    }
+    let mut missing = Vec::new();
+    let outcome = outcome(&run, parameters.clock().steps_until(scene.duration).max(1), &mut missing)?;
+    let sample_every = [0.0].iter().chain(run.time()).zip(run.time()).map(|(one, next)| next - one).fold(0.0, f64::max);
+    let file = InputFile::read(path).map_err(|error| Failure::input(format_args!("{shown}: {error}")))?;
+    let text = |name: &str| run.attribute(name).unwrap_or_default();
+    let provenance = Provenance {
+        file: Some(file),
+        program: text("program"),
+        source_revision: text("source_revision"),
+        host: text("host"),
+        workers: run.number("workers").unwrap_or(0.0) as u64,
+        start_time: text("start_time"),
+    };
+    Ok(ReadReference { reference: Reference { time_acceleration, outcome, provenance }, sample_every, missing })
+}
+
+fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outcome, Failure> {
+    let shown = run.path().display();
+    let mut needed = Vec::new();
+    for name in NEEDED {
+        match run.values(name).map_err(Failure::input)? {
+            Some(values) => needed.push(values),
+            None => return Err(Failure::input(format_args!("the reference {shown} has no series {name}"))),
+        }
+    }
+    let mut history = History::start();
+    for (index, time) in run.time().iter().enumerate() {
+        history.record(*time, needed[0][index], needed[1][index]);
+    }
+    let series = |name: &str| run.values(name).map_err(Failure::input).map(Option::unwrap_or_default);
+    let last = |name: &str| series(name).map(|values| values.last().copied().unwrap_or(f64::NAN));
+    let end = End {
+        filled: last("filled_fraction")?,
+        worn: last("worn_pin")? + last("worn_resin")? + last("worn_disc")?,
+        emitted: last("emitted")?,
+        disc_secondary: last("disc_secondary")?,
+        pin_secondary: last("pin_secondary")?,
+        load_residual: series("load_residual")?.into_iter().fold(f64::NAN, f64::max),
+        balance_residual: last("balance_residual")?,
+    };
+    let heights = Heights { disc: last_map(run, Map::DiscHeight)?, pin: last_map(run, Map::PinHeight)? };
+    for (heights, body) in [(&heights.disc, "disc"), (&heights.pin, "pin")] {
+        if heights.is_none() {
+            missing.push(format!("the reference {shown} has no map of the {body}'s heights at its end: not compared"));
+        }
+    }
+    let wall_time = run.number("wall_time").unwrap_or(f64::NAN);
+    Ok(Outcome { steps, wall_time, history, end, heights })
+}
+
+/// A map of heights at the end of a run, if there is one.
+fn last_map(run: &RunFile, map: Map) -> Result<Option<Vec<f64>>, Failure> {
+    let (Some(time), Some(end), Some(index)) =
+        (run.map_time().last(), run.time().last(), run.map_time().len().checked_sub(1))
+    else {
+        return Ok(None);
+    };
+    if time != end {
+        return Ok(None);
+    }
+    let values = run.map(map, index).map_err(|error: ReadError| Failure::input(error))?;
+    Ok(values.and_then(|values| match values {
+        MapValues::Float(heights) => Some(heights),
+        MapValues::Status(_) => None,
+    }))
+}
+
+/// Refuses a run whose scene differs in more than numerics and output.
+fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<(), Failure> {
+    let read: Vec<InputFile> = run.attribute("inputs").map(|text| parsed_inputs(&text)).unwrap_or_default();
+    let digest_there = |path: &str| read.iter().find(|input| input.path == path).map(|input| input.sha256.as_str());
+    let digest_here =
+        |path: &str| inputs.iter().find(|(input, _)| input.as_os_str() == path).map(|(_, sha256)| sha256.as_str());
+    let plain = |value: &Option<String>| value.as_deref().unwrap_or_default().trim_matches(['"', '\'']).to_owned();
+    let mut different: Vec<Difference> = differences(&scene.resolved, run.scene());
+    // A file may have another place and the same content.
+    different.retain(|Difference { key, first, second }| {
+        let same_content = is_input(key)
+            && digest_here(&plain(first)).is_some_and(|digest| digest_there(&plain(second)) == Some(digest));
+        matters(key) && !same_content
+    });
+    let mut message = String::new();
+    for Difference { key, first, second } in different.iter().take(MOST_KEYS) {
+        let shown = |value: &Option<String>| value.clone().unwrap_or_else(|| "not given".to_owned());
+        // Writing to a String cannot fail.
+        let _ = write!(message, "\n  {key}: {} there, {} here", shown(second), shown(first));
+    }
+    if different.len() > MOST_KEYS {
+        let _ = write!(message, "\n  and {} other keys", different.len() - MOST_KEYS);
+    }
+    for (path, sha256) in inputs {
+        let changed = digest_there(&path.to_string_lossy()).is_some_and(|there| there != sha256);
+        if changed {
+            let _ = write!(message, "\n  the content of {} has changed since", path.display());
+        }
+    }
+    if message.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::input(format_args!(
+        "the reference {} is a run of another scene; only numerics and output may differ:{message}",
+        run.path().display()
+    )))
+}
+
+/// Whether runs that differ in this key are of different scenes. How long they are is compared by their ends.
+fn matters(key: &str) -> bool {
+    const NUMERICS: [&str; 5] = ["title", "version", "contact.load_tolerance", "operation.duration", "operation.steps"];
+    !(key.starts_with("numerics.") || key.starts_with("output.") || NUMERICS.contains(&key))
+}
+
+/// Whether a key names a file that is read.
+fn is_input(key: &str) -> bool {
+    key.ends_with(".file") || key.ends_with(".image")
+}
+
+/// The files that a run file says its run has read.
+fn parsed_inputs(text: &str) -> Vec<InputFile> {
+    let document: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
+    let entries = document.as_array().cloned().unwrap_or_default();
+    let entry = |entry: &serde_json::Value| {
+        let text = |name: &str| entry.get(name).and_then(|value| value.as_str()).map(str::to_owned);
+        Some(InputFile { path: text("path")?, sha256: text("sha256")? })
+    };
+    entries.iter().filter_map(entry).collect()
+}

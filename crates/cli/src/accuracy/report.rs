@@ -1,0 +1,191 @@
+//! All that was found: what the table, the files and the figure show.
+
+use super::advice::percent;
+use super::comparison::Comparison;
+use super::history::History;
+use super::ladder::Rung;
+use super::order::{self, Point};
+use super::outcome::Outcome;
+use super::pareto::{Cost, front};
+use super::reference::Reference;
+use super::windows::Windows;
+use crate::arguments::Ladder;
+
+/// All that was found.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// Title of the scene.
+    pub title: String,
+    /// What the runs are held against.
+    pub reference: Reference,
+    /// Over which contact areas are compared.
+    pub windows: Windows,
+    /// One row for every rung that was run, ladder by ladder, the finest first.
+    pub rows: Vec<Row>,
+    /// What is worth knowing besides.
+    pub notes: Vec<String>,
+}
+
+/// A rung and what came of it.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The rung.
+    pub rung: Rung,
+    /// Rows, columns of the disc and of the pin.
+    pub cells: [usize; 3],
+    /// Stiffness number.
+    pub stiffness_number: f64,
+    /// What was measured, or why the run failed.
+    pub result: Result<Measured, String>,
+    /// Whether no other rung is as quick and as exact.
+    pub on_front: bool,
+    /// Observed order of convergence from the next finer rung to this one; NaN where there is none.
+    pub order: f64,
+    /// Why the order means nothing, if it does; else empty.
+    pub order_note: String,
+}
+
+/// A run that came to its end.
+#[derive(Debug, Clone)]
+pub struct Measured {
+    /// Steps.
+    pub steps: u64,
+    /// Wall time, s.
+    pub wall_time: f64,
+    /// Its course.
+    pub history: History,
+    /// Largest load residual of any step.
+    pub load_residual: f64,
+    /// Balance residual at the end.
+    pub balance_residual: f64,
+    /// How far it is from the reference.
+    pub comparison: Comparison,
+    /// Error of the contact areas against the scene's own run, from which this one differs in one thing; NaN on the ladder
+    /// of time accelerations, and where the scene's own run failed.
+    pub change: f64,
+}
+
+impl Measured {
+    /// What is kept of a run that was compared.
+    pub fn of(outcome: Outcome, comparison: Comparison, change: f64) -> Self {
+        let Outcome { steps, wall_time, history, end, .. } = outcome;
+        let (load_residual, balance_residual) = (end.load_residual, end.balance_residual);
+        Self { steps, wall_time, history, load_residual, balance_residual, comparison, change }
+    }
+}
+
+impl Row {
+    /// A row of which orders and front are not known yet.
+    pub fn new(rung: Rung, cells: [usize; 3], stiffness_number: f64, result: Result<Measured, String>) -> Self {
+        Self { rung, cells, stiffness_number, result, on_front: false, order: f64::NAN, order_note: String::new() }
+    }
+
+    /// Keys and values that make this run, as a scene has them.
+    pub fn setting(&self) -> String {
+        let [rows, disc_columns, pin_columns] = self.cells;
+        match self.rung.ladder {
+            Ladder::Mesh => format!(
+                "{}, rows = {rows}, disc_columns = {disc_columns}, pin_columns = {pin_columns}",
+                self.rung.acceleration()
+            ),
+            _ => self.rung.full_name(),
+        }
+    }
+
+    /// Error of the contact areas; NaN where the run failed.
+    pub fn error(&self) -> f64 {
+        self.result.as_ref().map_or(f64::NAN, |measured| measured.comparison.contact_area.mean_square)
+    }
+
+    /// Wall time and error.
+    pub fn cost(&self) -> Cost {
+        let time = self.result.as_ref().map_or(f64::NAN, |measured| measured.wall_time);
+        Cost { time, error: self.error() }
+    }
+
+    /// Wall time and error as they count for a choice. A run that equals the scene's own, step by step, is none, for only
+    /// chance makes it the quicker of the two; nor is a perturbed reference.
+    fn choice(&self) -> Cost {
+        let same = self.result.as_ref().is_ok_and(|measured| measured.change == 0.0);
+        let none = same || self.rung.ladder == Ladder::Perturbation;
+        Cost { error: if none { f64::NAN } else { self.error() }, ..self.cost() }
+    }
+}
+
+impl Report {
+    /// Puts the rows in order and fills in what needs all of them: front and orders.
+    pub fn complete(&mut self) {
+        self.rows.sort_by(|one, other| {
+            let place = |row: &Row| (row.rung.ladder, row.rung.value());
+            let ((one_ladder, one), (other_ladder, other)) = (place(one), place(other));
+            one_ladder.cmp(&other_ladder).then(one.total_cmp(&other))
+        });
+        let on_front = front(&self.choices());
+        for (row, on_front) in self.rows.iter_mut().zip(on_front) {
+            row.on_front = on_front;
+        }
+        let reference = self.reference.time_acceleration;
+        self.observe_orders(Ladder::TimeAcceleration, reference, |measured| {
+            measured.comparison.contact_area.mean_square
+        });
+        // The scene's mesh is the reference of the other meshes.
+        self.observe_orders(Ladder::Mesh, 1.0, |measured| measured.change);
+        self.note_ladders();
+    }
+
+    /// Wall time and error of every row that is a choice; the error of the others is NaN.
+    pub fn choices(&self) -> Vec<Cost> {
+        self.rows.iter().map(Row::choice).collect()
+    }
+
+    /// Says what the rows of a ladder show together.
+    fn note_ladders(&mut self) {
+        let tolerances = || self.rows.iter().filter(|row| row.rung.ladder == Ladder::LoadTolerance);
+        let found: Vec<&Measured> = tolerances().filter_map(|row| row.result.as_ref().ok()).collect();
+        if !found.is_empty() && found.iter().all(|measured| measured.change == 0.0) {
+            let residual = found.iter().map(|measured| measured.load_residual).fold(0.0, f64::max);
+            self.notes.push(format!(
+                "load_tolerance changes nothing: the load balance is solved to rounding in any case (residual \
+                 {residual:.1e})"
+            ));
+        }
+        let perturbed = self.rows.iter().filter(|row| row.rung.ladder == Ladder::Perturbation).map(Row::error);
+        if let Some(error) = perturbed.filter(|error| !error.is_nan()).reduce(f64::max) {
+            self.notes.push(format!(
+                "small changes of the initial heights change the contact area of the reference by up to {}: smaller errors \
+                 are chance",
+                percent(error)
+            ));
+        }
+        let points: Vec<Point> = self
+            .rows
+            .iter()
+            .filter(|row| row.rung.ladder == Ladder::TimeAcceleration)
+            .map(|row| Point { size: row.rung.value(), error: row.error() })
+            .collect();
+        if let Some(order) = order::fitted(&points, self.reference.time_acceleration) {
+            self.notes.push(format!(
+                "the errors of all time accelerations together grow with order {order:.2} (least squares, from {} times the \
+                 reference's on)",
+                order::FAR
+            ));
+        }
+    }
+
+    fn observe_orders(&mut self, ladder: Ladder, reference: f64, error: impl Fn(&Measured) -> f64) {
+        let mut finer: Option<Point> = None;
+        for row in self.rows.iter_mut().filter(|row| row.rung.ladder == ladder) {
+            let Ok(measured) = &row.result else { continue };
+            let coarser = Point { size: row.rung.value(), error: error(measured) };
+            match finer.map(|finer| order::observed(finer, coarser, reference)) {
+                Some(Ok(order)) => row.order = order,
+                Some(Err((why, order))) => {
+                    row.order = order.unwrap_or(f64::NAN);
+                    row.order_note = why.to_string();
+                }
+                None => {}
+            }
+            finer = Some(coarser);
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! What was found, as tables for people.
+
+use plateau_core::parameters::Integrator;
+
+use super::advice::{advice, percent};
+use super::report::{Measured, Report, Row};
+use crate::number;
+use crate::table::{columns, list, table};
+
+/// Reference, errors, advice and notes.
+pub fn text(report: &Report) -> String {
+    let parts = [
+        reference(report),
+        errors(&report.rows),
+        ends(&report.rows),
+        list("Advice", &advice(report)),
+        if report.notes.is_empty() { String::new() } else { list("Notes", &report.notes) },
+    ];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+fn reference(report: &Report) -> String {
+    let reference = &report.reference;
+    let made = &reference.provenance;
+    let source = made.file.as_ref().map_or("run here".to_owned(), |file| file.path.clone());
+    let rows = [
+        ("reference", format!("time_acceleration = {}, {source}", reference.time_acceleration)),
+        (
+            "its wall time",
+            format!(
+                "{} for {} steps on {} workers",
+                number::duration(reference.outcome.wall_time),
+                number::grouped(reference.outcome.steps),
+                made.workers
+            ),
+        ),
+        (
+            "windows",
+            format!(
+                "{} of {} s, over which contact areas are compared",
+                report.windows.count,
+                number::short(report.windows.width)
+            ),
+        ),
+    ];
+    table(&report.title, &rows)
+}
+
+fn errors(rows: &[Row]) -> String {
+    let names = ["run", "wall time", "steps", "contact area", "largest", "by itself", "order", "filled, largest", ""];
+    let line = |row: &Row, run: &Measured| {
+        let area = run.comparison.contact_area;
+        let order = match (row.order.is_nan(), row.order_note.is_empty()) {
+            (true, _) => String::new(),
+            (_, true) => number::with_minus(&format!("{:.2}", row.order)),
+            _ => format!("({})", number::with_minus(&format!("{:.2}", row.order))),
+        };
+        vec![
+            number::duration(run.wall_time),
+            number::grouped(run.steps),
+            percent(area.mean_square),
+            percent(area.largest),
+            percent(run.change),
+            order,
+            percent(run.comparison.filled_largest),
+            if row.on_front { "*" } else { "" }.to_owned(),
+        ]
+    };
+    let heading = "Errors against the reference (* no other run is as quick and as exact)";
+    columns(heading, &names, &lines(rows, line)) + &remarks(rows)
+}
+
+/// What the table of errors cannot say in a few letters.
+fn remarks(rows: &[Row]) -> String {
+    let mut remarks = Vec::new();
+    let changed = |row: &Row| row.result.as_ref().is_ok_and(|run| !run.change.is_nan());
+    if rows.iter().any(changed) {
+        remarks.push(
+            "(by itself) contact area against the scene's own run, from which it differs in nothing else".to_owned(),
+        );
+    }
+    let mut reasons: Vec<&str> = rows.iter().map(|row| row.order_note.as_str()).filter(|why| !why.is_empty()).collect();
+    reasons.sort_unstable();
+    reasons.dedup();
+    if !reasons.is_empty() {
+        remarks.push(format!("(order) in brackets: {}", reasons.join("; ")));
+    }
+    let overshoots = |row: &&Row| row.rung.numerics.integrator == Integrator::Explicit && row.stiffness_number > 1.0;
+    remarks.extend(rows.iter().filter(overshoots).map(|row| {
+        let (name, stiffness) = (row.rung.full_name(), number::short(row.stiffness_number));
+        format!(
+            "{name}: the stiffness number is {stiffness}, above 1 the explicit rule overshoots, above 2 it is unstable"
+        )
+    }));
+    let failed = |row: &Row| row.result.as_ref().err().map(|why| format!("{} failed: {why}", row.rung.full_name()));
+    remarks.extend(rows.iter().filter_map(failed));
+    remarks.into_iter().map(|remark| format!("  {remark}\n")).collect()
+}
+
+fn ends(rows: &[Row]) -> String {
+    let names = [
+        "run",
+        "filled",
+        "worn",
+        "emitted",
+        "disc heights",
+        "pin heights",
+        "contact ratio",
+        "disc secondary",
+        "pin secondary",
+    ];
+    let line = |_: &Row, run: &Measured| {
+        let found = &run.comparison;
+        vec![
+            signed(found.filled),
+            signed(found.worn),
+            signed(found.emitted),
+            nanometres(found.disc_height),
+            nanometres(found.pin_height),
+            signed(found.contact_ratio),
+            signed(found.disc_secondary),
+            signed(found.pin_secondary),
+        ]
+    };
+    columns("Differences from the reference at the end (heights: rms)", &names, &lines(rows, line))
+}
+
+/// A line for every row, with its name; a failed run has no numbers.
+fn lines(rows: &[Row], line: impl Fn(&Row, &Measured) -> Vec<String>) -> Vec<Vec<String>> {
+    let cells = |row: &Row| {
+        let rest = match &row.result {
+            Ok(run) => line(row, run),
+            Err(_) => vec!["failed".to_owned()],
+        };
+        std::iter::once(row.rung.name()).chain(rest).collect()
+    };
+    rows.iter().map(cells).collect()
+}
+
+/// A difference in per cent, with its sign.
+fn signed(difference: f64) -> String {
+    // Sums of areas are rounded.
+    let difference = if difference.abs() < 1e-12 { 0.0 } else { difference };
+    let sign = if difference > 0.0 {
+        "+"
+    } else if difference < 0.0 {
+        "\u{2212}"
+    } else {
+        ""
+    };
+    format!("{sign}{}", percent(difference.abs()))
+}
+
+fn nanometres(length: f64) -> String {
+    if length.is_nan() { "–".to_owned() } else { format!("{} nm", number::significant(length * 1e9, 3)) }
+}

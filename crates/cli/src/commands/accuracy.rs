@@ -1,0 +1,117 @@
+//! `plateau accuracy`: error of a scene's runs against their run time.
+
+use std::fs;
+use std::path::PathBuf;
+
+use plateau_io::dataset_file;
+use plateau_io::run_file::InputFile;
+use plateau_io::scene::recipe::Scene;
+use plateau_io::surface::{self, Loaded};
+
+use super::load_scene;
+use crate::accuracy::{Found, Laboratory, Making, ReadReference, Wish, content, csv, json, read_reference, text};
+use crate::arguments::{AccuracyArguments, Ladder};
+use crate::execution::decide;
+use crate::failure::Failure;
+use crate::figure::accuracy::figure;
+use crate::output;
+use crate::table::print;
+
+/// The ladders that are climbed unless others are asked for.
+const USUAL: [Ladder; 5] =
+    [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh, Ladder::LoadTolerance, Ladder::Integrator];
+
+/// Files that are written, by their endings.
+const FILES: [&str; 4] = ["accuracy.csv", "accuracy.h5", "accuracy.png", "accuracy.svg"];
+
+/// Measures the errors of a scene's runs.
+pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
+    let scene = load_scene(&arguments.scene)?;
+    let loaded = surface::load(&scene).map_err(Failure::input)?;
+    let reference = arguments.reference.as_deref();
+    let reference = reference.map(|path| read_reference(path, &scene, &loaded.inputs)).transpose()?;
+    let is_new = !arguments.output.exists();
+    output::make_directory(&arguments.output)?;
+    let result = measure_into(arguments, &scene, loaded, reference);
+    if is_new && result.is_err() {
+        // Where nothing was written the folder is empty and goes; where something was it stays.
+        let _ = fs::remove_dir(&arguments.output);
+    }
+    result
+}
+
+/// The same, with a folder to write to.
+fn measure_into(
+    arguments: &AccuracyArguments,
+    scene: &Scene,
+    loaded: Loaded,
+    reference: Option<ReadReference>,
+) -> Result<(), Failure> {
+    let places = places(arguments, scene, &loaded.inputs)?;
+    let start_time = dataset_file::now();
+    let parameters = &scene.parameters;
+    let execution =
+        decide(scene.workers, 1, &arguments.execution, parameters, &loaded.surfaces).map_err(Failure::run)?;
+    let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
+    ladders.sort_unstable();
+    ladders.dedup();
+    let laboratory = Laboratory::new(scene, &loaded.surfaces, execution, &ladders)?;
+    let Found { report, stopped } = laboratory.search(Wish { ladders, budget: arguments.budget, reference })?;
+
+    let making = Making {
+        scene: scene.resolved.clone(),
+        inputs: inputs(scene, &loaded.inputs)?,
+        workers: execution.workers,
+        instruction_set: execution.instructions.name(),
+        budget: arguments.budget,
+        start_time,
+        state: if stopped.is_none() { "finished" } else { "interrupted" },
+    };
+    let figure = figure(&report);
+    let [csv_file, hdf5_file, png_file, svg_file] = &places;
+    let force = arguments.force;
+    output::write(csv_file, csv(&report.rows).as_bytes(), force)?;
+    dataset_file::write(hdf5_file, force, &content(&report, &making)).map_err(Failure::run)?;
+    output::write(png_file, &figure.png().map_err(Failure::run)?, force)?;
+    output::write(svg_file, figure.svg().map_err(Failure::run)?.as_bytes(), force)?;
+    if arguments.scene.json {
+        print(&json(&report))?;
+    } else {
+        let files: String = places.iter().map(|path| format!("wrote {}\n", path.display())).collect();
+        print(&format!("{}\n{files}", text(&report)))?;
+    }
+    match stopped {
+        None => Ok(()),
+        Some(signal) => {
+            let (runs, folder) = (report.rows.len(), arguments.output.display());
+            let message = format!("stopped by signal {signal}; {folder} has the {runs} runs that were done");
+            Err(Failure::Stopped { signal, message: Some(message) })
+        }
+    }
+}
+
+/// The files to write, each of which may be written.
+fn places(
+    arguments: &AccuracyArguments,
+    scene: &Scene,
+    surfaces: &[(PathBuf, String)],
+) -> Result<[PathBuf; 4], Failure> {
+    let mut inputs = scene.files.clone();
+    inputs.extend(surfaces.iter().map(|(path, _)| path.clone()));
+    inputs.extend(arguments.reference.clone());
+    let places = FILES.map(|name| arguments.output.join(name));
+    places.iter().try_for_each(|path| output::check(path, arguments.force, &inputs))?;
+    Ok(places)
+}
+
+/// Every file that the scene reads with its digest, as JSON.
+fn inputs(scene: &Scene, surfaces: &[(PathBuf, String)]) -> Result<String, Failure> {
+    let mut inputs = InputFile::read_all(&scene.files)
+        .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
+    inputs.extend(
+        surfaces
+            .iter()
+            .map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }),
+    );
+    serde_json::to_string(&inputs).map_err(Failure::run)
+}

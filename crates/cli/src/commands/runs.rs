@@ -1,0 +1,65 @@
+//! Run files that a command line names, and what deserves to be said of them.
+
+use std::path::{Path, PathBuf};
+
+use plateau_io::run_file::{RunFile, State};
+
+use crate::failure::Failure;
+use crate::figure::run::{self, Figures, MOST_RUNS, Options};
+use crate::{message, number};
+
+/// Opens a run file; warns when it is not finished.
+///
+/// # Errors
+/// [`Failure::Input`] when it cannot be read.
+pub fn open_run(path: &Path) -> Result<RunFile, Failure> {
+    let run = RunFile::open(path).map_err(Failure::input)?;
+    let samples = number::count(run.time().len(), "sample");
+    let state = match run.state() {
+        State::Finished => return Ok(run),
+        State::Running => "running (or it was killed)".to_owned(),
+        state => state.name().to_owned(),
+    };
+    message::warning(format_args!("{} is not finished: its state is {state}, with {samples}", path.display()));
+    Ok(run)
+}
+
+/// Opens run files that are shown together; warns of those that are not finished or named twice.
+///
+/// # Errors
+/// [`Failure::Input`] when there are too many of them, or one cannot be read.
+pub fn open_runs(paths: &[PathBuf]) -> Result<Vec<RunFile>, Failure> {
+    let count = paths.len();
+    if count > MOST_RUNS {
+        return Err(Failure::input(format_args!(
+            "{count} runs: expected at most {MOST_RUNS}, more make no legible figure; name fewer"
+        )));
+    }
+    let runs = paths.iter().map(|path| open_run(path)).collect::<Result<Vec<_>, _>>()?;
+    let real: Vec<_> = paths.iter().map(|path| path.canonicalize().ok()).collect();
+    for (index, path) in paths.iter().enumerate() {
+        if real[index].is_some() && real[..index].contains(&real[index]) {
+            message::warning(format_args!("{} is named more than once", path.display()));
+        }
+    }
+    Ok(runs)
+}
+
+/// The figures of runs; says what was left out of them.
+///
+/// # Errors
+/// [`Failure::Input`] when a file turns out to be damaged.
+pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, Failure> {
+    let figures = run::figures(runs, options).map_err(Failure::input)?;
+    for reason in &figures.left_out {
+        message::note(reason);
+    }
+    Ok(figures)
+}
+
+/// A path in the working directory, named like a run file with another ending: where a command writes unless told.
+pub fn named_like(run: &Path, ending: &str) -> PathBuf {
+    let mut name = run.file_stem().unwrap_or(run.as_os_str()).to_owned();
+    name.push(ending);
+    name.into()
+}

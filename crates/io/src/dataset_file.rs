@@ -1,0 +1,232 @@
+//! HDF5 files of results: named values over named dimensions, with netCDF-4 conventions as in run files. They appear
+//! under their name when they are complete.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use std::time::SystemTime;
+
+use hdf5::file::FileBuilder;
+use hdf5::types::VarLenUnicode;
+use hdf5::{Dataset, File, H5Type};
+use thiserror::Error;
+
+use crate::run_file::dimension::{Dimensions, EMPTY_FILE};
+use crate::run_file::layout::{CONVENTIONS, write_number, write_text};
+use crate::temporary::Temporary;
+use crate::timestamp::iso_8601;
+
+/// What a file holds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Content {
+    /// Attributes of the root.
+    pub attributes: Vec<(&'static str, Attribute)>,
+    /// Dimensions, each with a coordinate of its name.
+    pub dimensions: Vec<Coordinate>,
+    /// Datasets.
+    pub variables: Vec<Variable>,
+}
+
+/// Value of an attribute.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Attribute {
+    /// A text.
+    Text(String),
+    /// A number.
+    Number(f64),
+    /// A count.
+    Integer(i64),
+}
+
+/// A dimension and where its values lie along it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coordinate {
+    /// Its name.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub long_name: &'static str,
+    /// One value for each place along the dimension.
+    pub values: Vec<f64>,
+}
+
+/// A dataset.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Variable {
+    /// Its name.
+    pub name: &'static str,
+    /// Names of its dimensions, the slowest first.
+    pub dimensions: Vec<&'static str>,
+    /// SI unit; empty for texts.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub long_name: &'static str,
+    /// One value for each place, the last dimension the fastest.
+    pub values: Values,
+}
+
+/// Values of a dataset.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Numbers; NaN where there is none.
+    Float(Vec<f64>),
+    /// Counts.
+    Integer(Vec<i64>),
+    /// Texts.
+    Text(Vec<String>),
+}
+
+/// Why a file cannot be written.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("cannot write {}: {reason}", path.display())]
+pub struct DatasetFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What the HDF5 library or the system said.
+    pub reason: String,
+}
+
+/// Writes a file that appears under its name when it is complete; takes the place of another only with `replace`.
+///
+/// # Errors
+/// [`DatasetFileError`], after which nothing has changed at `path`.
+pub fn write(path: &Path, replace: bool, content: &Content) -> Result<(), DatasetFileError> {
+    let failed = |reason: String| DatasetFileError { path: path.into(), reason };
+    // The target of a link is replaced, not the link.
+    let target = if replace { path.canonicalize().unwrap_or_else(|_| path.into()) } else { path.into() };
+    let temporary = Temporary::beside(&target);
+    fs::write(temporary.path(), EMPTY_FILE).map_err(|error| failed(error.to_string()))?;
+    fill(temporary.path(), content).map_err(|error| failed(error.to_string()))?;
+    temporary.publish(replace).map_err(|error| failed(error.to_string()))
+}
+
+/// Now, as run files write points in time.
+pub fn now() -> String {
+    iso_8601(SystemTime::now())
+}
+
+fn fill(path: &Path, content: &Content) -> hdf5::Result<()> {
+    let file = FileBuilder::new().with_fapl(|list| list.libver_v110().file_locking(false)).open_rw(path)?;
+    let mut dimensions = Dimensions::new(&file)?;
+    for name in ["conventions", "Conventions"] {
+        write_text(&file, name, CONVENTIONS)?;
+    }
+    for (name, attribute) in &content.attributes {
+        match attribute {
+            Attribute::Text(text) => write_text(&file, name, text)?,
+            Attribute::Number(number) => write_number(&file, name, *number)?,
+            Attribute::Integer(integer) => write_number(&file, name, *integer)?,
+        }
+    }
+    let mut lengths = BTreeMap::new();
+    for Coordinate { name, unit, long_name, values } in &content.dimensions {
+        lengths.insert(*name, values.len());
+        let scale = dataset(&file, name, &[values.len()], unit, long_name, values)?;
+        dimensions.make_scale(&scale, name)?;
+    }
+    for Variable { name, dimensions: along, unit, long_name, values } in &content.variables {
+        let shape: Vec<usize> = along.iter().map(|name| lengths.get(name).copied().unwrap_or(0)).collect();
+        let dataset = match values {
+            Values::Float(values) => dataset(&file, name, &shape, unit, long_name, values)?,
+            Values::Integer(values) => dataset(&file, name, &shape, unit, long_name, values)?,
+            Values::Text(texts) => {
+                let texts: Result<Vec<_>, _> =
+                    texts.iter().map(|text| VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))).collect();
+                let texts = texts.map_err(|error| hdf5::Error::from(error.to_string()))?;
+                dataset(&file, name, &shape, unit, long_name, &texts)?
+            }
+        };
+        dimensions.attach(&dataset, along)?;
+    }
+    dimensions.finish()?;
+    file.close()
+}
+
+fn dataset<T: H5Type>(
+    file: &File,
+    name: &str,
+    shape: &[usize],
+    unit: &str,
+    long_name: &str,
+    values: &[T],
+) -> hdf5::Result<Dataset> {
+    let dataset = file.new_dataset::<T>().shape(shape).create(name)?;
+    dataset.write_raw(values)?;
+    if !unit.is_empty() {
+        write_text(&dataset, "units", unit)?;
+    }
+    write_text(&dataset, "long_name", long_name)?;
+    Ok(dataset)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn content() -> Content {
+        Content {
+            attributes: vec![("title", Attribute::Text("a".into())), ("count", Attribute::Integer(3))],
+            dimensions: vec![
+                Coordinate { name: "run", unit: "1", long_name: "number", values: vec![0.0, 1.0] },
+                Coordinate { name: "time", unit: "s", long_name: "time", values: vec![5.0, 10.0, 15.0] },
+            ],
+            variables: vec![
+                Variable {
+                    name: "area",
+                    dimensions: vec!["run", "time"],
+                    unit: "m2",
+                    long_name: "area",
+                    values: Values::Float(vec![1.0, 2.0, 3.0, 4.0, 5.0, f64::NAN]),
+                },
+                Variable {
+                    name: "name",
+                    dimensions: vec!["run"],
+                    unit: "",
+                    long_name: "name",
+                    values: Values::Text(vec!["one".into(), "µ".into()]),
+                },
+            ],
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("results.h5");
+        write(&path, false, &content()).unwrap();
+        let file = File::open(&path).unwrap();
+        let area: Vec<f64> = file.dataset("area").unwrap().read_raw().unwrap();
+        assert_eq!(area[..5], [1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!(area[5].is_nan());
+        assert_eq!(file.dataset("area").unwrap().shape(), [2, 3]);
+        let names: Vec<VarLenUnicode> = file.dataset("name").unwrap().read_raw().unwrap();
+        assert_eq!(names.iter().map(|name| name.as_str()).collect::<Vec<_>>(), ["one", "µ"]);
+        assert_eq!(file.attr("count").unwrap().read_scalar::<i64>().unwrap(), 3);
+    }
+
+    #[test]
+    fn there_may_be_nothing_along_a_dimension() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("results.h5");
+        let mut content = content();
+        content.dimensions[0].values.clear();
+        content.variables[0].values = Values::Float(Vec::new());
+        content.variables[1].values = Values::Text(Vec::new());
+        write(&path, false, &content).unwrap();
+        assert_eq!(File::open(&path).unwrap().dataset("area").unwrap().shape(), [0, 3]);
+    }
+
+    #[test]
+    fn another_file_is_replaced_only_on_demand() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("results.h5");
+        fs::write(&path, "mine").unwrap();
+        assert!(write(&path, false, &content()).is_err());
+        assert_eq!(fs::read(&path).unwrap(), b"mine");
+        write(&path, true, &content()).unwrap();
+        assert!(fs::read(&path).unwrap().starts_with(b"\x89HDF"));
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+}

@@ -1,0 +1,74 @@
+//! What two resolved scenes do not have in common.
+
+use toml::{Table, Value};
+
+/// A key that two scenes do not give alike.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Difference {
+    /// Full path of the key, such as `operation.normal_force`.
+    pub key: String,
+    /// Its value in the first scene, as TOML; none if the scene does not have it.
+    pub first: Option<String>,
+    /// Its value in the second scene.
+    pub second: Option<String>,
+}
+
+/// The keys that two resolved scenes do not give alike, in the order of the alphabet. A text that is no TOML counts as a
+/// scene without keys.
+pub fn differences(first: &str, second: &Table) -> Vec<Difference> {
+    let mut values = Vec::new();
+    flatten("", &first.parse().unwrap_or_default(), &mut values);
+    let first = values;
+    let mut second_values = Vec::new();
+    flatten("", second, &mut second_values);
+    let find = |values: &[(String, String)], key: &str| {
+        values.iter().find(|(known, _)| known == key).map(|(_, value)| value.clone())
+    };
+    let mut keys: Vec<&String> = first.iter().chain(&second_values).map(|(key, _)| key).collect();
+    keys.sort_unstable();
+    keys.dedup();
+    let differences = keys.into_iter().map(|key| Difference {
+        key: key.clone(),
+        first: find(&first, key),
+        second: find(&second_values, key),
+    });
+    differences.filter(|difference| difference.first != difference.second).collect()
+}
+
+/// Every key of a table and of those in it, with its value as text.
+fn flatten(above: &str, table: &Table, values: &mut Vec<(String, String)>) {
+    for (name, value) in table {
+        let path = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
+        match value {
+            Value::Table(table) => flatten(&path, table, values),
+            value => values.push((path, value.to_string())),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_every_key_with_both_values() {
+        let first = "version = 1\n[mesh]\nrows = 80\n[operation]\nnormal_force = \"47 N\"\nsteps = 9\n";
+        let second =
+            "version = 1\n[mesh]\nrows = 80\n[operation]\nnormal_force = \"50 N\"\n[disc.surface]\nflat = true\n";
+        let difference = |key: &str, first: Option<&str>, second: Option<&str>| Difference {
+            key: key.into(),
+            first: first.map(str::to_owned),
+            second: second.map(str::to_owned),
+        };
+        let second: Table = second.parse().unwrap();
+        assert_eq!(
+            differences(first, &second),
+            [
+                difference("disc.surface.flat", None, Some("true")),
+                difference("operation.normal_force", Some("\"47 N\""), Some("\"50 N\"")),
+                difference("operation.steps", Some("9"), None),
+            ]
+        );
+        assert_eq!(differences(&second.to_string(), &second), []);
+    }
+}
