@@ -10,7 +10,9 @@ pub const SHIPPED: [&str; 6] =
     ["cermet.toml", "cermet-10.toml", "cermet-100.toml", "measured.toml", "micrograph.toml", "quick.toml"];
 
 /// About how many cells a run updates: it then takes some tenths of a second.
-const CELLS: usize = 700_000_000;
+const CELLS: usize = 500_000_000;
+/// How many cells take about as long as what a step does besides.
+const CELLS_BESIDE: usize = 1000;
 /// Revolutions of a run that only shows whether it runs.
 const QUICK_REVOLUTIONS: usize = 3;
 
@@ -36,7 +38,11 @@ impl Subject {
     pub fn new(source: Source, quick: bool) -> Result<Self, BenchError> {
         let parameters = source.parameters()?;
         let mesh = mesh_size(&parameters);
-        let revolutions = if quick { QUICK_REVOLUTIONS } else { (CELLS / mesh.pin_cells() / mesh.disc_columns).max(1) };
+        let revolutions = if quick {
+            QUICK_REVOLUTIONS
+        } else {
+            (CELLS / (mesh.pin_cells() + CELLS_BESIDE) / mesh.disc_columns).max(1)
+        };
         let step_time = parameters.step_time();
         let unaccelerated_step_time = step_time / parameters.time_acceleration;
         let steps = (revolutions * mesh.disc_columns) as u64;

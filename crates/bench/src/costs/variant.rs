@@ -9,6 +9,8 @@ const SCENE: &str = "the scene";
 const NO_MAPS: &str = "no maps";
 /// Without maps and with few steps.
 const ONE_REVOLUTION: &str = "no maps, one revolution";
+/// That, with nearly all of its time spent on samples.
+const SAMPLED: &str = "no maps, one revolution, a sample every step";
 /// Without maps, at an acceleration that is given.
 const ACCELERATED: &str = "no maps, acceleration 8";
 /// That acceleration.
@@ -55,6 +57,7 @@ pub fn variants(subject: &Subject) -> Vec<Variant> {
 
     add(SCENE, "the scene once more", &[]);
     add(SCENE, "maps at nine times", &[&maps_at]);
+    add(SCENE, "no formation", &["plateaus.formation=false"]);
     add(SCENE, NO_MAPS, &["output.maps=[]"]);
     add(NO_MAPS, "once more", &[]);
 
@@ -76,6 +79,7 @@ pub fn variants(subject: &Subject) -> Vec<Variant> {
     add(NO_MAPS, "roughness with every sample", &["output.roughness=true"]);
     add(NO_MAPS, "one revolution", &[&revolution]);
     add(ONE_REVOLUTION, "a sample every step", &["output.sample_every_steps=1"]);
+    add(SAMPLED, "no formation", &["plateaus.formation=false"]);
 
     add(NO_MAPS, "acceleration 8", &[&accelerated, &duration]);
     let by_tolerance = "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }";
