@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::costs::{self, CostOptions};
 use crate::error::BenchError;
 use crate::session::{Options, WorkerOptions};
 use crate::{kernel, parts, peers, report, roofline, scaling};
@@ -28,6 +29,9 @@ enum Command {
     /// Time a step with optional parts of the model and of the output on and off
     #[command(after_help = "Example:\n  plateau-bench parts --json parts.json")]
     Parts(Options),
+    /// Run the program with optional parts and outputs on and off: time, memory and size of the run file
+    #[command(after_help = "Example:\n  plateau-bench costs --json costs.json")]
+    Costs(CostOptions),
     /// Set what a step moves against the bandwidth of caches and memory
     #[command(after_help = "Example:\n  plateau-bench roofline --json roofline.json")]
     Roofline(WorkerOptions),
@@ -59,6 +63,7 @@ impl Arguments {
             Command::Kernel(options) => kernel::kernel(options),
             Command::Scaling(options) => scaling::scaling(options),
             Command::Parts(options) => parts::parts(options),
+            Command::Costs(options) => costs::costs(options),
             Command::Roofline(options) => roofline::roofline(options),
             Command::Peers(options) => peers::peers(options),
             Command::Report(options) => report::report(&options),

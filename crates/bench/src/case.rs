@@ -80,6 +80,11 @@ impl Source {
         Self { path, sets: [vec![MODEL.to_owned()], sets].concat() }
     }
 
+    /// File name of the scene.
+    pub fn name(&self) -> String {
+        self.path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
     /// The same with more changes.
     pub fn with(&self, sets: impl IntoIterator<Item = String>) -> Self {
         Self { path: self.path.clone(), sets: self.sets.iter().cloned().chain(sets).collect() }

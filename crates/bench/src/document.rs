@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +21,8 @@ pub enum Benchmark {
     Scaling,
     /// Optional parts of the model.
     Parts,
+    /// Runs of the program with optional parts on and off.
+    Costs,
     /// What a step moves against what caches and memory give.
     Roofline,
     /// The same step in Python.
@@ -28,7 +31,7 @@ pub enum Benchmark {
 
 impl Benchmark {
     /// All of them, in the order in which they are reported.
-    pub const ALL: [Self; 5] = [Self::Kernel, Self::Scaling, Self::Parts, Self::Roofline, Self::Peers];
+    pub const ALL: [Self; 6] = [Self::Kernel, Self::Scaling, Self::Parts, Self::Costs, Self::Roofline, Self::Peers];
 
     /// Name of the subcommand.
     pub fn name(self) -> &'static str {
@@ -36,6 +39,7 @@ impl Benchmark {
             Self::Kernel => "kernel",
             Self::Scaling => "scaling",
             Self::Parts => "parts",
+            Self::Costs => "costs",
             Self::Roofline => "roofline",
             Self::Peers => "peers",
         }
@@ -59,6 +63,9 @@ pub struct Document {
     pub settings: Settings,
     /// Times, in the order of the race.
     pub measurements: Vec<Measurement>,
+    /// Runs of the program, scene by scene in the order of the race (costs).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub runs: Vec<RunCost>,
     /// What caches and memory give (roofline).
     pub bandwidths: Vec<Bandwidth>,
     /// What a step moves (roofline).
@@ -75,18 +82,18 @@ pub const FORMAT: u32 = 1;
 /// What was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
-    /// File name of the scene.
+    /// File name of the scene, or of all.
     pub scene: String,
     /// Changes of the scene.
     pub sets: Vec<String>,
-    /// m.
-    pub time_acceleration: f64,
-    /// Largest accepted residual of the load balance.
-    pub load_tolerance: f64,
+    /// m, where it is the same for all that is measured.
+    pub time_acceleration: Option<f64>,
+    /// Largest accepted residual of the load balance, where it is the same for all.
+    pub load_tolerance: Option<f64>,
     /// Blocks of each entry.
     pub repeats: usize,
-    /// About how long a block of the slowest entry on a mesh takes, ms.
-    pub block_milliseconds: f64,
+    /// About how long a block of the slowest entry on a mesh takes, ms; none where a block is a run.
+    pub block_milliseconds: Option<f64>,
     /// Steps before the first block; none: one revolution.
     pub warm_up_steps: Option<u64>,
     /// Only a look at whether it runs: the numbers mean nothing.
@@ -143,9 +150,36 @@ impl Measurement {
     /// How many times as long as `other` this takes: spread of the ratios of blocks that were measured next to each
     /// other, so that what slowed both down cancels.
     pub fn ratio_to(&self, other: &Self) -> Spread {
-        let blocks = self.raw_microseconds_per_step.iter().zip(&other.raw_microseconds_per_step);
-        Spread::of(&blocks.map(|(this, other)| this / other).collect::<Vec<_>>())
+        ratios(&self.raw_microseconds_per_step, &other.raw_microseconds_per_step)
     }
+}
+
+/// Spread of the ratios of values that were measured next to each other.
+pub fn ratios(these: &[f64], others: &[f64]) -> Spread {
+    Spread::of(&these.iter().zip(others).map(|(this, other)| this / other).collect::<Vec<_>>())
+}
+
+/// What runs of the program cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunCost {
+    /// File name of the scene.
+    pub scene: String,
+    /// Its mesh.
+    pub mesh: MeshSize,
+    /// What sets these runs apart from others of the scene.
+    pub name: String,
+    /// Name of those that they are set against.
+    pub against: String,
+    /// Steps of a run.
+    pub steps: u64,
+    /// Wall time from before the first step until the run file is complete, over the steps.
+    pub microseconds_per_step: Spread,
+    /// The same of every run, in the order of measurement.
+    pub raw_microseconds_per_step: Vec<f64>,
+    /// Largest memory of the process in every run, bytes; none where the system does not tell.
+    pub peak_memory_bytes: Vec<u64>,
+    /// Size of the run file, bytes.
+    pub file_bytes: u64,
 }
 
 /// What a cache or the memory gives to a loop.
@@ -210,6 +244,24 @@ pub struct Agreement {
 }
 
 impl Document {
+    /// Results of a benchmark that begins now, on this machine: none yet.
+    pub fn begin(benchmark: Benchmark, settings: Settings) -> Self {
+        Self {
+            format: FORMAT,
+            benchmark,
+            began: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
+            machine: Machine::this(),
+            build: Build::this(),
+            settings,
+            measurements: Vec::new(),
+            runs: Vec::new(),
+            bandwidths: Vec::new(),
+            traffic: Vec::new(),
+            agreements: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
     /// Reads what [`Document::write`] wrote.
     pub fn read(path: &Path) -> Result<Self, BenchError> {
         let text = fs::read_to_string(path).map_err(BenchError::file(path))?;

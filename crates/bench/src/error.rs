@@ -81,6 +81,24 @@ pub enum BenchError {
         /// Largest accepted difference over the largest value.
         tolerance: f64,
     },
+    /// The program is not there.
+    #[error(
+        "{}: found no program, expected `plateau`: build it with `cargo build --release -p plateau`, or name it with \
+         --program or PLATEAU_PROGRAM", .0.display()
+    )]
+    NoProgram(PathBuf),
+    /// A run of the program fails.
+    #[error("{program} run {scene} (with {sets}): {problem}")]
+    Run {
+        /// The program.
+        program: PathBuf,
+        /// The scene file.
+        scene: PathBuf,
+        /// Changes of it.
+        sets: String,
+        /// What it said.
+        problem: String,
+    },
     /// The scene asks for what the peers do not compute.
     #[error(
         "the peers compute explicit wear of the pin on a disc that does not wear, build-ups as what they lie on, one \

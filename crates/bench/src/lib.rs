@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! kernel, scaling, parts, roofline, peers   one benchmark each: what is set against what
+//! costs      another one: runs of the program with optional parts on and off
 //! case       scene -> parameters and surfaces, on meshes of several sizes
 //! stepper    a simulation as something that can be timed: the only calls of core's time loop
 //! race       times several things in turn
@@ -15,6 +16,7 @@ pub mod arguments;
 mod bandwidth;
 mod build;
 mod case;
+mod costs;
 mod document;
 mod error;
 pub mod extremes;

@@ -35,11 +35,11 @@ const VARIANTS: &[Variant] = &[
 ];
 
 /// A hundredth of the wear rate of the pin.
-const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
+pub const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
 /// Half the modulus of the fibres.
-const SOFTER_DEBRIS: &str = "materials.pin_secondary.youngs_modulus=\"5e8 Pa\"";
+pub const SOFTER_DEBRIS: &str = "materials.pin_secondary.youngs_modulus=\"5e8 Pa\"";
 /// Twice the wear rate of the fibres.
-const FASTER_DEBRIS: &str = "materials.pin_secondary.specific_wear_rate=\"1e-13 1/Pa\"";
+pub const FASTER_DEBRIS: &str = "materials.pin_secondary.specific_wear_rate=\"1e-13 1/Pa\"";
 
 /// Measures and reports.
 pub fn parts(options: Options) -> Result<(), BenchError> {

@@ -1,16 +1,14 @@
 //! What all benchmarks have in common: options, the document of results, and how it is given out.
 
 use std::io::{self, Write as _};
-use std::path::PathBuf;
-use std::time::{Duration, SystemTime, UNIX_EPOCH};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 
-use crate::build::Build;
 use crate::case::{MeshSize, Source, mesh_size};
-use crate::document::{Benchmark, Document, FORMAT, Settings};
+use crate::document::{Benchmark, Document, Settings};
 use crate::error::BenchError;
-use crate::machine::Machine;
 use crate::race::Pace;
 use crate::tables::tables;
 
@@ -78,28 +76,16 @@ impl Options {
         };
         let parameters = source.parameters()?;
         let settings = Settings {
-            scene: source.path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            scene: source.name(),
             sets: source.sets.clone(),
-            time_acceleration: parameters.time_acceleration,
-            load_tolerance: parameters.load_tolerance,
+            time_acceleration: Some(parameters.time_acceleration),
+            load_tolerance: Some(parameters.load_tolerance),
             repeats: pace.repeats,
-            block_milliseconds: pace.block.as_secs_f64() * 1e3,
+            block_milliseconds: Some(pace.block.as_secs_f64() * 1e3),
             warm_up_steps: pace.warm_up,
             quick: self.quick,
         };
-        let document = Document {
-            format: FORMAT,
-            benchmark,
-            began: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
-            machine: Machine::this(),
-            build: Build::this(),
-            settings,
-            measurements: Vec::new(),
-            bandwidths: Vec::new(),
-            traffic: Vec::new(),
-            agreements: Vec::new(),
-            notes: Vec::new(),
-        };
+        let document = Document::begin(benchmark, settings);
         let (mesh, workers) = (mesh_size(&parameters), vec![1]);
         Ok(Session { mesh, source, pace, workers, quick: self.quick, document, json: self.json })
     }
@@ -124,11 +110,16 @@ impl Session {
 
     /// Prints the tables, and writes the JSON file where one was asked for.
     pub fn finish(self) -> Result<(), BenchError> {
-        if let Some(path) = &self.json {
-            self.document.write(path)?;
-        }
-        print(&tables(&self.document).iter().map(|table| table.text() + "\n").collect::<String>())
+        give_out(&self.document, self.json.as_deref())
     }
+}
+
+/// Prints the tables of results, and writes these to a JSON file if there is to be one.
+pub fn give_out(document: &Document, json: Option<&Path>) -> Result<(), BenchError> {
+    if let Some(path) = json {
+        document.write(path)?;
+    }
+    print(&tables(document).iter().map(|table| table.text() + "\n").collect::<String>())
 }
 
 /// Prints text on standard output; a reader who went away is no error.

@@ -1,5 +1,6 @@
 //! The tables that are made from results.
 
+use crate::costs;
 use crate::document::{Benchmark, Document, Measurement, Spread};
 use crate::scaling::{STRONG, WEAK};
 use crate::table::Table;
@@ -10,6 +11,7 @@ pub fn tables(document: &Document) -> Vec<Table> {
         Benchmark::Kernel => vec![kernel(document)],
         Benchmark::Scaling => vec![strong(document), weak(document), sizes(document)],
         Benchmark::Parts => vec![parts(document)],
+        Benchmark::Costs => costs::table::tables(document),
         Benchmark::Roofline => vec![bandwidths(document), traffic(document)],
         Benchmark::Peers => vec![peers(document), agreements(document)],
     };
@@ -33,16 +35,12 @@ fn circumstances(document: &Document) -> String {
     let (commit, changed) = build.revision.split_once('-').unwrap_or((&build.revision, ""));
     let commit: String = commit.chars().take(12).collect();
     let changed = if changed.is_empty() { "" } else { ", changed" };
+    let tolerance = settings.load_tolerance.map_or(String::new(), |bound| format!(", load tolerance {bound:e}"));
+    let blocks = settings.block_milliseconds.map_or("runs".into(), |time| format!("blocks of about {time} ms"));
     format!(
-        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}, load tolerance {:e}; \
-         median of {} blocks of about {} ms, measured in turn.{quick}",
-        build.compiler,
-        build.profile,
-        build.target,
-        settings.scene,
-        settings.load_tolerance,
-        settings.repeats,
-        settings.block_milliseconds,
+        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}{tolerance}; \
+         median of {} {blocks}, measured in turn.{quick}",
+        build.compiler, build.profile, build.target, settings.scene, settings.repeats,
     )
 }
 
@@ -51,12 +49,13 @@ fn time(spread: Spread) -> [String; 2] {
     [number(spread.median), range(spread)]
 }
 
-fn range(spread: Spread) -> String {
+/// Least and largest.
+pub fn range(spread: Spread) -> String {
     format!("{} – {}", number(spread.minimum), number(spread.maximum))
 }
 
 /// At least three digits.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let digits = if value >= 100.0 {
         0
     } else if value >= 10.0 {

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const BENCHMARKS: [&str; 5] = ["kernel", "scaling", "parts", "roofline", "peers"];
+const BENCHMARKS: [&str; 6] = ["kernel", "scaling", "parts", "costs", "roofline", "peers"];
 
 fn bench(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_plateau-bench"));
@@ -108,6 +108,47 @@ fn parts_times_the_scene_twice_and_every_variant() {
     for name in ["no formation, no destruction", "one pool per track", "wear of the disc", "a sample every step"] {
         assert!(names.contains(&name), "{name} in {names:?}");
     }
+}
+
+/// It runs the program `plateau`, which must have been built in the same profile.
+#[test]
+fn costs_runs_the_program_once_for_every_variant() {
+    let (results, _) = quick(&folder(), "costs");
+    assert_eq!((&results["benchmark"], &results["settings"]["scene"]), (&"costs".into(), &"quick.toml".into()));
+    assert!(results["build"]["revision"].as_str().is_some_and(|text| !text.is_empty()));
+    let runs = results["runs"].as_array().expect("runs");
+    let names: Vec<_> = runs.iter().map(|run| run["name"].as_str().expect("a name")).collect();
+    for name in
+        ["the scene once more", "no maps", "no maps, two workers", "no maps, acceleration 8, by tolerance instead"]
+    {
+        assert_eq!(names.iter().filter(|other| **other == name).count(), 1, "{name} in {names:?}");
+    }
+    let named = |name: &str| runs.iter().find(|run| run["name"] == name).expect("a variant");
+    for run in runs {
+        assert!(names.contains(&run["against"].as_str().expect("a name")), "{run}");
+        assert!(positive(&run["steps"]) && positive(&run["file_bytes"]), "{run}");
+        for number in ["minimum", "median", "maximum"] {
+            assert!(positive(&run["microseconds_per_step"][number]), "{run}");
+        }
+        let raw = run["raw_microseconds_per_step"].as_array().expect("raw times");
+        assert_eq!(Some(raw.len() as u64), results["settings"]["repeats"].as_u64(), "{run}");
+    }
+    // One revolution of the ring, and three.
+    assert_eq!(named("no maps, one revolution")["steps"], 690);
+    assert_eq!(named("no maps")["steps"], 3 * 690);
+    let size = |name: &str| named(name)["file_bytes"].as_u64().expect("a size");
+    assert!(size("no maps") < size("the scene") && size("the scene") < size("maps at nine times"));
+    assert!(size("no maps, one revolution") < size("no maps, one revolution, a sample every step"));
+}
+
+#[test]
+fn costs_says_what_is_wrong_with_its_program_and_its_scenes() {
+    let output = bench(&["costs", "--quick", "--program", "nowhere/plateau"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("nowhere/plateau: found no program"), "{}", text(&output.stderr));
+    let output = bench(&["costs", "--quick", "--set", "output.sample_every=fast"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("output.sample_every"), "{}", text(&output.stderr));
 }
 
 #[test]
