@@ -63,6 +63,23 @@ fn the_number_of_ranks_does_not_show() {
 
 #[test]
 #[ignore = "needs MPI"]
+fn ranks_choose_the_same_acceleration() {
+    let quick = scene("quick.toml");
+    let chosen = "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }";
+    let common = ["run", &quick, "-o", "run.h5", "--set", "operation.duration=20 s", "--set", chosen];
+    let arguments = common.map(str::to_owned);
+    let directory = WorkingDirectory::new();
+    let one = written(&directory, &directory.plateau(&arguments)).0;
+    assert!(one.contains_key("/series/time_acceleration"), "{:?}", one.keys());
+    for ranks in [2, 3] {
+        let directory = WorkingDirectory::new();
+        let outcome = on_ranks(&directory, ranks, &arguments);
+        assert_eq!(differences(&one, &written(&directory, &outcome).0), [""; 0], "{ranks} ranks");
+    }
+}
+
+#[test]
+#[ignore = "needs MPI"]
 fn ranks_without_a_sector_keep_pace() {
     // 7 columns make at most 3 sectors.
     let arguments = short_run(&[

@@ -85,8 +85,10 @@ pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
 }
 
 /// The rungs of these ladders that are coarser than a reference with the time acceleration `reference`, or that are the
-/// reference with other heights; `own` are the scene's numerics. The first one is the scene's own run, unless that is the reference. Where the scene's own time
-/// acceleration is finer than that of the reference, all other ladders have the reference's.
+/// reference with other heights; `own` are the scene's numerics.
+///
+/// The first one is the scene's own run, unless that is the reference. Where the scene's own time acceleration is finer
+/// than that of the reference, all other ladders have the reference's.
 pub fn rungs(
     ladders: &[Ladder],
     own: Numerics,
