@@ -155,7 +155,7 @@ pub(super) fn all() -> Vec<Key> {
         "time_acceleration.tolerance",
         Number(BETWEEN_0_AND_1),
         Required,
-        "relative error of the contact area that the acceleration may cause",
+        "relative error of the contact area, as estimated, that the acceleration may cause",
     );
     table.key("time_acceleration.max", Number(AT_LEAST_1), Required, "largest acceleration that the run chooses");
     table.key(
