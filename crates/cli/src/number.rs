@@ -42,6 +42,13 @@ pub fn significant(number: f64, digits: usize) -> String {
     }
 }
 
+/// A number with at most so many significant digits, for people: no zeros at the end, and a sign that is as wide as a plus.
+pub fn rounded(number: f64, digits: usize) -> String {
+    let text = significant(number, digits);
+    let is_plain = text.contains('.') && !text.contains('e');
+    with_minus(if is_plain { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
+}
+
 /// So many of a thing, of which there may be one.
 pub fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }

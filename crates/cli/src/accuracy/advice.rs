@@ -36,13 +36,7 @@ pub fn percent(fraction: f64) -> String {
     if fraction.is_nan() {
         return "–".to_owned();
     }
-    let text = number::with_minus(&number::significant(100.0 * fraction, 2));
-    let text = if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
-    };
-    format!("{text} %")
+    format!("{} %", number::rounded(100.0 * fraction, 2))
 }
 
 #[cfg(test)]

@@ -333,7 +333,7 @@ fn number(value: f64) -> String {
         return "\u{2013}".to_owned();
     }
     let value = if value.abs() < 1e-3 { 0.0 } else { value };
-    crate::number::significant(value, 3).replace('-', "\u{2212}")
+    crate::number::with_minus(&crate::number::significant(value, 3))
 }
 
 fn percent(fraction: f64) -> String {

@@ -19,7 +19,7 @@ pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
     let tick = |index: usize| {
         // Adding 0 makes a negative zero a plain one.
         let value = (first + index as f64) * step + 0.0;
-        (value, format!("{value:.decimals$}").replace('-', "\u{2212}"))
+        (value, crate::number::with_minus(&format!("{value:.decimals$}")))
     };
     (0..count(step)).map(tick).collect()
 }

@@ -45,7 +45,7 @@ fn percentage(percent: f64) -> String {
         large if large >= 1e5 => format!("{percent:.1e}"),
         _ => format!("{percent:.1}"),
     };
-    text.replace('-', "\u{2212}")
+    number::with_minus(&text)
 }
 
 fn signed(number: &str) -> String {

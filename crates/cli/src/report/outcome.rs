@@ -32,7 +32,7 @@ impl Measure {
 /// A number with five digits and a true minus.
 pub fn readable(value: f64) -> String {
     // Adding 0 makes a negative zero a plain one.
-    number::significant(value + 0.0, 5).replace('-', "\u{2212}")
+    number::with_minus(&number::significant(value + 0.0, 5))
 }
 
 const PERCENT: ReadingUnit = ReadingUnit { symbol: "%", scale: 100.0 };

@@ -11,7 +11,7 @@ use super::section::Section;
 use super::template::fill;
 use super::{comparison, provenance, scene};
 use crate::label::labels;
-use crate::version;
+use crate::{number, version};
 
 /// Bytes of a page, as far as maps can be reduced to meet it.
 const MOST_BYTES: usize = 4_900_000;
@@ -168,7 +168,7 @@ impl Parts<'_> {
             let tolerance = run.scene().get("contact").and_then(|contact| contact.get("load_tolerance"));
             let tolerance = tolerance
                 .and_then(toml::Value::as_float)
-                .map_or_else(|| UNKNOWN.into(), |tolerance| format!("{tolerance:e}").replace('-', "\u{2212}"));
+                .map_or_else(|| UNKNOWN.into(), |tolerance| number::with_minus(&format!("{tolerance:e}")));
             let [load, last_load] = of("load_residual");
             let [balance, last_balance] = of("balance_residual");
             vec![label.clone(), load, last_load, tolerance, balance, last_balance]

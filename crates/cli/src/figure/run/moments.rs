@@ -4,6 +4,7 @@ use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{ReadError, RunFile};
 
 use crate::figure::unit::ScaledUnit;
+use crate::number;
 
 /// Indices of the first and the last moment of the maps; one of them if it is both.
 pub fn ends(run: &RunFile) -> Vec<usize> {
@@ -18,18 +19,7 @@ pub fn ends(run: &RunFile) -> Vec<usize> {
 pub fn moment(run: &RunFile, index: usize) -> String {
     let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
     let unit = if seconds > 0.0 { ScaledUnit::for_time(seconds) } else { ScaledUnit::SECOND };
-    format!("{} {}", rounded(seconds * unit.per_si, 4), unit.symbol)
-}
-
-/// A number with so many significant digits at most.
-pub fn rounded(value: f64, digits: usize) -> String {
-    let text = crate::number::significant(value, digits);
-    let text = if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    };
-    text.replace('-', "\u{2212}")
+    format!("{} {}", number::rounded(seconds * unit.per_si, 4), unit.symbol)
 }
 
 /// Heights or pressures of a map, column by column; nothing if there are none.

@@ -6,7 +6,7 @@ use plateau_io::run_file::ReadError;
 use super::bodies::{Painted, having, rows};
 use super::chart::Meaning;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
-use super::moments::{floats, moment, rounded};
+use super::moments::{floats, moment};
 use super::robust_range::RobustRange;
 use super::shape::Shape;
 use super::{Figures, Subject};
@@ -14,6 +14,7 @@ use crate::figure::axes::{Axis, Scale};
 use crate::figure::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::page::KeyStyle;
 use crate::figure::unit::ScaledUnit;
+use crate::number;
 
 const NAME: &str = "pressure";
 /// Pressures that differ more than this many times are shown on a scale of equal ratios.
@@ -45,7 +46,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
                 pressure if pressure > 0.0 => colour_index(scale.part(pressure * unit.per_si)),
                 _ => NO_CONTACT,
             };
-            let largest = rounded(pressures.iter().copied().fold(0.0, f64::max) * unit.per_si, 3);
+            let largest = number::rounded(pressures.iter().copied().fold(0.0, f64::max) * unit.per_si, 3);
             let title = format!("pin, {}", moment(subject.run, index));
             let remark = format!("at most {largest} {}", unit.symbol);
             let cells: Vec<u8> = pressures.iter().map(colour).collect();

@@ -7,11 +7,12 @@ use plateau_io::run_file::ReadError;
 use super::bodies::{Painted, any_of, having, rows};
 use super::chart::Meaning;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
-use super::moments::{ends, moment, rounded, statuses};
+use super::moments::{ends, moment, statuses};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
 use crate::figure::colour::{GROUND, STATUSES};
 use crate::figure::page::KeyStyle;
+use crate::number;
 
 const NAME: &str = "status";
 const MEANINGS: [&str; 3] =
@@ -81,7 +82,7 @@ fn area_fractions(mesh: &Mesh, cells: &[u8]) -> [f64; 3] {
 }
 
 fn percent(fraction: f64) -> String {
-    rounded(if fraction < 5e-5 { 0.0 } else { 100.0 * fraction }, 3)
+    number::rounded(if fraction < 5e-5 { 0.0 } else { 100.0 * fraction }, 3)
 }
 
 #[cfg(test)]

@@ -5,13 +5,14 @@ use plateau_io::run_file::ReadError;
 
 use super::bodies::{Painted, any_of, having, rows};
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
-use super::moments::{ends, floats, mean, moment, rounded};
+use super::moments::{ends, floats, mean, moment};
 use super::robust_range::RobustRange;
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
 use crate::figure::axes::Axis;
 use crate::figure::colour::{GROUND, colour_index, colour_map};
 use crate::figure::unit::AxisUnit;
+use crate::number;
 
 const NAME: &str = "topography";
 
@@ -48,7 +49,8 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
             |subject, index| {
                 let (heights, mean) = pin_heights(subject, index)?;
                 let title = format!("pin, {}", moment(subject.run, index));
-                let remark = format!("about its mean, z = {} µm", rounded(mean * AxisUnit::MICROMETRE.per_metre, 4));
+                let remark =
+                    format!("about its mean, z = {} µm", number::rounded(mean * AxisUnit::MICROMETRE.per_metre, 4));
                 Ok(painted(&heights, &pin_scale, title, remark))
             },
         )?;
