@@ -146,6 +146,31 @@ fn the_run_file_tells_how_the_acceleration_was_chosen() {
 }
 
 #[test]
+fn a_disc_too_smooth_is_not_accelerated() {
+    // The fibres recede by κ F_N 2π r̄/A_fibre a revolution: 14 nm; the limit is 20 times that, and a disc of 0.1 µm is
+    // below it, one of 3 µm above.
+    let directory = WorkingDirectory::new();
+    let run = |sets: &[&str]| {
+        let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "--force".into(), "-o".into(), "run.h5".into()];
+        let usual = [CHOSEN, "operation.duration=5 s", "output.sample_every=1 s"];
+        arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+        let done = directory.plateau(arguments);
+        assert_eq!(done.status, Some(0), "{}", done.stderr);
+        let chosen = RunFile::open(directory.path("run.h5")).has("/series/time_acceleration");
+        assert_eq!(done.stderr.contains("as smooth as this"), !chosen, "{}", done.stderr);
+        chosen
+    };
+    let smooth = "disc.surface.synthetic.rms_height=0.1 um";
+    assert!(run(&[]));
+    assert!(!run(&[smooth]));
+    // Without debris that is compacted, nothing depends on where resin touches.
+    assert!(run(&[smooth, "plateaus.captured_fraction=0"]));
+    assert!(run(&[smooth, "plateaus.formation=false"]));
+    // Where the pin hardly wears, the disc is rough enough.
+    assert!(run(&[smooth, "materials.pin_primary.specific_wear_rate=1e-15 1/Pa"]));
+}
+
+#[test]
 fn what_leaves_nothing_to_choose_is_said() {
     let directory = WorkingDirectory::new();
     let run = |sets: &[&str]| {

@@ -43,7 +43,7 @@ pub trait Sink {
 /// When a step fails or the sink does.
 pub fn drive<S: Sink>(
     simulation: &mut Simulation,
-    mut scout: Option<Scout>,
+    mut scout: Option<&mut Scout>,
     mut schedule: Schedule,
     output: &OutputRecipe,
     sink: &mut S,
@@ -55,7 +55,8 @@ pub fn drive<S: Sink>(
     }
     while simulation.steps_done() < schedule.last() {
         let done = simulation.steps_done();
-        let event = schedule.next_event(done).min(scout.as_ref().map_or(u64::MAX, Scout::comparison));
+        let event =
+            schedule.next_event(done).min(scout.as_ref().and_then(|scout| scout.comparison()).unwrap_or(u64::MAX));
         let (sampled, mapped) = (schedule.next_sample(done) == event, schedule.has_maps(event) && !maps.is_empty());
         while simulation.steps_done() < event {
             let start = Instant::now();
@@ -69,13 +70,14 @@ pub fn drive<S: Sink>(
         if sampled {
             let mut sample = simulation.sample()?;
             sample.roughness = roughness.then(|| simulation.roughness()).transpose()?;
-            sample.acceleration = scout.as_ref().map(chosen);
+            sample.acceleration = scout.as_deref().map(chosen);
             sink.sample(sample)?;
         }
         if mapped {
             sink.snapshot(simulation.snapshot(maps)?)?;
         }
-        if let Some(scout) = scout.as_mut().filter(|scout| scout.comparison() == event && event < schedule.last()) {
+        if let Some(scout) = scout.as_mut().filter(|scout| scout.comparison() == Some(event) && event < schedule.last())
+        {
             while !scout.advance(steps_per_look)? {
                 sink.look(simulation, steps_per_look)?;
             }

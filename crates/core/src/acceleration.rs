@@ -82,6 +82,11 @@ impl Choice {
         self.square.value().sqrt().max(self.difference.value().abs())
     }
 
+    /// Goes back to m = 1, whose error is 0.
+    pub fn give_up(&mut self) {
+        *self = Self::within(self.tolerance, 1.0, self.window);
+    }
+
     /// Takes note that over the last `elapsed` seconds the scout's contact area differed from that of the run by
     /// `difference`, relative to it, and chooses anew.
     pub fn note(&mut self, difference: f64, elapsed: f64) {

@@ -66,6 +66,7 @@ pub mod schedule;
 pub mod scout;
 pub mod sector;
 pub mod simulation;
+pub mod smoothness;
 pub mod state;
 pub mod strips;
 pub mod sum;

@@ -72,6 +72,22 @@ impl Roughness {
     }
 }
 
+/// √(Σ A (z − z̄_i)² / Σ A) of the disc's cells, m, heights being measured from the mean z̄_i of their own track (row).
+pub fn root_mean_square_along_tracks(mesh: &Mesh, heights: &[f64]) -> f64 {
+    let columns = heights.len() / mesh.rows();
+    let sum_of_tracks = |add: &dyn Fn(usize, f64) -> f64| {
+        let mut sums = vec![0.0; mesh.rows()];
+        for column in heights.chunks_exact(mesh.rows()) {
+            sums.iter_mut().zip(column).enumerate().for_each(|(row, (sum, height))| *sum += add(row, *height));
+        }
+        sums
+    };
+    let mean: Vec<f64> = sum_of_tracks(&|_, height| height).iter().map(|sum| sum / columns as f64).collect();
+    let squares = sum_of_tracks(&|row, height| (height - mean[row]).powi(2));
+    let weighted: f64 = squares.iter().zip(mesh.area()).map(|(square, area)| square * area).sum();
+    (weighted / (columns as f64 * mesh.column_area())).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,6 +107,15 @@ mod tests {
             assert!((found / expected - 1.0).abs() < 1e-14, "{found}, {expected}");
         }
         assert_eq!(Roughness::of_pin(&mesh, &heights).skewness, -skewness);
+    }
+
+    #[test]
+    fn tracks_have_their_own_means() {
+        // By hand: areas as 3 : 5; one track flat at 7, the other ± 2.
+        let mesh = Mesh::new(2, 6, 3, 1.0, 3.0).unwrap();
+        let heights: Vec<f64> = (0..6).flat_map(|column| [7.0, if column % 2 == 0 { 2.0 } else { -2.0 }]).collect();
+        let expected = (5.0_f64 / 8.0 * 4.0).sqrt();
+        assert!((root_mean_square_along_tracks(&mesh, &heights) / expected - 1.0).abs() < 1e-14);
     }
 
     #[test]

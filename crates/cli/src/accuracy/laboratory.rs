@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use plateau_core::acceleration::Choice;
 use plateau_core::mesh::MeshError;
 use plateau_core::scout::Scout;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::smoothness::Smoothness;
 use plateau_core::state::InitialSurfaces;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::recipe::Scene;
@@ -70,6 +70,8 @@ pub struct Laboratory<'a> {
     /// Wall time of a step on every mesh, s, by its coarsening.
     step_times: BTreeMap<usize, f64>,
     notes: Vec<String>,
+    /// Whether a run that chooses its acceleration has none.
+    too_smooth: bool,
 }
 
 impl<'a> Laboratory<'a> {
@@ -92,7 +94,13 @@ impl<'a> Laboratory<'a> {
             coarsenings: BTreeMap::new(),
             step_times: BTreeMap::new(),
             notes: Vec::new(),
+            too_smooth: Smoothness::forbids_from_the_start(&scene.parameters, surfaces),
         };
+        if laboratory.too_smooth && ladders.contains(&Ladder::Tolerance) {
+            let note =
+                "the disc is so smooth that a run which chooses its acceleration has none: it takes all the steps";
+            laboratory.notes.push(note.to_owned());
+        }
         if ladders.contains(&Ladder::Mesh) {
             laboratory.coarsen().map_err(Failure::run)?;
         }
@@ -335,16 +343,15 @@ impl<'a> Laboratory<'a> {
     /// What goes before a run that chooses its acceleration.
     fn scout(&self, numerics: &Numerics) -> Result<Option<Scout>, SimulationError> {
         let Some(adaptive) = &numerics.adaptive else { return Ok(None) };
-        let simulation = self.simulation(numerics)?;
-        let choice = Choice::new(adaptive, simulation.parameters(), self.scene.duration);
-        if choice.is_free() { Scout::new(simulation, choice).map(Some) } else { Ok(None) }
+        let scout = Scout::new(self.simulation(numerics)?, adaptive, self.scene.duration)?;
+        Ok(scout.idle().is_none().then_some(scout))
     }
 
     /// About how long a run takes, s.
     fn seconds(&self, numerics: &Numerics) -> f64 {
         let parameters = numerics.parameters(self.scene, self.coarsenings.get(&numerics.coarsening));
         let time = self.step_times.get(&numerics.coarsening).copied().unwrap_or(0.0) * parameters.steps as f64;
-        if numerics.adaptive.is_some() { time / USUAL_ACCELERATION } else { time }
+        if numerics.adaptive.is_some() && !self.too_smooth { time / USUAL_ACCELERATION } else { time }
     }
 
     /// A run tells better than a trial how long steps take, if it took longer.

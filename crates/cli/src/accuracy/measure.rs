@@ -52,7 +52,7 @@ impl fmt::Display for Unfinished {
 /// [`Unfinished`].
 pub fn measure(
     simulation: &mut Simulation,
-    scout: Option<Scout>,
+    mut scout: Option<Scout>,
     duration: f64,
     windows: &Windows,
     name: &str,
@@ -77,7 +77,7 @@ pub fn measure(
         heights: Heights::default(),
     };
     let start = Instant::now();
-    let driven = drive(simulation, scout, schedule, &output, &mut record);
+    let driven = drive(simulation, scout.as_mut(), schedule, &output, &mut record);
     let wall_time = start.elapsed().as_secs_f64();
     record.progress.finish();
     driven?;

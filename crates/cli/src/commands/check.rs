@@ -4,12 +4,15 @@ use std::fmt::Write as _;
 use std::time::Duration;
 
 use plateau_core::parts::{ACCELERATION, Part, parts};
+use plateau_core::scout::Idle;
 use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::smoothness::Smoothness;
 use plateau_io::scene::{memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
 use serde::Serialize;
 
 use super::load_scene;
+use super::run::warn_of;
 use crate::arguments::CheckArguments;
 use crate::execution::{decide, time_per_step};
 use crate::failure::Failure;
@@ -23,10 +26,14 @@ const TRIAL: Duration = Duration::from_millis(300);
 
 /// Checks a scene.
 pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
-    let scene = load_scene(&arguments.scene)?;
+    let mut scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
     let Loaded { surfaces, report, .. } = loaded;
+    if scene.adaptive.is_some() && Smoothness::forbids_from_the_start(&scene.parameters, &surfaces) {
+        warn_of(Idle::Smooth(0.0));
+        scene.adaptive = None;
+    }
     let decided = decide(scene.workers, 1, &arguments.execution, &scene.parameters, &surfaces).map_err(Failure::run)?;
     let mut simulation =
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;

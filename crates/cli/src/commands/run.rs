@@ -3,10 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use plateau_core::acceleration::Choice;
 use plateau_core::comm::CommError;
 use plateau_core::observe::{Extras, Sample, Snapshot};
-use plateau_core::scout::Scout;
+use plateau_core::scout::{Idle, Scout};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, check_place, report_file_size_limit};
@@ -50,7 +49,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let Loaded { surfaces, inputs, report: surface_report } = loaded;
     let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
     let execution = execution.map_err(Failure::run)?;
-    let scout = scout(&scene, &surfaces, execution, job)?;
+    let mut scout = scout(&scene, &surfaces, execution, job)?;
     let mut simulation = job.simulation(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
     let header = header(&scene, &simulation, scout.is_some(), &inputs, &surface_report, schedule.samples())?;
     job.compare(
@@ -63,7 +62,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let start = Instant::now();
     let progress = Progress::new(schedule.end_time(), job.leads());
     let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default() };
-    let result = drive(&mut simulation, scout, schedule, &scene.output, &mut recorder);
+    let result = drive(&mut simulation, scout.as_mut(), schedule, &scene.output, &mut recorder);
     recorder.progress.finish();
     let Recorder { writer, last, .. } = recorder;
     let Some(writer) = writer else {
@@ -90,21 +89,25 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let summary =
         Summary::new(&scene, surface_report, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
     summary.warn();
+    scout.as_ref().and_then(Scout::idle).into_iter().for_each(warn_of);
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
 }
 
 /// What goes before a run that chooses its acceleration, where there is something to choose.
 fn scout(scene: &Scene, surfaces: &InitialSurfaces, execution: Execution, job: &Job) -> Result<Option<Scout>, Failure> {
     let Some(adaptive) = &scene.adaptive else { return Ok(None) };
-    let choice = Choice::new(adaptive, &scene.parameters, scene.duration);
-    if !choice.is_free() {
-        message::warning(
-            "numerics.time_acceleration: nothing to choose, the run is not accelerated; see docs/accuracy.md",
-        );
+    let simulation = job.simulation(scene.parameters.clone(), surfaces.clone(), execution).map_err(Failure::input)?;
+    let scout = Scout::new(simulation, adaptive, scene.duration).map_err(Failure::run)?;
+    if let Some(idle) = scout.idle() {
+        warn_of(idle);
         return Ok(None);
     }
-    let simulation = job.simulation(scene.parameters.clone(), surfaces.clone(), execution).map_err(Failure::input)?;
-    Scout::new(simulation, choice).map(Some).map_err(Failure::run)
+    Ok(Some(scout))
+}
+
+/// Says why the run is not accelerated although it might choose.
+pub fn warn_of(idle: Idle) {
+    message::warning(format_args!("numerics.time_acceleration: {idle}; see docs/accuracy.md"));
 }
 
 /// Refuses an output that is a file which the run reads: not even `--force` is meant like that.
