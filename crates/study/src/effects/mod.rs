@@ -1,0 +1,1 @@
+//! Effects: what the responses of a design tell of its factors.
