@@ -1,0 +1,135 @@
+//! Aliases: the effects that a fraction of the two-level combinations cannot tell from each other.
+//!
+//! Every effect is a product of factors, so by the generators a product of base factors; effects with the same product
+//! are aliases, and those whose product is I are the words of the defining relation.
+
+use std::collections::BTreeMap;
+
+use super::Aliases;
+use super::fractional_factorial::columns;
+use super::generators::{Generator, letters};
+
+/// Most words that are listed, unless the shortest alone are more. All of twelve generators, of 2¹² − 1 words.
+const MOST_WORDS: usize = 4095;
+
+/// What the generators make indistinguishable; none where there are no generators.
+pub(super) fn aliases(factors: usize, generators: &[Generator]) -> Option<Aliases> {
+    let base = factors - generators.len();
+    let added = (base..).map(|factor| 1 << factor);
+    let relations: Vec<Word> = generators
+        .iter()
+        .zip(added)
+        .map(|(generator, added)| Word { factors: generator.base | added, negative: generator.negative })
+        .collect();
+    let mut word_lengths = vec![0; factors + 1];
+    words(&relations).for_each(|word| word_lengths[word.length()] += 1);
+    let shortest = word_lengths.iter().position(|count| *count > 0)?;
+    let longest = (shortest + 1..=factors)
+        .take_while(|length| word_lengths[..=*length].iter().sum::<usize>() <= MOST_WORDS)
+        .last()
+        .unwrap_or(shortest);
+    let mut listed: Vec<(usize, String, bool)> = words(&relations)
+        .filter(|word| word.length() <= longest)
+        .map(|word| (word.length(), letters(word.factors), word.negative))
+        .collect();
+    listed.sort();
+    Some(Aliases {
+        defining_words: listed.into_iter().map(|(_, letters, negative)| signed(&letters, negative)).collect(),
+        word_lengths,
+        resolution: shortest as u32,
+        chains: chains(&columns(factors, generators)),
+    })
+}
+
+/// A product of factors that is 1 at every point, or −1.
+#[derive(Debug, Clone, Copy)]
+struct Word {
+    factors: u32,
+    negative: bool,
+}
+
+impl Word {
+    fn length(&self) -> usize {
+        self.factors.count_ones() as usize
+    }
+}
+
+/// All products of the words, each once.
+fn words(relations: &[Word]) -> impl Iterator<Item = Word> + '_ {
+    let mut word = Word { factors: 0, negative: false };
+    // In the order of the Gray code, so that each product differs from the one before by one word.
+    (1_u64..1 << relations.len()).map(move |number| {
+        let relation = relations[number.trailing_zeros() as usize];
+        word.factors ^= relation.factors;
+        word.negative ^= relation.negative;
+        word
+    })
+}
+
+/// Main effects and two-factor interactions that cannot be told from each other.
+fn chains(columns: &[Generator]) -> Vec<Vec<String>> {
+    let main = columns.iter().enumerate().map(|(factor, column)| (1 << factor, *column));
+    let pairs = columns.iter().enumerate().flat_map(|(one, first)| {
+        let others = columns.iter().enumerate().skip(one + 1);
+        others.map(move |(other, second)| (1 << one | 1 << other, first.times(*second)))
+    });
+    let mut sets: BTreeMap<u32, Vec<(u32, bool)>> = BTreeMap::new();
+    let mut order = Vec::new();
+    for (effect, column) in main.chain(pairs) {
+        let set = sets.entry(column.base).or_default();
+        if set.is_empty() {
+            order.push(column.base);
+        }
+        set.push((effect, column.negative));
+    }
+    let chains = order.iter().filter_map(|base| sets.get(base)).filter(|set| set.len() > 1);
+    chains
+        .map(|set| set.iter().map(|(effect, negative)| signed(&letters(*effect), *negative != set[0].1)).collect())
+        .collect()
+}
+
+fn signed(letters: &str, negative: bool) -> String {
+    format!("{}{letters}", if negative { "-" } else { "" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::generators::parse;
+
+    fn of(factors: usize, texts: &[&str]) -> Aliases {
+        let texts: Vec<String> = texts.iter().map(ToString::to_string).collect();
+        aliases(factors, &parse(factors, &texts).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn words_and_chains_are_products_of_the_generators() {
+        // By hand: I = ABD = ACE = BCDE; each effect times these words.
+        let aliases = of(5, &["D = AB", "E = AC"]);
+        assert_eq!(aliases.defining_words, ["ABD", "ACE", "BCDE"]);
+        assert_eq!(aliases.resolution, 3);
+        let chains: Vec<String> = aliases.chains.iter().map(|chain| chain.join(" = ")).collect();
+        assert_eq!(chains, ["A = BD = CE", "B = AD", "C = AE", "D = AB", "E = AC", "BC = DE", "BE = CD"]);
+    }
+
+    #[test]
+    fn signs_go_through() {
+        // By hand: D = −AB is −1 times AB at every point, so A = −BD and B = −AD; with E = BC, ABD · BCE = ACDE.
+        let aliases = of(5, &["D = -AB", "E = BC"]);
+        assert_eq!(aliases.defining_words, ["-ABD", "BCE", "-ACDE"]);
+        let chains: Vec<String> = aliases.chains.iter().map(|chain| chain.join(" = ")).collect();
+        assert_eq!(chains, ["A = -BD", "B = -AD = CE", "C = BE", "D = -AB", "E = BC", "AC = -DE", "AE = -CD"]);
+    }
+
+    #[test]
+    fn many_words_are_counted_and_only_the_shortest_are_listed() {
+        // 2^(25-20): of its 2^20 − 1 words the lengths up to 5 are no more than 4095.
+        let words = crate::design::minimum_aberration::minimum_aberration(25, 3).unwrap();
+        let aliases = of(25, &words.iter().map(String::as_str).collect::<Vec<_>>());
+        assert_eq!(aliases.word_lengths.iter().sum::<usize>(), (1 << 20) - 1);
+        // Numbers of words in FrF2 2.3-4 for R, catalogue entry 25-20.1.
+        assert_eq!(aliases.word_lengths[3..6], [76, 442, 1656]);
+        assert_eq!(aliases.defining_words.len(), 76 + 442 + 1656);
+        assert!(aliases.defining_words.iter().all(|word| word.len() <= 5));
+    }
+}

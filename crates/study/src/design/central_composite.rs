@@ -1,0 +1,114 @@
+//! Central composite designs: two-level combinations, axial points and centre points.
+//!
+//! G. E. P. Box, K. B. Wilson, On the experimental attainment of optimum conditions, J. R. Stat. Soc. B 13, 1–45
+//! (1951); G. E. P. Box, J. S. Hunter, Multi-factor experimental designs for exploring response surfaces, Ann. Math.
+//! Stat. 28, 195–241 (1957), doi:10.1214/aoms/1177707047.
+
+use super::fractional_factorial::{combinations, of_resolution};
+use super::{Alpha, Design, DesignError, Factor, Setting, only_ends, room};
+
+/// Up to so many factors the core has all combinations; beyond, a fraction of resolution V, which tells all two-factor
+/// interactions apart.
+const WHOLE_CORE: usize = 4;
+
+/// Core, its centre points, axial points (lower and upper of each factor), their centre points.
+///
+/// The core lies at −1 and 1, so axial points with a larger alpha lie outside the range.
+pub(super) fn central_composite(alpha: Alpha, centre: [usize; 2], factors: &[Factor]) -> Result<Design, DesignError> {
+    only_ends(factors, "a central composite design")?;
+    let count = factors.len();
+    let generators = if count <= WHOLE_CORE { Vec::new() } else { of_resolution(5, count)? };
+    let mut settings = combinations(count, &generators)?;
+    let core = settings.len() / count;
+    let outer = centre[0].checked_add(centre[1]).and_then(|centre| centre.checked_add(core + 2 * count));
+    room(outer, count)?;
+    let distance = distance(alpha, core as f64, count as f64, centre.map(|points| points as f64));
+    let at_centre = |points: usize| std::iter::repeat_n(Setting::Coded(0.0), points * count);
+    settings.extend(at_centre(centre[0]));
+    for axis in 0..count {
+        for end in [-distance, distance] {
+            settings.extend((0..count).map(|factor| Setting::Coded(if factor == axis { end } else { 0.0 })));
+        }
+    }
+    settings.extend(at_centre(centre[1]));
+    Design::from_settings(count, settings, None)
+}
+
+/// Distance of the axial points.
+fn distance(alpha: Alpha, core: f64, factors: f64, [with_core, with_axial]: [f64; 2]) -> f64 {
+    match alpha {
+        // Two square roots, which are the same on every machine.
+        Alpha::Rotatable => core.sqrt().sqrt(),
+        Alpha::Orthogonal => (factors * (1.0 + with_axial / (2.0 * factors)) / (1.0 + with_core / core)).sqrt(),
+        Alpha::Face => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(alpha: Alpha, centre: [usize; 2], factors: usize) -> Design {
+        central_composite(alpha, centre, &vec![Factor::Range; factors]).unwrap()
+    }
+
+    fn coded(design: &Design) -> Vec<Vec<f64>> {
+        let value = |setting: &Setting| match setting {
+            Setting::Coded(value) => *value,
+            Setting::Level(_) => f64::NAN,
+        };
+        (0..design.points()).map(|point| design.point(point).iter().map(value).collect()).collect()
+    }
+
+    #[test]
+    fn rotatable_designs_have_the_moments_of_rotation() {
+        // Box and Hunter (1957): odd moments vanish and Σx⁴ = 3 Σx²y², so that the variance of prediction is the
+        // same at equal distance from the centre.
+        for factors in 2..=10 {
+            let rows = coded(&of(Alpha::Rotatable, [2, 3], factors));
+            let moment = |powers: &[(usize, i32)]| -> f64 {
+                rows.iter()
+                    .map(|row| powers.iter().map(|(factor, power)| row[*factor].powi(*power)).product::<f64>())
+                    .sum()
+            };
+            for one in 0..factors {
+                assert!(moment(&[(one, 1)]).abs() < 1e-9 && moment(&[(one, 3)]).abs() < 1e-9);
+                for other in (0..factors).filter(|other| *other != one) {
+                    let (pure, mixed) = (moment(&[(one, 4)]), moment(&[(one, 2), (other, 2)]));
+                    assert!((pure - 3.0 * mixed).abs() < 1e-9 * pure, "{factors} factors: {pure}, {mixed}");
+                    assert!(moment(&[(one, 1), (other, 1)]).abs() < 1e-9);
+                    assert!(moment(&[(one, 3), (other, 1)]).abs() < 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn orthogonal_blocks_have_squares_in_proportion_to_their_sizes() {
+        // Box and Hunter (1957): the condition for blocks that do not change the quadratic effects.
+        for (factors, centre) in [(2, [4, 4]), (3, [4, 2]), (4, [0, 3]), (5, [6, 1]), (7, [1, 0])] {
+            let rows = coded(&of(Alpha::Orthogonal, centre, factors));
+            let (core, axial) = rows.split_at(rows.len() - 2 * factors - centre[1]);
+            for factor in 0..factors {
+                let mean = |block: &[Vec<f64>]| {
+                    block.iter().map(|row| row[factor] * row[factor]).sum::<f64>() / block.len() as f64
+                };
+                assert!((mean(core) - mean(axial)).abs() < 1e-12, "{factors} factors");
+            }
+        }
+    }
+
+    #[test]
+    fn the_core_is_a_fraction_of_resolution_v_from_five_factors_on() {
+        // NIST/SEMATECH e-Handbook, 5.3.3.4.7: 16, 32, 64 and 64 runs of resolution V or more for 5 to 8 factors.
+        for (factors, core) in [(1, 2), (2, 4), (3, 8), (4, 16), (5, 16), (6, 32), (7, 64), (8, 64)] {
+            assert_eq!(of(Alpha::Face, [0, 0], factors).points(), core + 2 * factors);
+        }
+    }
+
+    #[test]
+    fn too_many_centre_points_are_refused() {
+        let refused = central_composite(Alpha::Face, [usize::MAX, 1], &[Factor::Range; 2]).unwrap_err();
+        assert!(refused.0.contains("10000000"), "{refused}");
+    }
+}

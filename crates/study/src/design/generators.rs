@@ -1,0 +1,200 @@
+//! Generators: the rules by which the added factors of a fraction follow from its base factors.
+//!
+//! Factors are named by the letters A to Z without I, for I is the mean. Sets of factors are bits, A being the lowest.
+
+use super::{DesignError, counted};
+
+/// The names of the factors, in their order.
+pub(super) const LETTERS: &str = "ABCDEFGHJKLMNOPQRSTUVWXYZ";
+
+/// An added factor is the product of some base factors, or its negative.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Generator {
+    /// Which base factors.
+    pub(super) base: u32,
+    /// Whether it is the negative.
+    pub(super) negative: bool,
+}
+
+impl Generator {
+    /// The base factor of this index itself.
+    pub(super) fn of_base(factor: usize) -> Self {
+        Self { base: 1 << factor, negative: false }
+    }
+
+    /// The product of both.
+    pub(super) fn times(self, other: Self) -> Self {
+        Self { base: self.base ^ other.base, negative: self.negative != other.negative }
+    }
+
+    /// −1 or 1 in a run whose bits are set where a base factor is 1, clear where it is −1.
+    pub(super) fn sign(self, run: u32) -> f64 {
+        let odd = (self.base & !run).count_ones() % 2 == 1;
+        if odd == self.negative { 1.0 } else { -1.0 }
+    }
+}
+
+/// Whether there are letters enough for so many factors.
+pub(super) fn can_be_named(factors: usize) -> Result<(), DesignError> {
+    let most = LETTERS.len();
+    if factors > most {
+        return error(format!("a fraction has at most {most} factors, named A to Z without I, not {factors}"));
+    }
+    Ok(())
+}
+
+/// The letters of a set of factors.
+pub(super) fn letters(factors: u32) -> String {
+    LETTERS.chars().enumerate().filter(|(bit, _)| factors >> bit & 1 == 1).map(|(_, letter)| letter).collect()
+}
+
+/// The generators of the added factors, in their order.
+///
+/// A text is a word of letters of base factors, with a minus before it where meant, alone or after the letter of the
+/// added factor and `=`. A word alone is for the first added factor that no other text names.
+pub(super) fn parse(factors: usize, texts: &[String]) -> Result<Vec<Generator>, DesignError> {
+    can_be_named(factors)?;
+    let Some(base) = factors.checked_sub(texts.len()).filter(|base| *base > 0) else {
+        let (given, most) = (texts.len(), factors.saturating_sub(1));
+        return error(format!("too many generators for {}: {given}, but {most} at most", counted(factors)));
+    };
+    let mut added: Vec<Option<Generator>> = vec![None; texts.len()];
+    let mut unnamed = Vec::new();
+    for text in texts {
+        match text.split_once('=') {
+            Some((name, word)) => {
+                let place = &mut added[named(name.trim(), text, base, factors)?];
+                if place.is_some() {
+                    return error(format!("two generators for factor {}; the second is `{text}`", name.trim()));
+                }
+                *place = Some(word_of(word.trim(), text, base, factors)?);
+            }
+            None => unnamed.push(word_of(text.trim(), text, base, factors)?),
+        }
+    }
+    let mut unnamed = unnamed.into_iter();
+    let generators: Vec<Generator> = added.into_iter().filter_map(|place| place.or_else(|| unnamed.next())).collect();
+    for (index, generator) in generators.iter().enumerate() {
+        if let Some(first) = generators[..index].iter().position(|other| other.base == generator.base) {
+            let (one, other, word) = (letter(base + first), letter(base + index), letters(generator.base));
+            return error(format!(
+                "factors {one} and {other} have the same generator {word}, so could not be told from each other"
+            ));
+        }
+    }
+    Ok(generators)
+}
+
+/// Index among the added factors of the one that stands before the `=`.
+fn named(name: &str, text: &str, base: usize, factors: usize) -> Result<usize, DesignError> {
+    let mut characters = name.chars();
+    let index = match (characters.next(), characters.next()) {
+        (Some(character), None) => index_of(character),
+        _ => return error(format!("generator `{text}`: expected one letter before the =, found `{name}`")),
+    };
+    match index.and_then(|index| index.checked_sub(base)) {
+        Some(added) if added < factors - base => Ok(added),
+        _ => error(format!("generator `{text}`: expected {} before the =, found {name}", span(base, factors))),
+    }
+}
+
+fn word_of(word: &str, text: &str, base: usize, factors: usize) -> Result<Generator, DesignError> {
+    let (negative, product) = match word.strip_prefix(['-', '−']) {
+        Some(product) => (true, product.trim_start()),
+        None => (false, word.strip_prefix('+').unwrap_or(word).trim_start()),
+    };
+    let mut set = 0_u32;
+    for character in product.chars() {
+        let bit = match index_of(character) {
+            Some(index) if index < base => 1 << index,
+            Some(index) if index < factors => {
+                let range = span(0, base);
+                return error(format!(
+                    "generator `{text}`: {character} is an added factor itself; expected base factors, {range}"
+                ));
+            }
+            _ => {
+                let range = span(0, base);
+                return error(format!("generator `{text}`: {character} is no factor; expected base factors, {range}"));
+            }
+        };
+        if set & bit != 0 {
+            return error(format!("generator `{text}`: {character} stands twice"));
+        }
+        set |= bit;
+    }
+    match set.count_ones() {
+        0 => error(format!("generator `{text}`: expected the letters of base factors, found none")),
+        1 => error(format!(
+            "generator `{text}` equals base factor {product}, so the two could not be told from each other"
+        )),
+        _ => Ok(Generator { base: set, negative }),
+    }
+}
+
+/// Index of the factor with this letter, small or capital.
+fn index_of(character: char) -> Option<usize> {
+    LETTERS.find(character.to_ascii_uppercase())
+}
+
+fn letter(factor: usize) -> String {
+    letters(1 << factor)
+}
+
+/// The letters from one factor to before another, as people say it.
+fn span(from: usize, to: usize) -> String {
+    if to - from == 1 { letter(from) } else { format!("{} to {}", letter(from), letter(to - 1)) }
+}
+
+fn error<T>(message: String) -> Result<T, DesignError> {
+    Err(DesignError(message))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(factors: usize, texts: &[&str]) -> Result<Vec<Generator>, DesignError> {
+        parse(factors, &texts.iter().map(ToString::to_string).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn all_ways_of_writing_mean_the_same() {
+        let minus = Generator { base: 0b1111, negative: true };
+        for text in ["E = -ABCD", "E=-ABCD", "-ABCD", " - DCBA ", "e = −abcd"] {
+            assert_eq!(parsed(5, &[text]), Ok(vec![minus]), "{text}");
+        }
+        let plus = Generator { negative: false, ..minus };
+        assert_eq!(parsed(5, &["E=+ABCD"]), Ok(vec![plus]));
+        // E is named, so that the word alone is for D.
+        let mixed = parsed(5, &["E = AC", "AB"]).unwrap();
+        assert_eq!(mixed.iter().map(|each| each.base).collect::<Vec<_>>(), [0b11, 0b101]);
+        // J follows H.
+        assert_eq!(parsed(9, &["J = ABCDEFGH"]).unwrap()[0].base, 0xff);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let message = |factors, texts: &[&str]| parsed(factors, texts).unwrap_err().0;
+        assert_eq!(message(5, &["E = ABCX"]), "generator `E = ABCX`: X is no factor; expected base factors, A to D");
+        assert_eq!(message(5, &["I=ABCE"]), "generator `I=ABCE`: expected E before the =, found I");
+        assert_eq!(
+            message(6, &["E=ABC", "F=ABE"]),
+            "generator `F=ABE`: E is an added factor itself; expected base factors, A to D"
+        );
+        assert_eq!(
+            message(6, &["E=ABC", "F=-ABC"]),
+            "factors E and F have the same generator ABC, so could not be told from each other"
+        );
+        assert_eq!(message(6, &["E=ABC", "E=ABD"]), "two generators for factor E; the second is `E=ABD`");
+        assert_eq!(
+            message(5, &["E=A"]),
+            "generator `E=A` equals base factor A, so the two could not be told from each other"
+        );
+        assert_eq!(message(5, &["AAB"]), "generator `AAB`: A stands twice");
+        assert_eq!(message(5, &["E=-"]), "generator `E=-`: expected the letters of base factors, found none");
+        assert_eq!(message(5, &["EF=AB"]), "generator `EF=AB`: expected one letter before the =, found `EF`");
+        assert_eq!(message(2, &["AB", "A"]), "too many generators for 2 factors: 2, but 1 at most");
+        assert_eq!(message(26, &["AB"]), "a fraction has at most 25 factors, named A to Z without I, not 26");
+    }
+}
