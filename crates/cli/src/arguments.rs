@@ -1,5 +1,7 @@
 //! The command line.
 
+mod sweep;
+
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
@@ -8,6 +10,10 @@ use clap_complete::Shell;
 use plateau_core::kernel::InstructionSet;
 use plateau_core::surface::Level;
 use plateau_io::units::{self, Dimension};
+
+pub use sweep::{
+    CollectArguments, EffectsArguments, Model, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments,
+};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
@@ -48,6 +54,9 @@ pub enum Command {
     /// Measure how exact a scene's runs are against the time they take
     #[command(after_help = "Example:\n  plateau accuracy data/scenes/quick.toml --budget 20s -o quick-accuracy")]
     Accuracy(AccuracyArguments),
+    /// Make many runs of a scene with other values, and tell what these values do
+    #[command(subcommand, after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
+    Sweep(SweepCommand),
     /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]

@@ -19,6 +19,7 @@ mod progress;
 mod report;
 mod stability;
 mod summary;
+mod sweep;
 mod table;
 mod version;
 mod watch;

@@ -1,6 +1,7 @@
 //! HDF5 files of results: named values over named dimensions, with netCDF-4 conventions as in run files. They appear
 //! under their name when they are complete.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,6 +17,12 @@ use crate::run_file::dimension::{Dimensions, EMPTY_FILE};
 use crate::run_file::layout::{CONVENTIONS, write_number, write_text};
 use crate::temporary::Temporary;
 use crate::timestamp::iso_8601;
+
+/// Level of compression: higher ones gain nothing.
+const DEFLATE: u8 = 1;
+
+/// A name or a short text.
+pub type Name = Cow<'static, str>;
 
 /// What a file holds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -45,9 +52,9 @@ pub struct Coordinate {
     /// Its name.
     pub name: &'static str,
     /// SI unit.
-    pub unit: &'static str,
+    pub unit: Name,
     /// What it is, in words.
-    pub long_name: &'static str,
+    pub long_name: Name,
     /// One value for each place along the dimension.
     pub values: Vec<f64>,
 }
@@ -56,13 +63,13 @@ pub struct Coordinate {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variable {
     /// Its name.
-    pub name: &'static str,
+    pub name: Name,
     /// Names of its dimensions, the slowest first.
     pub dimensions: Vec<&'static str>,
     /// SI unit; empty for texts.
-    pub unit: &'static str,
+    pub unit: Name,
     /// What it is, in words.
-    pub long_name: &'static str,
+    pub long_name: Name,
     /// One value for each place, the last dimension the fastest.
     pub values: Values,
 }
@@ -76,6 +83,8 @@ pub enum Values {
     Integer(Vec<i64>),
     /// Texts.
     Text(Vec<String>),
+    /// Numbers that come row by row, along two dimensions: see [`write_rows`]. NaN where none came.
+    Rows,
 }
 
 /// Why a file cannot be written.
@@ -93,13 +102,46 @@ pub struct DatasetFileError {
 /// # Errors
 /// [`DatasetFileError`], after which nothing has changed at `path`.
 pub fn write(path: &Path, replace: bool, content: &Content) -> Result<(), DatasetFileError> {
+    write_rows(path, replace, content, |_| Ok(()))
+}
+
+/// The same with variables whose rows `fill` gives one by one, so that they need not all be in memory.
+///
+/// # Errors
+/// Those of `fill`, and [`DatasetFileError`]; after either nothing has changed at `path`.
+pub fn write_rows<E: From<DatasetFileError>>(
+    path: &Path,
+    replace: bool,
+    content: &Content,
+    give: impl FnOnce(&Rows<'_>) -> Result<(), E>,
+) -> Result<(), E> {
     let failed = |reason: String| DatasetFileError { path: path.into(), reason };
     // The target of a link is replaced, not the link.
     let target = if replace { path.canonicalize().unwrap_or_else(|_| path.into()) } else { path.into() };
     let temporary = Temporary::beside(&target);
     fs::write(temporary.path(), EMPTY_FILE).map_err(|error| failed(error.to_string()))?;
-    fill(temporary.path(), content).map_err(|error| failed(error.to_string()))?;
-    temporary.publish(replace).map_err(|error| failed(error.to_string()))
+    let file = create(temporary.path(), content).map_err(|error| failed(error.to_string()))?;
+    give(&Rows { file: &file, path })?;
+    file.close().map_err(|error| failed(error.to_string()))?;
+    Ok(temporary.publish(replace).map_err(|error| failed(error.to_string()))?)
+}
+
+/// Takes the rows of variables of [`Values::Rows`].
+#[derive(Debug)]
+pub struct Rows<'a> {
+    file: &'a File,
+    path: &'a Path,
+}
+
+impl Rows<'_> {
+    /// A row, from its beginning on; the rest stays NaN.
+    ///
+    /// # Errors
+    /// [`DatasetFileError`].
+    pub fn put(&self, name: &str, row: usize, values: &[f64]) -> Result<(), DatasetFileError> {
+        let write = || self.file.dataset(name)?.write_slice(values, (row, 0..values.len()));
+        write().map_err(|error| DatasetFileError { path: self.path.into(), reason: error.to_string() })
+    }
 }
 
 /// Now, as run files write points in time.
@@ -107,7 +149,7 @@ pub fn now() -> String {
     iso_8601(SystemTime::now())
 }
 
-fn fill(path: &Path, content: &Content) -> hdf5::Result<()> {
+fn create(path: &Path, content: &Content) -> hdf5::Result<File> {
     let file = FileBuilder::new().with_fapl(|list| list.libver_v110().file_locking(false)).open_rw(path)?;
     let mut dimensions = Dimensions::new(&file)?;
     for name in ["conventions", "Conventions"] {
@@ -131,6 +173,7 @@ fn fill(path: &Path, content: &Content) -> hdf5::Result<()> {
         let dataset = match values {
             Values::Float(values) => dataset(&file, name, &shape, unit, long_name, values)?,
             Values::Integer(values) => dataset(&file, name, &shape, unit, long_name, values)?,
+            Values::Rows => rows(&file, name, &shape, unit, long_name)?,
             Values::Text(texts) => {
                 let texts: Result<Vec<_>, _> =
                     texts.iter().map(|text| VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))).collect();
@@ -141,7 +184,7 @@ fn fill(path: &Path, content: &Content) -> hdf5::Result<()> {
         dimensions.attach(&dataset, along)?;
     }
     dimensions.finish()?;
-    file.close()
+    Ok(file)
 }
 
 fn dataset<T: H5Type>(
@@ -154,11 +197,29 @@ fn dataset<T: H5Type>(
 ) -> hdf5::Result<Dataset> {
     let dataset = file.new_dataset::<T>().shape(shape).create(name)?;
     dataset.write_raw(values)?;
-    if !unit.is_empty() {
-        write_text(&dataset, "units", unit)?;
-    }
-    write_text(&dataset, "long_name", long_name)?;
+    describe(&dataset, unit, long_name)?;
     Ok(dataset)
+}
+
+/// A dataset whose rows come later.
+fn rows(file: &File, name: &str, shape: &[usize], unit: &str, long_name: &str) -> hdf5::Result<Dataset> {
+    let builder = file.new_dataset::<f64>().fill_value(f64::NAN);
+    let dataset = match shape {
+        // A row is what is written and read at once; an empty one cannot be a chunk.
+        [_, columns] if shape.iter().all(|length| *length > 0) => {
+            builder.chunk((1, *columns)).shuffle().deflate(DEFLATE).shape(shape).create(name)?
+        }
+        _ => builder.shape(shape).create(name)?,
+    };
+    describe(&dataset, unit, long_name)?;
+    Ok(dataset)
+}
+
+fn describe(dataset: &Dataset, unit: &str, long_name: &str) -> hdf5::Result<()> {
+    if !unit.is_empty() {
+        write_text(dataset, "units", unit)?;
+    }
+    write_text(dataset, "long_name", long_name)
 }
 
 #[cfg(test)]
@@ -169,22 +230,27 @@ mod tests {
         Content {
             attributes: vec![("title", Attribute::Text("a".into())), ("count", Attribute::Integer(3))],
             dimensions: vec![
-                Coordinate { name: "run", unit: "1", long_name: "number", values: vec![0.0, 1.0] },
-                Coordinate { name: "time", unit: "s", long_name: "time", values: vec![5.0, 10.0, 15.0] },
+                Coordinate { name: "run", unit: "1".into(), long_name: "number".into(), values: vec![0.0, 1.0] },
+                Coordinate {
+                    name: "time".into(),
+                    unit: "s".into(),
+                    long_name: "time".into(),
+                    values: vec![5.0, 10.0, 15.0],
+                },
             ],
             variables: vec![
                 Variable {
-                    name: "area",
+                    name: "area".into(),
                     dimensions: vec!["run", "time"],
-                    unit: "m2",
-                    long_name: "area",
+                    unit: "m2".into(),
+                    long_name: "area".into(),
                     values: Values::Float(vec![1.0, 2.0, 3.0, 4.0, 5.0, f64::NAN]),
                 },
                 Variable {
-                    name: "name",
+                    name: "name".into(),
                     dimensions: vec!["run"],
-                    unit: "",
-                    long_name: "name",
+                    unit: "".into(),
+                    long_name: "name".into(),
                     values: Values::Text(vec!["one".into(), "µ".into()]),
                 },
             ],
@@ -204,6 +270,23 @@ mod tests {
         let names: Vec<VarLenUnicode> = file.dataset("name").unwrap().read_raw().unwrap();
         assert_eq!(names.iter().map(|name| name.as_str()).collect::<Vec<_>>(), ["one", "µ"]);
         assert_eq!(file.attr("count").unwrap().read_scalar::<i64>().unwrap(), 3);
+    }
+
+    #[test]
+    fn rows_come_one_by_one() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("rows.h5");
+        let mut content = content();
+        content.variables[0].values = Values::Rows;
+        write_rows(&path, false, &content, |rows| rows.put("area", 1, &[4.0, 5.0])).unwrap();
+        let area: Vec<f64> = File::open(&path).unwrap().dataset("area").unwrap().read_raw().unwrap();
+        assert_eq!(area[3..5], [4.0, 5.0]);
+        assert!([0, 1, 2, 5].into_iter().all(|at| area[at].is_nan()));
+        content.dimensions[1].values.clear();
+        write(&path, true, &content).unwrap();
+        let failed = write_rows(&path, true, &content, |rows| rows.put("nothing", 0, &[1.0]));
+        assert!(failed.is_err());
+        assert_eq!(File::open(&path).unwrap().dataset("area").unwrap().shape(), [2, 0]);
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! | quantities with units | [`units`] |
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
+//! | studies: many runs, their results | [`study`] |
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | HDF5 files of named results | [`dataset_file`] |
 //! | files that appear when they are complete | [`temporary`] |
@@ -16,6 +17,7 @@ pub mod export;
 mod hdf5_file;
 pub mod run_file;
 pub mod scene;
+pub mod study;
 pub mod surface;
 pub mod temporary;
 mod timestamp;

@@ -32,20 +32,25 @@ pub struct Making {
 /// What the file holds.
 pub fn content(report: &Report, making: &Making) -> Content {
     let rows = &report.rows;
-    let along = |values: Vec<f64>, name, unit, long_name| Coordinate { name, unit, long_name, values };
+    let along = |values: Vec<f64>, name: &'static str, unit: &'static str, long_name: &'static str| Coordinate {
+        name,
+        unit: unit.into(),
+        long_name: long_name.into(),
+        values,
+    };
     let ends = report.windows.ends().collect();
     let texts = TEXT_COLUMNS.iter().map(|column| Variable {
-        name: column.name,
+        name: column.name.into(),
         dimensions: vec![RUNG],
-        unit: "",
-        long_name: column.long_name,
+        unit: "".into(),
+        long_name: column.long_name.into(),
         values: Values::Text(rows.iter().map(column.value).collect()),
     });
     let numbers = COLUMNS.iter().map(|column| Variable {
-        name: column.name,
+        name: column.name.into(),
         dimensions: vec![RUNG],
-        unit: column.unit,
-        long_name: column.long_name,
+        unit: column.unit.into(),
+        long_name: column.long_name.into(),
         values: Values::Float(rows.iter().map(column.value).collect()),
     });
     Content {
@@ -103,11 +108,12 @@ fn histories(report: &Report) -> Vec<Variable> {
         Values::Float(report.rows.iter().flat_map(of_row).collect())
     };
     let reference = report.reference.outcome.history.at(windows);
-    let variable = |name, dimensions: &[&'static str], unit, long_name, values| Variable {
-        name,
+    type Text = &'static str;
+    let variable = |name: Text, dimensions: &[Text], unit: Text, long_name: Text, values| Variable {
+        name: name.into(),
         dimensions: dimensions.to_vec(),
-        unit,
-        long_name,
+        unit: unit.into(),
+        long_name: long_name.into(),
         values,
     };
     vec![

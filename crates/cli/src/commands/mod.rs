@@ -11,6 +11,7 @@ mod run;
 mod runs;
 mod schema;
 mod surface;
+mod sweep;
 mod watch;
 
 use plateau_io::scene::{self, recipe::Scene};
@@ -30,6 +31,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Watch(arguments) => watch::watch(&arguments),
         Command::Export(arguments) => export::export(&arguments),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
+        Command::Sweep(command) => sweep::sweep(command),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Schema => schema::schema(),
         Command::Completions(arguments) => completions::completions(&arguments),

@@ -5,6 +5,8 @@ use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 
+use super::Went;
+use super::share::Hand;
 use crate::failure::Failure;
 
 /// This process, which runs its scene on its own. See the module `ranks` for what the functions are for.
@@ -39,6 +41,20 @@ impl Job {
 
     pub fn compare(&mut self, _text: &str) -> Result<(), Failure> {
         Ok(())
+    }
+
+    pub fn share(
+        &mut self,
+        count: usize,
+        jobs: usize,
+        most_failures: Option<usize>,
+        work: &(dyn Fn(usize) -> Went + Sync),
+    ) -> Result<(), Failure> {
+        Hand::new(count, most_failures).share(jobs, work).map_err(Failure::run)
+    }
+
+    pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), Failure> {
+        Ok((one, other))
     }
 
     pub fn end(self, result: Result<(), Failure>) -> Result<(), Failure> {

@@ -6,7 +6,20 @@ mod alone;
 #[cfg(feature = "mpi")]
 mod ranks;
 
+mod share;
+
 #[cfg(not(feature = "mpi"))]
 pub use alone::Job;
 #[cfg(feature = "mpi")]
 pub use ranks::Job;
+
+/// How a piece of shared work went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Went {
+    /// It is done.
+    Well,
+    /// It failed; the others go on.
+    Wrong,
+    /// No more is to be begun.
+    Stopped,
+}

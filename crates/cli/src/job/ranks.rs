@@ -1,13 +1,21 @@
 //! The ranks of an MPI job: all run the same scene, the first one writes the run file and talks to the user.
 
+use std::thread;
+use std::time::Duration;
+
 use plateau_core::comm::mpi::{Mpi, Session};
 use plateau_core::comm::{CommError, Communicator as _};
 use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 
+use super::Went;
+use super::share::Hand;
 use crate::failure::Failure;
 use crate::message;
+
+/// Between two looks for ranks that want work.
+const PAUSE: Duration = Duration::from_millis(1);
 
 /// This process as one of the ranks.
 #[derive(Debug)]
@@ -84,6 +92,63 @@ impl Job {
                  give all ranks the same, where the machines share no files by copying them"
             )))
         })
+    }
+
+    /// Does all pieces of independent work, each on one rank, until so many have failed. A single rank has as many threads
+    /// as there are `jobs`, several have one each; rank 0 hands the pieces out while a thread of its own works.
+    pub fn share(
+        &mut self,
+        count: usize,
+        jobs: usize,
+        most_failures: Option<usize>,
+        work: &(dyn Fn(usize) -> Went + Sync),
+    ) -> Result<(), Failure> {
+        if self.ranks() == 1 {
+            return Hand::new(count, most_failures).share(jobs, work).map_err(Failure::run);
+        }
+        let desk = self.session.desk();
+        if !self.leads() {
+            let mut went = Went::Well;
+            while let Some(piece) = desk.ask(went as u64) {
+                went = work(piece);
+                if went == Went::Stopped {
+                    break;
+                }
+            }
+            if went == Went::Stopped {
+                desk.ask(went as u64);
+            }
+            return Ok(());
+        }
+        let hand = Hand::new(count, most_failures);
+        thread::scope(|scope| {
+            let own = scope.spawn(|| hand.work(work));
+            let mut others = self.ranks() - 1;
+            while others > 0 || !own.is_finished() {
+                let Some((rank, word)) = desk.request() else {
+                    thread::sleep(PAUSE);
+                    continue;
+                };
+                let went = [Went::Well, Went::Wrong, Went::Stopped].into_iter().find(|went| *went as u64 == word);
+                hand.note(went.unwrap_or(Went::Well));
+                // Who stopped wants no more.
+                let piece = if went == Some(Went::Stopped) { None } else { hand.next() };
+                others -= usize::from(piece.is_none());
+                desk.answer(rank, piece);
+            }
+        });
+        Ok(())
+    }
+
+    /// The sums of two counts over all ranks.
+    pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), Failure> {
+        let mut sums = (0, 0);
+        self.meeting
+            .all_gather(&[one as u64, other as u64], &mut |_, words| {
+                sums = (sums.0 + words[0] as usize, sums.1 + words[1] as usize);
+            })
+            .map_err(Failure::run)?;
+        Ok(sums)
     }
 
     /// Leaves the other ranks in good order; if this rank failed, all end with its exit status.

@@ -1,6 +1,8 @@
 //! What the workers of one simulation tell each other.
 
 #[cfg(feature = "mpi")]
+pub mod desk;
+#[cfg(feature = "mpi")]
 pub mod mpi;
 pub mod single;
 pub mod threads;

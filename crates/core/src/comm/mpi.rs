@@ -16,6 +16,7 @@ use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator as _, CommunicatorCollectives, Destination, Equivalence, Source};
 use ::mpi::{Count, Rank, Tag};
 
+use super::desk::Desk;
 use super::{CommError, Communicator};
 
 /// Largest tag that every MPI library takes (MPI 3.1, section 8.1.2).
@@ -111,6 +112,12 @@ impl Session {
         }
     }
 
+    /// This rank's end of the desk where pieces of independent work are handed out.
+    #[must_use]
+    pub fn desk(&self) -> Desk {
+        Desk::new(Rc::clone(&self.job))
+    }
+
     /// Ends this rank's part in good order. Waits for the other ranks to do the same.
     pub fn finish(self) {
         self.job.finished.set(true);
@@ -128,11 +135,17 @@ impl Session {
 }
 
 /// What ends with MPI.
-struct Job {
+pub(super) struct Job {
     finished: Cell<bool>,
     world: SimpleCommunicator,
     /// Ends MPI when it is dropped, and waits for the other ranks then.
     _universe: Universe,
+}
+
+impl Job {
+    pub(super) fn world(&self) -> &SimpleCommunicator {
+        &self.world
+    }
 }
 
 impl Drop for Job {

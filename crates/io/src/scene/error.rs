@@ -49,11 +49,11 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub(super) fn new(origin: &Origin, key: &str, message: impl Into<String>) -> Self {
+    pub(crate) fn new(origin: &Origin, key: &str, message: impl Into<String>) -> Self {
         Self { origin: origin.clone(), key: Some(key.to_owned()), message: message.into() }
     }
 
-    pub(super) fn without_key(origin: &Origin, message: impl Into<String>) -> Self {
+    pub(crate) fn without_key(origin: &Origin, message: impl Into<String>) -> Self {
         Self { origin: origin.clone(), key: None, message: message.into() }
     }
 }

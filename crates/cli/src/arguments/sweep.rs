@@ -1,0 +1,163 @@
+//! The command line of `plateau sweep`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+/// What to do with a study.
+#[derive(Debug, Subcommand)]
+pub enum SweepCommand {
+    /// Show the design, the number of runs and what they will cost, without running any
+    #[command(after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
+    Plan(PlanArguments),
+    /// Make the runs that are not there yet, several at a time
+    #[command(after_help = "Examples:\n  plateau sweep run data/studies/pad-properties.toml\n  \
+                      plateau sweep run data/studies/pad-properties.toml --task 3/10\n\n\
+                      It can be stopped and started again at any time, and on several machines that share a folder: \
+                      runs that are there are not made again.")]
+    Run(SweepRunArguments),
+    /// Write a batch script that makes the runs as a Slurm job array
+    #[command(
+        after_help = "Example:\n  plateau sweep slurm data/studies/pad-properties.toml --tasks 4 -o pads.sbatch\n  \
+                      sbatch pads.sbatch"
+    )]
+    Slurm(SlurmArguments),
+    /// Put all results into one HDF5 file and a table
+    #[command(after_help = "Example:\n  plateau sweep collect data/studies/pad-properties.toml")]
+    Collect(CollectArguments),
+    /// Tell what the factors do: effects, analysis of variance, figures
+    #[command(after_help = "Example:\n  plateau sweep effects data/studies/pad-properties.toml")]
+    Effects(EffectsArguments),
+}
+
+/// Arguments of `plateau sweep plan`.
+#[derive(Debug, Args)]
+pub struct PlanArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Runs at a time, for the estimates; one on each core unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Write every run of the design as a table in CSV
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Replace that file if it exists
+    #[arg(long, requires = "csv")]
+    pub force: bool,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau sweep run`.
+#[derive(Debug, Args)]
+pub struct SweepRunArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Runs at a time; as many as there are cores for their workers unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub jobs: Option<u32>,
+    /// Threads of each run
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    pub workers: u32,
+    /// Make only every N-th run, beginning with the I-th: one task of N that share the study
+    #[arg(long, value_name = "I/N", value_parser = task)]
+    pub task: Option<Task>,
+    /// Stop when so many runs have failed; unless given, the others go on
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_failures: Option<u32>,
+    /// Make runs again that failed before
+    #[arg(long)]
+    pub retry: bool,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// One task of several that share a study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Task {
+    /// Which, from 1.
+    pub number: usize,
+    /// Of how many.
+    pub count: usize,
+}
+
+/// A value of `--task`.
+fn task(text: &str) -> Result<Task, &'static str> {
+    let expected = "expected I/N with 1 <= I <= N, such as 3/10";
+    let (number, count) = text.split_once('/').ok_or(expected)?;
+    let parse = |text: &str| text.trim().parse().map_err(|_| expected);
+    let task = Task { number: parse(number)?, count: parse(count)? };
+    if (1..=task.count).contains(&task.number) { Ok(task) } else { Err(expected) }
+}
+
+/// Arguments of `plateau sweep slurm`.
+#[derive(Debug, Args)]
+pub struct SlurmArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Tasks of the array; as many as take about an hour each unless given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub tasks: Option<u32>,
+    /// Cores of each task, on which it makes as many runs at a time
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    pub cores: u32,
+    /// Script to write; the study's name with .sbatch in the working directory unless given
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Replace the script if it exists
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `plateau sweep collect`.
+#[derive(Debug, Args)]
+pub struct CollectArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Folder for results.h5 and results.csv; the study's own unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau sweep effects`.
+#[derive(Debug, Args)]
+pub struct EffectsArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// What is fitted; quadratic for designs that allow it, else main effects and interactions, unless given
+    #[arg(long, value_enum)]
+    pub model: Option<Model>,
+    /// Confidence level of intervals
+    #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
+    pub confidence: f64,
+    /// Folder for tables, figures and the page; "effects" in the study's own unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What is fitted to the responses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Model {
+    /// Main effects alone
+    Main,
+    /// Main effects and interactions of two factors
+    Interactions,
+    /// Interactions of all orders that the runs tell apart
+    Full,
+    /// Main effects, interactions of two factors and squares
+    Quadratic,
+}
+
+/// A value of `--confidence`.
+fn confidence(text: &str) -> Result<f64, &'static str> {
+    let expected = "expected a number between 0 and 1, such as 0.95";
+    text.parse().ok().filter(|level| *level > 0.0 && *level < 1.0).ok_or(expected)
+}

@@ -1,0 +1,145 @@
+//! `plateau sweep collect`: all results of a study in one HDF5 file and a table.
+
+use plateau_io::dataset_file::{Attribute, now};
+use plateau_io::study::collected::{CollectError, Collected, State, plain};
+use plateau_io::study::plan::Plan;
+use serde::Serialize;
+
+use crate::arguments::CollectArguments;
+use crate::failure::Failure;
+use crate::sweep::resolved::Resolved;
+use crate::sweep::{self, journal};
+use crate::table::{list, print, table};
+use crate::{message, number, output, version};
+
+/// Failed runs that are listed.
+const LISTED: usize = 10;
+
+/// Collects what there is.
+pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
+    let plan = sweep::plan(&arguments.study)?;
+    let collected = collected(&plan)?;
+    let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::input(format_args!("{}: {error}", folder.display())))?;
+    let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
+    collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
+    output::write(&csv, rows(&plan, &collected).as_bytes(), true)?;
+    let summary = Summary {
+        study: plan.study().title.clone(),
+        runs: plan.runs(),
+        finished: collected.count("finished"),
+        failed: collected.count("failed"),
+        missing: collected.count("missing"),
+        files: [&hdf5, &csv].map(|path| path.display().to_string()),
+    };
+    if arguments.json {
+        return print(&(serde_json::to_string_pretty(&summary).map_err(Failure::run)? + "\n"));
+    }
+    print(&summary.to_text(&collected))
+}
+
+/// The results of a study, as far as there are any.
+///
+/// # Errors
+/// [`Failure::Input`] when a run's scene cannot be built, [`Failure::Run`] when the journal cannot be read.
+pub fn collected(plan: &Plan) -> Result<Collected, Failure> {
+    let resolved = Resolved::of(plan)?;
+    let journal = journal(plan.study())?;
+    let collected = Collected::new(plan, &resolved.identities, &journal).map_err(failure)?;
+    let (finished, missing) = (collected.count("finished"), collected.count("missing"));
+    if missing > 0 && journal.len() > finished + collected.count("failed") {
+        message::note(format_args!(
+            "{} are in the journal that belong to another version of the study, its files or the program",
+            number::count(journal.len() - finished - collected.count("failed"), "result")
+        ));
+    }
+    Ok(collected)
+}
+
+fn failure(error: CollectError) -> Failure {
+    Failure::run(error)
+}
+
+fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, Attribute)>, Failure> {
+    let study = plan.study();
+    let text = |text: &str| Attribute::Text(text.to_owned());
+    let read = |path: &std::path::Path| {
+        std::fs::read_to_string(path).map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
+    };
+    let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
+    Ok(vec![
+        ("title", text(&study.title)),
+        ("state", text(state)),
+        ("program", Attribute::Text(version::program())),
+        ("source_revision", text(version::REVISION)),
+        ("study", Attribute::Text(read(&study.path)?)),
+        ("base_scene", Attribute::Text(plan.scene(&plan.run(1)).map_err(Failure::input)?.resolved)),
+        ("design", text(&study.design)),
+        ("collected", Attribute::Text(now())),
+    ])
+}
+
+/// A line for each run: number, point, replicate, state, factors, responses.
+fn rows(plan: &Plan, collected: &Collected) -> String {
+    let study = plan.study();
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let names =
+        study.factors.iter().map(|factor| &factor.name).chain(study.responses.iter().map(|response| &response.name));
+    let header =
+        ["run", "point", "replicate", "state"].map(str::to_owned).into_iter().chain(names.map(|name| plain(name)));
+    // Writing to memory cannot fail.
+    let _ = writer.write_record(header.chain(["error".to_owned()]));
+    for run in &collected.runs {
+        let error = if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
+        let numbers = [run.run.number, run.run.point + 1, run.run.replicate + 1].map(|number| number.to_string());
+        let responses = run
+            .responses
+            .iter()
+            .map(|response| if response.is_nan() { String::new() } else { format!("{response:?}") });
+        let cells = numbers.into_iter().chain([run.state.name().to_owned()]);
+        let cells = cells.chain(run.run.levels.iter().map(|level| level.label.clone())).chain(responses).chain([error]);
+        let _ = writer.write_record(cells);
+    }
+    String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned()
+}
+
+/// What `plateau sweep collect` reports.
+#[derive(Debug, Serialize)]
+struct Summary {
+    study: String,
+    runs: usize,
+    finished: usize,
+    failed: usize,
+    missing: usize,
+    files: [String; 2],
+}
+
+impl Summary {
+    fn to_text(&self, collected: &Collected) -> String {
+        let mut rows = vec![("runs", self.runs.to_string()), ("finished", self.finished.to_string())];
+        rows.extend((self.failed > 0).then(|| ("failed", self.failed.to_string())));
+        rows.extend((self.missing > 0).then(|| ("missing", self.missing.to_string())));
+        rows.extend(self.files.iter().map(|file| ("written", file.clone())));
+        let mut text = table(&self.study, &rows);
+        let failed = collected.runs.iter().filter_map(|run| match &run.state {
+            State::Failed(error) => Some(format!("run {}: {error}", run.run.number)),
+            _ => None,
+        });
+        let lines: Vec<String> = failed.take(LISTED).collect();
+        if !lines.is_empty() {
+            text.push_str(&list("Failed", &lines));
+        }
+        let missing: Vec<String> = collected
+            .runs
+            .iter()
+            .filter(|run| run.state == State::Missing)
+            .map(|run| run.run.number.to_string())
+            .collect();
+        if !missing.is_empty() {
+            let shown = missing[..missing.len().min(2 * LISTED)].join(", ");
+            let more = if missing.len() > 2 * LISTED { ", …" } else { "" };
+            text.push_str(&list("Missing", &[format!("runs {shown}{more}: plateau sweep run makes them")]));
+        }
+        text
+    }
+}

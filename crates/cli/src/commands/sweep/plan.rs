@@ -1,0 +1,201 @@
+//! `plateau sweep plan`: what a study will do and cost.
+
+use plateau_io::study::journal::Entry;
+use plateau_io::study::plan::Plan;
+use serde::Serialize;
+
+use crate::arguments::PlanArguments;
+use crate::execution::cores;
+use crate::failure::Failure;
+use crate::sweep::estimate::Estimate;
+use crate::sweep::resolved::Resolved;
+use crate::sweep::{self, journal};
+use crate::table::{columns, list, print, table};
+use crate::{number, output};
+
+/// Runs that are listed; a table in CSV has all.
+const LISTED: usize = 16;
+/// Runs up to which every scene is built, to see which of them are there.
+const RESOLVED: usize = 20_000;
+/// Sets of aliases that are listed.
+const CHAINS: usize = 40;
+
+/// Plans a study.
+pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
+    if let Some(csv) = &arguments.csv {
+        output::check(csv, arguments.force, std::slice::from_ref(&arguments.study))?;
+    }
+    let plan = sweep::plan(&arguments.study)?;
+    let estimate = Estimate::of(&plan)?;
+    let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
+    let mut ended = None;
+    if plan.runs() <= RESOLVED {
+        let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
+        let entries: Vec<&Entry> = resolved.identities.iter().filter_map(|identity| journal.get(identity)).collect();
+        let failed = entries.iter().filter(|entry| entry.failure.is_some()).count();
+        ended = Some(Ended { finished: entries.len() - failed, failed });
+    }
+    if let Some(csv) = &arguments.csv {
+        output::write(csv, table_of_runs(&plan).as_bytes(), arguments.force)?;
+    }
+    let report = Report::new(&plan, estimate, jobs, ended);
+    if arguments.json {
+        print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"))
+    } else {
+        print(&report.to_text(&plan))
+    }
+}
+
+/// What `plateau sweep plan` reports.
+#[derive(Debug, Serialize)]
+struct Report {
+    title: String,
+    base: String,
+    design: String,
+    factors: Vec<FactorReport>,
+    points: usize,
+    replicates: usize,
+    runs: usize,
+    resolution: Option<u32>,
+    defining_words: Vec<String>,
+    aliases: Vec<Vec<String>>,
+    responses: Vec<String>,
+    jobs: usize,
+    /// Bytes, of all runs at a time.
+    memory: u64,
+    /// s, of one run: mean and longest.
+    run_time: [f64; 2],
+    /// s, of what is left.
+    estimated_time: f64,
+    /// Absent where there are too many runs to look.
+    ended: Option<Ended>,
+    directory: String,
+}
+
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Ended {
+    finished: usize,
+    failed: usize,
+}
+
+#[derive(Debug, Serialize)]
+struct FactorReport {
+    name: String,
+    keys: Vec<String>,
+    values: String,
+}
+
+impl Report {
+    fn new(plan: &Plan, estimate: Estimate, jobs: usize, ended: Option<Ended>) -> Self {
+        let study = plan.study();
+        let left = plan.runs() - ended.map_or(0, |ended| ended.finished);
+        let aliases = plan.aliases();
+        Self {
+            title: study.title.clone(),
+            base: study.base.display().to_string(),
+            design: study.design.clone(),
+            factors: study
+                .factors
+                .iter()
+                .map(|factor| FactorReport {
+                    name: factor.name.clone(),
+                    keys: factor.keys.clone(),
+                    values: factor.to_string(),
+                })
+                .collect(),
+            points: plan.points(),
+            replicates: plan.replicates(),
+            runs: plan.runs(),
+            resolution: aliases.map(|aliases| aliases.resolution),
+            defining_words: aliases.map_or_else(Vec::new, |aliases| aliases.defining_words.clone()),
+            aliases: aliases.map_or_else(Vec::new, |aliases| aliases.chains.clone()),
+            responses: study.responses.iter().map(|response| response.name.clone()).collect(),
+            jobs,
+            memory: estimate.memory * jobs as u64,
+            run_time: [estimate.mean_time, estimate.longest_time],
+            estimated_time: (estimate.mean_time * left as f64 / jobs as f64)
+                .max(estimate.longest_time.min(left as f64)),
+            ended,
+            directory: study.directory.display().to_string(),
+        }
+    }
+
+    fn to_text(&self, plan: &Plan) -> String {
+        let replicates =
+            if self.replicates > 1 { format!(" × {} replicates", self.replicates) } else { String::new() };
+        let mut rows = vec![
+            ("base scene", self.base.clone()),
+            ("design", self.design.clone()),
+            ("runs", format!("{} points{replicates} = {}", self.points, number::grouped(self.runs as u64))),
+        ];
+        if let Some(Ended { finished, failed }) = self.ended {
+            let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
+            rows.push(("ended before", format!("{finished} finished{failed}")));
+        }
+        let [mean, longest] = self.run_time.map(number::duration);
+        rows.push((
+            "memory",
+            format!("{} for {} at a time", number::bytes(self.memory), number::count(self.jobs, "run")),
+        ));
+        rows.push(("time of a run", format!("about {mean}, the longest {longest}")));
+        rows.push((
+            "estimated time",
+            format!("{} for what is left, {} at a time", number::duration(self.estimated_time), self.jobs),
+        ));
+        rows.push(("results", self.directory.clone()));
+        let mut text = table(&self.title, &rows);
+        let factors: Vec<(String, String)> = self
+            .factors
+            .iter()
+            .map(|factor| (factor.name.clone(), format!("{}  ({})", factor.values, factor.keys.join(", "))))
+            .collect();
+        text.push_str(&format!("\n{}", table("Factors", &factors)));
+        if let Some(resolution) = self.resolution {
+            let letters = ('A'..='Z').filter(|letter| *letter != 'I').zip(&self.factors);
+            let letters: Vec<String> = letters.map(|(letter, factor)| format!("{letter} = {}", factor.name)).collect();
+            let mut lines =
+                vec![letters.join(", "), format!("resolution {resolution}: I = {}", self.defining_words.join(" = "))];
+            lines.extend(self.aliases.iter().take(CHAINS).map(|chain| chain.join(" = ")));
+            if self.aliases.len() > CHAINS {
+                lines.push(format!("and {} more", self.aliases.len() - CHAINS));
+            }
+            text.push_str(&format!("\n{}", list("Effects that cannot be told from each other", &lines)));
+        }
+        let names: Vec<&str> = ["run"]
+            .into_iter()
+            .chain(self.factors.iter().map(|factor| factor.name.as_str()))
+            .chain((self.replicates > 1).then_some("replicate"))
+            .collect();
+        let rows: Vec<Vec<String>> = plan.order().take(LISTED).map(|number| cells(plan, number)).collect();
+        let more = self.runs.saturating_sub(LISTED);
+        let heading = if more > 0 {
+            format!("The first {LISTED} runs, in the order in which they are made ({more} more, --csv writes all)")
+        } else {
+            "Runs, in the order in which they are made".to_owned()
+        };
+        text.push_str(&format!("\n{}", columns(&heading, &names, &rows)));
+        text
+    }
+}
+
+/// Number, levels and replicate of a run.
+fn cells(plan: &Plan, number: usize) -> Vec<String> {
+    let run = plan.run(number);
+    let replicate = (plan.replicates() > 1).then(|| (run.replicate + 1).to_string());
+    [number.to_string()].into_iter().chain(run.levels.into_iter().map(|level| level.label)).chain(replicate).collect()
+}
+
+/// Every run in the order in which it is made, in CSV.
+fn table_of_runs(plan: &Plan) -> String {
+    let quoted = |cell: &str| {
+        if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+    };
+    let names = plan.study().factors.iter().map(|factor| factor.name.clone());
+    let header: Vec<String> = ["run".to_owned()]
+        .into_iter()
+        .chain(names)
+        .chain((plan.replicates() > 1).then(|| "replicate".to_owned()))
+        .collect();
+    let lines = std::iter::once(header).chain(plan.order().map(|number| cells(plan, number)));
+    lines.map(|cells| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n").collect()
+}

@@ -1,0 +1,233 @@
+//! `plateau sweep run`: make the runs of a study that are not there yet.
+
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use plateau_io::dataset_file::now;
+use plateau_io::study::journal::{Entry, Shard};
+use plateau_io::study::plan::Plan;
+use plateau_io::study::record::{Outcome, Record};
+use serde::Serialize;
+
+use crate::arguments::SweepRunArguments;
+use crate::execution::cores;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::job::{Job, Went};
+use crate::sweep::make::{Stopped, Watcher, make};
+use crate::sweep::progress::Progress;
+use crate::sweep::resolved::Resolved;
+use crate::sweep::{self, journal, journal_folder};
+use crate::table::{print, table};
+use crate::{machine, message, number};
+
+/// Makes the runs, together with the other processes of the job if there are any.
+pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
+    let mut job = Job::start()?;
+    let result = run_study(arguments, &mut job);
+    job.end(result)
+}
+
+fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
+    let plan = sweep::plan(&arguments.study)?;
+    let resolved = Resolved::of(&plan)?;
+    let journal = journal(plan.study())?;
+    if journal.damaged > 0 && job.leads() {
+        let lines = number::count(journal.damaged, "damaged line");
+        message::warning(format_args!("{}: {lines} passed over", journal_folder(plan.study()).display()));
+    }
+    let mut before = Before::default();
+    let mut pending = Vec::new();
+    for (place, number) in plan.order().enumerate() {
+        if arguments.task.is_some_and(|task| place % task.count != task.number - 1) {
+            continue;
+        }
+        match journal.get(&resolved.identities[number - 1]) {
+            Some(Entry { failure: None, .. }) => before.finished += 1,
+            Some(_) if !arguments.retry => before.failed += 1,
+            _ => pending.push(number),
+        }
+    }
+    let interrupt = Interrupt::listen().map_err(Failure::run)?;
+    let workers = arguments.workers as usize;
+    if job.ranks() > 1 && arguments.jobs.is_some() && job.leads() {
+        message::warning("each rank makes one run at a time: --jobs has no effect");
+    }
+    let jobs = arguments.jobs.map_or_else(|| (cores() / workers).max(1), |jobs| jobs as usize);
+    let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+    let start = Instant::now();
+    let floor = Floor {
+        progress: Progress::new(pending.len(), steps, job.leads()),
+        plan: &plan,
+        resolved: &resolved,
+        pending: &pending,
+        workers,
+        interrupt,
+        shard: Mutex::new(None),
+        finished: AtomicUsize::new(0),
+        failed: AtomicUsize::new(0),
+        broken: Mutex::new(None),
+    };
+    let limit = arguments.max_failures.map(|limit| limit as usize);
+    let shared = job.share(pending.len(), jobs, limit, &|place| floor.make(place));
+    floor.progress.finish();
+    let shard = floor.shard.lock().unwrap_or_else(PoisonError::into_inner).take();
+    let closed = shard.map_or(Ok(()), Shard::close);
+    shared?;
+    if let Some(failure) = floor.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
+        return Err(failure);
+    }
+    closed.map_err(|error| Failure::run(format_args!("cannot complete the journal: {error}")))?;
+    let [finished, failed] = [&floor.finished, &floor.failed].map(|count| count.load(Ordering::Relaxed));
+    let (finished, failed) = job.sum(finished, failed)?;
+    let summary = Summary {
+        study: plan.study().title.clone(),
+        runs: plan.runs(),
+        finished_before: before.finished,
+        failed_before: before.failed,
+        finished,
+        failed,
+        left: pending.len() - (finished + failed).min(pending.len()),
+        wall_time: start.elapsed().as_secs_f64(),
+        results: plan.study().directory.display().to_string(),
+    };
+    if job.leads() {
+        summary.print(arguments, if job.ranks() > 1 { job.ranks() } else { jobs })?;
+    }
+    if let Some(signal) = floor.interrupt.signal() {
+        let message = format!("stopped by signal {signal}; {} runs are left, the same command goes on", summary.left);
+        return Err(Failure::Stopped { signal, message: Some(message) });
+    }
+    match summary.failed + summary.failed_before {
+        0 => Ok(()),
+        failed => Err(Failure::run(format_args!(
+            "{} of {} failed; `plateau sweep collect` lists their errors, --retry makes them again",
+            failed,
+            number::count(summary.runs, "run")
+        ))),
+    }
+}
+
+/// Runs that ended before this process began.
+#[derive(Debug, Default)]
+struct Before {
+    finished: usize,
+    failed: usize,
+}
+
+/// What the runs that are made at the same time share.
+struct Floor<'a> {
+    plan: &'a Plan,
+    resolved: &'a Resolved,
+    /// Numbers of the runs to be made.
+    pending: &'a [usize],
+    workers: usize,
+    interrupt: Interrupt,
+    progress: Progress,
+    /// Made with the first record.
+    shard: Mutex<Option<Shard>>,
+    finished: AtomicUsize,
+    failed: AtomicUsize,
+    /// Why no result can be kept any more.
+    broken: Mutex<Option<Failure>>,
+}
+
+impl Watcher for Floor<'_> {
+    fn steps(&self, count: u64) -> Option<u8> {
+        self.progress.steps(count);
+        self.interrupt.signal()
+    }
+}
+
+impl Floor<'_> {
+    /// Makes a pending run and keeps its result.
+    fn make(&self, place: usize) -> Went {
+        if self.interrupt.signal().is_some() {
+            return Went::Stopped;
+        }
+        let number = self.pending[place];
+        let start = Instant::now();
+        let run = self.plan.run(number);
+        let outcome = match self.plan.scene(&run) {
+            Ok(scene) => make(self.plan.study(), &scene, self.workers, self),
+            // It could be built a moment ago.
+            Err(error) => Ok(Outcome::Failed { error: error.to_string() }),
+        };
+        let Ok(outcome) = outcome.map_err(|Stopped(_)| ()) else { return Went::Stopped };
+        let failure = if let Outcome::Failed { error } = &outcome { Some(error.clone()) } else { None };
+        let record = Record {
+            identity: self.resolved.identities[number - 1].clone(),
+            run: number,
+            outcome,
+            wall_time: start.elapsed().as_secs_f64(),
+            host: machine::host(),
+            end_time: now(),
+        };
+        if let Err(error) = self.keep(&record) {
+            let folder = journal_folder(self.plan.study());
+            let message = format!("cannot write to {}: {error}; what was finished before is safe", folder.display());
+            *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(Failure::run(message));
+            return Went::Stopped;
+        }
+        self.progress.ended(failure.is_some());
+        match failure {
+            None => {
+                self.finished.fetch_add(1, Ordering::Relaxed);
+                Went::Well
+            }
+            Some(error) => {
+                self.failed.fetch_add(1, Ordering::Relaxed);
+                self.progress.say(|| message::warning(format_args!("run {number} failed: {error}")));
+                Went::Wrong
+            }
+        }
+    }
+
+    fn keep(&self, record: &Record) -> std::io::Result<()> {
+        let mut shard = self.shard.lock().unwrap_or_else(PoisonError::into_inner);
+        if shard.is_none() {
+            *shard = Some(Shard::create(&journal_folder(self.plan.study()), &machine::host())?);
+        }
+        shard.as_mut().map_or(Ok(()), |shard| shard.append(record))
+    }
+}
+
+/// What `plateau sweep run` reports.
+#[derive(Debug, Serialize)]
+struct Summary {
+    study: String,
+    runs: usize,
+    finished_before: usize,
+    failed_before: usize,
+    finished: usize,
+    failed: usize,
+    left: usize,
+    wall_time: f64,
+    results: String,
+}
+
+impl Summary {
+    fn print(&self, arguments: &SweepRunArguments, jobs: usize) -> Result<(), Failure> {
+        if arguments.json {
+            return print(&(serde_json::to_string_pretty(self).map_err(Failure::run)? + "\n"));
+        }
+        let task = arguments.task.map(|task| format!("task {} of {}", task.number, task.count));
+        let mut rows = vec![("runs of the study", self.runs.to_string())];
+        rows.extend(task.map(|task| ("made here", task)));
+        rows.push(("finished before", self.finished_before.to_string()));
+        rows.push((
+            "finished now",
+            format!("{}, {jobs} at a time, in {}", self.finished, number::duration(self.wall_time)),
+        ));
+        if self.failed + self.failed_before > 0 {
+            rows.push(("failed", format!("{} now, {} before", self.failed, self.failed_before)));
+        }
+        if self.left > 0 {
+            rows.push(("left", self.left.to_string()));
+        }
+        rows.push(("results", self.results.clone()));
+        print(&table(&self.study, &rows))
+    }
+}

@@ -1,0 +1,89 @@
+//! Work of independent pieces, shared among the threads of this process.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use super::Went;
+
+/// Hands out pieces, each once.
+#[derive(Debug)]
+pub struct Hand {
+    next: AtomicUsize,
+    count: usize,
+    failures: AtomicUsize,
+    most_failures: usize,
+    stopped: AtomicBool,
+}
+
+impl Hand {
+    /// So many pieces, until so many have failed.
+    pub fn new(count: usize, most_failures: Option<usize>) -> Self {
+        let most_failures = most_failures.unwrap_or(usize::MAX);
+        Self { next: 0.into(), count, failures: 0.into(), most_failures, stopped: false.into() }
+    }
+
+    /// The next piece.
+    pub fn next(&self) -> Option<usize> {
+        if self.stopped.load(Ordering::Relaxed) || self.failures.load(Ordering::Relaxed) >= self.most_failures {
+            return None;
+        }
+        Some(self.next.fetch_add(1, Ordering::Relaxed)).filter(|piece| *piece < self.count)
+    }
+
+    /// Takes note of how a piece went.
+    pub fn note(&self, went: Went) {
+        match went {
+            Went::Well => {}
+            Went::Wrong => drop(self.failures.fetch_add(1, Ordering::Relaxed)),
+            Went::Stopped => self.stopped.store(true, Ordering::Relaxed),
+        }
+    }
+
+    /// Does pieces until there are no more.
+    pub fn work(&self, work: &(dyn Fn(usize) -> Went + Sync)) {
+        while let Some(piece) = self.next() {
+            self.note(work(piece));
+        }
+    }
+
+    /// Does all pieces, on so many threads.
+    ///
+    /// # Errors
+    /// When the system gives no threads.
+    pub fn share(&self, jobs: usize, work: &(dyn Fn(usize) -> Went + Sync)) -> Result<(), rayon::ThreadPoolBuildError> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build()?;
+        pool.scope(|scope| (0..jobs).for_each(|_| scope.spawn(|_| self.work(work))));
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use super::*;
+
+    fn done(count: usize, most_failures: Option<usize>, went: impl Fn(usize) -> Went + Sync) -> Vec<usize> {
+        let done = Mutex::new(Vec::new());
+        let work = |piece| {
+            done.lock().unwrap().push(piece);
+            went(piece)
+        };
+        Hand::new(count, most_failures).share(3, &work).unwrap();
+        let mut done = done.into_inner().unwrap();
+        done.sort_unstable();
+        done
+    }
+
+    #[test]
+    fn every_piece_is_done_once() {
+        assert_eq!(done(1000, None, |_| Went::Well), (0..1000).collect::<Vec<_>>());
+        assert_eq!(done(0, None, |_| Went::Well), []);
+        assert_eq!(done(100, None, |_| Went::Wrong).len(), 100);
+    }
+
+    #[test]
+    fn no_more_is_begun_after_the_last_straw() {
+        assert!((2..=4).contains(&done(1000, Some(2), |_| Went::Wrong).len()));
+        assert!(done(1000, None, |_| Went::Stopped).len() <= 3);
+    }
+}

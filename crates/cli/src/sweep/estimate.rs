@@ -1,0 +1,77 @@
+//! What the runs of a study will cost, before any is made.
+
+use std::time::Duration;
+
+use plateau_core::kernel::InstructionSet;
+use plateau_core::simulation::{Execution, Simulation};
+use plateau_io::scene::memory_estimate;
+use plateau_io::study::plan::Plan;
+use plateau_io::surface;
+
+use crate::execution::time_per_step;
+use crate::failure::Failure;
+
+/// Runs whose steps are counted.
+const COUNTED: usize = 64;
+/// Runs whose first steps are timed.
+const TIMED: usize = 3;
+/// How long.
+const TRIAL: Duration = Duration::from_millis(150);
+
+/// What one run costs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Memory of the largest run, bytes.
+    pub memory: u64,
+    /// Wall time of a run, mean, s.
+    pub mean_time: f64,
+    /// Wall time of the longest, s.
+    pub longest_time: f64,
+}
+
+impl Estimate {
+    /// Looks at some of the runs.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] when their scenes or surfaces cannot be built.
+    pub fn of(plan: &Plan) -> Result<Self, Failure> {
+        let mut per_cell = 0.0_f64;
+        for number in spread(plan.runs(), TIMED) {
+            let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
+            let start = std::time::Instant::now();
+            let surfaces = surface::load(&scene).map_err(Failure::input)?.surfaces;
+            let making = start.elapsed().as_secs_f64();
+            let execution = Execution { workers: 1, instructions: InstructionSet::best(), bands: None, pin: false };
+            let mut simulation =
+                Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
+            let step = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;
+            // Surfaces are a part of the run that does not grow with its steps.
+            let steps = scene.parameters.steps.max(1) as f64;
+            per_cell = per_cell.max((step + making / steps) / scene.parameters.mesh.pin_cells() as f64);
+        }
+        let (mut memory, mut times) = (0, Vec::new());
+        for number in spread(plan.runs(), COUNTED) {
+            let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
+            memory = memory.max(memory_estimate(&scene));
+            times.push(scene.parameters.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
+        }
+        let mean_time = times.iter().sum::<f64>() / times.len().max(1) as f64;
+        Ok(Self { memory, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max) })
+    }
+}
+
+/// Some of so many numbers from 1 on, evenly spread, with the first and the last.
+fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    let taken = most.min(count);
+    (0..taken).map(move |at| if taken == 1 { 1 } else { 1 + at * (count - 1) / (taken - 1) })
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_few_are_taken_from_all_over() {
+        assert_eq!(super::spread(5, 9).collect::<Vec<_>>(), [1, 2, 3, 4, 5]);
+        assert_eq!(super::spread(100, 3).collect::<Vec<_>>(), [1, 50, 100]);
+        assert_eq!(super::spread(1, 3).collect::<Vec<_>>(), [1]);
+    }
+}

@@ -1,0 +1,125 @@
+//! One run of a study, from its scene to what is kept of it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use plateau_core::kernel::InstructionSet;
+use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
+use plateau_core::scout::Scout;
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_io::scene::recipe::Scene;
+use plateau_io::study::Study;
+use plateau_io::study::record::{Outcome, Series};
+use plateau_io::surface;
+
+use crate::drive::{Sink, drive};
+
+/// Whether a run goes on, and what others want to know meanwhile.
+pub trait Watcher: Sync {
+    /// Told how many steps were taken since the last time, about ten times a second; the signal that ends the run, if
+    /// there was one.
+    fn steps(&self, count: u64) -> Option<u8>;
+}
+
+/// A signal ended the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stopped(pub u8);
+
+/// Makes a run.
+///
+/// # Errors
+/// [`Stopped`] when it was not to be ended; what fails is an outcome.
+pub fn make(study: &Study, scene: &Scene, workers: usize, watcher: &dyn Watcher) -> Result<Outcome, Stopped> {
+    // A panic is a mistake of this program; it ends the run, not the study.
+    let made = catch_unwind(AssertUnwindSafe(|| finish(study, scene, workers, watcher)));
+    match made {
+        Ok(Ok(outcome)) => Ok(outcome),
+        Ok(Err(Ended::Stopped(signal))) => Err(Stopped(signal)),
+        Ok(Err(Ended::Failed(error))) => Ok(Outcome::Failed { error }),
+        Err(_) => Ok(Outcome::Failed { error: "the program panicked: this is a mistake of the program".into() }),
+    }
+}
+
+fn finish(study: &Study, scene: &Scene, workers: usize, watcher: &dyn Watcher) -> Result<Outcome, Ended> {
+    let failed = |error: &dyn std::fmt::Display| Ended::Failed(error.to_string());
+    let surfaces = surface::load(scene).map_err(|error| failed(&error))?.surfaces;
+    let execution = Execution { workers, instructions: InstructionSet::best(), bands: None, pin: false };
+    let mut scout = None;
+    if let Some(adaptive) = &scene.adaptive {
+        let simulation = Simulation::with_execution(scene.parameters.clone(), surfaces.clone(), execution)?;
+        scout = Some(Scout::new(simulation, adaptive, scene.duration)?).filter(|scout| scout.idle().is_none());
+    }
+    let mut simulation = Simulation::with_execution(scene.parameters.clone(), surfaces, execution)?;
+    let mut output = scene.output.clone();
+    output.maps.clear();
+    let mut recorder = Recorder::new(study, scene, watcher);
+    drive(&mut simulation, scout.as_mut(), scene.schedule(), &output, &mut recorder)?;
+    recorder.watcher.steps(simulation.steps_done() - recorder.told);
+    Ok(Outcome::Finished { steps: simulation.steps_done(), series: recorder.series().pack() })
+}
+
+/// Why a run did not finish.
+enum Ended {
+    Stopped(u8),
+    Failed(String),
+}
+
+impl From<SimulationError> for Ended {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+/// Keeps the series that the study wants.
+struct Recorder<'a> {
+    kept: Vec<&'static Quantity>,
+    /// Time, then the series.
+    columns: Vec<Vec<f64>>,
+    watcher: &'a dyn Watcher,
+    /// Steps that the watcher was told of.
+    told: u64,
+}
+
+impl<'a> Recorder<'a> {
+    fn new(study: &Study, scene: &Scene, watcher: &'a dyn Watcher) -> Self {
+        let asked = |name: &str| {
+            let responses = &study.responses;
+            // Means of the contact area are taken from its integral.
+            let of_area = name == "contact_area_integral"
+                && responses.iter().any(|other| other.series.starts_with("contact_area"));
+            of_area || responses.iter().any(|response| response.series == name)
+        };
+        let kept: Vec<_> = quantities(scene.extras())
+            .filter(|quantity| {
+                study.series.as_ref().is_none_or(|series| series.iter().any(|name| name == quantity.name))
+                    || asked(quantity.name)
+            })
+            .collect();
+        Self { columns: vec![Vec::new(); 1 + kept.len()], kept, watcher, told: 0 }
+    }
+
+    fn series(self) -> Series {
+        let names = std::iter::once("time").chain(self.kept.iter().map(|quantity| quantity.name));
+        Series::new(names.map(str::to_owned).collect(), self.columns)
+    }
+}
+
+impl Sink for Recorder<'_> {
+    type Error = Ended;
+
+    fn sample(&mut self, sample: Sample) -> Result<(), Ended> {
+        let values = std::iter::once(sample.time).chain(self.kept.iter().map(|quantity| (quantity.value)(&sample)));
+        self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        Ok(())
+    }
+
+    fn snapshot(&mut self, _snapshot: Snapshot) -> Result<(), Ended> {
+        Ok(())
+    }
+
+    fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
+        let done = simulation.steps_done();
+        let signal = self.watcher.steps(done - self.told);
+        self.told = done;
+        signal.map_or(Ok(steps), |signal| Err(Ended::Stopped(signal)))
+    }
+}

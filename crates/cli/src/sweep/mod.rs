@@ -1,0 +1,53 @@
+//! Making and looking up the runs of a study.
+//!
+//! | what | where |
+//! |---|---|
+//! | the scenes of all runs, resolved | [`resolved`] |
+//! | what they will cost | [`estimate`] |
+//! | one run, from its scene to its record | [`make`] |
+//! | all of them, several at a time | [`crate::job::Job::share`] |
+//! | how far they are | [`progress`] |
+
+pub mod estimate;
+pub mod make;
+pub mod progress;
+pub mod resolved;
+
+use std::path::{Path, PathBuf};
+
+use plateau_io::study::Study;
+use plateau_io::study::journal::Journal;
+use plateau_io::study::plan::Plan;
+
+use crate::failure::Failure;
+use crate::{machine, version};
+
+/// Which program makes a result: version and revision.
+pub fn program() -> String {
+    format!("{} {}", version::program(), version::REVISION)
+}
+
+/// Reads a study and makes its design.
+///
+/// # Errors
+/// [`Failure::Input`] with everything that is wrong.
+pub fn plan(path: &Path) -> Result<Plan, Failure> {
+    Study::load(path).and_then(Plan::new).map_err(Failure::input)
+}
+
+/// Folder of the study's journal.
+pub fn journal_folder(study: &Study) -> PathBuf {
+    study.directory.join("journal")
+}
+
+/// The journal of a study, after many small files of it were made few.
+///
+/// # Errors
+/// [`Failure::Run`].
+pub fn journal(study: &Study) -> Result<Journal, Failure> {
+    let folder = journal_folder(study);
+    let failed = |error| Failure::run(format_args!("{}: {error}", folder.display()));
+    // A folder that must not be changed can still be read.
+    let _ = plateau_io::study::journal::merge(&folder, &machine::host());
+    Journal::read(&folder).map_err(failed)
+}

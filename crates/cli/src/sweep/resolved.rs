@@ -1,0 +1,59 @@
+//! The scenes of all runs of a study: whether they can be built, and what their results are told by.
+
+use plateau_io::study::identity::{Digests, identity};
+use plateau_io::study::plan::Plan;
+use rayon::prelude::*;
+
+use super::program;
+use crate::failure::Failure;
+
+/// Problems that are shown.
+const SHOWN: usize = 10;
+
+/// What is known of every run before it is made, in the order of the design.
+#[derive(Debug, Clone)]
+pub struct Resolved {
+    /// By what its results are known.
+    pub identities: Vec<String>,
+    /// Its steps.
+    pub steps: Vec<u64>,
+}
+
+impl Resolved {
+    /// Builds the scene of every run.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] with the runs whose scenes cannot be built, before any is made.
+    pub fn of(plan: &Plan) -> Result<Self, Failure> {
+        let (digests, program) = (Digests::default(), program());
+        let resolve = |number: usize| {
+            let run = plan.run(number);
+            let scene = plan.scene(&run).map_err(|error| error.to_string())?;
+            let identity = identity(&scene, &digests, &program)
+                .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
+            Ok((identity, scene.parameters.steps))
+        };
+        let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
+        let problems: Vec<(usize, &String)> =
+            (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
+        if problems.is_empty() {
+            let (identities, steps) = all.into_iter().flatten().unzip();
+            return Ok(Self { identities, steps });
+        }
+        // The same mistake shows in many runs.
+        let mut said: Vec<&String> = Vec::new();
+        let mut lines =
+            vec![format!("{}: {} of {} runs cannot be made", plan.study().path.display(), problems.len(), plan.runs())];
+        for (number, problem) in &problems {
+            if !said.contains(problem) && said.len() < SHOWN {
+                said.push(problem);
+                let levels = plan.run(*number).levels;
+                let settings = plan.study().factors.iter().zip(&levels);
+                let settings: Vec<String> =
+                    settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label)).collect();
+                lines.push(format!("run {number} ({}):\n{problem}", settings.join(", ")));
+            }
+        }
+        Err(Failure::input(lines.join("\n")))
+    }
+}

@@ -1,0 +1,342 @@
+//! From the text of a study to the study: what its keys say together.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use plateau_core::observe::{Extras, quantities};
+use plateau_study::design::{Alpha, Fraction, Kind};
+use toml::Spanned;
+
+use super::document::{self, Document};
+use super::factor::{Factor, Level, Values};
+use super::response::{Question, Response};
+use super::{DesignSource, Order, Replicates, Study, points_of_file};
+use crate::scene::{Origin, Problem, schema};
+use crate::units::{self, Dimension};
+
+/// The newest version of the study format that this program reads.
+const VERSION: i64 = 1;
+
+/// Designs by their name in a study.
+const DESIGNS: [&str; 8] = [
+    "full-factorial",
+    "fractional-factorial",
+    "plackett-burman",
+    "central-composite",
+    "box-behnken",
+    "latin-hypercube",
+    "sobol",
+    "csv",
+];
+
+/// Turns a place in the text into line and column.
+pub(super) struct Place<'a> {
+    pub file: Arc<Path>,
+    pub text: &'a str,
+}
+
+impl Place<'_> {
+    pub fn at(&self, byte: usize) -> Origin {
+        let before = self.text.get(..byte).unwrap_or("");
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
+        Origin::Place { file: self.file.clone(), line, column }
+    }
+
+    fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
+        Problem::new(&self.at(found.span().start), key, message)
+    }
+}
+
+pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Result<Study, Vec<Problem>> {
+    let mut problems = Vec::new();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let version = *document.version.get_ref();
+    if version != VERSION {
+        let message = format!("{version}, this program reads version {VERSION}");
+        problems.push(place.problem(&document.version, "version", message));
+    }
+    let factors = factors(&document, place, &mut problems);
+    let source = source(&document, &factors, folder, place).map_err(|problem| problems.push(problem)).ok();
+    let order = match document.order.as_ref().map(|order| (order, order.get_ref().as_str())) {
+        None | Some((_, "random")) => Order::Random,
+        Some((_, "standard")) => Order::Standard,
+        Some((order, found)) => {
+            problems.push(place.problem(order, "order", format!("\"{found}\", expected \"random\" or \"standard\"")));
+            Order::Standard
+        }
+    };
+    let replicates = document.replicates.as_ref().map(|given| replicates(given, place, &mut problems));
+    let responses = responses(&document.response, place, &mut problems);
+    let series = document.series.as_ref().map(|series| {
+        series.iter().filter_map(|name| series_name(name, "series", place, &mut problems)).collect::<Vec<_>>()
+    });
+    let stem = path.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
+    let directory = document.directory.unwrap_or_else(|| stem.clone());
+    if directory.is_empty() {
+        problems.push(Problem::new(&Origin::File(place.file.clone()), "directory", "\"\", expected a folder"));
+    }
+    let Some(source) = source.filter(|_| problems.is_empty()) else { return Err(problems) };
+    Ok(Study {
+        title: document.title.unwrap_or(stem),
+        path: path.to_owned(),
+        base: folder.join(document.base.get_ref()),
+        directory: folder.join(directory),
+        design: document.design.into_inner(),
+        sets: document.set.into_iter().map(Spanned::into_inner).collect(),
+        seed: document.seed.map_or(0, Spanned::into_inner),
+        source,
+        factors,
+        replicates,
+        order,
+        responses,
+        series,
+    })
+}
+
+fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Factor> {
+    let mut factors: Vec<Factor> = Vec::new();
+    for table in &document.factor {
+        let key = table.key.get_ref();
+        for unknown in key.0.iter().filter(|key| schema::find(key).is_none()) {
+            let (section, name) = unknown.rsplit_once('.').unwrap_or(("", unknown));
+            let message = format!("\"{unknown}\": {}", schema::unknown(section, name));
+            problems.push(place.problem(&table.key, "factor.key", message));
+        }
+        let name = table.name.as_ref().map_or_else(|| key.0[0].clone(), |name| name.get_ref().clone());
+        let values = values(table, &key.0[0], document.design.get_ref() == "csv", place);
+        let values = values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()));
+        if factors.iter().any(|factor| factor.name == name) {
+            let at = table.name.as_ref().map_or(table.key.span(), Spanned::span);
+            problems.push(Problem::new(&place.at(at.start), "factor.name", format!("\"{name}\" is the name of two")));
+        }
+        if let Some(twice) = key.0.iter().find(|key| factors.iter().any(|factor| factor.keys.contains(key))) {
+            problems.push(place.problem(&table.key, "factor.key", format!("\"{twice}\" is varied by two factors")));
+        }
+        factors.push(Factor { name, keys: key.0.clone(), values });
+    }
+    if factors.is_empty() {
+        let message = "nothing is varied, expected at least one [[factor]]";
+        problems.push(Problem::new(&Origin::File(place.file.clone()), "factor", message));
+    }
+    factors
+}
+
+fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>) -> Result<Values, Problem> {
+    let of = |value: &Spanned<toml::Value>| Level::new(key, value.get_ref());
+    let at = |message: &str| Err(place.problem(&table.key, "factor", message));
+    if let Some(scale) = &table.scale
+        && table.range.is_none()
+    {
+        return Err(place.problem(scale, "factor.scale", "it belongs to a range"));
+    }
+    match (&table.levels, &table.range) {
+        (None, None) if in_file => Ok(Values::Levels(Vec::new())),
+        (Some(levels), None) => {
+            let list: Vec<Level> = levels.get_ref().iter().map(of).collect();
+            if list.len() < 2 {
+                return Err(place.problem(levels, "factor.levels", "expected at least two levels"));
+            }
+            let twice = list.iter().enumerate().find(|(at, level)| list[..*at].contains(level));
+            twice.map_or(Ok(()), |(at, level)| {
+                let message = format!("{} is there twice", level.text);
+                Err(place.problem(&levels.get_ref()[at], "factor.levels", message))
+            })?;
+            Ok(Values::Levels(list))
+        }
+        (None, Some(range)) => {
+            let logarithmic = match table.scale.as_ref().map(|scale| (scale, scale.get_ref().as_str())) {
+                None | Some((_, "linear")) => false,
+                Some((_, "logarithmic")) => true,
+                Some((scale, found)) => {
+                    let message = format!("\"{found}\", expected \"linear\" or \"logarithmic\"");
+                    return Err(place.problem(scale, "factor.scale", message));
+                }
+            };
+            let [low, high] = range.get_ref().each_ref().map(of);
+            let (Some(from), Some(to)) = (low.number, high.number) else {
+                let message = format!("{} to {}: expected two numbers or quantities", low.text, high.text);
+                return Err(place.problem(range, "factor.range", message));
+            };
+            if from >= to || (logarithmic && from <= 0.0) {
+                let wanted = if logarithmic { "0 < lower < upper" } else { "lower < upper" };
+                let message = format!("{} to {}: expected {wanted}", low.text, high.text);
+                return Err(place.problem(range, "factor.range", message));
+            }
+            let whole = |end: &Spanned<toml::Value>| matches!(end.get_ref(), toml::Value::Integer(_));
+            if schema::find(key)
+                .is_some_and(|key| matches!(key.kind, schema::Kind::Integer(_) | schema::Kind::CountOr(_)))
+            {
+                return Err(place.problem(range, "factor.range", "this key holds whole numbers: give levels"));
+            }
+            let units =
+                [&low, &high].map(|level| level.label.trim().split_once(' ').map_or("", |(_, unit)| unit.trim()));
+            if units[0] != units[1] && !range.get_ref().iter().all(whole) {
+                let message = format!("{} to {}: expected both in the same unit", low.text, high.text);
+                return Err(place.problem(range, "factor.range", message));
+            }
+            Ok(Values::Range { low, high, logarithmic })
+        }
+        (Some(_), Some(_)) => at("levels and range are given together, keep one"),
+        (None, None) => at("expected levels = [...] or range = [lower, upper]"),
+    }
+}
+
+/// What the keys of the design say.
+fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<'_>) -> Result<DesignSource, Problem> {
+    let design = document.design.get_ref().as_str();
+    let only = |name: &str, span: Option<usize>, designs: &[&str]| match span {
+        Some(at) if !designs.contains(&design) => {
+            let message = format!("it belongs to design = \"{}\", found \"{design}\"", designs.join("\" or \""));
+            Err(Problem::new(&place.at(at), name, message))
+        }
+        _ => Ok(()),
+    };
+    fn start<T>(found: &Option<Spanned<T>>) -> Option<usize> {
+        found.as_ref().map(|found| found.span().start)
+    }
+    only("resolution", start(&document.resolution), &["fractional-factorial"])?;
+    only("generators", start(&document.generators), &["fractional-factorial"])?;
+    only("points", start(&document.points), &["latin-hypercube", "sobol"])?;
+    only("alpha", start(&document.alpha), &["central-composite"])?;
+    only("centre_points", start(&document.centre_points), &["central-composite", "box-behnken"])?;
+    only("file", start(&document.file), &["csv"])?;
+    let missing = |what: &str| Err(place.problem(&document.design, "design", format!("\"{design}\" needs {what}")));
+    let points = || document.points.as_ref().map(|points| *points.get_ref()).filter(|points| *points > 0);
+    let centre = document.centre_points.as_ref().map(|points| *points.get_ref());
+    let kind = match design {
+        "full-factorial" => Kind::FullFactorial,
+        "fractional-factorial" => match (&document.resolution, &document.generators) {
+            (Some(resolution), None) => Kind::FractionalFactorial(Fraction::Resolution(*resolution.get_ref())),
+            (None, Some(generators)) => Kind::FractionalFactorial(Fraction::Generators(generators.get_ref().clone())),
+            _ => return missing("either resolution = 4 or generators = [\"D = ABC\"]"),
+        },
+        "plackett-burman" => Kind::PlackettBurman,
+        "central-composite" => {
+            let alpha = match document.alpha.as_ref().map(|alpha| (alpha, alpha.get_ref().as_str())) {
+                None | Some((_, "face")) => Alpha::Face,
+                Some((_, "rotatable")) => Alpha::Rotatable,
+                Some((_, "orthogonal")) => Alpha::Orthogonal,
+                Some((alpha, found)) => {
+                    let message = format!("\"{found}\", expected \"face\", \"rotatable\" or \"orthogonal\"");
+                    return Err(place.problem(alpha, "alpha", message));
+                }
+            };
+            let centre = centre.unwrap_or(4);
+            Kind::CentralComposite { alpha, centre: [centre.div_ceil(2), centre / 2] }
+        }
+        "box-behnken" => Kind::BoxBehnken { centre: centre.unwrap_or(3) },
+        "latin-hypercube" => match points() {
+            Some(points) => {
+                Kind::LatinHypercube { points, seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()) }
+            }
+            None => return missing("points = 20, at least 1"),
+        },
+        "sobol" => match points() {
+            Some(points) => Kind::Sobol { points },
+            None => return missing("points = 32, at least 1"),
+        },
+        "csv" => {
+            let Some(file) = &document.file else { return missing("file = \"points.csv\"") };
+            let points = points_of_file::read(&folder.join(file.get_ref()), factors);
+            return points.map(DesignSource::File).map_err(|message| place.problem(file, "file", message));
+        }
+        other => {
+            let nearest = schema::nearest(other, DESIGNS.into_iter());
+            let advice = nearest.map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"));
+            let message = format!("\"{other}\", expected one of {}{advice}", DESIGNS.join(", "));
+            return Err(place.problem(&document.design, "design", message));
+        }
+    };
+    Ok(DesignSource::Kind(kind))
+}
+
+fn replicates(given: &document::Replicates, place: &Place<'_>, problems: &mut Vec<Problem>) -> Replicates {
+    for key in given.keys.get_ref() {
+        if !(key.get_ref().ends_with(".seed") && schema::find(key.get_ref()).is_some()) {
+            let message =
+                format!("\"{}\" is no seed; expected keys such as disc.surface.synthetic.seed", key.get_ref());
+            problems.push(place.problem(key, "replicates.keys", message));
+        }
+    }
+    let seeds: Vec<i64> = given.seeds.get_ref().iter().map(|seed| *seed.get_ref()).collect();
+    if seeds.is_empty() || given.keys.get_ref().is_empty() {
+        problems.push(place.problem(&given.seeds, "replicates", "expected at least one key and one seed"));
+    }
+    for (at, seed) in given.seeds.get_ref().iter().enumerate() {
+        let message = match seeds[..at].contains(&seeds[at]) {
+            true => "is there twice: equal seeds give equal runs",
+            false if seeds[at] < 0 => "is negative, expected a seed of at least 0",
+            false => continue,
+        };
+        problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seeds[at])));
+    }
+    Replicates { keys: given.keys.get_ref().iter().map(|key| key.get_ref().clone()).collect(), seeds }
+}
+
+fn responses(tables: &[document::Response], place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
+    let mut responses: Vec<Response> = Vec::new();
+    for table in tables {
+        let name = table.name.get_ref().clone();
+        if responses.iter().any(|response| response.name == name) {
+            problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
+        }
+        let series = series_name(&table.dataset, "response.dataset", place, problems).unwrap_or_default();
+        match question(table, place) {
+            Ok(question) => responses.push(Response { name, series, question }),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    responses
+}
+
+fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, Problem> {
+    let time = |text: &Spanned<String>, key: &str| {
+        let time = units::parse(text.get_ref(), Dimension::Time)
+            .map_err(|error| place.problem(text, key, error.to_string()))?;
+        if time >= 0.0 {
+            Ok(time)
+        } else {
+            Err(place.problem(text, key, format!("\"{}\" is before the run", text.get_ref())))
+        }
+    };
+    match (&table.at, &table.mean, &table.reaches) {
+        (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
+        (Some(at), None, None) => Ok(Question::At(time(at, "response.at")?)),
+        (None, Some(mean), None) => {
+            let [from, to] = mean.get_ref();
+            let (start, end) = (time(from, "response.mean")?, time(to, "response.mean")?);
+            if start < end {
+                return Ok(Question::Mean(start, end));
+            }
+            Err(place.problem(mean, "response.mean", "expected two times, the earlier one first"))
+        }
+        (None, None, Some(reaches)) if (0.0..1.0).contains(reaches.get_ref()) && *reaches.get_ref() > 0.0 => {
+            Ok(Question::Reaches(*reaches.get_ref()))
+        }
+        (None, None, Some(reaches)) => Err(place.problem(
+            reaches,
+            "response.reaches",
+            format!("{}, expected more than 0 and less than 1", reaches.get_ref()),
+        )),
+        _ => {
+            let message = "expected one of at = \"end\", at = \"100 s\", mean = [\"50 s\", \"100 s\"], reaches = 0.9";
+            Err(place.problem(&table.name, "response", message))
+        }
+    }
+}
+
+/// `/series/pool` or `pool`.
+fn series_name(found: &Spanned<String>, key: &str, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
+    let name = found.get_ref().trim_start_matches("/series/");
+    let known = || quantities(Extras::ALL).map(|quantity| quantity.name);
+    if known().any(|known| known == name) {
+        return Some(name.to_owned());
+    }
+    let nearest = schema::nearest(name, known()).map_or_else(
+        || format!("; the series are {}", known().collect::<Vec<_>>().join(", ")),
+        |nearest| format!("; did you mean /series/{nearest}?"),
+    );
+    problems.push(place.problem(found, key, format!("\"{}\" is no series of a run{nearest}", found.get_ref())));
+    None
+}

@@ -1,0 +1,291 @@
+//! All results of a study in one file: the design, the responses, and the series of all runs side by side.
+//!
+//! ```text
+//! run                          number of the run, from 1
+//! point, replicate, state      (run)
+//! one for each factor          (run), in SI units, or a word
+//! one for each response        (run), NaN where a run gives none
+//! one for each series          (run, time); or (run, sample), where the times of the samples differ from run to run
+//! ```
+
+use std::collections::BTreeSet;
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
+use plateau_core::observe::{Extras, quantities};
+use thiserror::Error;
+
+use super::journal::{Entry, Journal};
+use super::plan::{Plan, Run};
+use super::record::{Outcome, Series};
+use crate::dataset_file::{Attribute, Content, Coordinate, DatasetFileError, Name, Rows, Values, Variable, write_rows};
+
+/// The results of the runs of a study, as far as there are any.
+#[derive(Debug, Clone)]
+pub struct Collected {
+    /// The runs in the order of the design.
+    pub runs: Vec<CollectedRun>,
+}
+
+/// A run and what came of it.
+#[derive(Debug, Clone)]
+pub struct CollectedRun {
+    /// The run.
+    pub run: Run,
+    /// How it ended, if it did.
+    pub state: State,
+    /// Answers to the questions of the study, in their order; NaN where there is none.
+    pub responses: Vec<f64>,
+    /// Wall time, s; NaN if it has not ended.
+    pub wall_time: f64,
+    entry: Option<Entry>,
+    /// Times of its samples, if it finished.
+    time: Vec<f64>,
+    /// Names of its series.
+    series: Vec<String>,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum State {
+    /// All steps were taken.
+    Finished,
+    /// It failed for this reason.
+    Failed(String),
+    /// It was not made yet, or not by this program.
+    Missing,
+}
+
+impl State {
+    /// One word.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Failed(_) => "failed",
+            Self::Missing => "missing",
+        }
+    }
+}
+
+/// Why results cannot be collected.
+#[derive(Debug, Error)]
+pub enum CollectError {
+    /// The journal cannot be read.
+    #[error("cannot read the results: {0}")]
+    Read(#[from] io::Error),
+    /// The file cannot be written.
+    #[error(transparent)]
+    Write(#[from] DatasetFileError),
+}
+
+impl Collected {
+    /// Looks up the results of all runs; `identities` are theirs, in the order of the design.
+    ///
+    /// # Errors
+    /// [`CollectError::Read`].
+    pub fn new(plan: &Plan, identities: &[String], journal: &Journal) -> Result<Self, CollectError> {
+        let responses = &plan.study().responses;
+        let run = |(number, identity): (usize, &String)| {
+            let mut collected = CollectedRun {
+                run: plan.run(number),
+                state: State::Missing,
+                responses: vec![f64::NAN; responses.len()],
+                wall_time: f64::NAN,
+                entry: journal.get(identity).cloned(),
+                time: Vec::new(),
+                series: Vec::new(),
+            };
+            if let Some(entry) = &collected.entry {
+                collected.wall_time = entry.wall_time;
+                collected.state = entry.failure.clone().map_or(State::Finished, State::Failed);
+                if let Some(series) = series(entry)? {
+                    collected.time = series.time().to_vec();
+                    collected.series = series.names().to_vec();
+                    collected.responses =
+                        responses.iter().map(|response| response.of(&series).unwrap_or(f64::NAN)).collect();
+                }
+            }
+            Ok(collected)
+        };
+        let runs = (1..).zip(identities).map(run).collect::<Result<_, CollectError>>()?;
+        Ok(Self { runs })
+    }
+
+    /// How many runs ended like this.
+    pub fn count(&self, state: &str) -> usize {
+        self.runs.iter().filter(|run| run.state.name() == state).count()
+    }
+
+    /// Writes all of it as one HDF5 file; `attributes` tell where it comes from.
+    ///
+    /// # Errors
+    /// [`CollectError`], after which nothing has changed at `path`.
+    pub fn write(
+        &self,
+        path: &Path,
+        replace: bool,
+        plan: &Plan,
+        attributes: Vec<(&'static str, Attribute)>,
+    ) -> Result<(), CollectError> {
+        let content = self.content(plan, attributes);
+        write_rows(path, replace, &content, |rows| self.give(rows, &content))
+    }
+
+    fn give(&self, rows: &Rows<'_>, content: &Content) -> Result<(), CollectError> {
+        let wanted: Vec<&str> = content
+            .variables
+            .iter()
+            .filter(|variable| variable.values == Values::Rows)
+            .map(|variable| variable.name.as_ref())
+            .collect();
+        for (row, run) in self.runs.iter().enumerate() {
+            let Some(series) = run.entry.as_ref().map(series).transpose()?.flatten() else { continue };
+            for name in &wanted {
+                let values = if *name == TIME_OF_SAMPLE { Some(series.time()) } else { series.values(name) };
+                values.map_or(Ok(()), |values| rows.put(name, row, values))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn content(&self, plan: &Plan, attributes: Vec<(&'static str, Attribute)>) -> Content {
+        let study = plan.study();
+        let numbers =
+            |value: fn(&Run) -> usize| Values::Integer(self.runs.iter().map(|run| value(&run.run) as i64).collect());
+        let text = |value: fn(&CollectedRun) -> String| Values::Text(self.runs.iter().map(value).collect());
+        let (common, along) = self.samples();
+        let mut content = Content {
+            attributes,
+            dimensions: vec![coordinate("run", "1", "number of the run", (1..=self.runs.len()).map(|run| run as f64))],
+            variables: vec![
+                variable("point", "1", "point of the design", numbers(|run| run.point + 1)),
+                variable("replicate", "1", "replicate of the point", numbers(|run| run.replicate + 1)),
+                variable(
+                    "state",
+                    "",
+                    "how the run ended: finished, failed or missing",
+                    text(|run| run.state.name().into()),
+                ),
+                variable(
+                    "error",
+                    "",
+                    "why the run failed",
+                    text(|run| if let State::Failed(error) = &run.state { error.clone() } else { String::new() }),
+                ),
+                variable(
+                    "wall_time",
+                    "s",
+                    "wall time of the run",
+                    Values::Float(self.runs.iter().map(|run| run.wall_time).collect()),
+                ),
+            ],
+        };
+        let mut names = Names::new(&content, &along);
+        for (at, factor) in study.factors.iter().enumerate() {
+            let levels = || self.runs.iter().map(|run| &run.run.levels[at]);
+            let values = match levels().map(|level| level.number).collect() {
+                Some(numbers) => Values::Float(numbers),
+                None => Values::Text(levels().map(|level| level.label.clone()).collect()),
+            };
+            let unit = if matches!(values, Values::Float(_)) { factor.unit() } else { "" };
+            let meaning = format!("{}: {}", factor.name, factor.keys.join(", "));
+            content.variables.push(variable(names.free(&factor.name, "factor"), unit, meaning, values));
+        }
+        for (at, response) in study.responses.iter().enumerate() {
+            let values = self.runs.iter().map(|run| run.responses[at]).collect();
+            let unit = response.unit(unit_of(&response.series));
+            let meaning = format!("{} (of {})", response.name, response.series);
+            content.variables.push(variable(
+                names.free(&response.name, "response"),
+                unit,
+                meaning,
+                Values::Float(values),
+            ));
+        }
+        match common {
+            Some(time) => content.dimensions.push(coordinate("time", "s", "time of the samples", time.iter().copied())),
+            None => {
+                let longest = self.runs.iter().map(|run| run.time.len()).max().unwrap_or(0);
+                let places = (1..=longest).map(|sample| sample as f64);
+                content.dimensions.push(coordinate("sample", "1", "number of the sample", places));
+                content.variables.push(rows(TIME_OF_SAMPLE, "s", "time of the sample", "sample"));
+            }
+        }
+        let along_samples = if common.is_some() { "time" } else { "sample" };
+        for quantity in quantities(Extras::ALL).filter(|quantity| along.contains(quantity.name)) {
+            content.variables.push(rows(quantity.name, quantity.unit, quantity.long_name, along_samples));
+        }
+        content
+    }
+
+    /// The times of the samples, if they are those of all runs, and the names of all series.
+    fn samples(&self) -> (Option<&[f64]>, BTreeSet<&str>) {
+        let mut finished = self.runs.iter().filter(|run| run.state == State::Finished);
+        let series = finished.clone().flat_map(|run| run.series.iter().map(String::as_str)).collect();
+        let first = finished.next().map_or(&[][..], |run| &run.time);
+        (finished.all(|run| run.time == first).then_some(first), series)
+    }
+}
+
+/// Where runs have samples at different times.
+const TIME_OF_SAMPLE: &str = "sample_time";
+
+/// The series of a record; none of a run that failed.
+fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
+    match entry.record()?.outcome {
+        Outcome::Failed { .. } => Ok(None),
+        Outcome::Finished { series, .. } => {
+            series.unpack().map(Some).ok_or_else(|| CollectError::Read(ErrorKind::InvalidData.into()))
+        }
+    }
+}
+
+/// SI unit of a series.
+pub fn unit_of(series: &str) -> &'static str {
+    quantities(Extras::ALL).find(|quantity| quantity.name == series).map_or("1", |quantity| quantity.unit)
+}
+
+fn coordinate(
+    name: &'static str,
+    unit: &'static str,
+    long_name: &'static str,
+    values: impl Iterator<Item = f64>,
+) -> Coordinate {
+    Coordinate { name, unit: unit.into(), long_name: long_name.into(), values: values.collect() }
+}
+
+fn variable(name: impl Into<Name>, unit: &str, long_name: impl Into<Name>, values: Values) -> Variable {
+    let unit = unit.to_owned().into();
+    Variable { name: name.into(), dimensions: vec!["run"], unit, long_name: long_name.into(), values }
+}
+
+fn rows(name: &'static str, unit: &'static str, long_name: &'static str, along: &'static str) -> Variable {
+    Variable { dimensions: vec!["run", along], ..variable(name, unit, long_name, Values::Rows) }
+}
+
+/// Names of variables, each given once.
+struct Names(BTreeSet<String>);
+
+impl Names {
+    fn new(content: &Content, series: &BTreeSet<&str>) -> Self {
+        let own = ["run", "time", "sample", TIME_OF_SAMPLE].into_iter().chain(series.iter().copied());
+        let known = content.variables.iter().map(|variable| variable.name.to_string());
+        Self(own.map(str::to_owned).chain(known).collect())
+    }
+
+    /// A name as programs want it; with what it is added where it is taken.
+    fn free(&mut self, name: &str, what: &str) -> String {
+        let mut free = plain(name);
+        while !self.0.insert(free.clone()) {
+            free = format!("{free}_{what}");
+        }
+        free
+    }
+}
+
+/// Letters, digits and underscores: `contact area at the end` becomes `contact_area_at_the_end`.
+pub fn plain(name: &str) -> String {
+    let plain: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    let plain = plain.trim_matches('_').to_lowercase();
+    if plain.starts_with(|c: char| c.is_ascii_digit()) || plain.is_empty() { format!("_{plain}") } else { plain }
+}

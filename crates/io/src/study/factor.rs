@@ -1,0 +1,196 @@
+//! Factors: the keys of a scene that a study varies, and what it sets them to.
+
+use std::fmt;
+
+use plateau_study::design::Setting;
+
+use crate::scene::schema::{self, Kind};
+use crate::units::{self, Dimension};
+
+/// Keys of a scene that a study varies together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factor {
+    /// Its name.
+    pub name: String,
+    /// The keys that are set, all to the same value.
+    pub keys: Vec<String>,
+    /// What they are set to.
+    pub values: Values,
+}
+
+/// What a factor is set to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// One of some levels.
+    Levels(Vec<Level>),
+    /// Anything between two ends.
+    Range {
+        /// At the coded value −1.
+        low: Level,
+        /// At the coded value 1.
+        high: Level,
+        /// Whether equal steps are equal ratios.
+        logarithmic: bool,
+    },
+}
+
+/// A value of a factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// As it stands in a scene, in TOML.
+    pub text: String,
+    /// For people.
+    pub label: String,
+    /// In SI units; none for words.
+    pub number: Option<f64>,
+}
+
+impl Level {
+    /// What a value means for a key.
+    pub fn new(key: &str, value: &toml::Value) -> Self {
+        let label = match value {
+            toml::Value::String(text) => text.clone(),
+            other => other.to_string(),
+        };
+        Self { text: value.to_string(), number: number(key, value), label }
+    }
+
+    /// The number before the unit, and the unit.
+    fn split(&self) -> Option<(f64, &str)> {
+        let (number, unit) = self.label.trim().split_once(' ').unwrap_or((self.label.trim(), ""));
+        Some((number.parse().ok()?, unit.trim()))
+    }
+}
+
+impl Factor {
+    /// What a design has to know.
+    pub fn kind(&self) -> plateau_study::design::Factor {
+        match &self.values {
+            Values::Levels(levels) => plateau_study::design::Factor::Levels(levels.len()),
+            Values::Range { .. } => plateau_study::design::Factor::Range,
+        }
+    }
+
+    /// The value at a setting of a design; none where words have nothing between them.
+    pub fn at(&self, setting: Setting) -> Option<Level> {
+        match (&self.values, setting) {
+            (Values::Levels(levels), Setting::Level(index)) => levels.get(index).cloned(),
+            (Values::Levels(levels), Setting::Coded(coded)) => match levels.as_slice() {
+                [low, _] if coded == -1.0 => Some(low.clone()),
+                [_, high] if coded == 1.0 => Some(high.clone()),
+                [low, high] => self.between(low, high, coded, false),
+                _ => None,
+            },
+            (Values::Range { low, .. }, Setting::Coded(-1.0) | Setting::Level(0)) => Some(low.clone()),
+            (Values::Range { high, .. }, Setting::Coded(1.0) | Setting::Level(_)) => Some(high.clone()),
+            (Values::Range { low, high, logarithmic }, Setting::Coded(coded)) => {
+                self.between(low, high, coded, *logarithmic)
+            }
+        }
+    }
+
+    /// Where a value lies, −1 at the lower end and 1 at the upper one; none for words and for more than two levels.
+    pub fn coded(&self, level: &Level) -> Option<f64> {
+        let (low, high, logarithmic) = match &self.values {
+            Values::Range { low, high, logarithmic } => (low.number?, high.number?, *logarithmic),
+            Values::Levels(levels) => {
+                let [low, high] = levels.as_slice() else { return None };
+                (low.number?, high.number?, false)
+            }
+        };
+        let scale = |value: f64| if logarithmic { libm::log(value) } else { value };
+        let (low, high, value) = (scale(low), scale(high), scale(level.number?));
+        Some((2.0 * value - (low + high)) / (high - low))
+    }
+
+    /// In the unit of both ends, so that a study of "20 N" to "60 N" has "40 N" between them.
+    fn between(&self, low: &Level, high: &Level, coded: f64, logarithmic: bool) -> Option<Level> {
+        let ((from, unit), (to, other)) = (low.split()?, high.split()?);
+        if unit != other {
+            return None;
+        }
+        let share = (coded + 1.0) / 2.0;
+        let value = if logarithmic { from * libm::pow(to / from, share) } else { from + (to - from) * share };
+        let value =
+            if unit.is_empty() { toml::Value::Float(value) } else { toml::Value::String(format!("{value} {unit}")) };
+        Some(Level::new(self.keys.first()?, &value))
+    }
+
+    /// SI unit of its numbers; empty for words, `1` for plain numbers.
+    pub fn unit(&self) -> &'static str {
+        let has_numbers = match &self.values {
+            Values::Levels(levels) => levels.iter().all(|level| level.number.is_some()),
+            Values::Range { .. } => true,
+        };
+        if !has_numbers {
+            return "";
+        }
+        self.keys.first().and_then(|key| dimension(key)).map_or("1", Dimension::si_unit)
+    }
+}
+
+/// What it is set to, for people: `20 N, 47 N` or `20 N … 60 N`.
+impl fmt::Display for Factor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.values {
+            Values::Levels(levels) => {
+                let labels: Vec<&str> = levels.iter().map(|level| level.label.as_str()).collect();
+                write!(f, "{}", labels.join(", "))
+            }
+            Values::Range { low, high, logarithmic } => {
+                let scale = if *logarithmic { ", equal ratios" } else { "" };
+                write!(f, "{} … {}{scale}", low.label, high.label)
+            }
+        }
+    }
+}
+
+/// What a key's quantity measures.
+fn dimension(key: &str) -> Option<Dimension> {
+    match schema::find(key)?.kind {
+        Kind::Quantity { dimension, .. } => Some(dimension),
+        Kind::LengthUnit | Kind::Lengths { .. } => Some(Dimension::Length),
+        _ => None,
+    }
+}
+
+/// A value in SI units, if it is a number.
+fn number(key: &str, value: &toml::Value) -> Option<f64> {
+    match value {
+        toml::Value::String(text) => units::parse(text, dimension(key)?).ok(),
+        toml::Value::Integer(integer) => Some(*integer as f64),
+        toml::Value::Float(number) => Some(*number),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn factor(key: &str, ends: [&str; 2], logarithmic: bool) -> Factor {
+        let level = |text: &str| Level::new(key, &format!("v = {text}").parse::<toml::Table>().unwrap()["v"]);
+        let [low, high] = ends.map(level);
+        Factor { name: "f".into(), keys: vec![key.into()], values: Values::Range { low, high, logarithmic } }
+    }
+
+    #[test]
+    fn values_between_are_in_the_unit_of_the_ends() {
+        let load = factor("operation.normal_force", ["\"20 N\"", "\"60 N\""], false);
+        let labels = [-1.0, 0.0, 0.5, 1.0].map(|coded| load.at(Setting::Coded(coded)).unwrap().label);
+        assert_eq!(labels, ["20 N", "40 N", "50 N", "60 N"]);
+        let fraction = factor("plateaus.captured_fraction", ["0.01", "1.0"], true);
+        let middle = fraction.at(Setting::Coded(0.0)).unwrap();
+        assert!((middle.number.unwrap() - 0.1).abs() < 1e-15);
+        assert!(fraction.coded(&middle).unwrap().abs() < 1e-15);
+        assert_eq!(load.coded(&load.at(Setting::Coded(0.5)).unwrap()), Some(0.5));
+    }
+
+    #[test]
+    fn nothing_lies_between_two_units() {
+        let height = factor("contact.foundation_height", ["\"50 um\"", "\"1 mm\""], false);
+        assert_eq!(height.at(Setting::Coded(0.0)), None);
+        assert_eq!(height.at(Setting::Coded(1.0)).unwrap().number, Some(1e-3));
+        assert_eq!(height.unit(), "m");
+    }
+}

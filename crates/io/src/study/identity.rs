@@ -1,0 +1,106 @@
+//! What a result is the result of: the scene without what does not show in it, the content of the files that it reads, and
+//! the program.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use sha2::{Digest, Sha256};
+
+use crate::digest::sha256;
+use crate::scene::recipe::{BaseSource, HeightSource, Scene};
+
+/// Keys of a resolved scene that do not show in the series of its run, by table.
+const IRRELEVANT: [(&str, &[&str]); 6] = [
+    ("", &["title"]),
+    ("numerics", &["workers"]),
+    ("output", &["file", "maps", "maps_at", "checkpoint_every"]),
+    // Their content counts, not their name.
+    ("disc.surface", &["file"]),
+    ("pin.surface", &["file"]),
+    ("pin.base", &["file", "image"]),
+];
+
+/// Digests of files, each read once.
+#[derive(Debug, Default)]
+pub struct Digests(Mutex<BTreeMap<PathBuf, String>>);
+
+impl Digests {
+    /// SHA-256 of a file, 64 hexadecimal digits.
+    ///
+    /// # Errors
+    /// What the system says when the file cannot be read.
+    pub fn of(&self, path: &Path) -> io::Result<String> {
+        let known = || self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(digest) = known().get(path) {
+            return Ok(digest.clone());
+        }
+        let digest = sha256(path)?;
+        known().insert(path.to_owned(), digest.clone());
+        Ok(digest)
+    }
+}
+
+/// What tells the results of a scene from those of others, 64 hexadecimal digits. `program` is version and revision.
+///
+/// Workers, names of files and titles do not count.
+///
+/// # Errors
+/// The file that cannot be read, and why.
+pub fn identity(scene: &Scene, digests: &Digests, program: &str) -> Result<String, (PathBuf, io::Error)> {
+    let mut hasher = Sha256::new();
+    hasher.update(program);
+    for line in relevant(&scene.resolved) {
+        hasher.update("\n");
+        hasher.update(line);
+    }
+    for (key, path) in files(scene) {
+        let digest = digests.of(path).map_err(|error| (path.to_owned(), error))?;
+        hasher.update(format!("\n{key} {digest}"));
+    }
+    Ok(format!("{:x}", hasher.finalize()))
+}
+
+/// The lines of a resolved scene, one key each, that show in its results.
+fn relevant(resolved: &str) -> impl Iterator<Item = &str> {
+    let mut table = "";
+    resolved.lines().filter(move |line| {
+        if let Some(name) = line.strip_prefix('[') {
+            table = name.trim_end_matches(']');
+        }
+        let key = line.split_once(" = ").map_or("", |(key, _)| key);
+        !IRRELEVANT.iter().any(|(other, keys)| *other == table && keys.contains(&key))
+    })
+}
+
+/// The surface files of a scene, and what they are for.
+fn files(scene: &Scene) -> impl Iterator<Item = (&'static str, &Path)> {
+    let heights = |source| match source {
+        &HeightSource::File { ref path, .. } => Some(path),
+        HeightSource::Synthetic(_) | HeightSource::Flat => None,
+    };
+    let base = match &scene.pin_base {
+        BaseSource::File { path, .. } | BaseSource::Image { path, .. } => Some(path),
+        BaseSource::Synthetic(_) | BaseSource::Uniform(_) => None,
+    };
+    let all = [
+        ("disc.surface", heights(&scene.disc_surface.source)),
+        ("pin.surface", heights(&scene.pin_surface.source)),
+        ("pin.base", base),
+    ];
+    all.into_iter().filter_map(|(key, path)| Some((key, path?.as_path())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_show_in_results_does_not_count() {
+        let text = "\ntitle = \"a\"\n[mesh]\nrows = 80\n\n[numerics]\nworkers = 2\n[disc.surface]\nfile = \"a.sdf\"\n\
+                    mirror = false\n[output]\nfile = \"a.h5\"\nsample_every = \"1 s\"\n";
+        let kept: Vec<&str> = relevant(text).filter(|line| line.contains(" = ")).collect();
+        assert_eq!(kept, ["rows = 80", "mirror = false", "sample_every = \"1 s\""]);
+    }
+}

@@ -1,0 +1,402 @@
+//! Where the results of a study are kept while many processes make them.
+//!
+//! Every process appends records to a file of its own, a *shard*: there is never a second writer, so no lock is needed and
+//! network file systems will do. A record is one line, a checksum (CRC-32, 8 hexadecimal digits) and JSON; a line that is
+//! torn or damaged is passed over, and its run is made again. `name.open` is being written, `name.journal` is complete.
+//!
+//! Shards that nobody writes any more are merged, so that their number stays bounded however often a study is taken up
+//! again: [`merge`].
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, BufWriter, ErrorKind, Seek, SeekFrom, Write};
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::SystemTime;
+
+use super::record::{Outcome, Record};
+
+/// Ending of a shard that is being written.
+const OPEN: &str = "open";
+/// Ending of a shard that is complete.
+const COMPLETE: &str = "journal";
+/// Complete shards that are left as they are.
+const FEW: usize = 8;
+
+/// A shard that this process writes.
+#[derive(Debug)]
+pub struct Shard {
+    folder: PathBuf,
+    file: File,
+    path: PathBuf,
+    host: String,
+}
+
+impl Shard {
+    /// A new shard in the folder, which is made if it is not there. `host` is the name of this machine.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn create(folder: &Path, host: &str) -> io::Result<Self> {
+        fs::create_dir_all(folder)?;
+        let (file, path) = create_file(folder, host)?;
+        Ok(Self { folder: folder.to_owned(), file, path, host: host.to_owned() })
+    }
+
+    /// Appends a record. When this returns, it is on the disk.
+    ///
+    /// # Errors
+    /// What the system says; what was written before is not harmed.
+    pub fn append(&mut self, record: &Record) -> io::Result<()> {
+        let line = line(record)?;
+        self.write(&line)?;
+        // Another process that took this one for dead has moved the shard away, maybe before it read this line.
+        if !self.is_in_place() {
+            (self.file, self.path) = create_file(&self.folder, &self.host)?;
+            self.write(&line)?;
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, line: &[u8]) -> io::Result<()> {
+        self.file.write_all(line)?;
+        self.file.sync_data()
+    }
+
+    fn is_in_place(&self) -> bool {
+        let (own, found) = (self.file.metadata(), fs::metadata(&self.path));
+        matches!((own, found), (Ok(own), Ok(found)) if (own.dev(), own.ino()) == (found.dev(), found.ino()))
+    }
+
+    /// Says that the shard is complete; one without records is removed.
+    ///
+    /// # Errors
+    /// What the system says; the shard is then still readable.
+    pub fn close(self) -> io::Result<()> {
+        if !self.is_in_place() {
+            return Ok(());
+        }
+        if self.file.metadata()?.len() == 0 {
+            return fs::remove_file(&self.path);
+        }
+        fs::rename(&self.path, self.path.with_extension(COMPLETE))
+    }
+}
+
+/// A file that nobody else has: host, process, when it was started, and a count.
+fn create_file(folder: &Path, host: &str) -> io::Result<(File, PathBuf)> {
+    static COUNT: AtomicU32 = AtomicU32::new(0);
+    let host: String = host.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
+    let (process, now) = (std::process::id(), SystemTime::now().duration_since(SystemTime::UNIX_EPOCH));
+    let now = now.map_or(0, |since| since.as_nanos());
+    loop {
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let path = folder.join(format!("{host}_{process}_{now:x}-{count}.{OPEN}"));
+        match OpenOptions::new().append(true).create_new(true).open(&path) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            file => return Ok((file?, path)),
+        }
+    }
+}
+
+fn line(record: &Record) -> io::Result<Vec<u8>> {
+    let json = serde_json::to_vec(record)?;
+    let mut line = format!("{:08x} ", crc32fast::hash(&json)).into_bytes();
+    line.extend_from_slice(&json);
+    line.push(b'\n');
+    Ok(line)
+}
+
+/// What a line says; none if it is torn or damaged.
+fn parse(line: &[u8]) -> Option<Record> {
+    let (sum, json) = line.strip_suffix(b"\n")?.split_at_checked(9)?;
+    let sum = std::str::from_utf8(sum).ok()?.strip_suffix(' ')?;
+    let intact = u32::from_str_radix(sum, 16).ok()? == crc32fast::hash(json);
+    serde_json::from_slice(json).ok().filter(|_| intact)
+}
+
+/// Where the records of a study are: one for each run, one that finished rather than one that failed.
+#[derive(Debug, Clone, Default)]
+pub struct Journal {
+    entries: BTreeMap<String, Entry>,
+    /// Lines that were torn or damaged.
+    pub damaged: usize,
+}
+
+/// Where a record is, and how its run ended.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// Why the run failed, if it did.
+    pub failure: Option<String>,
+    /// Wall time, s.
+    pub wall_time: f64,
+    shard: PathBuf,
+    start: u64,
+}
+
+impl Journal {
+    /// Looks through all shards of a folder; there need not be any.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn read(folder: &Path) -> io::Result<Self> {
+        // While shards are merged, a list of them grows old; the merged one is there before they go.
+        let mut lists = 0..100;
+        loop {
+            let mut journal = Self::default();
+            let read = shards(folder)?.iter().try_for_each(|shard| journal.add(shard));
+            match read {
+                Err(error) if error.kind() == ErrorKind::NotFound && lists.next().is_some() => {}
+                read => return read.map(|()| journal),
+            }
+        }
+    }
+
+    /// The entry of a run.
+    pub fn get(&self, identity: &str) -> Option<&Entry> {
+        self.entries.get(identity)
+    }
+
+    /// Number of runs that have ended, of this study or of what it was before.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether no run has ended.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    fn add(&mut self, shard: &Path) -> io::Result<()> {
+        let mut reader = BufReader::with_capacity(1 << 20, File::open(shard)?);
+        let (mut line, mut start) = (Vec::new(), 0);
+        loop {
+            let length = reader.read_until(b'\n', &mut line)?;
+            if length == 0 {
+                return Ok(());
+            }
+            match parse(&line) {
+                Some(record) => self.keep(record, shard, start),
+                None => self.damaged += 1,
+            }
+            start += length as u64;
+            line.clear();
+        }
+    }
+
+    fn keep(&mut self, record: Record, shard: &Path, start: u64) {
+        let failure = match record.outcome {
+            Outcome::Finished { .. } => None,
+            Outcome::Failed { error } => Some(error),
+        };
+        let entry = Entry { failure, wall_time: record.wall_time, shard: shard.to_owned(), start };
+        let known = self.entries.get(&record.identity);
+        if known.is_none_or(|known| known.failure.is_some() && entry.failure.is_none()) {
+            self.entries.insert(record.identity, entry);
+        }
+    }
+}
+
+impl Entry {
+    /// The record.
+    ///
+    /// # Errors
+    /// What the system says; [`ErrorKind::NotFound`] when the shard was merged meanwhile, and the journal has to be read
+    /// again; [`ErrorKind::InvalidData`] when the record was damaged meanwhile.
+    pub fn record(&self) -> io::Result<Record> {
+        parse(&self.line()?).ok_or_else(|| ErrorKind::InvalidData.into())
+    }
+
+    fn line(&self) -> io::Result<Vec<u8>> {
+        let mut file = File::open(&self.shard)?;
+        file.seek(SeekFrom::Start(self.start))?;
+        let mut line = Vec::new();
+        BufReader::with_capacity(1 << 20, file).read_until(b'\n', &mut line)?;
+        Ok(line)
+    }
+}
+
+/// Every shard, complete or not.
+fn shards(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries?,
+    };
+    let mut shards = Vec::new();
+    for entry in entries {
+        let path = entry?.path();
+        if path.extension().is_some_and(|ending| ending == OPEN || ending == COMPLETE) {
+            shards.push(path);
+        }
+    }
+    shards.sort();
+    Ok(shards)
+}
+
+/// Merges shards that nobody writes any more, if there are more than a few: complete ones, and those of processes of this
+/// machine (`host`) that are gone.
+///
+/// # Errors
+/// What the system says. No record is lost, whenever it happens.
+pub fn merge(folder: &Path, host: &str) -> io::Result<()> {
+    let mut idle = Vec::new();
+    for shard in shards(folder)? {
+        if shard.extension().is_some_and(|ending| ending == COMPLETE) {
+            idle.push(shard);
+        } else if is_of_the_dead(&shard, host) {
+            // From here on a writer that is not dead after all sees that its shard is gone and begins another; what it wrote
+            // before is in this one.
+            let complete = shard.with_extension(COMPLETE);
+            match fs::rename(&shard, &complete) {
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                renamed => renamed.map(|()| idle.push(complete))?,
+            }
+        }
+    }
+    if idle.len() <= FEW {
+        return Ok(());
+    }
+    let mut journal = Journal::default();
+    let mut read = Vec::new();
+    for shard in idle {
+        match journal.add(&shard) {
+            // Another process merges, too.
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+            added => added.map(|()| read.push(shard))?,
+        }
+    }
+    let (file, path) = create_file(folder, host)?;
+    let mut writer = BufWriter::new(file);
+    for entry in journal.entries.values() {
+        match entry.line() {
+            Err(error) if error.kind() == ErrorKind::NotFound => return fs::remove_file(path),
+            line => writer.write_all(&line?)?,
+        }
+    }
+    writer.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()?;
+    fs::rename(&path, path.with_extension(COMPLETE))?;
+    File::open(folder)?.sync_all()?;
+    for shard in read {
+        match fs::remove_file(shard) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Whether a shard belongs to a process of this machine that is no more.
+fn is_of_the_dead(shard: &Path, host: &str) -> bool {
+    let name = shard.file_name().map_or_else(Default::default, |name| name.to_string_lossy());
+    let mut parts = name.split('_');
+    let own = parts.next() == Some(host);
+    let process = parts.next().and_then(|process| process.parse::<u32>().ok());
+    // Without /proc nobody is known to be gone.
+    let knows = Path::new("/proc/self").exists();
+    own && knows && process.is_some_and(|process| !Path::new("/proc").join(process.to_string()).exists())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::record::Series;
+
+    fn record(identity: &str, finished: bool) -> Record {
+        let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
+        let outcome =
+            if finished { Outcome::Finished { steps: 2, series } } else { Outcome::Failed { error: "no".into() } };
+        let (host, end_time) = ("h".into(), "now".into());
+        Record { identity: identity.into(), run: 1, outcome, wall_time: 0.5, host, end_time }
+    }
+
+    fn identities(folder: &Path) -> Vec<(String, bool)> {
+        let journal = Journal::read(folder).unwrap();
+        let entries = journal.entries.iter();
+        entries
+            .map(|(identity, entry)| {
+                let record = entry.record().unwrap();
+                assert_eq!(record.identity, *identity);
+                (record.identity, matches!(record.outcome, Outcome::Finished { .. }))
+            })
+            .collect()
+    }
+
+    #[test]
+    fn records_come_back_and_a_torn_line_is_passed_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut shard = Shard::create(folder.path(), "h").unwrap();
+        shard.append(&record("a", true)).unwrap();
+        shard.append(&record("b", false)).unwrap();
+        let path = shard.path.clone();
+        shard.close().unwrap();
+        let bytes = fs::read(path.with_extension(COMPLETE)).unwrap();
+        let whole = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        for length in 0..=bytes.len() {
+            fs::write(path.with_extension(COMPLETE), &bytes[..length]).unwrap();
+            let expected = usize::from(length >= whole) + usize::from(length == bytes.len());
+            assert_eq!(identities(folder.path()).len(), expected, "cut at {length}");
+        }
+        // Any changed bit is found.
+        for at in (0..whole).step_by(7) {
+            let mut changed = bytes.clone();
+            changed[at] ^= 1;
+            fs::write(path.with_extension(COMPLETE), &changed).unwrap();
+            assert!(!identities(folder.path()).contains(&("a".into(), true)), "bit of byte {at}");
+        }
+    }
+
+    #[test]
+    fn what_finished_counts_more_than_what_failed() {
+        let folder = tempfile::tempdir().unwrap();
+        for finished in [false, true, false] {
+            let mut shard = Shard::create(folder.path(), "h").unwrap();
+            shard.append(&record("a", finished)).unwrap();
+            shard.close().unwrap();
+        }
+        assert_eq!(identities(folder.path()), [("a".to_owned(), true)]);
+    }
+
+    #[test]
+    fn merging_keeps_every_record_in_few_files() {
+        let folder = tempfile::tempdir().unwrap();
+        for number in 0..30 {
+            let mut shard = Shard::create(folder.path(), "h").unwrap();
+            shard.append(&record(&format!("{number:02}"), true)).unwrap();
+            shard.close().unwrap();
+            merge(folder.path(), "h").unwrap();
+            assert!(shards(folder.path()).unwrap().len() <= FEW);
+        }
+        assert_eq!(identities(folder.path()).len(), 30);
+    }
+
+    #[test]
+    fn a_writer_taken_for_dead_loses_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut shard = Shard::create(folder.path(), "h").unwrap();
+        shard.append(&record("a", true)).unwrap();
+        // As if another machine had given this process's number to nobody.
+        fs::rename(&shard.path, shard.path.with_extension(COMPLETE)).unwrap();
+        shard.append(&record("b", true)).unwrap();
+        shard.append(&record("c", true)).unwrap();
+        shard.close().unwrap();
+        assert_eq!(identities(folder.path()).len(), 3);
+    }
+
+    #[test]
+    fn shards_of_processes_that_are_gone_are_merged() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut living = Shard::create(folder.path(), "h").unwrap();
+        living.append(&record("living", true)).unwrap();
+        for number in 0..12 {
+            let name = format!("h_{}_{number:x}-0.{OPEN}", u32::MAX - number);
+            fs::write(folder.path().join(name), line(&record(&format!("dead {number}"), true)).unwrap()).unwrap();
+            let name = format!("elsewhere_{}_{number:x}-0.{OPEN}", u32::MAX - number);
+            fs::write(folder.path().join(name), line(&record(&format!("far {number}"), true)).unwrap()).unwrap();
+        }
+        merge(folder.path(), "h").unwrap();
+        // One for the dead; who is elsewhere may be alive.
+        assert_eq!(shards(folder.path()).unwrap().len(), 1 + 1 + 12);
+        assert_eq!(identities(folder.path()).len(), 25);
+    }
+}

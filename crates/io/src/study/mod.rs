@@ -1,0 +1,117 @@
+//! Studies: many runs of one scene with other values of some keys, and what is asked of them (formats.md).
+//!
+//! ```text
+//! study file     document   the text
+//!                build      what its keys say together -> Study
+//!                plan       the design, its points and replicates -> the runs, each a list of --set arguments
+//! results        identity   what a result is the result of
+//!                record     what is kept of a run
+//!                journal    where records are kept while many processes make them
+//!                collected  all of them in one file
+//! ```
+
+mod build;
+pub mod collected;
+mod document;
+pub mod factor;
+pub mod identity;
+pub mod journal;
+pub mod plan;
+mod points_of_file;
+pub mod record;
+pub mod response;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use plateau_study::design::Kind;
+use thiserror::Error;
+
+use crate::scene::{Origin, Problem};
+use document::Document;
+use factor::Factor;
+use points_of_file::Points;
+use response::Response;
+
+/// A study, read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Title; the file's stem if the study gives none.
+    pub title: String,
+    /// The study file.
+    pub path: PathBuf,
+    /// The scene that is varied.
+    pub base: PathBuf,
+    /// Where results are kept.
+    pub directory: PathBuf,
+    /// Name of the design.
+    pub design: String,
+    /// Arguments of `--set` for every run.
+    pub sets: Vec<String>,
+    /// Seed of the order and of designs that are drawn by lot.
+    pub seed: u64,
+    /// Where the points come from.
+    pub source: DesignSource,
+    /// What is varied.
+    pub factors: Vec<Factor>,
+    /// Seeds with which every point is run, if there are several.
+    pub replicates: Option<Replicates>,
+    /// In which order runs are made.
+    pub order: Order,
+    /// What is asked of the runs.
+    pub responses: Vec<Response>,
+    /// The series that are kept; all unless given.
+    pub series: Option<Vec<String>>,
+}
+
+/// Where the points of a study come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DesignSource {
+    /// A design that the program makes.
+    Kind(Kind),
+    /// A table of one's own.
+    File(Points),
+}
+
+/// Seeds with which every point is run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Replicates {
+    /// Keys that are set to the seed.
+    pub keys: Vec<String>,
+    /// The seeds.
+    pub seeds: Vec<i64>,
+}
+
+/// In which order runs are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// By lot, so that what drifts meanwhile is not taken for an effect.
+    Random,
+    /// As the design has them.
+    Standard,
+}
+
+/// Why a study cannot be used: everything that is wrong with it.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", .0.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct StudyError(pub Vec<Problem>);
+
+impl Study {
+    /// Reads the study at `path`. Whether the scenes of its runs can be built is seen when they are planned.
+    ///
+    /// # Errors
+    /// [`StudyError`] with everything that is wrong, each with its place in the text.
+    pub fn load(path: &Path) -> Result<Self, StudyError> {
+        let file: Arc<Path> = path.into();
+        let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
+        let text = fs::read_to_string(path)
+            .map_err(|error| at(Origin::File(file.clone()), format!("cannot read the study: {error}")))?;
+        let place = build::Place { file: file.clone(), text: &text };
+        let document: Document = toml::from_str(&text).map_err(|error| {
+            let origin = error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start));
+            at(origin, error.message().to_owned())
+        })?;
+        build::build(document, path, &place).map_err(StudyError)
+    }
+}

@@ -1,0 +1,136 @@
+//! What is kept of a run: how it ended and its series.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::read::{DeflateDecoder, DeflateEncoder};
+use serde::{Deserialize, Serialize};
+use std::io::Read;
+
+/// A run that has ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// What was run: see [`super::identity::identity`].
+    pub identity: String,
+    /// Number of the run in the study, from 1; for people.
+    pub run: usize,
+    /// How it ended.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// Wall time, s.
+    pub wall_time: f64,
+    /// The machine.
+    pub host: String,
+    /// When it ended.
+    pub end_time: String,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "state", rename_all = "lowercase")]
+pub enum Outcome {
+    /// All steps were taken.
+    Finished {
+        /// How many.
+        steps: u64,
+        /// The series.
+        series: Packed,
+    },
+    /// It could not begin or go on.
+    Failed {
+        /// Why.
+        error: String,
+    },
+}
+
+/// The series of a run: equally long columns, time being the first.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Series {
+    names: Vec<String>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Series {
+    /// Columns and their names, `time` first.
+    pub fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Self {
+        Self { names, columns }
+    }
+
+    /// Times of the samples, s.
+    pub fn time(&self) -> &[f64] {
+        self.columns.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// A series.
+    pub fn values(&self, name: &str) -> Option<&[f64]> {
+        let column = self.names.iter().position(|known| known == name)?;
+        self.columns.get(column).map(Vec::as_slice)
+    }
+
+    /// Names of the columns, `time` first.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Packs the columns: every bit is kept.
+    pub fn pack(&self) -> Packed {
+        let values: Vec<[u8; 8]> = self.columns.iter().flatten().map(|value| value.to_le_bytes()).collect();
+        // Bytes of equal weight side by side are more alike.
+        let shuffled: Vec<u8> = (0..8).flat_map(|byte| values.iter().map(move |value| value[byte])).collect();
+        let mut packed = Vec::new();
+        // Reading from memory cannot fail.
+        let _ = DeflateEncoder::new(shuffled.as_slice(), Compression::fast()).read_to_end(&mut packed);
+        Packed { columns: self.names.clone(), samples: self.time().len(), data: STANDARD.encode(packed) }
+    }
+}
+
+/// Series as they stand in a journal: all columns one after the other, the bytes of equal weight of all numbers (IEEE 754
+/// binary64, the least first) side by side, deflated, in Base64.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Packed {
+    columns: Vec<String>,
+    samples: usize,
+    data: String,
+}
+
+impl Packed {
+    /// The series; none if the text is not what [`Series::pack`] made.
+    pub fn unpack(&self) -> Option<Series> {
+        let count = self.columns.len().checked_mul(self.samples)?;
+        let bytes = count.checked_mul(8)?;
+        let mut shuffled = Vec::new();
+        let packed = STANDARD.decode(&self.data).ok()?;
+        DeflateDecoder::new(packed.as_slice()).take(bytes as u64 + 1).read_to_end(&mut shuffled).ok()?;
+        if shuffled.len() != bytes {
+            return None;
+        }
+        let value = |at: usize| f64::from_le_bytes(std::array::from_fn(|byte| shuffled[byte * count + at]));
+        let column = |column: usize| (0..self.samples).map(|sample| value(column * self.samples + sample)).collect();
+        Some(Series { names: self.columns.clone(), columns: (0..self.columns.len()).map(column).collect() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bit_comes_back() {
+        let columns = vec![vec![1.0, 2.0, 3.0], vec![f64::NAN, -0.0, 1e-300]];
+        let series = Series::new(vec!["time".into(), "pool".into()], columns);
+        let back = series.pack().unpack().unwrap();
+        let bits =
+            |series: &Series| -> Vec<u64> { series.columns.iter().flatten().map(|value| value.to_bits()).collect() };
+        assert_eq!(bits(&back), bits(&series));
+        assert_eq!(back.names(), series.names());
+    }
+
+    #[test]
+    fn a_count_that_is_wrong_is_no_series() {
+        let mut packed = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
+        packed.samples = 3;
+        assert_eq!(packed.unpack(), None);
+        packed.samples = usize::MAX;
+        assert_eq!(packed.unpack(), None);
+    }
+}

@@ -1,0 +1,128 @@
+//! Responses: one number that a run gives for each question of a study.
+
+use super::record::Series;
+
+/// A question to the series of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// Its name.
+    pub name: String,
+    /// The series that is asked, by its name in a run file.
+    pub series: String,
+    /// What of it.
+    pub question: Question,
+}
+
+/// What is asked of a series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Question {
+    /// The last value.
+    End,
+    /// The value at a time, s, linear between samples.
+    At(f64),
+    /// The mean between two times, s.
+    Mean(f64, f64),
+    /// The time, s, from which on the series has come so far (a fraction) from its first value to its last.
+    Reaches(f64),
+}
+
+impl Response {
+    /// The answer of a run, in the unit of the series (s for [`Question::Reaches`]); none where the run does not reach the
+    /// times that are asked for, or has no such series.
+    pub fn of(&self, run: &Series) -> Option<f64> {
+        let (time, values) = (run.time(), run.values(&self.series)?);
+        match self.question {
+            Question::End => values.last().copied(),
+            Question::At(at) => value_at(time, values, at),
+            Question::Mean(from, to) => match run.values("contact_area_integral") {
+                // The integral knows every step, the samples only some.
+                Some(integral) if self.series == "contact_area" || self.series == "contact_area_mean" => {
+                    let at = |moment: f64| if moment == 0.0 { Some(0.0) } else { value_at(time, integral, moment) };
+                    Some((at(to)? - at(from)?) / (to - from))
+                }
+                _ => mean(time, values, from, to),
+            },
+            Question::Reaches(fraction) => reaches(time, values, fraction),
+        }
+    }
+
+    /// SI unit of the answer, given that of the series.
+    pub fn unit<'a>(&self, of_series: &'a str) -> &'a str {
+        if matches!(self.question, Question::Reaches(_)) { "s" } else { of_series }
+    }
+}
+
+/// Linear between samples; before the first one, that one; none after the last.
+fn value_at(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
+    let last = *time.last()?;
+    // The last step ends at the duration, or is one step short of what rounding makes of it.
+    if at > last * (1.0 + 1e-9) {
+        return None;
+    }
+    let after = time.partition_point(|time| *time < at).min(time.len() - 1);
+    if after == 0 || time[after] == time[after - 1] {
+        return Some(values[after]);
+    }
+    let share = ((at - time[after - 1]) / (time[after] - time[after - 1])).min(1.0);
+    Some(values[after - 1] + share * (values[after] - values[after - 1]))
+}
+
+/// The mean of the line through the samples.
+fn mean(time: &[f64], values: &[f64], from: f64, to: f64) -> Option<f64> {
+    let mut places = vec![(from, value_at(time, values, from)?)];
+    let inside = time.iter().zip(values).filter(|(time, _)| (from < **time) && (**time < to));
+    places.extend(inside.map(|(time, value)| (*time, *value)));
+    places.push((to, value_at(time, values, to)?));
+    let area: f64 = places.windows(2).map(|pair| (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1) / 2.0).sum();
+    Some(area / (to - from))
+}
+
+/// The time from which on the series stays beyond so much of its way from the first value to the last.
+fn reaches(time: &[f64], values: &[f64], fraction: f64) -> Option<f64> {
+    let (first, last) = (*values.first()?, *values.last()?);
+    let way = last - first;
+    if way == 0.0 {
+        return time.first().copied();
+    }
+    let come = |value: f64| (value - first) / way;
+    let before = values.iter().rposition(|value| come(*value) < fraction)?;
+    let [earlier, later] = [before, before + 1].map(|at| Some((*time.get(at)?, come(*values.get(at)?))));
+    let ((from, low), (to, high)) = (earlier?, later?);
+    Some(from + (to - from) * (fraction - low) / (high - low))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ask(question: Question, values: &[f64]) -> Option<f64> {
+        let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
+        let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]);
+        Response { name: "r".into(), series: "pool".into(), question }.of(&run)
+    }
+
+    #[test]
+    fn answers_by_hand() {
+        let ramp = [0.0, 2.0, 4.0, 4.0];
+        assert_eq!(ask(Question::End, &ramp), Some(4.0));
+        assert_eq!(ask(Question::At(2.5), &ramp), Some(3.0));
+        assert_eq!(ask(Question::At(4.1), &ramp), None);
+        // Trapezia: (2 + 4)/2 · 1 + 4 · 1 over 2 s.
+        assert_eq!(ask(Question::Mean(2.0, 4.0), &ramp), Some(3.5));
+        assert_eq!(ask(Question::Reaches(0.75), &ramp), Some(2.5));
+        // The last time counts: it fell back at 3 s.
+        assert_eq!(ask(Question::Reaches(0.5), &[0.0, 8.0, 0.0, 10.0]), Some(3.5));
+        assert_eq!(ask(Question::End, &[]), None);
+    }
+
+    #[test]
+    fn means_of_the_contact_area_come_from_its_integral() {
+        let columns = ["time", "contact_area", "contact_area_integral"].map(String::from).to_vec();
+        let run = Series::new(columns, vec![vec![1.0, 2.0], vec![7.0, 7.0], vec![3.0, 8.0]]);
+        let mean = |from, to| {
+            let question = Question::Mean(from, to);
+            Response { name: "a".into(), series: "contact_area".into(), question }.of(&run)
+        };
+        assert_eq!([mean(0.0, 2.0), mean(1.0, 2.0)], [Some(4.0), Some(5.0)]);
+    }
+}

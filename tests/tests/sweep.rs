@@ -1,0 +1,308 @@
+//! Studies: planned, run, stopped, gone on with and collected, as their users do it.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+use std::thread;
+use std::time::Duration;
+
+use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene};
+use plateau_tests::run_file::RunFile;
+use plateau_tests::scenes::Stream;
+use serde_json::Value;
+
+/// Load times fibre fraction, three sets of surfaces each: 27 runs of some milliseconds.
+fn study() -> String {
+    format!(
+        r#"version = 1
+title = "A small study"
+base = "{}"
+set = ["operation.duration = '3 s'", "output.sample_every = '0.5 s'"]
+design = "full-factorial"
+directory = "results"
+
+[replicates]
+keys = ["disc.surface.synthetic.seed", "pin.base.synthetic.seed"]
+seeds = [7, 8, 9]
+
+[[factor]]
+name = "load"
+key = "operation.normal_force"
+levels = ["5 N", "10 N", "20 N"]
+
+[[factor]]
+name = "fibre fraction"
+key = "pin.base.synthetic.fibre_fraction"
+levels = [0.2, 0.3, 0.4]
+
+[[response]]
+name = "contact area at the end"
+dataset = "/series/contact_area_mean"
+at = "end"
+
+[[response]]
+name = "mean filling"
+dataset = "/series/filled_fraction"
+mean = ["1 s", "3 s"]
+"#,
+        scene("quick.toml")
+    )
+}
+
+const RUNS: usize = 27;
+
+fn directory() -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    directory.write("study.toml", study());
+    directory
+}
+
+fn json(outcome: &Outcome) -> Value {
+    serde_json::from_str(&outcome.stdout).unwrap_or_else(|error| panic!("{error}: {outcome:?}"))
+}
+
+/// `plateau sweep run study.toml --json`, and what it says.
+fn sweep(directory: &WorkingDirectory, arguments: &[&str]) -> Value {
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"].iter().chain(arguments));
+    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    json(&outcome)
+}
+
+/// Collects and gives the table without wall times, which it does not have, and the series.
+fn results(directory: &WorkingDirectory) -> (String, Vec<Vec<u64>>) {
+    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    let file = RunFile::open(directory.path("results/results.h5"));
+    let bits = |name: &str| file.floats(name).iter().map(|value| value.to_bits()).collect();
+    let series = ["/time", "/contact_area", "/pool", "/worn_pin", "/load", "/mean_filling"].map(bits);
+    (fs::read_to_string(directory.path("results/results.csv")).unwrap(), series.to_vec())
+}
+
+/// The identity of every record that is whole, of all shards, with those that are there twice.
+fn records(directory: &WorkingDirectory) -> Vec<String> {
+    let Ok(shards) = fs::read_dir(directory.path("results/journal")) else { return Vec::new() };
+    let texts = shards.map(|shard| fs::read_to_string(shard.unwrap().path()).unwrap());
+    let lines: Vec<String> = texts.flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+    let record = |line: &String| serde_json::from_str::<Value>(line.get(9..)?).ok();
+    lines.iter().filter_map(record).map(|record| record["identity"].as_str().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn a_study_is_planned_run_and_collected() {
+    let directory = directory();
+    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
+    assert_eq!((planned["points"].as_u64(), planned["runs"].as_u64()), (Some(9), Some(RUNS as u64)));
+    assert!(planned["memory"].as_u64() > Some(100_000) && planned["estimated_time"].as_f64() > Some(0.0));
+    assert_eq!(directory.names(), ["study.toml"], "a plan leaves nothing behind");
+
+    let ran = sweep(&directory, &["--jobs", "2"]);
+    assert_eq!((ran["finished"].as_u64(), ran["finished_before"].as_u64()), (Some(RUNS as u64), Some(0)));
+    let again = sweep(&directory, &[]);
+    assert_eq!((again["finished"].as_u64(), again["finished_before"].as_u64()), (Some(0), Some(RUNS as u64)));
+
+    let collected = json(&directory.plateau(["sweep", "collect", "study.toml", "--json"]));
+    assert_eq!((collected["finished"].as_u64(), collected["missing"].as_u64()), (Some(RUNS as u64), Some(0)));
+    let file = RunFile::open(directory.path("results/results.h5"));
+    assert_eq!(file.shape("/contact_area"), [RUNS, 6]);
+    assert_eq!(file.floats("/load")[..4], [5.0, 5.0, 5.0, 10.0]);
+
+    // Run 15 is point 5 (10 N, 0.3) with the third set of surfaces: the same by hand.
+    let sets = [
+        "operation.duration=3 s",
+        "output.sample_every=0.5 s",
+        "operation.normal_force=10 N",
+        "pin.base.synthetic.fibre_fraction=0.3",
+        "disc.surface.synthetic.seed=9",
+        "pin.base.synthetic.seed=9",
+    ];
+    let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "alone.h5".into()];
+    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+    directory.plateau(arguments).quiet_success();
+    let alone = RunFile::open(directory.path("alone.h5"));
+    for series in ["contact_area", "pool", "worn_resin", "displacement", "filled_fraction"] {
+        let of_all = file.floats(&format!("/{series}"));
+        assert_eq!(of_all[14 * 6..15 * 6], alone.floats(&format!("/series/{series}")), "{series}");
+    }
+    let area = alone.floats("/series/contact_area_mean");
+    assert_eq!(file.floats("/contact_area_at_the_end")[14], area[5]);
+    // By hand: the trapezia between the samples at 1, 1.5, 2, 2.5 and 3 s; steps end up to a step after these times.
+    let filled = alone.floats("/series/filled_fraction");
+    let mean = (filled[1] / 2.0 + filled[2] + filled[3] + filled[4] + filled[5] / 2.0) / 4.0;
+    assert!((file.floats("/mean_filling")[14] / mean - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn tasks_share_a_study_and_nothing_of_it_shows() {
+    let (whole, shared) = (directory(), directory());
+    sweep(&whole, &["--jobs", "1"]);
+    let commands = ["1/4", "3/4", "4/4", "2/4", "2/4"].map(|task| {
+        let mut command =
+            shared.command(["sweep", "run", "study.toml", "--workers", "2", "--jobs", "1", "--task", task]);
+        command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+    });
+    for child in commands {
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+    }
+    assert_eq!(results(&shared), results(&whole));
+    assert_eq!(records(&shared).into_iter().collect::<BTreeSet<_>>().len(), RUNS);
+    assert!(fs::read_dir(shared.path("results/journal")).unwrap().count() <= 8);
+}
+
+#[test]
+fn a_sweep_killed_fifty_times_ends_like_an_undisturbed_one() {
+    let (undisturbed, killed) = (directory(), directory());
+    let seeds: Vec<String> = (1..=30).map(|seed: u32| seed.to_string()).collect();
+    let runs = 9 * seeds.len();
+    let study = study().replace("7, 8, 9", &seeds.join(", "));
+    for directory in [&undisturbed, &killed] {
+        directory.write("study.toml", &study);
+    }
+    sweep(&undisturbed, &["--jobs", "2"]);
+    let expected = results(&undisturbed);
+    let mut random = Stream(1);
+    let (mut before, mut met) = (0, 0);
+    for _ in 0..50 {
+        let mut command = killed.command(["sweep", "run", "study.toml", "--jobs", "2"]);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_secs_f64(0.05 + 0.15 * random.uniform()));
+        kill(child);
+        let records = records(&killed);
+        let different: BTreeSet<_> = records.iter().collect();
+        assert_eq!(records.len(), different.len(), "a run was made twice");
+        assert!(different.len() >= before, "a result was lost");
+        met += u32::from(different.len() > before && different.len() < runs);
+        before = different.len();
+    }
+    assert!(met > 10, "only {met} of the kills met a sweep at work");
+    let last = sweep(&killed, &[]);
+    assert_eq!(last["finished_before"].as_u64(), Some(before as u64));
+    assert_eq!(results(&killed), expected);
+}
+
+#[test]
+fn an_interrupted_sweep_says_what_is_left() {
+    let directory = directory();
+    let long = study().replace("duration = '3 s'", "duration = '300 s'");
+    directory.write("study.toml", long);
+    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "2"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    thread::sleep(Duration::from_millis(400));
+    let interrupted = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("are left, the same command goes on"), "{said}");
+}
+
+#[test]
+fn a_run_that_fails_does_not_stop_the_others() {
+    let directory = directory();
+    // At 20 N the explicit rule is far above its bound of stability, and heights overflow.
+    let failing =
+        study().replace("levels = [\"5 N\", \"10 N\", \"20 N\"]", "levels = [\"5 N\", \"10 N\", \"1e300 N\"]");
+    directory.write("study.toml", failing);
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"]);
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    let ran = json(&outcome);
+    assert_eq!((ran["finished"].as_u64(), ran["failed"].as_u64(), ran["left"].as_u64()), (Some(18), Some(9), Some(0)));
+    assert!(outcome.stderr.contains("failed:"), "{}", outcome.stderr);
+    let again = json(&directory.plateau(["sweep", "run", "study.toml", "--json"]));
+    assert_eq!((again["finished"].as_u64(), again["failed"].as_u64()), (Some(0), Some(0)));
+    let retried = json(&directory.plateau([
+        "sweep",
+        "run",
+        "study.toml",
+        "--json",
+        "--retry",
+        "--max-failures",
+        "1",
+        "--jobs",
+        "1",
+    ]));
+    assert_eq!((retried["failed"].as_u64(), retried["left"].as_u64()), (Some(1), Some(8)));
+    let collected = directory.plateau(["sweep", "collect", "study.toml"]);
+    assert!(
+        collected.stdout.contains("failed    9")
+            && collected.stdout.contains("Failed\n  run 7: step 1: nothing carries"),
+        "{}",
+        collected.stdout
+    );
+    let areas = RunFile::open(directory.path("results/results.h5")).floats("/contact_area_at_the_end");
+    assert_eq!(areas.iter().filter(|area| area.is_nan()).count(), 9);
+}
+
+#[test]
+fn results_belong_to_scene_files_and_program_not_to_workers_or_names() {
+    let directory = directory();
+    sweep(&directory, &["--jobs", "2", "--workers", "1"]);
+    let renamed = study().replace("A small study", "Another title").replace("name = \"load\"", "name = \"force\"");
+    directory.write("study.toml", renamed.replace("at = \"end\"", "at = \"2 s\""));
+    assert_eq!(sweep(&directory, &["--workers", "2"])["finished_before"].as_u64(), Some(RUNS as u64));
+    // A level more: nine runs more.
+    directory.write("study.toml", study().replace("\"20 N\"]", "\"20 N\", \"30 N\"]"));
+    let more = sweep(&directory, &[]);
+    assert_eq!((more["finished_before"].as_u64(), more["finished"].as_u64()), (Some(RUNS as u64), Some(9)));
+    // Another duration: all of them.
+    directory.write("study.toml", study().replace("'3 s'", "'3.5 s'"));
+    assert_eq!(sweep(&directory, &[])["finished_before"].as_u64(), Some(0));
+}
+
+#[test]
+fn what_is_wrong_with_a_study_is_said_before_anything_runs() {
+    let directory = directory();
+    let cases = [
+        ("levels = [\"5 N\", \"10 N\", \"20 N\"]", "levels = [\"5 N\", \"10 kg\"]"),
+        ("design = \"full-factorial\"", "design = \"full-factoral\""),
+        ("key = \"operation.normal_force\"", "key = \"operation.normal_farce\""),
+        ("dataset = \"/series/contact_area_mean\"", "dataset = \"/series/contact_aera\""),
+        ("seeds = [7, 8, 9]", "seeds = [7, 7, -1]"),
+        ("at = \"end\"", "at = \"end\"\nmean = [\"1 s\", \"2 s\"]"),
+        ("mean = [\"1 s\", \"3 s\"]", "mean = [\"3 s\", \"1 s\"]"),
+        ("directory = \"results\"", "directory = \"results\"\npoints = 5"),
+        ("directory = \"results\"", "directory = \"results\"\nfoo = 5"),
+        ("levels = [0.2, 0.3, 0.4]", "range = [0.4, 0.2]"),
+        ("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.2]"),
+        ("keys = [\"disc.surface.synthetic.seed\", \"pin.base.synthetic.seed\"]", "keys = [\"mesh.rows\"]"),
+        ("version = 1", "version = 2"),
+        ("version = 1", "version = "),
+    ];
+    let mut said = String::new();
+    for (old, new) in cases {
+        assert_eq!(study().matches(old).count(), 1, "{old}");
+        directory.write("study.toml", study().replace(old, new));
+        let outcome = directory.plateau(["sweep", "run", "study.toml"]);
+        assert_eq!(outcome.status, Some(2), "{new}: {outcome:?}");
+        let base = Path::new(&scene("quick.toml")).display().to_string();
+        said.push_str(&format!("# {new}\n{}\n", outcome.stderr.replace(&base, "quick.toml")));
+    }
+    insta::assert_snapshot!(said);
+    assert_eq!(directory.names(), ["study.toml"]);
+}
+
+#[test]
+fn a_batch_script_asks_for_what_the_estimate_says() {
+    let directory = directory();
+    directory.plateau(["sweep", "slurm", "study.toml", "--tasks", "4"]).quiet_success();
+    let script = fs::read_to_string(directory.path("study.sbatch")).unwrap();
+    for line in [
+        "#!/bin/sh\n",
+        "#SBATCH --array=1-4\n",
+        "--task \"$SLURM_ARRAY_TASK_ID/4\" --jobs 1\n",
+        "#SBATCH --signal=TERM@60\n",
+    ] {
+        assert!(script.contains(line), "{line} in\n{script}");
+    }
+    let refused = directory.plateau(["sweep", "slurm", "study.toml"]);
+    assert_eq!(refused.status, Some(2));
+    // Without Slurm, a task is what the shell makes of it.
+    let shell = std::process::Command::new("sh")
+        .arg(directory.path("study.sbatch"))
+        .env("SLURM_ARRAY_TASK_ID", "2")
+        .current_dir(directory.path("."))
+        .output()
+        .unwrap();
+    assert!(shell.status.success(), "{shell:?}");
+    assert_eq!(records(&directory).len(), 7);
+}
