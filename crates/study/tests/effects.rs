@@ -1,0 +1,392 @@
+//! Analyses beside those of statsmodels and R (the files in `effects`, made by `make.py` there), and those that other
+//! programs do not make beside published ones.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use plateau_study::design::Setting;
+use plateau_study::effects::{
+    Cell, Effects, ErrorSource, Factor, FactorKind, Lenth, Model, Nature, Observation, Options, Prediction, Squares,
+    Term, Test, analyse, half_normal_quantiles,
+};
+use serde::Deserialize;
+
+/// What numbers have to agree to, relative to themselves.
+const TOLERANCE: f64 = 1e-8;
+
+#[derive(Deserialize)]
+struct Study {
+    factors: Vec<StudyFactor>,
+    model: String,
+    blocks: bool,
+    settings: Vec<Vec<f64>>,
+    replicates: Vec<usize>,
+    /// What is to be added to the responses.
+    shift: f64,
+    responses: Vec<Option<f64>>,
+    expected: Expected,
+}
+
+#[derive(Deserialize)]
+struct StudyFactor {
+    name: String,
+    categories: Option<Vec<String>>,
+    values: Option<Vec<f64>>,
+    range: Option<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+struct Expected {
+    constant: f64,
+    total: (usize, f64),
+    fitted: Vec<f64>,
+    residuals: Vec<f64>,
+    terms: BTreeMap<String, ExpectedTerm>,
+    residual: Option<(usize, f64)>,
+    r_squared: Option<[f64; 3]>,
+    deviation: Option<f64>,
+    pure_error: Option<(usize, f64)>,
+    lack_of_fit: Option<(usize, f64)>,
+    lack_of_fit_test: Option<[f64; 2]>,
+    #[serde(default)]
+    predictions: Vec<ExpectedPrediction>,
+    #[serde(default)]
+    level_means: Vec<Vec<ExpectedCell>>,
+    #[serde(default)]
+    cell_means: Vec<ExpectedCell>,
+    surface: Option<ExpectedSurface>,
+}
+
+#[derive(Deserialize)]
+struct ExpectedTerm {
+    squares: (usize, f64),
+    test: Option<[f64; 2]>,
+    coefficient: Option<f64>,
+    /// Standard error, t, p, and interval of the coefficient.
+    uncertainty: Option<[f64; 5]>,
+}
+
+#[derive(Deserialize)]
+struct ExpectedPrediction {
+    settings: Vec<f64>,
+    /// Value, standard error, interval.
+    numbers: [f64; 4],
+}
+
+#[derive(Deserialize)]
+struct ExpectedCell {
+    settings: Vec<f64>,
+    count: usize,
+    /// Mean and interval.
+    numbers: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct ExpectedSurface {
+    settings: Vec<f64>,
+    constant: f64,
+    linear: Vec<f64>,
+    quadratic: Vec<Vec<f64>>,
+    eigenvalues: Vec<f64>,
+    stationary: Vec<f64>,
+    natural: Vec<f64>,
+    response: f64,
+}
+
+impl Study {
+    fn read(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/effects").join(name).with_extension("json");
+        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+    }
+
+    fn factors(&self) -> Vec<Factor> {
+        let kind = |factor: &StudyFactor| match (&factor.categories, &factor.values, factor.range) {
+            (Some(labels), ..) => FactorKind::Categorical(labels.clone()),
+            (_, Some(values), _) => FactorKind::Levels(values.clone()),
+            (_, _, Some([low, high])) => FactorKind::Range { low, high },
+            _ => panic!("{} is no factor", factor.name),
+        };
+        self.factors.iter().map(|factor| Factor { name: factor.name.clone(), kind: kind(factor) }).collect()
+    }
+
+    fn settings(&self, numbers: &[f64]) -> Vec<Setting> {
+        let setting = |(factor, number): (&StudyFactor, &f64)| match factor.range {
+            Some(_) => Setting::Coded(*number),
+            None => Setting::Level(*number as usize),
+        };
+        self.factors.iter().zip(numbers).map(setting).collect()
+    }
+
+    fn observations(&self) -> Vec<Observation> {
+        let each = self.settings.iter().zip(&self.replicates).zip(&self.responses);
+        each.map(|((numbers, replicate), response)| Observation {
+            settings: self.settings(numbers),
+            replicate: *replicate,
+            response: response.map_or(f64::NAN, |response| response + self.shift),
+        })
+        .collect()
+    }
+
+    fn effects(&self) -> Effects {
+        let model = match self.model.as_str() {
+            "interactions" => Model::Interactions,
+            "full" => Model::Full,
+            "quadratic" => Model::Quadratic,
+            other => panic!("{other} is no model"),
+        };
+        analyse(&self.factors(), &self.observations(), &Options { model, blocks: self.blocks, confidence: 0.95 })
+            .unwrap()
+    }
+}
+
+/// Compares numbers of one analysis.
+struct Comparison {
+    name: &'static str,
+    /// Differences below this are rounding of the responses.
+    rounding: f64,
+}
+
+impl Comparison {
+    fn same(&self, what: &str, found: f64, expected: f64) {
+        let allowed = TOLERANCE * expected.abs() + self.rounding;
+        assert!((found - expected).abs() <= allowed, "{}, {what}: {found:e} is not {expected:e}", self.name);
+    }
+
+    fn same_all<const N: usize>(&self, what: &str, found: [f64; N], expected: [f64; N]) {
+        found.iter().zip(&expected).for_each(|(found, expected)| self.same(what, *found, *expected));
+    }
+
+    /// Numbers without a unit, to their own digits.
+    fn exactly<const N: usize>(&self, what: &str, found: [f64; N], expected: [f64; N]) {
+        Comparison { name: self.name, rounding: 0.0 }.same_all(what, found, expected);
+    }
+
+    fn squares(&self, what: &str, found: Squares, (freedom, sum): (usize, f64)) {
+        assert_eq!(found.freedom, freedom, "{}: degrees of freedom of {what}", self.name);
+        self.exactly(what, [found.sum], [sum]);
+    }
+
+    fn test(&self, what: &str, found: Option<Test>, expected: Option<[f64; 2]>) {
+        assert_eq!(found.is_some(), expected.is_some(), "{}: test of {what}", self.name);
+        if let (Some(found), Some(expected)) = (found, expected) {
+            self.exactly(what, [found.f, found.p], expected);
+        }
+    }
+
+    fn term(&self, found: &Term, expected: &ExpectedTerm) {
+        let label = found.label.as_str();
+        self.squares(label, Squares { freedom: found.freedom, sum: found.sum_of_squares }, expected.squares);
+        self.test(label, found.test, expected.test);
+        let coefficient = found.estimate.map(|estimate| estimate.coefficient);
+        assert_eq!(coefficient.is_some(), expected.coefficient.is_some(), "{}: estimate of {label}", self.name);
+        if let (Some(found), Some(expected)) = (found.estimate, expected.coefficient) {
+            self.same(label, found.coefficient, expected);
+            self.same(label, found.effect, 2.0 * expected);
+        }
+        let uncertainty = found.estimate.and_then(|estimate| estimate.uncertainty);
+        assert_eq!(uncertainty.is_some(), expected.uncertainty.is_some(), "{}: error of {label}", self.name);
+        if let (Some(found), Some([error, t, p, low, high])) = (uncertainty, expected.uncertainty) {
+            self.exactly(label, [found.standard_error, found.t, found.p], [2.0 * error, t, p]);
+            self.same_all(label, found.interval, [2.0 * low, 2.0 * high]);
+        }
+    }
+
+    fn prediction(&self, what: &str, found: &Prediction, [value, error, low, high]: [f64; 4]) {
+        self.same(what, found.value, value);
+        self.exactly(what, [found.standard_error.unwrap()], [error]);
+        self.same_all(what, found.interval.unwrap(), [low, high]);
+    }
+
+    fn cells(&self, study: &Study, factors: &[usize], found: &[Cell], expected: &[ExpectedCell]) {
+        assert_eq!(found.len(), expected.len(), "{}: cells of {factors:?}", self.name);
+        for (found, expected) in found.iter().zip(expected) {
+            let kinds = factors.iter().zip(&expected.settings).map(|(factor, number)| {
+                let mut numbers = vec![0.0; study.factors.len()];
+                numbers[*factor] = *number;
+                study.settings(&numbers)[*factor]
+            });
+            assert_eq!(found.settings, kinds.collect::<Vec<_>>());
+            assert_eq!(found.count, expected.count);
+            let [low, high] = found.interval.unwrap();
+            self.same_all("mean", [found.mean, low, high], expected.numbers);
+        }
+    }
+
+    fn surface(&self, study: &Study, effects: &Effects, expected: &ExpectedSurface) {
+        let surface = effects.surface(&study.settings(&expected.settings)).unwrap();
+        self.same("constant", surface.coded.constant, expected.constant);
+        let pairs = |found: &[f64], expected: &[f64]| {
+            assert_eq!(found.len(), expected.len());
+            found.iter().zip(expected).for_each(|(found, expected)| self.same("surface", *found, *expected));
+        };
+        pairs(&surface.coded.linear, &expected.linear);
+        surface.coded.quadratic.iter().zip(&expected.quadratic).for_each(|(found, row)| pairs(found, row));
+        pairs(&surface.eigenvalues, &expected.eigenvalues);
+        let stationary = surface.stationary.unwrap();
+        pairs(&stationary.coded, &expected.stationary);
+        pairs(&stationary.natural, &expected.natural);
+        self.same("stationary", stationary.response.value, expected.response);
+        self.same("stationary", surface.coded.value(&stationary.coded), expected.response);
+        self.same("stationary", surface.natural.value(&stationary.natural), expected.response);
+        let nature = match (expected.eigenvalues[0] < 0.0, expected.eigenvalues[expected.eigenvalues.len() - 1] > 0.0) {
+            (true, false) => Nature::Maximum,
+            (false, true) => Nature::Minimum,
+            _ => Nature::Saddle,
+        };
+        assert_eq!(surface.nature, nature);
+    }
+}
+
+/// Compares everything that an analysis tells.
+fn compare(name: &'static str) -> Effects {
+    let study = Study::read(name);
+    let effects = study.effects();
+    let expected = &study.expected;
+    let largest =
+        study.responses.iter().flatten().fold(0.0_f64, |largest, response| largest.max((response + study.shift).abs()));
+    let comparison = Comparison { name, rounding: 1e-14 * largest };
+    assert_eq!(effects.observations, expected.fitted.len());
+    assert_eq!(effects.missing, study.responses.iter().filter(|response| response.is_none()).count());
+    comparison.same("constant", effects.constant.value, expected.constant);
+    comparison.squares("total", effects.total, expected.total);
+    let rows: Vec<&Term> = effects.rows().filter(|term| term.freedom > 0).collect();
+    assert_eq!(rows.len(), expected.terms.len());
+    rows.iter().for_each(|term| comparison.term(term, &expected.terms[&term.label]));
+    for (found, (fitted, residual)) in effects.fitted.iter().zip(expected.fitted.iter().zip(&expected.residuals)) {
+        assert!(study.responses[found.observation].is_some());
+        comparison.same("fitted", found.fitted, *fitted);
+        comparison.same("residual", found.residual, *residual);
+    }
+    let Some(residual) = expected.residual else {
+        assert_eq!(effects.error, ErrorSource::Saturated);
+        assert!(effects.residual_standard_deviation.is_none());
+        return effects;
+    };
+    comparison.squares("residual", effects.residual.squares, residual);
+    let found = [effects.r_squared, effects.adjusted_r_squared.unwrap(), effects.predicted_r_squared.unwrap()];
+    comparison.exactly("r squared", found, expected.r_squared.unwrap());
+    comparison.exactly("deviation", [effects.residual_standard_deviation.unwrap()], [expected.deviation.unwrap()]);
+    let parts = effects.residual.parts;
+    assert_eq!(parts.is_some(), expected.pure_error.is_some());
+    if let Some(parts) = parts {
+        comparison.squares("pure error", parts.pure_error, expected.pure_error.unwrap());
+        let (freedom, missed) = expected.lack_of_fit.unwrap();
+        comparison.squares("lack of fit", parts.lack_of_fit, (freedom, if freedom == 0 { 0.0 } else { missed }));
+        comparison.test("lack of fit", parts.test, expected.lack_of_fit_test);
+    }
+    for each in &expected.predictions {
+        let found = effects.predict(&study.settings(&each.settings)).unwrap();
+        comparison.prediction("prediction", &found, each.numbers);
+    }
+    for (factor, cells) in expected.level_means.iter().enumerate() {
+        comparison.cells(&study, &[factor], &effects.level_means(factor), cells);
+    }
+    let last = study.factors.len() - 1;
+    comparison.cells(&study, &[0, last], &effects.cell_means(0, last), &expected.cell_means);
+    if let Some(expected) = &expected.surface {
+        comparison.surface(&study, &effects, expected);
+    }
+    effects
+}
+
+#[test]
+fn replicated_factorial_in_blocks() {
+    let effects = compare("blocks");
+    assert_eq!(effects.error.to_string(), "replicates, pooled with interactions of third and higher order");
+    assert_eq!(compare("blocks_full").error.to_string(), "replicates");
+    assert!(compare("no_blocks").blocks.is_none());
+}
+
+#[test]
+fn factorial_without_replicates() {
+    let effects = compare("filtration");
+    // Montgomery, D. C.: Design and Analysis of Experiments, table 6.12: effect estimates of the filtration rate.
+    let published = [21.625, 3.125, 9.875, 14.625, 0.125, -18.125, 16.625, 2.375, -0.375, -1.125, 1.875, 4.125, -1.625];
+    for (term, published) in effects.terms.iter().zip(published) {
+        assert!((term.estimate.unwrap().effect - published).abs() < 1e-12, "{}", term.label);
+        assert!(term.test.is_none() && term.estimate.unwrap().uncertainty.is_none());
+    }
+    assert_eq!(effects.error.to_string(), "none: the model is saturated");
+    let pooled = compare("filtration_pooled");
+    assert_eq!(pooled.error.to_string(), "pooled: interactions of third and higher order");
+    assert!(pooled.lenth.is_none());
+}
+
+#[test]
+fn categories_with_missing_responses() {
+    assert_eq!(compare("missing").missing, 6);
+    assert_eq!(compare("missing_three").missing, 8);
+}
+
+#[test]
+fn fractions() {
+    let half = compare("half");
+    assert!(half.terms.iter().all(|term| term.aliased_with.is_empty()));
+    let quarter = compare("quarter");
+    let aliases: Vec<String> =
+        quarter.terms.iter().map(|term| format!("{} = {}", term.label, term.aliased_with.join(" = "))).collect();
+    // Worked out by hand: D = AB and E = AC, so I = ABD = ACE = BCDE.
+    assert_eq!(
+        aliases[..8],
+        [
+            "pad = load × disc = speed × grain",
+            "load = pad × disc",
+            "speed = pad × grain",
+            "disc = pad × load",
+            "grain = pad × speed",
+            "pad × load = disc",
+            "pad × speed = grain",
+            "pad × disc = load"
+        ]
+    );
+    assert_eq!(aliases[9], "load × speed = disc × grain");
+    let lost: Vec<usize> = quarter.terms.iter().map(|term| term.freedom).collect();
+    assert_eq!(lost, [1, 1, 1, 1, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0]);
+}
+
+#[test]
+fn response_surfaces() {
+    compare("composite");
+    compare("saddle");
+}
+
+#[test]
+fn latin_hypercube() {
+    let effects = compare("hypercube");
+    assert_eq!(effects.error.to_string(), "pooled: what the model leaves out");
+    assert!(effects.level_means(0).is_empty());
+}
+
+#[test]
+fn tiny_probabilities_and_large_offsets() {
+    let effects = compare("certain");
+    assert!(effects.terms[0].test.unwrap().p < 1e-80);
+    assert!(effects.terms[1].test.unwrap().p < 1e-30);
+    compare("offset");
+}
+
+#[test]
+fn margins_of_effects_without_error() {
+    // Montgomery, D. C.: Design and Analysis of Experiments, 8th edition, section 6.5, Lenth's method for the
+    // filtration rate of example 6.2: PSE = 2.625, ME = 6.748, SME = 13.699.
+    let lenth = Study::read("filtration").effects().lenth.unwrap();
+    assert!((lenth.pseudo_standard_error - 2.625).abs() < 1e-12);
+    assert!((lenth.margin - 6.748).abs() < 5e-4, "{}", lenth.margin);
+    assert!((lenth.simultaneous_margin - 13.699).abs() < 5e-4, "{}", lenth.simultaneous_margin);
+    // qt(0.975, 5) and qt((1 + 0.95^(1/15))/2, 5) of R 4.2.2.
+    assert!((lenth.margin / 2.625 - 2.5705818356363137).abs() < 1e-12);
+    assert!((lenth.simultaneous_margin / 2.625 - 5.218651262019962).abs() < 1e-12);
+    assert_eq!(Lenth::new(&[1.0, 2.0], 0.95), None);
+    assert_eq!(Lenth::new(&[0.0, 0.0, 0.0, 1.0], 0.95), None);
+}
+
+#[test]
+fn quantiles_of_half_normal_plots() {
+    // qnorm(0.5 + 0.5·(1:5 − 0.5)/5) of R 4.2.2.
+    let expected =
+        [0.12566134685507413, 0.3853204664075676, 0.6744897501960817, 1.0364333894937894, 1.6448536269514715];
+    for (found, expected) in half_normal_quantiles(5).iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");
+    }
+}
