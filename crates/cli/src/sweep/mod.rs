@@ -4,10 +4,12 @@
 //! |---|---|
 //! | the scenes of all runs, resolved | [`resolved`] |
 //! | what they will cost | [`estimate`] |
+//! | what their results tell of the factors | [`analysis`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | all of them, several at a time | [`crate::job::Job::share`] |
 //! | how far they are | [`progress`] |
 
+pub mod analysis;
 pub mod estimate;
 pub mod make;
 pub mod progress;

@@ -1,9 +1,277 @@
 //! `plateau sweep effects`: what the factors of a study do to its responses.
 
-use crate::arguments::EffectsArguments;
+use std::path::Path;
+
+use plateau_io::study::collected::Collected;
+use plateau_io::study::{DesignSource, Study};
+use plateau_study::design::Kind;
+use plateau_study::effects::{self, Effects, Options, Term};
+use serde::Serialize;
+
+use super::collect::collected;
+use crate::arguments::{EffectsArguments, Model};
 use crate::failure::Failure;
+use crate::sweep;
+use crate::sweep::analysis::{AnalysedResponse, Analysis};
+use crate::table::{columns, print, table};
+use crate::{message, number, output};
 
 /// Analyses the results.
-pub fn effects(_arguments: &EffectsArguments) -> Result<(), Failure> {
-    Err(Failure::run("not there yet"))
+pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
+    let plan = sweep::plan(&arguments.study)?;
+    let study = plan.study();
+    if study.responses.is_empty() {
+        return Err(Failure::input(format_args!(
+            "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
+             at = \"end\"",
+            study.path.display()
+        )));
+    }
+    let collected = collected(&plan)?;
+    let left_out = collected.runs.len() - collected.count("finished");
+    if left_out > 0 {
+        message::warning(format_args!(
+            "{} of {} have no results and are left out: {} failed, {} not made yet",
+            left_out,
+            number::count(collected.runs.len(), "run"),
+            collected.count("failed"),
+            collected.count("missing")
+        ));
+    }
+    let options =
+        Options { model: model(arguments.model, study), confidence: arguments.confidence, ..Options::default() };
+    let analysis = Analysis::new(study, &collected, &options);
+    let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("effects"));
+    std::fs::create_dir_all(&folder).map_err(|error| Failure::input(format_args!("{}: {error}", folder.display())))?;
+    let files = write(&folder, study, &collected, &analysis)?;
+    let reports: Vec<Report> = analysis.responses.iter().map(Report::new).collect();
+    if arguments.json {
+        let report = Document { study: &study.title, responses: reports, files };
+        return print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"));
+    }
+    let mut text: String = analysis.responses.iter().map(|response| text_of(response) + "\n").collect();
+    let files: Vec<(&str, String)> = files.into_iter().map(|file| ("written", file)).collect();
+    text.push_str(&table(&study.title, &files));
+    print(&text)
+}
+
+/// What is fitted unless the user says so: squares where the design is made for them.
+fn model(asked: Option<Model>, study: &Study) -> effects::Model {
+    match (asked, &study.source) {
+        (Some(Model::Main), _) => effects::Model::MainEffects,
+        (Some(Model::Interactions), _) => effects::Model::Interactions,
+        (Some(Model::Full), _) => effects::Model::Full,
+        (Some(Model::Quadratic), _)
+        | (None, DesignSource::Kind(Kind::CentralComposite { .. } | Kind::BoxBehnken { .. })) => {
+            effects::Model::Quadratic
+        }
+        (None, DesignSource::Kind(Kind::PlackettBurman)) => effects::Model::MainEffects,
+        (None, _) => effects::Model::Interactions,
+    }
+}
+
+/// Writes the tables and the figures; their names.
+fn write(folder: &Path, _study: &Study, _collected: &Collected, analysis: &Analysis) -> Result<Vec<String>, Failure> {
+    let csv = folder.join("effects.csv");
+    output::write(&csv, rows(analysis).as_bytes(), true)?;
+    Ok(vec![csv.display().to_string()])
+}
+
+/// A line for each response and term.
+fn rows(analysis: &Analysis) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let header = [
+        "response",
+        "term",
+        "degrees_of_freedom",
+        "sum_of_squares",
+        "mean_square",
+        "f",
+        "p",
+        "share",
+        "effect",
+        "coefficient",
+        "standard_error",
+        "t",
+        "low",
+        "high",
+        "aliased_with",
+    ];
+    // Writing to memory cannot fail.
+    let _ = writer.write_record(header);
+    let shown = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+    for response in &analysis.responses {
+        let Ok(effects) = &response.effects else { continue };
+        for term in effects.rows() {
+            let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
+            let _ = writer.write_record([
+                response.name.clone(),
+                term.label.clone(),
+                term.freedom.to_string(),
+                shown(Some(term.sum_of_squares)),
+                shown(term.mean_square()),
+                shown(term.test.map(|test| test.f)),
+                shown(term.test.map(|test| test.p)),
+                shown(Some(term.share)),
+                shown(term.estimate.map(|estimate| estimate.effect)),
+                shown(term.estimate.map(|estimate| estimate.coefficient)),
+                shown(uncertainty.map(|uncertainty| uncertainty.standard_error)),
+                shown(uncertainty.map(|uncertainty| uncertainty.t)),
+                shown(uncertainty.map(|uncertainty| uncertainty.interval[0])),
+                shown(uncertainty.map(|uncertainty| uncertainty.interval[1])),
+                term.aliased_with.join("; "),
+            ]);
+        }
+        for (name, squares) in [("residual", effects.residual.squares), ("total", effects.total)] {
+            let mut cells = vec![
+                response.name.clone(),
+                name.to_owned(),
+                squares.freedom.to_string(),
+                shown(Some(squares.sum)),
+                shown(squares.mean()),
+            ];
+            cells.resize(header.len(), String::new());
+            let _ = writer.write_record(cells);
+        }
+    }
+    String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned()
+}
+
+/// What is said of a response.
+fn text_of(response: &AnalysedResponse) -> String {
+    let unit = if response.unit == "1" { String::new() } else { format!(" ({})", response.unit) };
+    let heading = format!("{}{unit}", response.name);
+    let effects = match &response.effects {
+        Ok(effects) => effects,
+        Err(error) => return format!("{heading}\n  {error}\n"),
+    };
+    let names = ["term", "effect", "interval", "share", "F", "p"];
+    let mut rows: Vec<&Term> = effects.rows().collect();
+    rows.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|term| cells(term)).collect();
+    let mut text = columns(&heading, &names, &rows);
+    text.push_str(&format!("  {}\n", quality(effects)));
+    for term in effects.rows().filter(|term| !term.aliased_with.is_empty()) {
+        text.push_str(&format!("  {} cannot be told from {}\n", term.label, term.aliased_with.join(", ")));
+    }
+    text
+}
+
+/// How well the model fits, in a line.
+fn quality(effects: &Effects) -> String {
+    let missing = if effects.missing > 0 { format!(", {} without a response", effects.missing) } else { String::new() };
+    let mut parts = vec![
+        format!("{} runs{missing}", effects.observations),
+        format!("mean {}", number::short(effects.constant.value)),
+        format!("R² {:.4}", effects.r_squared),
+    ];
+    parts.extend(effects.predicted_r_squared.map(|share| format!("predicted R² {share:.4}")));
+    parts.extend(
+        effects
+            .residual_standard_deviation
+            .map(|deviation| format!("error {} (from {})", number::short(deviation), effects.error)),
+    );
+    if effects.residual_standard_deviation.is_none() {
+        parts.push(format!("error {}", effects.error));
+    }
+    parts
+        .extend(effects.lenth.as_ref().map(|lenth| format!("margin of error {} (Lenth)", number::short(lenth.margin))));
+    parts.join(", ")
+}
+
+fn cells(term: &Term) -> Vec<String> {
+    let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
+    let effect = term.estimate.map_or_else(String::new, |estimate| number::short(estimate.effect));
+    let interval = uncertainty.map_or_else(String::new, |uncertainty| {
+        let [low, high] = uncertainty.interval.map(number::short);
+        format!("{low} … {high}")
+    });
+    let test = |value: fn(&effects::Test) -> f64| {
+        term.test.as_ref().map_or_else(String::new, |test| number::short(value(test)))
+    };
+    vec![
+        term.label.clone(),
+        effect,
+        interval,
+        format!("{:.1} %", 100.0 * term.share),
+        test(|test| test.f),
+        test(|test| test.p),
+    ]
+}
+
+/// What `plateau sweep effects --json` prints.
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    study: &'a str,
+    responses: Vec<Report>,
+    files: Vec<String>,
+}
+
+/// A response in it.
+#[derive(Debug, Serialize)]
+struct Report {
+    name: String,
+    unit: &'static str,
+    /// Why there are no effects.
+    error: Option<String>,
+    runs: usize,
+    missing: usize,
+    mean: f64,
+    r_squared: f64,
+    adjusted_r_squared: Option<f64>,
+    predicted_r_squared: Option<f64>,
+    residual_standard_deviation: Option<f64>,
+    error_from: String,
+    terms: Vec<TermReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct TermReport {
+    label: String,
+    degrees_of_freedom: usize,
+    sum_of_squares: f64,
+    share: f64,
+    f: Option<f64>,
+    p: Option<f64>,
+    effect: Option<f64>,
+    standard_error: Option<f64>,
+    interval: Option<[f64; 2]>,
+    aliased_with: Vec<String>,
+}
+
+impl Report {
+    fn new(response: &AnalysedResponse) -> Self {
+        let effects = response.effects.as_ref().ok();
+        let number = |value: fn(&Effects) -> f64| effects.map_or(f64::NAN, value);
+        let optional = |value: fn(&Effects) -> Option<f64>| effects.and_then(value);
+        let term = |term: &Term| {
+            let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
+            TermReport {
+                label: term.label.clone(),
+                degrees_of_freedom: term.freedom,
+                sum_of_squares: term.sum_of_squares,
+                share: term.share,
+                f: term.test.map(|test| test.f),
+                p: term.test.map(|test| test.p),
+                effect: term.estimate.map(|estimate| estimate.effect),
+                standard_error: uncertainty.map(|uncertainty| uncertainty.standard_error),
+                interval: uncertainty.map(|uncertainty| uncertainty.interval),
+                aliased_with: term.aliased_with.clone(),
+            }
+        };
+        Self {
+            name: response.name.clone(),
+            unit: response.unit,
+            error: response.effects.as_ref().err().map(ToString::to_string),
+            runs: effects.map_or(0, |effects| effects.observations),
+            missing: effects.map_or(0, |effects| effects.missing),
+            mean: number(|effects| effects.constant.value),
+            r_squared: number(|effects| effects.r_squared),
+            adjusted_r_squared: optional(|effects| effects.adjusted_r_squared),
+            predicted_r_squared: optional(|effects| effects.predicted_r_squared),
+            residual_standard_deviation: optional(|effects| effects.residual_standard_deviation),
+            error_from: effects.map_or_else(String::new, |effects| effects.error.to_string()),
+            terms: effects.map_or_else(Vec::new, |effects| effects.rows().map(term).collect()),
+        }
+    }
 }

@@ -1,0 +1,139 @@
+//! What the collected results of a study tell of its factors: from runs to observations, and what is fitted.
+
+use plateau_io::study::Study;
+use plateau_io::study::collected::{Collected, unit_of};
+use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_study::design::Setting;
+use plateau_study::effects::{self, Effects, EffectsError, FactorKind, Observation, Options, analyse};
+
+/// Values of a table of one's own up to which a factor has levels; with more it has a range.
+const MOST_LEVELS: usize = 10;
+
+/// A study's factors as the analysis sees them, and what became of every response.
+#[derive(Debug)]
+pub struct Analysis {
+    /// The factors.
+    pub factors: Vec<AnalysedFactor>,
+    /// The responses, in the order of the study.
+    pub responses: Vec<AnalysedResponse>,
+    /// Settings of the runs that were analysed, of all factors in their order, and the values of all responses (NaN where
+    /// there is none): for plots of single runs.
+    pub runs: Vec<(Vec<Setting>, Vec<f64>)>,
+}
+
+/// A factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AnalysedFactor {
+    /// As the analysis has it.
+    pub factor: effects::Factor,
+    /// Labels of its levels; empty for ranges.
+    pub labels: Vec<String>,
+    /// SI unit of its values; empty for words, `1` for plain numbers.
+    pub unit: &'static str,
+}
+
+/// A response.
+#[derive(Debug)]
+pub struct AnalysedResponse {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// What the factors do to it.
+    pub effects: Result<Effects, EffectsError>,
+}
+
+impl Analysis {
+    /// Analyses every response of a study.
+    pub fn new(study: &Study, collected: &Collected, options: &Options) -> Self {
+        let factors: Vec<AnalysedFactor> =
+            study.factors.iter().enumerate().map(|(at, factor)| analysed(factor, &levels(collected, at))).collect();
+        let plain: Vec<effects::Factor> = factors.iter().map(|factor| factor.factor.clone()).collect();
+        let settings: Vec<Vec<Setting>> = collected
+            .runs
+            .iter()
+            .map(|run| {
+                let levels = study.factors.iter().zip(&factors).zip(&run.run.levels);
+                levels.map(|((factor, analysed), level)| setting(factor, analysed, level)).collect()
+            })
+            .collect();
+        let of_response = |at: usize| {
+            let runs = collected.runs.iter().zip(&settings);
+            let observation = |(run, settings): (&plateau_io::study::collected::CollectedRun, &Vec<Setting>)| {
+                Observation { settings: settings.clone(), replicate: run.run.replicate, response: run.responses[at] }
+            };
+            let observations: Vec<Observation> = runs.map(observation).collect();
+            analyse(&plain, &observations, options)
+        };
+        let responses = study.responses.iter().enumerate().map(|(at, response)| AnalysedResponse {
+            name: response.name.clone(),
+            unit: response.unit(unit_of(&response.series)),
+            effects: of_response(at),
+        });
+        let responses = responses.collect();
+        let runs = settings.into_iter().zip(collected.runs.iter().map(|run| run.responses.clone())).collect();
+        Self { factors, responses, runs }
+    }
+}
+
+/// The different levels that a factor has in the runs, in the order in which they appear.
+fn levels(collected: &Collected, factor: usize) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    for run in &collected.runs {
+        let level = &run.run.levels[factor];
+        if !levels.contains(level) {
+            levels.push(level.clone());
+        }
+    }
+    levels
+}
+
+fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
+    let range = |name: String, low: f64, high: f64| AnalysedFactor {
+        factor: effects::Factor { name, kind: FactorKind::Range { low, high } },
+        labels: Vec::new(),
+        unit: factor.unit(),
+    };
+    let numbers = |levels: &[Level]| levels.iter().map(|level| level.number).collect::<Option<Vec<f64>>>();
+    let listed = match &factor.values {
+        Values::Range { low, high, logarithmic } => {
+            let (low, high) = (low.number.unwrap_or(-1.0), high.number.unwrap_or(1.0));
+            if *logarithmic {
+                return range(format!("log₁₀ {}", factor.name), libm::log10(low), libm::log10(high));
+            }
+            return range(factor.name.clone(), low, high);
+        }
+        // What a table of one's own has.
+        Values::Levels(levels) if levels.is_empty() => found,
+        Values::Levels(levels) => levels,
+    };
+    let kind = match numbers(listed) {
+        // Between two levels there are points of a response surface.
+        Some(numbers) if numbers.len() == 2 && found.len() > 2 => {
+            return range(factor.name.clone(), numbers[0], numbers[1]);
+        }
+        Some(numbers) if numbers.len() > MOST_LEVELS => {
+            let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+            return range(factor.name.clone(), least, numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+        }
+        Some(numbers) => FactorKind::Levels(numbers),
+        None => FactorKind::Categorical(listed.iter().map(|level| level.label.clone()).collect()),
+    };
+    let labels = listed.iter().map(|level| level.label.clone()).collect();
+    let unit = if matches!(kind, FactorKind::Categorical(_)) { "" } else { factor.unit() };
+    AnalysedFactor { factor: effects::Factor { name: factor.name.clone(), kind }, labels, unit }
+}
+
+/// Where a level lies along a factor.
+fn setting(factor: &Factor, analysed: &AnalysedFactor, level: &Level) -> Setting {
+    match analysed.factor.kind {
+        FactorKind::Range { low, high } => {
+            let coded = factor.coded(level);
+            let of_table = || level.number.map(|value| (2.0 * value - (low + high)) / (high - low));
+            Setting::Coded(coded.or_else(of_table).unwrap_or(0.0))
+        }
+        FactorKind::Levels(_) | FactorKind::Categorical(_) => {
+            Setting::Level(analysed.labels.iter().position(|label| *label == level.label).unwrap_or(0))
+        }
+    }
+}
