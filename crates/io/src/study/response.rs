@@ -22,7 +22,8 @@ pub enum Question {
     At(f64),
     /// The mean between two times, s.
     Mean(f64, f64),
-    /// The time, s, from which on the series has come so far (a fraction) from its first value to its last.
+    /// The time, s, at which the series first comes to this fraction of its last value; from above, to the last value over
+    /// the fraction.
     Reaches(f64),
 }
 
@@ -77,18 +78,18 @@ fn mean(time: &[f64], values: &[f64], from: f64, to: f64) -> Option<f64> {
     Some(area / (to - from))
 }
 
-/// The time from which on the series stays beyond so much of its way from the first value to the last.
+/// The time at which the series first comes so near to its last value, linear between samples.
 fn reaches(time: &[f64], values: &[f64], fraction: f64) -> Option<f64> {
     let (first, last) = (*values.first()?, *values.last()?);
-    let way = last - first;
-    if way == 0.0 {
+    // From below, or from above; then everything is mirrored.
+    let sign = if first <= last { 1.0 } else { -1.0 };
+    let near = sign * if sign * last > 0.0 { last * fraction } else { last / fraction };
+    let after = values.iter().position(|value| sign * value >= near)?;
+    if after == 0 {
         return time.first().copied();
     }
-    let come = |value: f64| (value - first) / way;
-    let before = values.iter().rposition(|value| come(*value) < fraction)?;
-    let [earlier, later] = [before, before + 1].map(|at| Some((*time.get(at)?, come(*values.get(at)?))));
-    let ((from, low), (to, high)) = (earlier?, later?);
-    Some(from + (to - from) * (fraction - low) / (high - low))
+    let [low, high] = [after - 1, after].map(|at| sign * values[at]);
+    Some(time[after - 1] + (time[after] - time[after - 1]) * (near - low) / (high - low))
 }
 
 #[cfg(test)]
@@ -109,9 +110,14 @@ mod tests {
         assert_eq!(ask(Question::At(4.1), &ramp), None);
         // Trapezia: (2 + 4)/2 · 1 + 4 · 1 over 2 s.
         assert_eq!(ask(Question::Mean(2.0, 4.0), &ramp), Some(3.5));
+        // 3 is between 2 and 4; 5 is on the way from 0 to 8, whatever comes later.
         assert_eq!(ask(Question::Reaches(0.75), &ramp), Some(2.5));
-        // The last time counts: it fell back at 3 s.
-        assert_eq!(ask(Question::Reaches(0.5), &[0.0, 8.0, 0.0, 10.0]), Some(3.5));
+        assert_eq!(ask(Question::Reaches(0.5), &[0.0, 8.0, 0.0, 10.0]), Some(1.625));
+        // It begins nearer than that.
+        assert_eq!(ask(Question::Reaches(0.5), &[3.0, 4.0]), Some(1.0));
+        // From above: 2/0.5 = 4 is between 6 and 2.
+        assert_eq!(ask(Question::Reaches(0.5), &[6.0, 2.0, 2.0]), Some(1.5));
+        assert_eq!(ask(Question::Reaches(0.5), &[-4.0, 0.0, -1.0]), Some(1.5));
         assert_eq!(ask(Question::End, &[]), None);
     }
 
