@@ -1,7 +1,9 @@
 //! Physical time of steps (model 4.6).
 
+use serde::{Deserialize, Serialize};
+
 /// At which physical time steps end, from the last change of the acceleration on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
     /// The step after which it changed.
     step: u64,

@@ -5,6 +5,7 @@
 //! holds all that is needed to solve the balance exactly where the solution lies within the bracket; where it does not,
 //! the reading tells where to read next.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::exact::{Weights, float};
@@ -52,7 +53,7 @@ pub enum Verdict {
 }
 
 /// The contact of the cells that share a pool.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct PoolContact {
     /// Σ A over cells in contact, in units of the area.
     pub area: i128,
@@ -65,7 +66,7 @@ pub struct PoolContact {
 }
 
 /// The contact of one step: the displacement that carries the load, and what touches there.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// δ, m; none before the first step.
     displacement: Option<f64>,

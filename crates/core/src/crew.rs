@@ -2,10 +2,12 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use crossbeam::channel::{Receiver, Sender, unbounded};
 
+use crate::checkpoint::{Checkpoint, Memory};
 use crate::comm::threads::Alarm;
 use crate::comm::{CommError, Communicator};
 use crate::observe::{Map, Sample, Snapshot};
@@ -19,6 +21,10 @@ enum Order {
     AdvanceTo(u64, bool),
     /// Change the acceleration.
     Accelerate(f64),
+    /// Go on from a checkpoint.
+    Restore(Arc<Checkpoint>),
+    /// Tell what all workers know alike.
+    Memory,
     /// Take a sample.
     Sample,
     /// Take maps.
@@ -29,6 +35,7 @@ enum Order {
 #[derive(Debug)]
 enum Answer {
     Course(Course),
+    Memory(Box<Memory>),
     Sample(Box<Sample>),
     Snapshot(Snapshot),
 }
@@ -106,6 +113,19 @@ impl Crew {
         Ok(())
     }
 
+    /// Goes on from a checkpoint.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        self.go(&Order::Restore(Arc::new(checkpoint.clone())))
+    }
+
+    /// What all workers know alike.
+    pub fn memory(&mut self) -> Result<Memory, SimulationError> {
+        match self.ask(&Order::Memory)? {
+            Answer::Memory(memory) => Ok(*memory),
+            answer => unreachable!("{answer:?} to an order for the memory"),
+        }
+    }
+
     /// The reported quantities after the last step.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
         match self.ask(&Order::Sample)? {
@@ -168,6 +188,8 @@ fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answ
     match order {
         Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
         Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),
+        Order::Restore(checkpoint) => worker.restore(checkpoint).map(|()| Answer::Course(worker.course())),
+        Order::Memory => Ok(Answer::Memory(Box::new(worker.memory()))),
         Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
         Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),
     }

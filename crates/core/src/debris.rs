@@ -9,9 +9,10 @@ use crate::parts::Needs;
 use crate::strips::strips;
 use crate::sum::RunningSum;
 use crate::sums::{RowWeights, Sums};
+use serde::{Deserialize, Serialize};
 
 /// Volumes moved since t = 0, m³.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Totals {
     /// Worn off plateaus of the pin.
     pub worn_pin: RunningSum,
@@ -27,6 +28,15 @@ pub struct Totals {
     pub deposited_disc: RunningSum,
     /// Left the contact.
     pub emitted: RunningSum,
+}
+
+/// What the pools hold, and what went through them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Account {
+    /// M, m³: one pool, or one per row.
+    pub pools: Vec<RunningSum>,
+    /// Volumes moved since t = 0.
+    pub totals: Totals,
 }
 
 /// The pools of debris and the account of all that went through them.
@@ -83,6 +93,16 @@ impl Debris {
     /// Takes over the coefficients of another acceleration.
     pub fn set_coefficients(&mut self, coefficients: &Coefficients) {
         self.loss_exponent = loss_exponent(coefficients);
+    }
+
+    /// What the pools hold, and what went through them.
+    pub fn account(&self) -> Account {
+        Account { pools: self.pools.clone(), totals: self.totals }
+    }
+
+    /// Goes on from an account.
+    pub fn set_account(&mut self, Account { pools, totals }: Account) {
+        (self.pools, self.totals) = (pools, totals);
     }
 
     /// Spreads each pool evenly over its cells that do not touch: s = M/S.

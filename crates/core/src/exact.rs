@@ -3,6 +3,7 @@
 //! Every term is rounded to a multiple of a quantum, and the multiples are added as integers: so the sum of many workers
 //! is that of one, whatever part of the cells each of them has.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 use crate::kernel::{IntegerChunk, LANES};
@@ -11,7 +12,7 @@ use crate::kernel::{IntegerChunk, LANES};
 ///
 /// Terms are counted by adding them to an anchor, a number whose last bit is worth one quantum. Sums of the bits of such
 /// anchored terms hold both how many terms there are and what they add up to, see [`Quantum::split`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Quantum {
     exponent: i32,
     value: f64,

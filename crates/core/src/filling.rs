@@ -81,6 +81,20 @@ impl Filling {
         }
     }
 
+    /// Measures every column anew, as they are after so many steps.
+    pub fn measure_all<'a>(
+        &mut self,
+        mesh: &Mesh,
+        rows: &Range<usize>,
+        sectors: impl Iterator<Item = &'a DiscSector>,
+        steps: u64,
+    ) {
+        self.up_to = steps;
+        for sector in sectors {
+            (0..sector.columns).for_each(|column| self.measure(&mesh.area()[rows.clone()], sector, column));
+        }
+    }
+
     fn measure(&mut self, area: &[f64], sector: &DiscSector, column: usize) {
         let mut measured = (RingSum::default(), RingSum::default());
         let substrate = sector.substrate();

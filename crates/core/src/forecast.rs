@@ -4,6 +4,8 @@
 //! so it is foretold much better by the last revolutions than by the last step. A good forecast saves time and nothing
 //! else: the balance is solved exactly whatever was foretold.
 
+use serde::{Deserialize, Serialize};
+
 /// Ways to foretell: by the last step, by the change one revolution ago, and by that change and how it changed.
 const WAYS: usize = 3;
 
@@ -14,7 +16,7 @@ const FORGOTTEN: f64 = 1.0 / 64.0;
 const FIRST_STEPS: u64 = 16;
 
 /// The displacements of the last two revolutions, and how well each way would have foretold them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Forecast {
     revolution: usize,
     /// The last displacements, m; the oldest is overwritten.

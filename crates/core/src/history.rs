@@ -1,9 +1,10 @@
 //! Contact area over the steps: mean over the last revolution and integral over time (model section 5).
 
 use crate::sum::RunningSum;
+use serde::{Deserialize, Serialize};
 
 /// What a sample needs to know of the steps before its own.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     /// Contact area of the last steps, m²; at most one simulated revolution, then the oldest is overwritten.
     revolution: Vec<f64>,

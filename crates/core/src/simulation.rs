@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+use crate::checkpoint::{Checkpoint, WrongMesh};
 use crate::comm::CommError;
 use crate::comm::single::Single;
 use crate::comm::threads::Threads;
@@ -55,6 +56,9 @@ pub enum SimulationError {
         /// The last step.
         step: u64,
     },
+    /// A checkpoint is of another mesh.
+    #[error(transparent)]
+    Checkpoint(#[from] WrongMesh),
     /// A worker failed.
     #[error(transparent)]
     Worker(#[from] CommError),
@@ -234,6 +238,34 @@ impl Simulation {
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
         team!(self, team => team.accelerate(acceleration))?;
         Arc::make_mut(&mut self.parameters).time_acceleration = acceleration;
+        Ok(())
+    }
+
+    /// The complete state, to go on from later.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn checkpoint(&mut self) -> Result<Checkpoint, SimulationError> {
+        let [disc_height, disc_substrate] = self.heights([Map::DiscHeight, Map::DiscSubstrate])?;
+        let [pin_height, pin_substrate] = self.heights([Map::PinHeight, Map::PinSubstrate])?;
+        let memory = match &mut self.team {
+            Team::Alone(worker) => worker.memory(),
+            Team::Crew(crew) => crew.memory()?,
+            #[cfg(feature = "mpi")]
+            Team::Rank(worker) => worker.memory(),
+        };
+        Ok(Checkpoint { disc_height, disc_substrate, pin_height, pin_substrate, memory })
+    }
+
+    /// Goes on from a checkpoint of a simulation with the same parameters, time acceleration apart, and the same initial
+    /// surfaces: the coming steps are bit for bit those that it would have taken.
+    ///
+    /// # Errors
+    /// [`SimulationError::Checkpoint`] when it is of another mesh, [`SimulationError::Worker`] when a worker failed.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        checkpoint.check(&self.parameters.mesh)?;
+        team!(self, team => team.restore(checkpoint))?;
+        Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;
         Ok(())
     }
 

@@ -174,6 +174,21 @@ impl PinStrips {
         self.substrate.as_ref().unwrap_or(&self.height)
     }
 
+    /// Changes a column between two steps.
+    pub fn set_column(&mut self, column: usize, heights: &[f64], substrates: &[f64]) {
+        self.height.set_column(column, heights);
+        if let Some(substrate) = &mut self.substrate {
+            substrate.set_column(column, substrates);
+        }
+        for strip in 0..self.height.strips() {
+            let (height, substrate) = (self.height.chunk(strip, column), self.substrate().chunk(strip, column));
+            let built_up = (0..LANES).filter(|lane| height.0[*lane] < substrate.0[*lane]);
+            let built_up = built_up.fold(0, |bits, lane| bits | 1_u8 << lane);
+            let at = strip * self.columns + column;
+            self.plateau[at] = !self.resin[at] | built_up;
+        }
+    }
+
     /// Words of a column of so many rows on its way to another worker: see [`PinStrips::write_crossing`].
     pub fn crossing_words(rows: usize) -> usize {
         (2 * LANES + 1) * strips(rows)
@@ -226,6 +241,14 @@ impl DiscSector {
     pub fn new(mesh: &Mesh, own: Range<usize>, first: usize, heights: &[f64], builds_up: bool) -> Self {
         let height = Strips::of_columns(mesh, own, heights);
         Self { first, columns: height.columns, substrate: builds_up.then(|| height.clone()), height }
+    }
+
+    /// Changes a column between two steps.
+    pub fn set_column(&mut self, column: usize, heights: &[f64], substrates: &[f64]) {
+        self.height.set_column(column, heights);
+        if let Some(substrate) = &mut self.substrate {
+            substrate.set_column(column, substrates);
+        }
     }
 
     /// A strip of z_d and of b_d (none where it is not kept).

@@ -1,7 +1,9 @@
 //! Sums that do not drift over a billion steps.
 
+use serde::{Deserialize, Serialize};
+
 /// A running sum with Neumaier's compensation: its error does not grow with the number of terms.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct RunningSum {
     sum: f64,
     compensation: f64,

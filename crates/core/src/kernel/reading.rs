@@ -4,9 +4,10 @@ use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
 use crate::exact::{Quantum, RowIntegers};
 use crate::pair::Pair;
+use serde::{Deserialize, Serialize};
 
 /// Displacements between which the next load balance is expected.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
     /// Its lower end, a multiple of the quantum, m.
     pub low: f64,

@@ -4,10 +4,12 @@
 //! sweeps.
 
 mod balance;
+mod checkpoint;
 mod columns;
 mod gather;
 mod report;
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -30,7 +32,7 @@ use crate::strips::{DiscSector, PinStrips, strips};
 use crate::sums::{RowWeights, Sums};
 
 /// What the steps so far were like.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Course {
     /// Steps done.
     pub steps: u64,
@@ -201,11 +203,7 @@ impl<C: Communicator> Worker<C> {
     pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
         let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
         self.clock = self.clock.changed(self.course.steps, parameters.step_time());
-        self.coefficients = Coefficients::new(&parameters);
-        self.rules = Rules::new(&parameters, &self.coefficients);
-        self.weights = RowWeights::new(&parameters, &self.coefficients, self.rows.clone());
-        self.debris.set_coefficients(&self.coefficients);
-        self.parameters = Arc::new(parameters);
+        self.accept_coefficients(&parameters);
         // The sums of the coming step were taken with the weights of before.
         self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
     }
