@@ -231,12 +231,7 @@ mod tests {
             attributes: vec![("title", Attribute::Text("a".into())), ("count", Attribute::Integer(3))],
             dimensions: vec![
                 Coordinate { name: "run", unit: "1".into(), long_name: "number".into(), values: vec![0.0, 1.0] },
-                Coordinate {
-                    name: "time".into(),
-                    unit: "s".into(),
-                    long_name: "time".into(),
-                    values: vec![5.0, 10.0, 15.0],
-                },
+                Coordinate { name: "time", unit: "s".into(), long_name: "time".into(), values: vec![5.0, 10.0, 15.0] },
             ],
             variables: vec![
                 Variable {

@@ -242,7 +242,7 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
             return points.map(DesignSource::File).map_err(|message| place.problem(file, "file", message));
         }
         other => {
-            let nearest = schema::nearest(other, DESIGNS.into_iter());
+            let nearest = schema::nearest(other, DESIGNS);
             let advice = nearest.map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"));
             let message = format!("\"{other}\", expected one of {}{advice}", DESIGNS.join(", "));
             return Err(place.problem(&document.design, "design", message));

@@ -75,11 +75,7 @@ fn relevant(resolved: &str) -> impl Iterator<Item = &str> {
 }
 
 /// The surface files of a scene, and what they are for.
-fn files(scene: &Scene) -> impl Iterator<Item = (&'static str, &Path)> {
-    let heights = |source| match source {
-        &HeightSource::File { ref path, .. } => Some(path),
-        HeightSource::Synthetic(_) | HeightSource::Flat => None,
-    };
+fn files(scene: &Scene) -> impl Iterator<Item = (&'static str, &PathBuf)> {
     let base = match &scene.pin_base {
         BaseSource::File { path, .. } | BaseSource::Image { path, .. } => Some(path),
         BaseSource::Synthetic(_) | BaseSource::Uniform(_) => None,
@@ -89,7 +85,15 @@ fn files(scene: &Scene) -> impl Iterator<Item = (&'static str, &Path)> {
         ("pin.surface", heights(&scene.pin_surface.source)),
         ("pin.base", base),
     ];
-    all.into_iter().filter_map(|(key, path)| Some((key, path?.as_path())))
+    all.into_iter().filter_map(|(key, path)| Some((key, path?)))
+}
+
+/// The file that heights come from.
+fn heights(source: &HeightSource) -> Option<&PathBuf> {
+    match source {
+        HeightSource::File { path, .. } => Some(path),
+        HeightSource::Synthetic(_) | HeightSource::Flat => None,
+    }
 }
 
 #[cfg(test)]
