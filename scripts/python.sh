@@ -1,5 +1,5 @@
 # Python environments inside the checkout, without root and without Debian's python3-venv. Sourced after say.sh.
-# shellcheck shell=sh
+# shellcheck shell=sh disable=SC2154
 
 # make_venv DIR: a virtual environment with pip in it; pip comes from wherever this machine has one.
 make_venv() {
@@ -12,6 +12,15 @@ make_venv() {
     run_quietly python3 -m venv --without-pip "$venv" || die "python3 -m venv failed: install python3-venv"
     pip_from_ensurepip || pip_from_system || pip_from_wheel ||
         die "no pip for Python: install python3-venv or python3-pip"
+}
+
+# The environment .venv of the checkout, `root`, where the run files are read as users read them. To be called with its lock,
+# .venv.lock.
+install_readers() {
+    make_venv "$root/.venv"
+    cmp -s "$root/tests/python/requirements.txt" "$root/.venv/installed.txt" && return 0
+    "$root/.venv/bin/python" -m pip install --quiet -r "$root/tests/python/requirements.txt" &&
+        cp "$root/tests/python/requirements.txt" "$root/.venv/installed.txt"
 }
 
 pip_from_ensurepip() {

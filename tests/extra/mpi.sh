@@ -5,32 +5,9 @@ set -u
 cd "$(dirname "$0")/../.." || exit 1
 root=$PWD
 
-have_mpi() {
-    command -v mpirun >/dev/null 2>&1 && command -v mpicc >/dev/null 2>&1 && have_libclang
-}
-
-have_libclang() {
-    [ -z "${LIBCLANG_PATH:-}" ] || return 0
-    for library in /usr/lib/llvm-*/lib/libclang.so* /usr/lib64/libclang.so* /usr/lib/*/libclang*.so*; do
-        [ ! -e "$library" ] || return 0
-    done
-    return 1
-}
-
-if ! have_mpi; then
-    if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null 2>&1; then
-        echo 'Open MPI (mpirun, mpicc) or libclang is not installed, and only root may install them'
-        exit 77
-    fi
-    if ! { apt-get update && apt-get install -y --no-install-recommends openmpi-bin libopenmpi-dev libclang-dev; }; then
-        echo 'Open MPI or libclang is not installed, and apt-get could not install them'
-        exit 77
-    fi
-fi
-case $(mpirun --version 2>&1) in
-    *'Open MPI'* | *OpenRTE*) ;;
-    *) echo 'mpirun is not that of Open MPI, whose options this check uses' && exit 77 ;;
-esac
+. tests/cluster/packages.sh
+. tests/cluster/open_mpi.sh
+provide_mpi
 
 PLATEAU_FEATURES=mpi
 export PLATEAU_FEATURES
@@ -38,10 +15,6 @@ export PLATEAU_FEATURES
 . scripts/say.sh
 . scripts/lock.sh
 . scripts/toolchain.sh
-
-# More ranks than cores, and root where CI is root: both only here, on one machine and for seconds.
-mpirun='mpirun --oversubscribe'
-[ "$(id -u)" -ne 0 ] || mpirun="$mpirun --allow-run-as-root"
 
 # ranks N [HOW]: the ranks on their own, without a simulation (crates/core/tests/mpi.rs).
 ranks() {
@@ -61,7 +34,7 @@ ranks_end() {
 output=$(mktemp) || exit 1
 trap 'rm -f "$output"' EXIT
 
-sh scripts/build.sh || exit 1
+build_with_mpi || exit 1
 prepare_toolchain
 cargo clippy --release --locked --workspace --all-targets --target-dir "$target" --features mpi -- -D warnings || exit 1
 for number in 1 2 3 5; do
@@ -74,8 +47,6 @@ ranks_end 3 fail-alike
 [ "$(grep -c 'all ranks failed on purpose' "$output")" -eq 1 ] ||
     { cat "$output" && echo 'what failed all ranks was not said once' && exit 1; }
 
-# No other build replaces this program while it is tested.
-cp "$program" "$target/plateau-mpi" || exit 1
 # One test at a time: every one of them starts several processes that wait for each other.
 PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun cargo test --release --locked --workspace --test ranks \
     --target-dir "$target" -- --ignored --test-threads 1

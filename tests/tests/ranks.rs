@@ -177,6 +177,39 @@ fn a_rank_that_is_killed_ends_all() {
     assert_ne!(status, Some(0), "{stderr}");
 }
 
+#[test]
+#[ignore = "needs MPI"]
+fn a_rank_that_comes_late_to_a_study_takes_its_share_of_what_is_left() {
+    let directory = WorkingDirectory::new();
+    let base = scene("quick.toml");
+    let seeds: Vec<String> = (1..=24).map(|seed: u32| seed.to_string()).collect();
+    let study = format!(
+        "version = 1\ntitle = \"Late\"\nbase = \"{base}\"\nset = [\"operation.duration = '40 s'\"]\n\
+         design = \"full-factorial\"\ndirectory = \"results\"\n\
+         [[factor]]\nname = \"seed\"\nkey = \"pin.base.synthetic.seed\"\nlevels = [{}]\n\
+         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area_mean\"\nat = \"end\"\n",
+        seeds.join(", ")
+    );
+    directory.write("study.toml", &study);
+    // The second rank waits for its copy of the study at a pipe, until the first rank has results.
+    assert!(Command::new("mkfifo").arg(directory.path("late.toml")).status().expect("mkfifo").success());
+    let mut command = mpirun(&directory);
+    command.args(["-n", "1"]).arg(program()).args(["sweep", "run", "study.toml"]);
+    command.args([":", "-n", "1"]).arg(program()).args(["sweep", "run", "late.toml"]);
+    let job = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the launcher");
+    let shards = || fs::read_dir(directory.path("results/journal")).into_iter().flatten().map(|shard| shard.unwrap());
+    assert!(wait_until(|| shards().any(|shard| shard.metadata().is_ok_and(|shard| shard.len() > 0))));
+    fs::write(directory.path("late.toml"), &study).expect("a pipe with a reader");
+    let output = job.wait_with_output().expect("the end of the job");
+    assert!(output.status.success(), "{output:?}");
+    let texts: Vec<_> = shards().map(|shard| fs::read_to_string(shard.path()).expect("a shard")).collect();
+    assert_eq!(texts.len(), 2, "both ranks made runs");
+    let runs = texts.iter().flat_map(|text| text.lines()).map(|line| line.split("\"run\":").nth(1).unwrap());
+    let mut runs: Vec<usize> = runs.map(|rest| rest.split(',').next().unwrap().parse().unwrap()).collect();
+    runs.sort_unstable();
+    assert_eq!(runs, (1..=seeds.len()).collect::<Vec<_>>());
+}
+
 /// A run that goes on until something ends it.
 struct EndlessJob {
     directory: WorkingDirectory,

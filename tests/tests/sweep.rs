@@ -290,7 +290,7 @@ fn a_batch_script_asks_for_what_the_estimate_says() {
         "#!/bin/sh\n",
         "#SBATCH --array=1-4\n",
         "--task \"$SLURM_ARRAY_TASK_ID/4\" --jobs 1\n",
-        "#SBATCH --signal=TERM@60\n",
+        "#SBATCH --signal=B:TERM@60\n",
     ] {
         assert!(script.contains(line), "{line} in\n{script}");
     }

@@ -45,12 +45,12 @@ impl Job {
 
     pub fn share(
         &mut self,
-        count: usize,
+        pieces: &[usize],
         jobs: usize,
         most_failures: Option<usize>,
         work: &(dyn Fn(usize) -> Went + Sync),
     ) -> Result<(), Failure> {
-        Hand::new(count, most_failures).share(jobs, work).map_err(Failure::run)
+        Hand::new(pieces, most_failures).share(jobs, work).map_err(Failure::run)
     }
 
     pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), Failure> {

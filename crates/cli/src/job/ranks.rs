@@ -95,16 +95,17 @@ impl Job {
     }
 
     /// Does all pieces of independent work, each on one rank, until so many have failed. A single rank has as many threads
-    /// as there are `jobs`, several have one each; rank 0 hands the pieces out while a thread of its own works.
+    /// as there are `jobs`, several have one each; rank 0 hands the pieces out while a thread of its own works. Only its
+    /// `pieces` count: another rank may see what is to be done a moment later, when some of it is done.
     pub fn share(
         &mut self,
-        count: usize,
+        pieces: &[usize],
         jobs: usize,
         most_failures: Option<usize>,
         work: &(dyn Fn(usize) -> Went + Sync),
     ) -> Result<(), Failure> {
         if self.ranks() == 1 {
-            return Hand::new(count, most_failures).share(jobs, work).map_err(Failure::run);
+            return Hand::new(pieces, most_failures).share(jobs, work).map_err(Failure::run);
         }
         let desk = self.session.desk();
         if !self.leads() {
@@ -120,7 +121,7 @@ impl Job {
             }
             return Ok(());
         }
-        let hand = Hand::new(count, most_failures);
+        let hand = Hand::new(pieces, most_failures);
         thread::scope(|scope| {
             let own = scope.spawn(|| hand.work(work));
             let mut others = self.ranks() - 1;

@@ -6,19 +6,19 @@ use super::Went;
 
 /// Hands out pieces, each once.
 #[derive(Debug)]
-pub struct Hand {
+pub struct Hand<'a> {
+    pieces: &'a [usize],
     next: AtomicUsize,
-    count: usize,
     failures: AtomicUsize,
     most_failures: usize,
     stopped: AtomicBool,
 }
 
-impl Hand {
-    /// So many pieces, until so many have failed.
-    pub fn new(count: usize, most_failures: Option<usize>) -> Self {
+impl<'a> Hand<'a> {
+    /// These pieces, until so many have failed.
+    pub fn new(pieces: &'a [usize], most_failures: Option<usize>) -> Self {
         let most_failures = most_failures.unwrap_or(usize::MAX);
-        Self { next: 0.into(), count, failures: 0.into(), most_failures, stopped: false.into() }
+        Self { pieces, next: 0.into(), failures: 0.into(), most_failures, stopped: false.into() }
     }
 
     /// The next piece.
@@ -26,7 +26,7 @@ impl Hand {
         if self.stopped.load(Ordering::Relaxed) || self.failures.load(Ordering::Relaxed) >= self.most_failures {
             return None;
         }
-        Some(self.next.fetch_add(1, Ordering::Relaxed)).filter(|piece| *piece < self.count)
+        self.pieces.get(self.next.fetch_add(1, Ordering::Relaxed)).copied()
     }
 
     /// Takes note of how a piece went.
@@ -63,12 +63,13 @@ mod tests {
     use super::*;
 
     fn done(count: usize, most_failures: Option<usize>, went: impl Fn(usize) -> Went + Sync) -> Vec<usize> {
+        let pieces: Vec<usize> = (1..=count).rev().collect();
         let done = Mutex::new(Vec::new());
         let work = |piece| {
             done.lock().unwrap().push(piece);
             went(piece)
         };
-        Hand::new(count, most_failures).share(3, &work).unwrap();
+        Hand::new(&pieces, most_failures).share(3, &work).unwrap();
         let mut done = done.into_inner().unwrap();
         done.sort_unstable();
         done
@@ -76,7 +77,7 @@ mod tests {
 
     #[test]
     fn every_piece_is_done_once() {
-        assert_eq!(done(1000, None, |_| Went::Well), (0..1000).collect::<Vec<_>>());
+        assert_eq!(done(1000, None, |_| Went::Well), (1..=1000).collect::<Vec<_>>());
         assert!(done(0, None, |_| Went::Well).is_empty());
         assert_eq!(done(100, None, |_| Went::Wrong).len(), 100);
     }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use plateau_io::dataset_file::now;
-use plateau_io::study::journal::{Entry, Shard};
+use plateau_io::study::journal::{Entry, Journal, Shard};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Outcome, Record};
 use serde::Serialize;
@@ -33,14 +33,15 @@ pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
 fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let resolved = Resolved::of(&plan)?;
-    let journal = journal(plan.study())?;
-    if journal.damaged > 0 && job.leads() {
+    // The first rank decides what is to be done: another one may see the journal a moment later.
+    let journal = if job.leads() { journal(plan.study())? } else { Journal::default() };
+    if journal.damaged > 0 {
         let lines = number::count(journal.damaged, "damaged line");
         message::warning(format_args!("{}: {lines} passed over", journal_folder(plan.study()).display()));
     }
     let mut before = Before::default();
     let mut pending = Vec::new();
-    for (place, number) in plan.order().enumerate() {
+    for (place, number) in plan.order().enumerate().filter(|_| job.leads()) {
         if arguments.task.is_some_and(|task| place % task.count != task.number - 1) {
             continue;
         }
@@ -62,7 +63,6 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         progress: Progress::new(pending.len(), steps, job.leads()),
         plan: &plan,
         resolved: &resolved,
-        pending: &pending,
         workers,
         interrupt,
         shard: Mutex::new(None),
@@ -71,7 +71,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         broken: Mutex::new(None),
     };
     let limit = arguments.max_failures.map(|limit| limit as usize);
-    let shared = job.share(pending.len(), jobs, limit, &|place| floor.make(place));
+    let shared = job.share(&pending, jobs, limit, &|number| floor.make(number));
     floor.progress.finish();
     let shard = floor.shard.lock().unwrap_or_else(PoisonError::into_inner).take();
     let closed = shard.map_or(Ok(()), Shard::close);
@@ -96,9 +96,11 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     if job.leads() {
         summary.print(arguments, if job.ranks() > 1 { job.ranks() } else { jobs })?;
     }
-    if let Some(signal) = floor.interrupt.signal() {
-        let message = format!("stopped by signal {signal}; {} runs are left, the same command goes on", summary.left);
-        return Err(Failure::Stopped { signal, message: Some(message) });
+    let (signal, _) = job.agree(floor.interrupt.signal(), 0).map_err(Failure::run)?;
+    if let Some(signal) = signal {
+        let message =
+            || format!("stopped by signal {signal}; {} runs are left, the same command goes on", summary.left);
+        return Err(Failure::Stopped { signal, message: job.leads().then(message) });
     }
     match summary.failed + summary.failed_before {
         0 => Ok(()),
@@ -121,8 +123,6 @@ struct Before {
 struct Floor<'a> {
     plan: &'a Plan,
     resolved: &'a Resolved,
-    /// Numbers of the runs to be made.
-    pending: &'a [usize],
     workers: usize,
     interrupt: Interrupt,
     progress: Progress,
@@ -142,12 +142,11 @@ impl Watcher for Floor<'_> {
 }
 
 impl Floor<'_> {
-    /// Makes a pending run and keeps its result.
-    fn make(&self, place: usize) -> Went {
+    /// Makes a run and keeps its result.
+    fn make(&self, number: usize) -> Went {
         if self.interrupt.signal().is_some() {
             return Went::Stopped;
         }
-        let number = self.pending[place];
         let start = Instant::now();
         let run = self.plan.run(number);
         let outcome = match self.plan.scene(&run) {

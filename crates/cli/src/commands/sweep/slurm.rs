@@ -50,7 +50,7 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
          #SBATCH --cpus-per-task={cores}\n\
          #SBATCH --mem={megabytes}M\n\
          #SBATCH --time={hours:02}:{rest:02}:00\n\
-         #SBATCH --signal=TERM@60\n\
+         #SBATCH --signal=B:TERM@60\n\
          #SBATCH --output={name}-%A_%a.out\n\
          exec {program} sweep run {study} --task \"$SLURM_ARRAY_TASK_ID/{tasks}\" --jobs {cores}\n",
         runs = plan.runs(),

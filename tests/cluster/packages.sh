@@ -1,0 +1,19 @@
+# Packages that a check needs. Sourced.
+# shellcheck shell=sh
+
+# provide WHAT COMMAND PACKAGE...: if COMMAND, which tells whether WHAT is there, says no, the packages are installed.
+# Ends the script with 77, as skipped, where they cannot be.
+provide() {
+    what=$1
+    is_there=$2
+    shift 2
+    ! "$is_there" || return 0
+    if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null 2>&1; then
+        echo "$what is not installed, and only root may install it"
+        exit 77
+    fi
+    if ! { apt-get update && apt-get install -y --no-install-recommends "$@" && "$is_there"; }; then
+        echo "$what is not installed, and apt-get could not install it"
+        exit 77
+    fi
+}
