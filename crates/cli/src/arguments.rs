@@ -78,7 +78,7 @@ pub enum Command {
 }
 
 /// A scene, with changes.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub struct SceneArguments {
     /// Scene file (TOML)
     pub scene: PathBuf,
@@ -112,8 +112,21 @@ pub struct RunArguments {
     /// Replace the run file if it exists
     #[arg(long)]
     pub force: bool,
+    /// Go on with a run that was stopped or killed, from its last checkpoint
+    #[arg(long)]
+    pub resume: bool,
+    /// Go on with a run beyond its end, to this time, such as "7200 s"
+    #[arg(long, value_name = "TIME")]
+    pub extend_to: Option<String>,
     #[command(flatten)]
     pub execution: ExecutionArguments,
+}
+
+impl RunArguments {
+    /// Whether a run that is there is to be gone on with.
+    pub fn resumes(&self) -> bool {
+        self.resume || self.extend_to.is_some()
+    }
 }
 
 /// How a run is carried out, which does not show in its results.

@@ -35,6 +35,14 @@ pub trait Sink {
     fn look(&mut self, _simulation: &Simulation, steps: u64) -> Result<u64, Self::Error> {
         Ok(steps)
     }
+
+    /// Called between two steps when all that was due is done: here the run may be stopped and gone on with later.
+    ///
+    /// # Errors
+    /// When the run is to end here.
+    fn rest(&mut self, _simulation: &mut Simulation, _scout: Option<&mut Scout>) -> Result<(), Self::Error> {
+        Ok(())
+    }
 }
 
 /// Runs all steps; the samples and maps that `output` asks for go to `sink`. A run with a scout chooses its acceleration.
@@ -50,7 +58,7 @@ pub fn drive<S: Sink>(
 ) -> Result<(), S::Error> {
     let OutputRecipe { maps, roughness, .. } = output;
     let mut steps_per_look = 1;
-    if schedule.has_maps(0) && !maps.is_empty() {
+    if simulation.steps_done() == 0 && schedule.has_maps(0) && !maps.is_empty() {
         sink.snapshot(simulation.snapshot(maps)?)?;
     }
     while simulation.steps_done() < schedule.last() {
@@ -66,6 +74,9 @@ pub fn drive<S: Sink>(
                 _ => simulation.pass_to(event)?,
             }
             steps_per_look = sink.look(simulation, adapted(steps_per_look, start.elapsed()))?;
+            if simulation.steps_done() < event {
+                sink.rest(simulation, scout.as_deref_mut())?;
+            }
         }
         if sampled {
             let mut sample = simulation.sample()?;
@@ -85,6 +96,7 @@ pub fn drive<S: Sink>(
                 schedule.change(event, simulation.parameters().step_time());
             }
         }
+        sink.rest(simulation, scout.as_deref_mut())?;
     }
     Ok(())
 }

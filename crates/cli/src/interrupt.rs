@@ -1,14 +1,17 @@
-//! Stopping a run from outside: Ctrl-C and the signal that ends programs.
+//! Talking to a run from outside: Ctrl-C, the signal that ends programs, and the one that asks for a checkpoint.
 
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
 /// Notes the signals that ask a run to stop.
 #[derive(Debug)]
-pub struct Interrupt(Arc<AtomicUsize>);
+pub struct Interrupt {
+    signal: Arc<AtomicUsize>,
+    save: Arc<AtomicBool>,
+}
 
 impl Interrupt {
     /// From now on SIGINT and SIGTERM are noted instead of ending the program.
@@ -20,11 +23,24 @@ impl Interrupt {
         for number in [SIGINT, SIGTERM] {
             signal_hook::flag::register_usize(number, Arc::clone(&signal), number.unsigned_abs() as usize)?;
         }
-        Ok(Self(signal))
+        Ok(Self { signal, save: Arc::default() })
+    }
+
+    /// From now on SIGUSR1, with which batch systems announce the end, asks for a checkpoint.
+    ///
+    /// # Errors
+    /// When the system does not take the handler.
+    pub fn listen_for_save(&self) -> io::Result<()> {
+        signal_hook::flag::register(SIGUSR1, Arc::clone(&self.save)).map(drop)
+    }
+
+    /// Whether a checkpoint was asked for since the last time.
+    pub fn save(&self) -> bool {
+        self.save.swap(false, Ordering::Relaxed)
     }
 
     /// The signal that came, if one did.
     pub fn signal(&self) -> Option<u8> {
-        u8::try_from(self.0.load(Ordering::Relaxed)).ok().filter(|signal| *signal != 0)
+        u8::try_from(self.signal.load(Ordering::Relaxed)).ok().filter(|signal| *signal != 0)
     }
 }

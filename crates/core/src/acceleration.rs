@@ -4,6 +4,8 @@
 //! the run with [`RATIO`] times its acceleration. The error of the contact area grows at most in proportion to m, so the
 //! run is nearer to m = 1 than to its scout, and [`Choice`] keeps m where the two differ by the tolerance.
 
+use serde::{Deserialize, Serialize};
+
 use crate::parameters::{Integrator, Parameters};
 
 /// Acceleration of the scout over that of the run: it costs a quarter of the run.
@@ -34,7 +36,7 @@ pub struct Adaptive {
 }
 
 /// The acceleration of a run, from what its contact area and that of its scout have differed by.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
     tolerance: f64,
     /// Largest acceleration for which the history has windows and the scout is stable.
@@ -108,7 +110,7 @@ impl Choice {
 }
 
 /// A mean in which what was added fades, over a time that is the unit of the weights.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct FadingMean {
     sum: f64,
     weight: f64,

@@ -63,6 +63,11 @@ impl Checkpoint {
         self.memory.course.steps
     }
 
+    /// When its steps end.
+    pub fn clock(&self) -> Clock {
+        self.memory.clock
+    }
+
     /// t, s.
     pub fn time(&self) -> f64 {
         self.memory.course.time

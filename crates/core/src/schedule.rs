@@ -46,6 +46,11 @@ impl Schedule {
         self.plan(self.clock.changed(step, step_time));
     }
 
+    /// Plans anew for a run that goes on and whose clock is this one.
+    pub fn go_on(&mut self, clock: Clock) {
+        self.plan(clock);
+    }
+
     fn plan(&mut self, clock: Clock) {
         self.clock = clock;
         self.last = match self.end {

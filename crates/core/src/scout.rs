@@ -2,7 +2,10 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::acceleration::{Adaptive, Choice, RATIO};
+use crate::checkpoint::Checkpoint;
 use crate::simulation::{Simulation, SimulationError};
 use crate::smoothness::Smoothness;
 
@@ -23,8 +26,18 @@ pub struct Scout {
     scout: Mark,
 }
 
+/// The complete state of a scout.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScoutCheckpoint {
+    simulation: Option<Checkpoint>,
+    choice: Choice,
+    idle: Option<Idle>,
+    run: Mark,
+    scout: Mark,
+}
+
 /// Why a run is not accelerated (any more).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Idle {
     /// No m above 1 is possible.
     Limited,
@@ -51,7 +64,7 @@ impl fmt::Display for Idle {
 }
 
 /// A moment of a simulation.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Mark {
     steps: u64,
     time: f64,
@@ -106,6 +119,30 @@ impl Scout {
         let end = self.scout.steps + revolution(simulation);
         simulation.pass_to(simulation.steps_done().saturating_add(steps).min(end))?;
         Ok(simulation.steps_done() == end)
+    }
+
+    /// The complete state, to go on from later.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn checkpoint(&mut self) -> Result<ScoutCheckpoint, SimulationError> {
+        let simulation = self.simulation.as_mut().map(Simulation::checkpoint).transpose()?;
+        let Self { choice, idle, run, scout, .. } = self;
+        Ok(ScoutCheckpoint { simulation, choice: choice.clone(), idle: *idle, run: *run, scout: *scout })
+    }
+
+    /// Goes on from a checkpoint of a scout for the same run.
+    ///
+    /// # Errors
+    /// As [`Simulation::restore`].
+    pub fn restore(&mut self, checkpoint: &ScoutCheckpoint) -> Result<(), SimulationError> {
+        match (&mut self.simulation, &checkpoint.simulation) {
+            (Some(simulation), Some(state)) => simulation.restore(state)?,
+            (simulation, _) => *simulation = None,
+        }
+        self.choice = checkpoint.choice.clone();
+        (self.idle, self.run, self.scout) = (checkpoint.idle, checkpoint.run, checkpoint.scout);
+        Ok(())
     }
 
     /// Compares the run with the scout, chooses the acceleration anew and changes that of both; whether it changed.

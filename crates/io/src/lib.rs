@@ -7,10 +7,12 @@
 //! | initial surfaces, measured or synthetic | [`surface`] |
 //! | the run file and its writer | [`run_file`] |
 //! | studies: many runs, their results | [`study`] |
+//! | what a stopped run goes on from | [`checkpoint`] |
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | HDF5 files of named results | [`dataset_file`] |
 //! | files that appear when they are complete | [`temporary`] |
 
+pub mod checkpoint;
 pub mod dataset_file;
 mod digest;
 pub mod export;

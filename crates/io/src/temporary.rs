@@ -17,8 +17,25 @@ impl Temporary {
     pub fn beside(target: &Path) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!(".plateau-{}-{number}.tmp", std::process::id());
+        let name = format!("{}{}-{number}.tmp", start_of_name(target), std::process::id());
         Self { path: target.with_file_name(name), target: target.to_owned() }
+    }
+
+    /// Removes what processes that were killed left beside a target. Those of living ones of this machine stay; where the
+    /// system does not tell who lives, all do.
+    pub fn remove_abandoned(target: &Path) {
+        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let (start, processes) = (start_of_name(target), Path::new("/proc"));
+        let Ok(entries) = fs::read_dir(folder).map(Iterator::flatten) else { return };
+        for entry in entries.filter(|_| processes.join("self").exists()) {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let process = name.strip_prefix(&start).and_then(|rest| rest.split_once('-')).map(|(process, _)| process);
+            let is_number = |process: &&str| !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit());
+            if process.filter(is_number).is_some_and(|process| !processes.join(process).exists()) {
+                // Somebody else may have been quicker.
+                let _ = fs::remove_file(entry.path());
+            }
+        }
     }
 
     /// Where the file is until it is published.
@@ -42,6 +59,11 @@ impl Temporary {
             Ok(()) => Ok(()),
         }
     }
+}
+
+/// How the names of the temporary files of a target begin.
+fn start_of_name(target: &Path) -> String {
+    format!(".{}.plateau-", target.file_name().unwrap_or_default().to_string_lossy())
 }
 
 impl Drop for Temporary {

@@ -60,6 +60,7 @@ fn scene() -> Scene {
         workers: Workers::Count(1),
         output: OutputRecipe {
             roughness: false,
+            checkpoint_every: 60.0,
             file: PathBuf::from("test.h5"),
             sample_every: SampleEvery::Steps(1),
             maps_at: Vec::new(),

@@ -8,19 +8,26 @@ use plateau_core::observe::{Extras, Sample, Snapshot};
 use plateau_core::scout::{Idle, Scout};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
-use plateau_io::run_file::{End, Header, InputFile, RunFileError, RunWriter, check_place, report_file_size_limit};
+use plateau_io::checkpoint::{self, RunState};
+use plateau_io::run_file::{
+    End, Header, InputFile, RunFile, RunFileError, RunWriter, State, check_place, report_file_size_limit,
+};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
+use plateau_io::temporary::Temporary;
 
 use super::load_scene;
-use crate::arguments::RunArguments;
+use crate::arguments::{RunArguments, SceneArguments};
 use crate::drive::{Sink, drive};
 use crate::execution::decide;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::job::Job;
+use crate::job::{Agreement, Job};
+use crate::keeper::{About, Keeper};
 use crate::message;
+use crate::number;
 use crate::progress::Progress;
+use crate::resume;
 use crate::stability;
 use crate::summary::Summary;
 use crate::table::print;
@@ -37,15 +44,15 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     // Where the system takes no handler, a run beyond the file size limit ends by a signal; no reason not to run.
     let _ = report_file_size_limit();
-    let scene = load_scene(&arguments.scene)?;
+    let scene = load_scene(&lengthened(arguments))?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
     if job.leads() {
-        check_place(&path, arguments.force).map_err(Failure::input)?;
+        check_place(&path, arguments.force || arguments.resumes()).map_err(Failure::input)?;
     }
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
-    let schedule = scene.schedule();
+    let mut schedule = scene.schedule();
     let Loaded { surfaces, inputs, report: surface_report } = loaded;
     let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
     let execution = execution.map_err(Failure::run)?;
@@ -56,15 +63,61 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
     )?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
-    let writer = job.leads().then(|| RunWriter::create(&path, arguments.force, &header)).transpose();
-    let writer = writer.map_err(create_failure)?;
+    interrupt.listen_for_save().map_err(Failure::run)?;
+    let about = About {
+        program: format!("{} {}", version::program(), version::REVISION),
+        scene: scene.resolved.clone(),
+        inputs,
+    };
+    let mut states = if arguments.resumes() { earlier(&path, &about, arguments)? } else { Vec::new() };
+    if states.first().is_some_and(|state| state.finished && arguments.extend_to.is_none()) {
+        message::note(format_args!("{} is finished; --extend-to TIME goes on beyond its end", path.display()));
+        return Ok(());
+    }
+    if job.leads() {
+        for target in [&path].into_iter().chain(&checkpoint::paths(&path)) {
+            Temporary::remove_abandoned(target);
+        }
+    }
+    let (writer, place) = if !job.leads() {
+        (None, 0)
+    } else if states.is_empty() {
+        // What is there is of another run.
+        checkpoint::remove(&path).map_err(Failure::run)?;
+        let replaces = arguments.force || arguments.resumes();
+        (Some(RunWriter::create(&path, replaces, &header).map_err(create_failure)?), 0)
+    } else {
+        let (writer, place) = resume::writer(&path, &header, &states)?;
+        (Some(writer), place)
+    };
+    // The first rank has seen which of the states holds.
+    let (place, _) = job.sum(place, 0)?;
+    let state = (!states.is_empty()).then(|| states.swap_remove(place));
+    if let Some(state) = &state {
+        simulation.restore(&state.run).map_err(Failure::run)?;
+        if let (Some(scout), Some(kept)) = (&mut scout, &state.scout) {
+            scout.restore(kept).map_err(Failure::run)?;
+        }
+        schedule.go_on(state.run.clock());
+        message::note(format_args!(
+            "goes on from step {}, t = {} s",
+            state.run.steps(),
+            number::short(state.run.time())
+        ));
+    }
+    let keeper = Keeper::new(&path, about, scene.output.checkpoint_every, state.as_ref());
 
     let start = Instant::now();
     let progress = Progress::new(schedule.end_time(), job.leads());
-    let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default() };
+    let agreement = Agreement::default();
+    let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default(), keeper, agreement };
     let result = drive(&mut simulation, scout.as_mut(), schedule, &scene.output, &mut recorder);
     recorder.progress.finish();
-    let Recorder { writer, last, .. } = recorder;
+    let Recorder { writer, last, mut keeper, .. } = recorder;
+    keeper.wait();
+    if result.is_ok() && keeper.keeps_the_end() && writer.is_none() {
+        keeper.keep(&mut simulation, scout.as_mut(), true, None).map_err(Failure::run)?;
+    }
     let Some(writer) = writer else {
         return result.map(drop).map_err(|failure| match failure {
             RunFailure::Stopped(signal) => Failure::Stopped { signal, message: None },
@@ -76,7 +129,9 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         Err(RunFailure::Stopped(signal)) => {
             let report = writer.finish(&End::Interrupted).map_err(Failure::run)?;
             let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
-            let message = format!("stopped by signal {signal} after {steps} steps; {file} holds {samples} samples");
+            let message = format!(
+                "stopped by signal {signal} after {steps} steps; {file} holds {samples} samples, --resume goes on from here"
+            );
             return Err(Failure::Stopped { signal, message: Some(message) });
         }
         Err(failure) => {
@@ -86,11 +141,41 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         }
     }
     let report = writer.finish(&End::Finished).map_err(Failure::run)?;
+    if keeper.keeps_the_end() {
+        keeper.keep(&mut simulation, scout.as_mut(), true, Some(Keeper::synced())).map_err(Failure::run)?;
+        keeper.wait();
+    }
     let summary =
         Summary::new(&scene, surface_report, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
     summary.warn();
     scout.as_ref().and_then(Scout::idle).into_iter().for_each(warn_of);
     if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
+}
+
+/// The command line with the duration that `--extend-to` gives.
+fn lengthened(arguments: &RunArguments) -> SceneArguments {
+    let mut scene = arguments.scene.clone();
+    scene.sets.extend(arguments.extend_to.iter().map(|time| format!("operation.duration={time}")));
+    scene
+}
+
+/// The states that a run can go on from; none, which is said, where it begins from the beginning.
+fn earlier(path: &Path, about: &About, arguments: &RunArguments) -> Result<Vec<RunState>, Failure> {
+    let states = resume::states(path, about, arguments.extend_to.is_some())?;
+    if !states.is_empty() {
+        return Ok(states);
+    }
+    if path.exists() && !arguments.force {
+        let there = RunFile::open(path).map_err(Failure::input)?;
+        if there.state() == State::Finished {
+            return Err(Failure::input(format_args!(
+                "{} is finished and has no checkpoint to go on from; --force makes the run again",
+                path.display()
+            )));
+        }
+    }
+    message::note("there is no checkpoint yet: begins from the beginning");
+    Ok(states)
 }
 
 /// What goes before a run that chooses its acceleration, where there is something to choose.
@@ -201,6 +286,9 @@ struct Recorder<'job> {
     interrupt: Interrupt,
     job: &'job mut Job,
     last: Sample,
+    keeper: Keeper,
+    /// What all processes settled last.
+    agreement: Agreement,
 }
 
 impl Sink for Recorder<'_> {
@@ -208,16 +296,31 @@ impl Sink for Recorder<'_> {
 
     fn sample(&mut self, sample: Sample) -> Result<(), RunFailure> {
         self.last = sample;
+        self.keeper.sampled();
         self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample)).map_err(RunFailure::RunFile)
     }
 
     fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), RunFailure> {
+        self.keeper.mapped();
         self.writer.as_mut().map_or(Ok(()), |writer| writer.snapshot(snapshot)).map_err(RunFailure::RunFile)
     }
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, RunFailure> {
         self.progress.show(simulation);
-        let (signal, steps) = self.job.agree(self.interrupt.signal(), steps).map_err(RunFailure::Comm)?;
-        signal.map_or(Ok(steps), |signal| Err(RunFailure::Stopped(signal)))
+        let save = self.interrupt.save() || (self.writer.is_some() && self.keeper.is_due());
+        let own = Agreement { signal: self.interrupt.signal(), save: save || self.agreement.save, steps };
+        self.agreement = self.job.agree(own).map_err(RunFailure::Comm)?;
+        Ok(self.agreement.steps)
+    }
+
+    fn rest(&mut self, simulation: &mut Simulation, scout: Option<&mut Scout>) -> Result<(), RunFailure> {
+        let Agreement { signal, save, .. } = self.agreement;
+        if save || signal.is_some() {
+            self.agreement.save = false;
+            self.keeper.keep(simulation, scout, false, self.writer.as_ref().map(RunWriter::sync))?;
+        }
+        let Some(signal) = signal else { return Ok(()) };
+        self.keeper.wait();
+        Err(RunFailure::Stopped(signal))
     }
 }

@@ -5,8 +5,8 @@ use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 
-use super::Went;
 use super::share::Hand;
+use super::{Agreement, Went};
 use crate::failure::Failure;
 
 /// This process, which runs its scene on its own. See the module `ranks` for what the functions are for.
@@ -35,8 +35,8 @@ impl Job {
         Simulation::with_execution(parameters, surfaces, execution)
     }
 
-    pub fn agree(&mut self, signal: Option<u8>, steps: u64) -> Result<(Option<u8>, u64), CommError> {
-        Ok((signal, steps))
+    pub fn agree(&mut self, own: Agreement) -> Result<Agreement, CommError> {
+        Ok(own)
     }
 
     pub fn compare(&mut self, _text: &str) -> Result<(), Failure> {

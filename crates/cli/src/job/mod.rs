@@ -13,6 +13,17 @@ pub use alone::Job;
 #[cfg(feature = "mpi")]
 pub use ranks::Job;
 
+/// What the processes of a job settle between steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Agreement {
+    /// The signal that asks the run to stop, if there was one.
+    pub signal: Option<u8>,
+    /// Whether the state is to be kept.
+    pub save: bool,
+    /// Steps before the next agreement.
+    pub steps: u64,
+}
+
 /// How a piece of shared work went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Went {

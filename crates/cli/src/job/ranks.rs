@@ -9,8 +9,8 @@ use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 
-use super::Went;
 use super::share::Hand;
+use super::{Agreement, Went};
 use crate::failure::Failure;
 use crate::message;
 
@@ -59,17 +59,20 @@ impl Job {
         Simulation::on_ranks(parameters, surfaces, execution.instructions, self.session.communicator())
     }
 
-    /// Whether any rank was asked to stop, and by which signal; and how many steps to take before the next agreement.
-    /// Clocks differ, so the number is that of the first rank, and all ranks get the same answer.
-    pub fn agree(&mut self, signal: Option<u8>, steps: u64) -> Result<(Option<u8>, u64), CommError> {
-        let (mut largest, mut first) = (0, steps);
-        self.meeting.all_gather(&[signal.unwrap_or(0).into(), steps], &mut |rank, words| {
+    /// What all ranks do alike: they stop and save if any was asked to, and take as many steps as the first, for clocks
+    /// differ.
+    pub fn agree(&mut self, own: Agreement) -> Result<Agreement, CommError> {
+        let (mut largest, mut save, mut first) = (0, false, own.steps);
+        let words = [own.signal.unwrap_or(0).into(), own.steps, own.save.into()];
+        self.meeting.all_gather(&words, &mut |rank, words| {
             largest = largest.max(words[0]);
+            save |= words[2] == 1;
             if rank == 0 {
                 first = words[1];
             }
         })?;
-        Ok((u8::try_from(largest).ok().filter(|signal| *signal != 0), first))
+        let signal = u8::try_from(largest).ok().filter(|signal| *signal != 0);
+        Ok(Agreement { signal, save, steps: first })
     }
 
     /// Makes sure that all ranks are about to do the same, which `text` describes.

@@ -1,4 +1,17 @@
-//! How a run ended.
+//! How a run ended, and what there was of it when it was stopped before.
+
+use std::time::Duration;
+
+/// What a run file holds of a run that goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Earlier {
+    /// Samples.
+    pub samples: usize,
+    /// Moments of which there are maps.
+    pub snapshots: usize,
+    /// Wall time of the run so far.
+    pub wall_time: Duration,
+}
 
 /// How a run ended: the `state` of its run file.
 #[derive(Debug, Clone, PartialEq, Eq)]

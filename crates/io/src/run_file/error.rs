@@ -71,6 +71,14 @@ pub enum RunFileError {
         /// What the HDF5 library or the system said.
         reason: String,
     },
+    /// The file of a run that was stopped cannot be gone on with; it is as it was.
+    #[error("cannot go on with {}: {reason}", path.display())]
+    Earlier {
+        /// The run file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Writing failed; what was written before can be read (h5py: `swmr=True`).
     #[error(
         "writing {} failed: {reason}; samples that were complete can still be read (h5py: swmr=True); \

@@ -29,7 +29,7 @@ mod status;
 mod store;
 mod writer;
 
-pub use end::End;
+pub use end::{Earlier, End};
 pub use error::RunFileError;
 pub use header::{Header, InputFile};
 pub(crate) use layout::{map_path, map_unit};

@@ -15,7 +15,7 @@ use super::dimension::EMPTY_FILE;
 use super::layout::{self, MAP_TIME, TIME};
 use super::place::Place;
 use super::status::StoredStatus;
-use super::{End, Header, RunFileError};
+use super::{Earlier, End, Header, ReadError, RunFile, RunFileError};
 use crate::timestamp::iso_8601;
 
 /// Chunk cache of a dataset: slots, bytes, and 1 for "a chunk that is full goes first".
@@ -64,6 +64,59 @@ impl Store {
         })?;
         let path = place.publish()?;
         Ok(Self { identity: identity(&path), path, started, file, datasets })
+    }
+
+    /// Makes the file anew with the first samples and maps of the one that is there, of a run that was stopped, and takes
+    /// its place.
+    pub(super) fn resume(path: &Path, header: &Header, earlier: Earlier) -> Result<Self, RunFileError> {
+        header.check()?;
+        let started = Instant::now().checked_sub(earlier.wall_time).unwrap_or_else(Instant::now);
+        let place = Place::claim(path, true, EMPTY_FILE)?;
+        let unreadable = |error: ReadError| RunFileError::Earlier { path: path.into(), reason: error.to_string() };
+        let old = RunFile::open(path).map_err(unreadable)?;
+        let there = [old.time().len(), old.map_time().len()];
+        if there[0] < earlier.samples || there[1] < earlier.snapshots {
+            let reason = format!(
+                "it holds {} samples and {} maps, expected {} and {}",
+                there[0], there[1], earlier.samples, earlier.snapshots
+            );
+            return Err(RunFileError::Earlier { path: path.into(), reason });
+        }
+        let failed = |error: hdf5::Error| RunFileError::SetUp { path: path.into(), reason: reason(&error.to_string()) };
+        let set_up = || {
+            let file = open(place.temporary())?;
+            layout::lay_out(&file, header, old.start_time().unwrap_or_else(SystemTime::now))?;
+            file.start_swmr()?;
+            let datasets = Datasets::open(&file, header)?;
+            Ok((file, datasets))
+        };
+        let (file, mut datasets) = set_up().map_err(failed)?;
+        let mut columns = Vec::new();
+        for (quantity, _) in &datasets.series {
+            let values = old.values(quantity.name).map_err(unreadable)?;
+            let missing =
+                || RunFileError::Earlier { path: path.into(), reason: format!("it has no {}", quantity.name) };
+            columns.push(values.ok_or_else(missing)?);
+        }
+        datasets.append_columns(&file, earlier.samples, &columns, old.time()).map_err(failed)?;
+        for level in 0..earlier.snapshots {
+            let maps = header.maps.iter().map(|map| {
+                let missing = || RunFileError::Map { name: map.name() };
+                Ok((*map, old.map(*map, level).map_err(unreadable)?.ok_or_else(missing)?))
+            });
+            let snapshot = Snapshot { time: old.map_time()[level], maps: maps.collect::<Result<_, _>>()? };
+            datasets.append_snapshot(&file, &snapshot).map_err(failed)?;
+        }
+        drop(old);
+        let path = place.publish()?;
+        Ok(Self { identity: identity(&path), path, started, file, datasets })
+    }
+
+    /// Hands all that was appended to the disk.
+    pub(super) fn sync(&self) -> Result<(), RunFileError> {
+        self.file.flush().map_err(failed(&self.path))?;
+        let synced = fs::File::open(&self.path).and_then(|file| file.sync_all());
+        synced.map_err(|error| RunFileError::Write { path: self.path.clone(), reason: error.to_string() })
     }
 
     /// Appends samples and makes them visible to readers.
@@ -153,6 +206,18 @@ impl Datasets {
         append(&self.time, &|sample| sample.time)?;
         file.flush()?;
         self.samples = new;
+        Ok(())
+    }
+
+    /// The first samples of another file, one column for each series.
+    fn append_columns(&mut self, file: &File, count: usize, columns: &[Vec<f64>], time: &[f64]) -> hdf5::Result<()> {
+        let all = self.series.iter().map(|(_, dataset)| dataset).zip(columns.iter().map(Vec::as_slice));
+        for (dataset, values) in all.chain([(&self.time, time)]) {
+            dataset.resize(count)?;
+            dataset.write_slice(&values[..count], s![..count])?;
+        }
+        file.flush()?;
+        self.samples = count;
         Ok(())
     }
 

@@ -9,7 +9,7 @@ use plateau_core::mesh::Mesh;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
 use super::store::Store;
-use super::{End, Header, RunFileError};
+use super::{Earlier, End, Header, RunFileError};
 
 /// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
 const QUEUED_SAMPLES: usize = 16 * 1024;
@@ -52,6 +52,7 @@ pub struct WriterReport {
 struct Queues {
     samples: Sender<Sample>,
     snapshots: Sender<Snapshot>,
+    syncs: Sender<Sender<()>>,
 }
 
 impl RunWriter {
@@ -64,20 +65,44 @@ impl RunWriter {
     /// [`RunFileError`] when the path cannot be written, when something is there already, or when the header does not
     /// fit its mesh. Nothing is left behind.
     pub fn create(path: &Path, overwrite: bool, header: &Header) -> Result<Self, RunFileError> {
-        let store = Store::create(path, overwrite, header)?;
+        Self::start(path, header, Store::create(path, overwrite, header)?)
+    }
+
+    fn start(path: &Path, header: &Header, store: Store) -> Result<Self, RunFileError> {
         let (sample_sender, samples) = channel::bounded(QUEUED_SAMPLES);
         let (snapshot_sender, snapshots) = channel::bounded(QUEUED_SNAPSHOTS);
-        let thread = thread::Builder::new().name("run file".into()).spawn(move || write(store, &samples, &snapshots));
+        let (sync_sender, syncs) = channel::bounded(1);
+        let thread =
+            thread::Builder::new().name("run file".into()).spawn(move || write(store, &samples, &snapshots, &syncs));
         let thread =
             thread.map_err(|error| RunFileError::Write { path: path.into(), reason: format!("no thread: {error}") })?;
         Ok(Self {
             mesh: header.mesh.clone(),
             maps: header.maps.clone(),
-            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender }),
+            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender, syncs: sync_sender }),
             thread: Some(thread),
             failure: None,
             waited: Duration::ZERO,
         })
+    }
+
+    /// Goes on with the run file at `path`, of a run that was stopped: what is in it beyond `earlier` is done once more.
+    ///
+    /// # Errors
+    /// [`RunFileError`] when the file cannot be read, holds less than that, or cannot be written anew; it is then as it was.
+    pub fn resume(path: &Path, header: &Header, earlier: Earlier) -> Result<Self, RunFileError> {
+        Self::start(path, header, Store::resume(path, header, earlier)?)
+    }
+
+    /// Asks for all that was sent so far to be handed to the disk. An answer comes when it is there; none comes when it
+    /// cannot be, which the next call tells.
+    pub fn sync(&self) -> Receiver<()> {
+        let (answer, answers) = channel::bounded(1);
+        if let Some(queues) = &self.queues {
+            // Nobody receives any more where the writer has failed.
+            let _ = queues.syncs.send(answer);
+        }
+        answers
     }
 
     /// Sends a sample; readers see it within a second. Waits only when the queue is full.
@@ -179,8 +204,13 @@ fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
 }
 
 /// Body of the thread: appends what arrives until both queues are closed and empty.
-fn write(mut store: Store, samples: &Receiver<Sample>, snapshots: &Receiver<Snapshot>) -> Result<Store, RunFileError> {
-    match append_all(&mut store, samples, snapshots) {
+fn write(
+    mut store: Store,
+    samples: &Receiver<Sample>,
+    snapshots: &Receiver<Snapshot>,
+    syncs: &Receiver<Sender<()>>,
+) -> Result<Store, RunFileError> {
+    match append_all(&mut store, samples, snapshots, syncs) {
         Ok(()) => Ok(store),
         Err(error) => {
             store.abandon();
@@ -193,6 +223,7 @@ fn append_all(
     store: &mut Store,
     samples: &Receiver<Sample>,
     snapshots: &Receiver<Snapshot>,
+    syncs: &Receiver<Sender<()>>,
 ) -> Result<(), RunFileError> {
     let mut batch: Vec<Sample> = Vec::new();
     let mut due = channel::never();
@@ -211,6 +242,19 @@ fn append_all(
             recv(snapshots) -> snapshot => {
                 let Ok(snapshot) = snapshot else { break };
                 store.append_snapshot(&snapshot)?;
+            }
+            recv(syncs) -> answer => {
+                let Ok(answer) = answer else { break };
+                batch.extend(samples.try_iter());
+                for snapshot in snapshots.try_iter() {
+                    store.append_snapshot(&snapshot)?;
+                }
+                store.append_samples(&batch)?;
+                batch.clear();
+                due = channel::never();
+                // Who asked may have given up.
+                store.sync()?;
+                let _ = answer.send(());
             }
             recv(due) -> _ => {
                 store.append_samples(&batch)?;

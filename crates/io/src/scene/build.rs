@@ -17,7 +17,7 @@ use super::interpret::Setting;
 use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
 use super::schema::{ROTATIONS, join};
 use super::settings::Settings;
-use super::{later, memory, resolved};
+use super::{memory, resolved};
 use crate::surface::ReadOptions;
 
 /// A number, or a table with how the run chooses it.
@@ -28,7 +28,6 @@ const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 /// Makes the scene; `files` are the scene file and those it extends.
 pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
-    later::warn(&settings, &mut warnings);
     let adaptive = adaptive(&settings)?;
     let parameters = parameters(&settings)?;
     let duration = settings.optional_number("operation.duration")?;
@@ -346,7 +345,9 @@ fn output(
     settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
     let file = PathBuf::from(settings.text("output.file")?);
     let roughness = settings.bool("output.roughness")?;
-    Ok(OutputRecipe { file, sample_every, maps_at: map_times(settings, parameters, warnings), maps, roughness })
+    let checkpoint_every = settings.number("output.checkpoint_every")?;
+    let maps_at = map_times(settings, parameters, warnings);
+    Ok(OutputRecipe { file, sample_every, maps_at, maps, roughness, checkpoint_every })
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.

@@ -12,7 +12,6 @@ mod difference;
 mod document;
 mod error;
 mod interpret;
-mod later;
 mod layers;
 mod memory;
 pub mod recipe;

@@ -139,4 +139,6 @@ pub struct OutputRecipe {
     pub maps: Vec<Map>,
     /// Whether the roughness of disc and pin is written with every sample.
     pub roughness: bool,
+    /// Wall time between two checkpoints, s.
+    pub checkpoint_every: f64,
 }

@@ -15,7 +15,7 @@ use crate::arguments::SweepRunArguments;
 use crate::execution::cores;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::job::{Job, Went};
+use crate::job::{Agreement, Job, Went};
 use crate::sweep::make::{Stopped, Watcher, make};
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
@@ -96,7 +96,8 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     if job.leads() {
         summary.print(arguments, if job.ranks() > 1 { job.ranks() } else { jobs })?;
     }
-    let (signal, _) = job.agree(floor.interrupt.signal(), 0).map_err(Failure::run)?;
+    let own = Agreement { signal: floor.interrupt.signal(), ..Agreement::default() };
+    let signal = job.agree(own).map_err(Failure::run)?.signal;
     if let Some(signal) = signal {
         let message =
             || format!("stopped by signal {signal}; {} runs are left, the same command goes on", summary.left);

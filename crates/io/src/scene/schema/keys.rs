@@ -186,8 +186,8 @@ pub(super) fn all() -> Vec<Key> {
     table.key(
         "checkpoint_every",
         time(Range::POSITIVE),
-        Optional,
-        "wall time between checkpoints; not yet in this version, which warns",
+        Default("\"60 s\""),
+        "wall time between two checkpoints, from which a run that was stopped or killed goes on",
     );
     table.keys
 }

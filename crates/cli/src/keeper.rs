@@ -1,0 +1,141 @@
+//! Keeps the state of a run, so that it can be gone on with after it was stopped or killed.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use crossbeam::channel::Receiver;
+use plateau_core::scout::Scout;
+use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_io::checkpoint::{self, RunState};
+
+use crate::message;
+
+/// What a checkpoint says of its run.
+#[derive(Debug, Clone)]
+pub struct About {
+    /// Name, version and revision of the program.
+    pub program: String,
+    /// The whole resolved scene.
+    pub scene: String,
+    /// The surface files with their digests.
+    pub inputs: Vec<(PathBuf, String)>,
+}
+
+/// Writes checkpoints beside a run file, one at a time, while the run goes on.
+#[derive(Debug)]
+pub struct Keeper {
+    run_file: PathBuf,
+    about: About,
+    every: Duration,
+    /// When the last one was begun.
+    last: Instant,
+    start: Instant,
+    /// Wall time of the run before this process.
+    earlier: f64,
+    /// Whether any was written, now or before.
+    any: bool,
+    /// What is sent to the run file.
+    sent: [usize; 2],
+    writing: Option<JoinHandle<io::Result<()>>>,
+}
+
+impl Keeper {
+    /// For a run that begins, or that goes on from a state.
+    pub fn new(run_file: &Path, about: About, every: f64, earlier: Option<&RunState>) -> Self {
+        let now = Instant::now();
+        Self {
+            run_file: run_file.to_owned(),
+            about,
+            every: Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX),
+            last: now,
+            start: now,
+            earlier: earlier.map_or(0.0, |state| state.wall_time),
+            any: earlier.is_some(),
+            sent: earlier.map_or([0, 0], |state| [state.samples, state.snapshots]),
+            writing: None,
+        }
+    }
+
+    /// A sample was sent to the run file.
+    pub fn sampled(&mut self) {
+        self.sent[0] += 1;
+    }
+
+    /// Maps were sent to the run file.
+    pub fn mapped(&mut self) {
+        self.sent[1] += 1;
+    }
+
+    /// Whether it is time for a checkpoint.
+    pub fn is_due(&self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    /// Whether a run that ends now leaves a checkpoint: one that took less than the time between two is soon done again.
+    pub fn keeps_the_end(&self) -> bool {
+        self.any || self.is_due()
+    }
+
+    /// Takes the state of a run between two steps, and writes it as soon as what was sent to the run file is on the disk,
+    /// which `synced` tells. All processes of a job must call this together; those that write nothing give no `synced`.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn keep(
+        &mut self,
+        simulation: &mut Simulation,
+        scout: Option<&mut Scout>,
+        finished: bool,
+        synced: Option<Receiver<()>>,
+    ) -> Result<(), SimulationError> {
+        (self.last, self.any) = (Instant::now(), true);
+        let run = simulation.checkpoint()?;
+        let scout = scout.map(Scout::checkpoint).transpose()?;
+        let Some(synced) = synced else { return Ok(()) };
+        let About { program, scene, inputs } = self.about.clone();
+        let state = RunState {
+            program,
+            scene,
+            inputs,
+            samples: self.sent[0],
+            snapshots: self.sent[1],
+            wall_time: self.earlier + self.start.elapsed().as_secs_f64(),
+            finished,
+            run,
+            scout,
+        };
+        self.wait();
+        let run_file = self.run_file.clone();
+        let write = move || {
+            // Without an answer the run file is not complete; its writer says why.
+            if synced.recv().is_ok() { checkpoint::write(&run_file, &state) } else { Ok(()) }
+        };
+        self.writing = std::thread::Builder::new().name("checkpoint".into()).spawn(write).map_err(warn).ok();
+        Ok(())
+    }
+
+    /// For a run file that is complete on the disk.
+    pub fn synced() -> Receiver<()> {
+        let (answer, answers) = crossbeam::channel::bounded(1);
+        // There is room for it.
+        let _ = answer.send(());
+        answers
+    }
+
+    /// Waits until the checkpoint that is being written is on the disk; says so if it cannot be.
+    pub fn wait(&mut self) {
+        match self.writing.take().map(JoinHandle::join) {
+            Some(Ok(Err(error))) => warn(error),
+            Some(Err(_)) => warn(io::Error::other("its thread panicked")),
+            Some(Ok(Ok(()))) | None => {}
+        }
+    }
+}
+
+fn warn(error: io::Error) {
+    message::warning(format_args!(
+        "cannot write a checkpoint: {error}; the run goes on, the last checkpoint still holds"
+    ));
+}

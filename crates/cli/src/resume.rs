@@ -1,0 +1,105 @@
+//! What a run goes on from: the newest checkpoint that holds and whose run file has what it says.
+
+use std::path::Path;
+
+use plateau_io::checkpoint::{self, CheckpointError, RunState};
+use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
+use plateau_io::scene::differences;
+
+use crate::failure::Failure;
+use crate::keeper::About;
+use crate::message;
+
+/// Keys that may differ, for they do not show in the steps, or only in how many there are.
+const FREE: [&str; 4] = ["title", "numerics.workers", "output.file", "output.checkpoint_every"];
+/// Keys that say how long the run is, or depend on that.
+const LENGTH: [&str; 3] = ["operation.duration", "operation.steps", "output.maps_at"];
+
+/// The states to go on from, the newest first; none if there is no checkpoint.
+///
+/// # Errors
+/// [`Failure::Input`] when there are some, but none of them holds or they are of another run.
+pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunState>, Failure> {
+    let (mut states, mut trouble) = (Vec::new(), Vec::new());
+    for path in checkpoint::paths(run_file) {
+        match checkpoint::read(&path) {
+            Ok(state) => states.extend(state),
+            Err(error @ (CheckpointError::Damaged { .. } | CheckpointError::Read { .. })) => {
+                message::warning(&error);
+                trouble.push(error.to_string());
+            }
+        }
+    }
+    if states.is_empty() && !trouble.is_empty() {
+        return Err(Failure::input(format_args!(
+            "{}; without --resume, --force begins again from the beginning",
+            trouble.join("; ")
+        )));
+    }
+    for state in &states {
+        compare(run_file, state, about, extends)?;
+    }
+    Ok(states)
+}
+
+/// Refuses a state of another run.
+fn compare(run_file: &Path, state: &RunState, about: &About, extends: bool) -> Result<(), Failure> {
+    let refuse = |what: String| {
+        Err(Failure::input(format_args!(
+            "{} cannot be resumed: {what}; undo that, or begin again without --resume",
+            run_file.display()
+        )))
+    };
+    if state.program != about.program {
+        return refuse(format!("it was begun by {}, this is {}", state.program, about.program));
+    }
+    let now = about.scene.parse().unwrap_or_default();
+    let differences = differences(&state.scene, &now);
+    let free = |key: &str| FREE.contains(&key) || (extends && LENGTH.contains(&key));
+    let keys: Vec<String> = differences
+        .into_iter()
+        .filter(|difference| !free(&difference.key))
+        .map(|difference| {
+            let value = |value: Option<String>| value.unwrap_or_else(|| "nothing".into());
+            format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
+        })
+        .collect();
+    if !keys.is_empty() {
+        return refuse(format!("the scene differs: {}", keys.join(", ")));
+    }
+    let changed: Vec<String> = about
+        .inputs
+        .iter()
+        .zip(&state.inputs)
+        .filter(|((_, now), (_, then))| now != then)
+        .map(|((path, _), _)| path.display().to_string())
+        .collect();
+    if changed.is_empty() && about.inputs.len() == state.inputs.len() {
+        return Ok(());
+    }
+    refuse(format!("files that it reads have changed: {}", changed.join(", ")))
+}
+
+/// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.
+///
+/// # Errors
+/// [`Failure::Input`] when it has it of none.
+pub fn writer(path: &Path, header: &Header, states: &[RunState]) -> Result<(RunWriter, usize), Failure> {
+    let mut refusals = Vec::new();
+    for (place, state) in states.iter().enumerate() {
+        let earlier = Earlier {
+            samples: state.samples,
+            snapshots: state.snapshots,
+            wall_time: std::time::Duration::try_from_secs_f64(state.wall_time).unwrap_or_default(),
+        };
+        match RunWriter::resume(path, header, earlier) {
+            Ok(writer) => return Ok((writer, place)),
+            Err(error @ RunFileError::Earlier { .. }) => {
+                message::warning(format_args!("{error}; the checkpoint of step {} is passed over", state.run.steps()));
+                refusals.push(error.to_string());
+            }
+            Err(error) => return Err(Failure::run(error)),
+        }
+    }
+    Err(Failure::input(format_args!("{}; begin again without --resume", refusals.join("; "))))
+}

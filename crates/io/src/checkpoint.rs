@@ -1,0 +1,153 @@
+//! Checkpoints on disk: what a run that was stopped or killed goes on from.
+//!
+//! A run file `run.h5` has two beside it, `run.h5.checkpoint` and the one before, `run.h5.checkpoint-before`. A new one is
+//! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
+//!
+//! ```text
+//! magic    16 bytes: "plateau state 1\n"
+//! length   8 bytes: of what follows but for the digest, the least first
+//! content  the state, in the encoding of the crate postcard 1
+//! digest   32 bytes: SHA-256 of the content
+//! ```
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+use plateau_core::checkpoint::Checkpoint;
+use plateau_core::scout::ScoutCheckpoint;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use thiserror::Error;
+
+use crate::temporary::Temporary;
+
+/// How every checkpoint begins.
+const MAGIC: &[u8; 16] = b"plateau state 1\n";
+/// No mesh that fits into memory needs more, bytes.
+const LARGEST: u64 = 1 << 40;
+
+/// All that a run needs to go on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunState {
+    /// Name and version of the program, and the revision of its source.
+    pub program: String,
+    /// The whole resolved scene.
+    pub scene: String,
+    /// The surface files that were read, with their SHA-256.
+    pub inputs: Vec<(PathBuf, String)>,
+    /// Samples in the run file that belong to the steps done.
+    pub samples: usize,
+    /// Moments of which there are maps.
+    pub snapshots: usize,
+    /// Wall time so far, s.
+    pub wall_time: f64,
+    /// Whether all steps are done.
+    pub finished: bool,
+    /// The simulation.
+    pub run: Checkpoint,
+    /// What goes before it, where the run chooses its acceleration.
+    pub scout: Option<ScoutCheckpoint>,
+}
+
+/// Why there is no checkpoint to go on from.
+#[derive(Debug, Error)]
+pub enum CheckpointError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {error}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// It is damaged, or something else.
+    #[error("{} is no complete checkpoint: {reason}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// How it shows.
+        reason: &'static str,
+    },
+}
+
+/// Where the checkpoints of a run file are: the last, and the one before.
+pub fn paths(run_file: &Path) -> [PathBuf; 2] {
+    ["checkpoint", "checkpoint-before"].map(|ending| {
+        let mut name = run_file.file_name().unwrap_or_default().to_owned();
+        name.push(".");
+        name.push(ending);
+        run_file.with_file_name(name)
+    })
+}
+
+/// Writes the state beside its run file. When this returns, it is on the disk under its name.
+///
+/// # Errors
+/// What the system says; the checkpoints that were there before still are.
+pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
+    let [last, before] = paths(run_file);
+    let content = postcard::to_stdvec(state).map_err(io::Error::other)?;
+    let temporary = Temporary::beside(&last);
+    let mut file = File::create(temporary.path())?;
+    file.write_all(MAGIC)?;
+    file.write_all(&(content.len() as u64).to_le_bytes())?;
+    file.write_all(&content)?;
+    file.write_all(&Sha256::digest(&content))?;
+    file.sync_all()?;
+    match fs::rename(&last, &before) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    temporary.publish(true)?;
+    let folder = last.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    File::open(folder)?.sync_all()
+}
+
+/// Reads a checkpoint; none if there is no such file.
+///
+/// # Errors
+/// [`CheckpointError`].
+pub fn read(path: &Path) -> Result<Option<RunState>, CheckpointError> {
+    let mut file = match File::open(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,
+    };
+    let damaged = |reason| CheckpointError::Damaged { path: path.into(), reason };
+    let failed = |error: io::Error| match error.kind() {
+        ErrorKind::UnexpectedEof => damaged("it ends too early"),
+        _ => CheckpointError::Read { path: path.into(), error },
+    };
+    let (mut magic, mut length, mut digest) = ([0; 16], [0; 8], [0; 32]);
+    file.read_exact(&mut magic).map_err(failed)?;
+    if &magic != MAGIC {
+        return Err(damaged("it does not begin like one of this version"));
+    }
+    file.read_exact(&mut length).map_err(failed)?;
+    let length = u64::from_le_bytes(length);
+    let there = file.metadata().map_err(failed)?.len();
+    if length > LARGEST || there != 16 + 8 + length + 32 {
+        return Err(damaged("its length is not what it says"));
+    }
+    let mut content = vec![0; length as usize];
+    file.read_exact(&mut content).map_err(failed)?;
+    file.read_exact(&mut digest).map_err(failed)?;
+    if Sha256::digest(&content).as_slice() != digest {
+        return Err(damaged("its digest does not hold"));
+    }
+    postcard::from_bytes(&content).map(Some).map_err(|_| damaged("it holds something else"))
+}
+
+/// Removes the checkpoints of a run file, for a new run takes its place.
+///
+/// # Errors
+/// What the system says.
+pub fn remove(run_file: &Path) -> io::Result<()> {
+    for path in paths(run_file) {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+    }
+    Ok(())
+}

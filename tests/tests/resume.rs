@@ -1,0 +1,159 @@
+//! Runs that are stopped, killed and gone on with end as if nothing had happened.
+
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
+use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::scenes::Stream;
+
+/// A run of some seconds with many samples, some maps and a checkpoint every few hundredths of a second.
+fn arguments(file: &str, more: &[&str]) -> Vec<String> {
+    let sets = [
+        "operation.duration=150 s",
+        "numerics.time_acceleration=1",
+        "output.sample_every=0.05 s",
+        "output.maps_at=[\"0 s\", \"30 s\", \"100 s\", \"149.99 s\"]",
+        "output.checkpoint_every=0.03 s",
+    ];
+    let mut arguments = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).to_vec();
+    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+    arguments.extend(more.iter().map(|word| (*word).to_owned()));
+    arguments
+}
+
+fn run(directory: &WorkingDirectory, file: &str, more: &[&str]) -> Outcome {
+    directory.plateau(arguments(file, more))
+}
+
+/// Starts a run and kills it at some moment after the state of the run before has changed.
+fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stream) {
+    let state = || fs::metadata(directory.path("run.h5.checkpoint")).and_then(|file| file.modified()).ok();
+    let before = state();
+    let mut command = directory.command(arguments("run.h5", more));
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    wait_until(|| state() != before);
+    thread::sleep(Duration::from_secs_f64(0.06 * random.uniform()));
+    kill(child);
+}
+
+#[test]
+fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
+    let directory = WorkingDirectory::new();
+    assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
+    let whole = RunFile::open(directory.path("whole.h5")).content();
+    let mut random = Stream(8);
+    for kills in 0..12 {
+        let workers = ["1", "2", "3"][kills % 3];
+        start_and_kill(&directory, &["--resume", "--workers", workers], &mut random);
+        // Whatever the moment, there is a file with whole samples in it.
+        let there = RunFile::follow(directory.path("run.h5")).unwrap();
+        let samples = there.shape("/time")[0];
+        assert!(there.shape("/series/contact_area")[0] >= samples);
+    }
+    let last = run(&directory, "run.h5", &["--resume"]);
+    assert_eq!(last.status, Some(0), "{last:?}");
+    assert!(last.stderr.contains("goes on from step "), "{}", last.stderr);
+    assert_eq!(differences(&whole, &RunFile::open(directory.path("run.h5")).content()), [""; 0]);
+    assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "finished");
+    let kept = ["run.h5", "run.h5.checkpoint", "run.h5.checkpoint-before"];
+    assert_eq!(directory.names().into_iter().filter(|name| name.contains("run.h5")).collect::<Vec<_>>(), kept);
+    // Once more changes nothing.
+    let again = run(&directory, "run.h5", &["--resume"]);
+    assert_eq!(again.status, Some(0));
+    assert!(again.stderr.contains("is finished"), "{}", again.stderr);
+}
+
+#[test]
+fn a_run_that_chooses_its_acceleration_goes_on_too() {
+    let directory = WorkingDirectory::new();
+    let chosen =
+        ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }", "--set", "operation.duration=2000 s"];
+    assert_eq!(run(&directory, "whole.h5", &chosen).status, Some(0));
+    let mut random = Stream(9);
+    for _ in 0..4 {
+        start_and_kill(&directory, &[&chosen[..], &["--resume"]].concat(), &mut random);
+    }
+    assert_eq!(run(&directory, "run.h5", &[&chosen[..], &["--resume"]].concat()).status, Some(0));
+    let content = |name| RunFile::open(directory.path(name)).content();
+    assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);
+}
+
+#[test]
+fn signals_leave_a_checkpoint_of_the_moment() {
+    let directory = WorkingDirectory::new();
+    let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=600 s"];
+    assert_eq!(run(&directory, "whole.h5", &rarely).status, Some(0));
+    assert_eq!(directory.names(), ["whole.h5"], "a run that is soon done again needs no checkpoint");
+    for (signal, status) in [("USR1", None), ("INT", Some(130)), ("TERM", Some(143))] {
+        let file = directory.path("run.h5");
+        let made = || fs::metadata(&file).map_or(0, |file| file.ino());
+        let earlier = made();
+        let mut command = directory.command(arguments("run.h5", &[&rarely[..], &["--resume"]].concat()));
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let state = || fs::metadata(directory.path("run.h5.checkpoint")).and_then(|file| file.modified()).ok();
+        let before = state();
+        // From then on it listens.
+        assert!(wait_until(|| made() != earlier), "no run file");
+        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+        assert!(sent.success() && wait_until(|| state() != before), "no checkpoint after {signal}");
+        match status {
+            None => kill(child),
+            Some(status) => assert_eq!(child.wait().unwrap().code(), Some(status)),
+        }
+    }
+    assert_eq!(run(&directory, "run.h5", &[&rarely[..], &["--resume"]].concat()).status, Some(0));
+    let content = |name| RunFile::open(directory.path(name)).content();
+    assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);
+}
+
+#[test]
+fn what_cannot_be_gone_on_with_is_refused_and_stays() {
+    let directory = WorkingDirectory::new();
+    let mut random = Stream(10);
+    start_and_kill(&directory, &["--resume"], &mut random);
+    let before = directory.content();
+    let other = run(&directory, "run.h5", &["--resume", "--set", "operation.normal_force=7 N"]);
+    assert_eq!(other.status, Some(2));
+    assert!(other.stderr.contains("operation.normal_force was \"5 N\", is \"7 N\""), "{}", other.stderr);
+    assert!(directory.content() == before);
+
+    // A flipped bit in the newest: the one before holds.
+    let [newest, older] = ["run.h5.checkpoint", "run.h5.checkpoint-before"].map(|name| directory.path(name));
+    fs::copy(&newest, &older).unwrap();
+    let mut bytes = fs::read(&newest).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&newest, &bytes).unwrap();
+    let resumed = run(&directory, "run.h5", &["--resume"]);
+    assert_eq!(resumed.status, Some(0), "{resumed:?}");
+    assert!(resumed.stderr.contains("its digest does not hold") && resumed.stderr.contains("goes on from step"));
+
+    // Neither holds.
+    for path in [&newest, &older] {
+        fs::write(path, &bytes[..middle]).unwrap();
+    }
+    let refused = run(&directory, "run.h5", &["--resume"]);
+    assert_eq!(refused.status, Some(2));
+    assert!(refused.stderr.contains("--force begins again"), "{}", refused.stderr);
+    assert_eq!(run(&directory, "run.h5", &["--force"]).status, Some(0));
+}
+
+#[test]
+fn a_finished_run_goes_on_beyond_its_end() {
+    let directory = WorkingDirectory::new();
+    assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=50 s"]).status, Some(0));
+    let longer = run(&directory, "run.h5", &["--set", "operation.duration=50 s", "--extend-to", "150 s"]);
+    assert_eq!(longer.status, Some(0), "{longer:?}");
+    assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
+    let [longer, whole] = ["run.h5", "whole.h5"].map(|name| RunFile::open(directory.path(name)));
+    // 50 s is a multiple of the samples' time, so there is none more.
+    for series in ["contact_area", "pool", "filled_fraction"] {
+        let of = |run: &RunFile| run.floats(&format!("/series/{series}"));
+        assert_eq!(of(&longer), of(&whole), "{series}");
+    }
+    assert_eq!(longer.last_map("/disc/height"), whole.last_map("/disc/height"));
+}
