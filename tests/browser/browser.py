@@ -117,6 +117,17 @@ class Browser:
         down, up = ({"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp"))
         self._mouse([down, self._move((start[0] + stop) / 2, start[1]), self._move(stop, start[1]), up])
 
+    def drag_down(self, selector, begin, end):
+        """Drags the mouse along an element, from one part of its height to another."""
+        x, start = self.hover(selector, 0.5, begin)
+        height = self.run("document.querySelector(arguments[0]).getBoundingClientRect().height", selector)
+        down, up = ({"type": kind, "button": 0} for kind in ("pointerDown", "pointerUp"))
+        self._mouse([down, self._move(x, start + (end - begin) * height), up])
+
+    def move(self, x, y):
+        """Moves the mouse to a place of the window."""
+        self._mouse([self._move(x, y)])
+
     @staticmethod
     def _move(x, y):
         return {"type": "pointerMove", "x": round(x), "y": round(y), "duration": 20}

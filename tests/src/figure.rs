@@ -102,20 +102,47 @@ impl Figure {
 
     /// The axes of a box that has numbers below and beside it.
     pub fn panel(&self, frame: Frame) -> Panel {
-        let ([left, right], [top, bottom]) = (frame.x, frame.y);
-        let along = |place: f64, ends: [f64; 2]| place >= ends[0] - 2.0 && place <= ends[1] + 2.0;
+        Panel { frame, x: self.x_axis(frame), y: self.y_axis(frame) }
+    }
+
+    /// The axis below a box that has numbers there.
+    pub fn x_axis(&self, frame: Frame) -> Axis {
+        let bottom = frame.y[1];
         let below = self.texts.iter().filter(|text| {
             let [x, y] = text.place;
-            text.anchor == "middle" && along(x, [left, right]) && along(y, [bottom, bottom + 30.0])
+            text.anchor == "middle" && along(x, frame.x) && along(y, [bottom, bottom + 30.0])
         });
+        let numbers: Vec<(f64, f64)> = below.filter_map(|text| Some((text.place[0], value(&text.text)?))).collect();
+        Axis::of(&numbers)
+    }
+
+    /// The axis beside a box that has numbers there.
+    pub fn y_axis(&self, frame: Frame) -> Axis {
+        let left = frame.x[0];
         let beside = self.texts.iter().filter(|text| {
             let [x, y] = text.place;
-            text.anchor == "end" && along(x, [left - 40.0, left]) && along(y - 4.0, [top, bottom])
+            text.anchor == "end" && along(x, [left - 40.0, left]) && along(y - 4.0, frame.y)
         });
-        let x: Vec<(f64, f64)> = below.filter_map(|text| Some((text.place[0], value(&text.text)?))).collect();
         // Numbers stand a little lower than their ticks.
-        let y: Vec<(f64, f64)> = beside.filter_map(|text| Some((text.place[1] - 4.0, value(&text.text)?))).collect();
-        Panel { frame, x: Axis::of(&x), y: Axis::of(&y) }
+        let numbers: Vec<(f64, f64)> =
+            beside.filter_map(|text| Some((text.place[1] - 4.0, value(&text.text)?))).collect();
+        Axis::of(&numbers)
+    }
+
+    /// The middles of the dots of a colour that lie in a box, from the left.
+    pub fn dots(&self, colour: &str, frame: Frame) -> Vec<[f64; 2]> {
+        let dots = self.areas.iter().filter(|(other, corners)| other == colour && corners.len() > 12);
+        let middle = |(_, corners): &(String, Vec<[f64; 2]>)| {
+            [0, 1].map(|at| {
+                let ends = corners.iter().map(|corner| corner[at]);
+                let low = ends.clone().fold(f64::INFINITY, f64::min);
+                0.5 * (low + ends.fold(f64::NEG_INFINITY, f64::max))
+            })
+        };
+        let mut middles: Vec<[f64; 2]> =
+            dots.map(middle).filter(|[x, y]| along(*x, frame.x) && along(*y, frame.y)).collect();
+        middles.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        middles
     }
 
     /// The scale of a colour bar, by the numbers on its right.
@@ -167,6 +194,11 @@ impl Axis {
         let part = (value - self.values[0]) / (self.values[1] - self.values[0]);
         self.places[0] + part * (self.places[1] - self.places[0])
     }
+}
+
+/// Whether a place lies between two others, or hardly beyond.
+fn along(place: f64, ends: [f64; 2]) -> bool {
+    place >= ends[0] - 2.0 && place <= ends[1] + 2.0
 }
 
 /// The number that a text is.

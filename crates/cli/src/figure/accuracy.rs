@@ -4,10 +4,10 @@ use std::ops::RangeInclusive;
 
 use plotters::style::RGBColor;
 
-use super::axes::{Axis, Frame};
-use super::canvas::{Anchor, LINE, Place, TEXT};
+use super::axes::Axis;
+use super::canvas::{Anchor, LINE, TEXT};
 use super::colour::{APART, FAINT, RUNS};
-use super::font::text_width;
+use super::labels::Labels;
 use super::page::{Content, KeyStyle, Page};
 use super::run::Figure;
 use super::run::chart::{COLUMN, Chart, Meaning, page};
@@ -18,8 +18,6 @@ use crate::arguments::Ladder;
 const HEIGHT: f64 = 860.0;
 /// Room between the largest value and the end of an axis, as a ratio.
 const ROOM: f64 = 1.6;
-/// Half the side of a dot, pixels, with a little room round it.
-const DOT: f64 = 10.0;
 
 /// A ladder's colour.
 fn colour(ladder: Ladder) -> RGBColor {
@@ -71,8 +69,8 @@ pub fn figure(report: &Report) -> Figure {
     let mut page = page(COLUMN, HEIGHT, 1, vec![chart], &meanings);
     label(&mut page, &shown);
     Figure {
-        name: "accuracy",
-        title: "Error against run time",
+        name: "accuracy".to_owned(),
+        title: "Error against run time".to_owned(),
         caption:
             "Error of the mean contact areas over equal windows of physical time, against the wall time of the run."
                 .to_owned(),
@@ -108,8 +106,7 @@ fn label(page: &mut Page, rows: &[&Row]) {
         let [x, y] = point(row);
         axes.place_within(x, y)
     };
-    let dot = |row: &&Row| around(place(row), [2.0 * DOT, 2.0 * DOT]);
-    let mut taken: Vec<Frame> = rows.iter().map(dot).collect();
+    let mut labels = Labels::new(axes.frame, rows.iter().map(|row| place(row)));
     let mut waiting: Vec<&&Row> = rows.iter().collect();
     waiting.sort_by_key(|row| !row.on_front);
     for row in waiting {
@@ -119,33 +116,10 @@ fn label(page: &mut Page, rows: &[&Row]) {
             Ladder::Mesh => format!("{}\u{d7} coarser", row.rung.value()),
             _ => continue,
         };
-        let size = [text_width(&text, TEXT), f64::from(TEXT)];
-        let (x, y) = place(row);
-        let [beside, above] = [0.5 * size[0] + DOT + 6.0, 0.5 * size[1] + DOT];
-        let middles = [(beside, -above), (beside, above), (-beside, above), (-beside, -above)];
-        let frames = middles.map(|(right, down)| around((x + right, y + down), size));
-        let free = frames
-            .into_iter()
-            .find(|frame| is_within(frame, &axes.frame) && !taken.iter().any(|other| overlap(frame, other)));
-        if let Some(frame) = free {
-            page.write(text, (frame.x[0], 0.5 * (frame.y[0] + frame.y[1])), Anchor::Right, TEXT);
-            taken.push(frame);
+        if let Some(begin) = labels.beside(&text, place(row)) {
+            page.write(text, begin, Anchor::Right, TEXT);
         }
     }
-}
-
-fn around((x, y): Place, [width, height]: [f64; 2]) -> Frame {
-    Frame { x: [x - 0.5 * width, x + 0.5 * width], y: [y - 0.5 * height, y + 0.5 * height] }
-}
-
-fn overlap(one: &Frame, other: &Frame) -> bool {
-    let meet = |one: [f64; 2], other: [f64; 2]| one[0] < other[1] && other[0] < one[1];
-    meet(one.x, other.x) && meet(one.y, other.y)
-}
-
-fn is_within(frame: &Frame, whole: &Frame) -> bool {
-    let inside = |part: [f64; 2], whole: [f64; 2]| whole[0] <= part[0] && part[1] <= whole[1];
-    inside(frame.x, whole.x) && inside(frame.y, whole.y)
 }
 
 /// A range with room round positive values; where there are none, any.

@@ -65,17 +65,24 @@ pub struct Axis {
     pub numbered: bool,
     /// How values lie along it.
     pub scale: Scale,
+    /// Places that have a tick and what it says, where that is not round numbers: levels, or names.
+    pub marks: Option<Vec<(f64, String)>>,
 }
 
 impl Axis {
     /// An axis with numbers and equal differences.
     pub fn linear(range: RangeInclusive<f64>, label: impl Into<String>) -> Self {
-        Self { range, label: label.into(), numbered: true, scale: Scale::Linear }
+        Self { range, label: label.into(), numbered: true, scale: Scale::Linear, marks: None }
     }
 
     /// An axis with numbers and equal ratios.
     pub fn logarithmic(range: RangeInclusive<f64>, label: impl Into<String>) -> Self {
         Self { scale: Scale::Logarithmic, ..Self::linear(range, label) }
+    }
+
+    /// An axis whose ticks are at given places and say given things.
+    pub fn marked(range: RangeInclusive<f64>, label: impl Into<String>, marks: Vec<(f64, String)>) -> Self {
+        Self { marks: Some(marks), ..Self::linear(range, label) }
     }
 
     /// The same without numbers and label, which a neighbour has.
@@ -92,11 +99,12 @@ impl Axis {
         }
     }
 
-    /// Places of ticks and what they say, at most `most` of them.
+    /// Places of ticks and what they say: those that are given, else at most `most` of them.
     pub fn ticks(&self, most: usize) -> Vec<(f64, String)> {
-        match self.scale {
-            Scale::Linear => ticks(&self.range, most),
-            Scale::Logarithmic => logarithmic_ticks(&self.range, most),
+        match (&self.marks, self.scale) {
+            (Some(marks), _) => marks.clone(),
+            (None, Scale::Linear) => ticks(&self.range, most),
+            (None, Scale::Logarithmic) => logarithmic_ticks(&self.range, most),
         }
     }
 

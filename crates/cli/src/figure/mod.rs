@@ -13,7 +13,10 @@
 //! | curves with no more places than there is to see | [`simplify`] |
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface`] |
+//! | labels beside points | [`labels`] |
+//! | lines of equal value | [`contour`] |
 //! | the figures of runs | [`run`] |
+//! | the figures of studies | [`effects`] |
 //! | error against run time | [`accuracy`] |
 
 pub mod accuracy;
@@ -21,9 +24,12 @@ mod axes;
 mod canvas;
 mod colour;
 mod colour_bar;
+mod contour;
+pub mod effects;
 mod font;
 mod format;
 mod histogram;
+mod labels;
 mod page;
 mod picture;
 mod raster;

@@ -1,10 +1,13 @@
 //! A page as plain data: what is plotted where, before any of it is drawn.
 
+use std::f64::consts::PI;
+
 use plotters::prelude::DrawingBackend;
 use plotters::style::RGBColor;
 
 use super::axes::{Axes, Frame};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
+use super::colour::GROUND;
 use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
@@ -58,6 +61,19 @@ pub enum KeyStyle {
     Line,
     /// An area.
     Area,
+    /// A mark.
+    Mark(Mark),
+}
+
+/// A mark at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// A dot.
+    Dot,
+    /// A dot with a white rim, to be seen on a map.
+    Rimmed,
+    /// An upright cross with a white rim.
+    Cross,
 }
 
 /// A box with axes and what is in it.
@@ -89,6 +105,15 @@ pub enum Content {
         colour: RGBColor,
         /// Whether one sees through it.
         opacity: f64,
+    },
+    /// Marks at points.
+    Marks {
+        /// The points.
+        points: Vec<[f64; 2]>,
+        /// Their colour.
+        colour: RGBColor,
+        /// What each looks like.
+        mark: Mark,
     },
     /// A map that fills the box.
     Map(Picture),
@@ -128,6 +153,7 @@ impl Key {
                 canvas.line(&[(self.frame.x[0], middle), (self.frame.x[1], middle)], self.colour, LINE + 2)
             }
             KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
+            KeyStyle::Mark(mark) => mark.draw(canvas, (0.5 * (self.frame.x[0] + self.frame.x[1]), middle), self.colour),
         }
     }
 }
@@ -148,10 +174,47 @@ impl Panel {
                     let upper = spans.iter().rev().map(|[x, _, high]| self.axes.place_within(*x, *high));
                     canvas.tint(&lower.chain(upper).collect::<Vec<_>>(), *colour, *opacity)?;
                 }
+                Content::Marks { points, colour, mark } => {
+                    let places = points.iter().map(|[x, y]| self.axes.place_within(*x, *y));
+                    places.into_iter().try_for_each(|place| mark.draw(canvas, place, *colour))?;
+                }
                 Content::Map(_) => {}
             }
         }
         self.axes.draw(canvas)
+    }
+}
+
+impl Mark {
+    /// Radius of dots and half the length of crosses, pixels.
+    const RADIUS: f64 = 11.0;
+    /// Width of the white rim, pixels.
+    const RIM: f64 = 4.0;
+
+    fn draw<B: DrawingBackend>(self, canvas: &Canvas<B>, (x, y): Place, colour: RGBColor) -> Result<(), FigureError> {
+        let disc = |radius: f64, colour| {
+            let corner = |part: i32| {
+                let (sine, cosine) = (f64::from(part) * PI / 12.0).sin_cos();
+                (x + radius * cosine, y + radius * sine)
+            };
+            canvas.area(&(0..24).map(corner).collect::<Vec<_>>(), colour)
+        };
+        let cross = |long: f64, half: f64, colour| {
+            let bar = |wide: f64, high: f64| Frame { x: [x - wide, x + wide], y: [y - high, y + high] };
+            canvas.area(&bar(long, half).corners(), colour)?;
+            canvas.area(&bar(half, long).corners(), colour)
+        };
+        match self {
+            Self::Dot => disc(Self::RADIUS, colour),
+            Self::Rimmed => {
+                disc(Self::RADIUS + Self::RIM, GROUND)?;
+                disc(Self::RADIUS, colour)
+            }
+            Self::Cross => {
+                cross(2.0 * Self::RADIUS + Self::RIM, 5.0 + Self::RIM, GROUND)?;
+                cross(2.0 * Self::RADIUS, 5.0, colour)
+            }
+        }
     }
 }
 

@@ -53,17 +53,22 @@ fn power_label(digit: i32, power: i32) -> String {
         0..=4 => format!("{}", i64::from(digit) * 10_i64.pow(power as u32)),
         -3..=-1 => format!("{:.*}", power.unsigned_abs() as usize, f64::from(digit) * 10_f64.powi(power)),
         _ => {
-            let raised = |letter: char| match letter {
-                '-' => '\u{207b}',
-                '1' => '\u{b9}',
-                '2' => '\u{b2}',
-                '3' => '\u{b3}',
-                digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-            };
-            let exponent: String = power.to_string().chars().map(raised).collect();
+            let exponent = raised(power);
             if digit == 1 { format!("10{exponent}") } else { format!("{digit}\u{b7}10{exponent}") }
         }
     }
+}
+
+/// An integer as an exponent.
+pub fn raised(power: i32) -> String {
+    let letter = |letter: char| match letter {
+        '-' => '\u{207b}',
+        '1' => '\u{b9}',
+        '2' => '\u{b2}',
+        '3' => '\u{b3}',
+        digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    };
+    power.to_string().chars().map(letter).collect()
 }
 
 #[cfg(test)]

@@ -28,8 +28,17 @@ pub fn json_in_script(json: &str) -> String {
 ///
 /// `heads` are those of all columns, the first included; every row has as many cells.
 pub fn table(caption: &str, heads: &[String], rows: &[Vec<String>]) -> String {
+    table_of("scroll", caption, heads, rows)
+}
+
+/// The same for numbers: columns are as wide as they need to be, and numbers stand to the right.
+pub fn number_table(caption: &str, heads: &[String], rows: &[Vec<String>]) -> String {
+    table_of("scroll numbers", caption, heads, rows)
+}
+
+fn table_of(class: &str, caption: &str, heads: &[String], rows: &[Vec<String>]) -> String {
     let mut text = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\"><table>\n<thead><tr>",
+        "<div class=\"{class}\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\"><table>\n<thead><tr>",
         caption = escape(caption)
     );
     for head in heads {
@@ -48,6 +57,12 @@ pub fn table(caption: &str, heads: &[String], rows: &[Vec<String>]) -> String {
     }
     text.push_str("</tbody></table></div>\n");
     text
+}
+
+/// Names and what they mean, as a list.
+pub fn terms(terms: &[(&str, String)]) -> String {
+    let term = |(name, text): &(&str, String)| format!("<dt>{}</dt><dd>{}</dd>\n", escape(name), escape(text));
+    format!("<dl>\n{}</dl>\n", terms.iter().map(term).collect::<String>())
 }
 
 /// A list of texts.

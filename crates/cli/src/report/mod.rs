@@ -1,11 +1,13 @@
-//! One self-contained HTML page about one run or several: `plateau report`.
+//! Self-contained HTML pages: about one run or several (`plateau report`), about a study (`plateau sweep effects`).
 //!
-//! The page is made of a template and of parts that are written here; scripts on the page draw its charts and maps from
-//! one JSON document in it, so it needs no network and nothing beside it.
+//! A page is made of a template and of parts that are written here; scripts on the page draw what is to be played with
+//! from one JSON document in it, so it needs no network and nothing beside it.
 //!
 //! | what | where |
 //! |---|---|
-//! | the template with its parts filled in | [`mod@page`], [`section`], [`template`] |
+//! | what all pages have in common: the template with its parts filled in | [`layout`], [`section`], [`template`] |
+//! | the page about runs | [`mod@page`] |
+//! | the page about a study | [`effects`] |
 //! | text as HTML, tables | [`html`] |
 //! | units in which people read a quantity | [`mod@unit`] |
 //! | a series with its last and largest value, thinned | [`recorded`], [`thin`] |
@@ -20,7 +22,9 @@
 mod coarsen;
 mod comparison;
 mod document;
+mod effects;
 mod html;
+mod layout;
 mod maps;
 mod outcome;
 mod pack;
@@ -36,5 +40,6 @@ mod template;
 mod thin;
 mod unit;
 
+pub use effects::{StudyPage, page as effects_page};
 pub use page::page;
-pub use picture::Pictures;
+pub use picture::{Picture, Pictures};

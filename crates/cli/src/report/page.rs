@@ -4,11 +4,11 @@ use plateau_io::run_file::{ReadError, RunFile, State};
 
 use super::document::Document;
 use super::html;
+use super::layout::{AROUND, Layout};
 use super::outcome::{self, Measure, UNKNOWN, readable};
 use super::picture::Pictures;
 use super::recorded::{MOST_POINTS, Recorded, recorded};
 use super::section::Section;
-use super::template::fill;
 use super::{comparison, provenance, scene};
 use crate::label::labels;
 use crate::{number, version};
@@ -16,8 +16,7 @@ use crate::{number, version};
 /// Bytes of a page, as far as maps can be reduced to meet it.
 const MOST_BYTES: usize = 4_900_000;
 
-const TEMPLATE: &str = include_str!("assets/page.html");
-const STYLE: &str = concat!(include_str!("../../assets/uplot/uPlot.min.css"), include_str!("assets/style.css"));
+const STYLE: &str = include_str!("../../assets/uplot/uPlot.min.css");
 /// Scripts, each after those that it uses.
 const SCRIPT: &str = concat!(
     "/*\n",
@@ -40,7 +39,7 @@ pub fn page(runs: &[RunFile], pictures: &Pictures) -> Result<String, ReadError> 
     let measures: Vec<_> = series.iter().map(|series| outcome::measures(series)).collect();
     let mut document = Document::new(runs, &labels, &series, &pictures.pictures);
     let parts = Parts { runs, labels: &labels, series: &series, measures: &measures };
-    let around = TEMPLATE.len() + STYLE.len() + SCRIPT.len() + parts.provenance().len() + 20_000 * (1 + runs.len());
+    let around = AROUND + STYLE.len() + SCRIPT.len() + parts.provenance().len() + 20_000 * (1 + runs.len());
     document.add_maps(runs, MOST_BYTES.saturating_sub(around))?;
     let has_samples = runs.iter().any(|run| !run.time().is_empty());
     let has_maps = document.runs.iter().any(|run| !run.maps.is_empty());
@@ -62,22 +61,17 @@ pub fn page(runs: &[RunFile], pictures: &Pictures) -> Result<String, ReadError> 
             html::list(&[parts.contents(&document), pictures.left_out.clone()].concat()),
         ),
     ];
-    let present = || sections.iter().filter(|section| !section.is_empty());
-    let json = html::json_in_script(&document.to_json());
-    let page = fill(
-        TEMPLATE,
-        &[
-            ("title", &html::escape(&parts.title())),
-            ("subtitle", &html::escape(&parts.subtitle())),
-            ("notices", &parts.notices()),
-            ("links", &present().map(Section::link).collect::<String>()),
-            ("sections", &present().map(Section::html).collect::<String>()),
-            ("style", STYLE),
-            ("data", &json),
-            ("script", SCRIPT),
-        ],
-    );
-    Ok(page)
+    let page = Layout {
+        title: &parts.title(),
+        subtitle: &parts.subtitle(),
+        notices: &parts.notices(),
+        without_scripts: "Charts, maps and figures need JavaScript; tables and scenes do not.",
+        sections: &sections,
+        style: STYLE,
+        data: &document.to_json(),
+        script: SCRIPT,
+    };
+    Ok(page.html())
 }
 
 const CHARTS: &str = "<p class=\"hint\">Drag over a chart to zoom, double-click to see all. With the keyboard: arrow keys move \
@@ -108,12 +102,11 @@ impl Parts<'_> {
     }
 
     /// What deserves attention before the numbers.
-    fn notices(&self) -> String {
+    fn notices(&self) -> Vec<String> {
         let unfinished = self.runs.iter().zip(self.labels).filter(|(run, _)| run.state() != State::Finished);
         let notice = |(run, label): (&RunFile, &String)| {
             let samples = if run.time().is_empty() { " It has no samples." } else { "" };
-            let text = format!("{label} is not finished: its state is {}.{samples}", run.state().name());
-            format!("<p class=\"notice\">{}</p>\n", html::escape(&text))
+            format!("{label} is not finished: its state is {}.{samples}", run.state().name())
         };
         unfinished.map(notice).collect()
     }

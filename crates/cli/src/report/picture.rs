@@ -31,7 +31,7 @@ impl Pictures {
     pub fn draw(figures: &Figures) -> Result<Self, Failure> {
         let picture = |figure: &Figure| {
             let svg = figure.svg().map_err(Failure::run)?;
-            Ok(Picture { name: figure.name.to_owned(), caption: figure.caption.clone(), svg })
+            Ok(Picture { name: figure.name.clone(), caption: figure.caption.clone(), svg })
         };
         let pictures = figures.figures.iter().map(picture).collect::<Result<_, Failure>>()?;
         Ok(Self { pictures, left_out: figures.left_out.iter().map(|reason| format!("Figures: {reason}.")).collect() })

@@ -6,12 +6,12 @@ use super::html;
 
 /// A folded part of the page about one run.
 pub fn fold(label: &str, run: &RunFile) -> String {
-    let terms: String = terms(run).into_iter().map(|(name, text)| term(name, &text)).collect();
     let scene = run.attribute("scene").unwrap_or_default();
     format!(
-        "<details><summary>{}</summary>\n<dl>\n{terms}</dl>\n<h4>Resolved scene</h4>\n\
+        "<details><summary>{}</summary>\n{}<h4>Resolved scene</h4>\n\
          <pre tabindex=\"0\" aria-label=\"Resolved scene\">{}</pre>\n</details>\n",
         html::escape(label),
+        html::terms(&terms(run)),
         html::escape(&scene)
     )
 }
@@ -46,10 +46,6 @@ fn inputs(json: &str) -> String {
     let lines = serde_json::from_str::<Vec<serde_json::Value>>(json).ok();
     let lines = lines.and_then(|inputs| inputs.iter().map(line).collect::<Option<Vec<_>>>());
     lines.map_or_else(|| json.to_owned(), |lines| lines.join("\n"))
-}
-
-fn term(name: &str, text: &str) -> String {
-    format!("<dt>{}</dt><dd>{}</dd>\n", html::escape(name), html::escape(text))
 }
 
 #[cfg(test)]

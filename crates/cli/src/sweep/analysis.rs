@@ -6,6 +6,8 @@ use plateau_io::study::factor::{Factor, Level, Values};
 use plateau_study::design::Setting;
 use plateau_study::effects::{self, Effects, EffectsError, FactorKind, Observation, Options, analyse};
 
+use super::reading::Reading;
+
 /// Values of a table of one's own up to which a factor has levels; with more it has a range.
 const MOST_LEVELS: usize = 10;
 
@@ -28,8 +30,8 @@ pub struct AnalysedFactor {
     pub factor: effects::Factor,
     /// Labels of its levels; empty for ranges.
     pub labels: Vec<String>,
-    /// SI unit of its values; empty for words, `1` for plain numbers.
-    pub unit: &'static str,
+    /// The unit in which the study states it.
+    pub reading: Reading,
 }
 
 /// A response.
@@ -89,10 +91,17 @@ fn levels(collected: &Collected, factor: usize) -> Vec<Level> {
 }
 
 fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
+    let stated: Vec<&Level> = match &factor.values {
+        // One end may be zero, which is so in any unit.
+        Values::Range { low, high, .. } => vec![high, low],
+        Values::Levels(levels) => levels.iter().chain(found).collect(),
+    };
+    let logarithmic = matches!(factor.values, Values::Range { logarithmic: true, .. });
+    let reading = Reading::of(stated, logarithmic);
     let range = |name: String, low: f64, high: f64| AnalysedFactor {
         factor: effects::Factor { name, kind: FactorKind::Range { low, high } },
         labels: Vec::new(),
-        unit: factor.unit(),
+        reading: reading.clone(),
     };
     let numbers = |levels: &[Level]| levels.iter().map(|level| level.number).collect::<Option<Vec<f64>>>();
     let listed = match &factor.values {
@@ -120,8 +129,7 @@ fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
         None => FactorKind::Categorical(listed.iter().map(|level| level.label.clone()).collect()),
     };
     let labels = listed.iter().map(|level| level.label.clone()).collect();
-    let unit = if matches!(kind, FactorKind::Categorical(_)) { "" } else { factor.unit() };
-    AnalysedFactor { factor: effects::Factor { name: factor.name.clone(), kind }, labels, unit }
+    AnalysedFactor { factor: effects::Factor { name: factor.name.clone(), kind }, labels, reading }
 }
 
 /// Where a level lies along a factor.

@@ -5,14 +5,20 @@
 //! | the scenes of all runs, resolved | [`resolved`] |
 //! | what they will cost | [`estimate`] |
 //! | what their results tell of the factors | [`analysis`] |
+//! | which effects cannot be told from each other | [`aliases`] |
+//! | the unit in which a factor is read | [`reading`] |
+//! | how well a model fits, in a line | [`quality`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | all of them, several at a time | [`crate::job::Job::share`] |
 //! | how far they are | [`progress`] |
 
+pub mod aliases;
 pub mod analysis;
 pub mod estimate;
 pub mod make;
 pub mod progress;
+pub mod quality;
+pub mod reading;
 pub mod resolved;
 
 use std::path::{Path, PathBuf};

@@ -46,6 +46,20 @@ pub(super) fn t_quantile(both_tails: f64, freedom: f64) -> f64 {
     quantile
 }
 
+/// The value that F exceeds with the given probability.
+pub(super) fn f_quantile(tail: f64, numerator: f64, denominator: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    while f_tail(high, numerator, denominator) > tail && high < 1e300 {
+        (low, high) = (high, 2.0 * high);
+    }
+    // Each step halves the interval: 60 leave nothing but rounding.
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if f_tail(middle, numerator, denominator) > tail { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
 /// The value that half-normal deviates lie below with the given probability.
 pub(super) fn half_normal_quantile(probability: f64) -> f64 {
     Normal::standard().inverse_cdf(0.5 + 0.5 * probability)
@@ -60,6 +74,16 @@ mod tests {
     }
 
     // Expected numbers: qt, qnorm and pf of R 4.2.2.
+
+    #[test]
+    fn quantiles_of_f() {
+        // Of one degree of freedom those of t, squared; of two with n: n/2 · (p^(−2/n) − 1), as the tail is a power.
+        for freedom in [1.0, 2.0, 5.0, 30.0, 1000.0] {
+            same(f_quantile(0.05, 1.0, freedom), t_quantile(0.05, freedom).powi(2), "F of 1");
+            let expected = 0.5 * freedom * (0.01_f64.powf(-2.0 / freedom) - 1.0);
+            same(f_quantile(0.01, 2.0, freedom), expected, "F of 2");
+        }
+    }
 
     #[test]
     fn quantiles_of_t() {

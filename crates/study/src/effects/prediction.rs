@@ -13,6 +13,20 @@ impl Effects {
     pub fn predict(&self, settings: &[Setting]) -> Result<Prediction, EffectsError> {
         Ok(self.inner.predict(&self.inner.regressors.row(settings, None)?))
     }
+
+    /// The response where some factors, by index, have these settings: averaged over the levels of all others and over
+    /// blocks, with their numbers at the middle of the range.
+    ///
+    /// # Errors
+    /// If there is no such factor, a setting does not fit its factor, or a level was never observed.
+    pub fn predict_at(&self, given: &[(usize, Setting)]) -> Result<Prediction, EffectsError> {
+        let mut settings = vec![None; self.inner.factors.len()];
+        for (factor, setting) in given {
+            let found = EffectsError::Settings { found: factor + 1, expected: settings.len() };
+            *settings.get_mut(*factor).ok_or(found)? = Some(*setting);
+        }
+        Ok(self.inner.predict(&self.inner.regressors.row_at(&settings)?))
+    }
 }
 
 impl Inner {
@@ -27,5 +41,34 @@ impl Inner {
     /// The confidence interval of a value with this standard error.
     pub fn interval(&self, value: f64, standard_error: Option<f64>) -> Option<[f64; 2]> {
         standard_error.map(|error| [value - self.quantile * error, value + self.quantile * error])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::design::Setting;
+    use crate::effects::{Factor, FactorKind, Observation, Options, analyse};
+
+    #[test]
+    fn factors_that_are_not_given_are_averaged_over() {
+        // By hand: y = 10 + 2·x, more by 0, 3 or 6 at the three levels; their mean is 3.
+        let factors = [
+            Factor { name: "x".into(), kind: FactorKind::Range { low: 0.0, high: 1.0 } },
+            Factor { name: "c".into(), kind: FactorKind::Categorical(["a", "b", "c"].map(String::from).to_vec()) },
+        ];
+        let point = |(coded, level): (f64, usize)| Observation {
+            settings: vec![Setting::Coded(coded), Setting::Level(level)],
+            replicate: 0,
+            response: 10.0 + 2.0 * coded + 3.0 * level as f64 + if level == 2 { 0.5 * coded } else { 0.0 },
+        };
+        let points = [(-1.0, 0), (1.0, 0), (-1.0, 1), (1.0, 1), (-1.0, 2), (1.0, 2)];
+        let effects = analyse(&factors, &points.map(point), &Options::default()).unwrap();
+        let at = |given: &[(usize, Setting)]| effects.predict_at(given).unwrap().value;
+        assert!((at(&[]) - 13.0).abs() < 1e-12);
+        assert!((at(&[(0, Setting::Coded(1.0))]) - (15.0 + 0.5 / 3.0)).abs() < 1e-12);
+        assert!((at(&[(1, Setting::Level(2))]) - 16.0).abs() < 1e-12);
+        let all = [Setting::Coded(0.3), Setting::Level(2)];
+        assert_eq!(at(&[(0, all[0]), (1, all[1])]), effects.predict(&all).unwrap().value);
+        assert!(effects.predict_at(&[(2, all[0])]).is_err());
     }
 }

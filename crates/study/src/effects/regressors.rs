@@ -152,6 +152,16 @@ impl Regressors {
         Ok(self.products(&self.all_numbers(settings, true)?, block))
     }
 
+    /// The row at settings of some factors. The others are at the mean of their levels, where all contrasts are zero, or
+    /// at the middle of their range.
+    pub fn row_at(&self, settings: &[Option<Setting>]) -> Result<Vec<f64>, EffectsError> {
+        let numbers = settings.iter().enumerate().map(|(factor, setting)| match setting {
+            Some(setting) => self.numbers(factor, *setting),
+            None => Ok(vec![0.0; self.codings[factor].width()]),
+        });
+        Ok(self.products(&numbers.collect::<Result<Vec<_>, _>>()?, None))
+    }
+
     /// The row with the numeric factors as 1: what the coefficients of their products are multiplied with at the
     /// categories of `settings`.
     pub fn row_of_categories(&self, settings: &[Setting]) -> Result<Vec<f64>, EffectsError> {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::distribution::f_quantile;
 use super::factor::Factor;
 use super::fit::Fit;
 use super::lenth::{Lenth, half_normal_quantiles};
@@ -252,6 +253,21 @@ impl Effects {
         sizes.sort_by(|a, b| a.1.total_cmp(&b.1));
         let quantiles = half_normal_quantiles(sizes.len());
         sizes.iter().zip(quantiles).map(|(&(term, size), quantile)| HalfNormal { term, size, quantile }).collect()
+    }
+
+    /// The F beyond which a term of so many degrees of freedom is significant at the confidence level; none without an
+    /// error.
+    pub fn critical_f(&self, freedom: usize) -> Option<f64> {
+        self.residual_standard_deviation?;
+        let error = self.residual.squares.freedom;
+        (freedom > 0).then(|| f_quantile(1.0 - self.confidence, freedom as f64, error as f64))
+    }
+
+    /// Whether a term stands out at the confidence level: by its test, or by the margin of error of Lenth's method. None
+    /// where neither is there.
+    pub fn is_significant(&self, term: &Term) -> Option<bool> {
+        let by_test = term.test.map(|test| test.p < 1.0 - self.confidence);
+        by_test.or_else(|| Some(term.estimate?.effect.abs() > self.lenth?.margin))
     }
 
     /// All rows of the table of variances but the residual and the total: blocks, if any, and terms.

@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
-use plateau_io::study::collected::Collected;
 use plateau_io::study::{DesignSource, Study};
 use plateau_study::design::Kind;
 use plateau_study::effects::{self, Effects, Options, Term};
 use serde::Serialize;
 
 use super::collect::collected;
+use super::effects_files;
 use crate::arguments::{EffectsArguments, Model};
 use crate::failure::Failure;
 use crate::sweep;
 use crate::sweep::analysis::{AnalysedResponse, Analysis};
+use crate::sweep::quality::quality;
 use crate::table::{columns, print, table};
 use crate::{message, number, output};
 
@@ -43,16 +44,31 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
     let analysis = Analysis::new(study, &collected, &options);
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("effects"));
     std::fs::create_dir_all(&folder).map_err(|error| Failure::input(format_args!("{}: {error}", folder.display())))?;
-    let files = write(&folder, study, &collected, &analysis)?;
+    let csv = folder.join("effects.csv");
+    output::write(&csv, rows(&analysis).as_bytes(), true)?;
+    let mut files = vec![csv.display().to_string()];
+    files.extend(effects_files::write(&folder, &plan, &collected, &analysis)?);
     let reports: Vec<Report> = analysis.responses.iter().map(Report::new).collect();
     if arguments.json {
         let report = Document { study: &study.title, responses: reports, files };
         return print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"));
     }
     let mut text: String = analysis.responses.iter().map(|response| text_of(response) + "\n").collect();
-    let files: Vec<(&str, String)> = files.into_iter().map(|file| ("written", file)).collect();
-    text.push_str(&table(&study.title, &files));
+    text.push_str(&table(&study.title, &told(&folder, &files)));
     print(&text)
+}
+
+/// The files, with those that are figures as one.
+fn told(folder: &Path, files: &[String]) -> Vec<(&'static str, String)> {
+    let is_figure = |file: &&String| file.ends_with(".png");
+    let is_other = |file: &&String| !is_figure(file) && !file.ends_with(".svg");
+    let mut told: Vec<_> = files.iter().filter(is_other).map(|file| ("written", file.clone())).collect();
+    let figures = files.iter().filter(is_figure).count();
+    if figures > 0 {
+        let figures = number::count(figures, "figure");
+        told.push(("written", format!("{figures} as PNG and SVG in {}", folder.display())));
+    }
+    told
 }
 
 /// What is fitted unless the user says so: squares where the design is made for them.
@@ -68,13 +84,6 @@ fn model(asked: Option<Model>, study: &Study) -> effects::Model {
         (None, DesignSource::Kind(Kind::PlackettBurman)) => effects::Model::MainEffects,
         (None, _) => effects::Model::Interactions,
     }
-}
-
-/// Writes the tables and the figures; their names.
-fn write(folder: &Path, _study: &Study, _collected: &Collected, analysis: &Analysis) -> Result<Vec<String>, Failure> {
-    let csv = folder.join("effects.csv");
-    output::write(&csv, rows(analysis).as_bytes(), true)?;
-    Ok(vec![csv.display().to_string()])
 }
 
 /// A line for each response and term.
@@ -148,35 +157,13 @@ fn text_of(response: &AnalysedResponse) -> String {
     let names = ["term", "effect", "interval", "share", "F", "p"];
     let mut rows: Vec<&Term> = effects.rows().collect();
     rows.sort_by(|a, b| b.share.total_cmp(&a.share));
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|term| cells(term)).collect();
+    let rows: Vec<Vec<String>> = rows.into_iter().map(cells).collect();
     let mut text = columns(&heading, &names, &rows);
-    text.push_str(&format!("  {}\n", quality(effects)));
+    text.push_str(&format!("  {}\n", quality(effects, number::short)));
     for term in effects.rows().filter(|term| !term.aliased_with.is_empty()) {
         text.push_str(&format!("  {} cannot be told from {}\n", term.label, term.aliased_with.join(", ")));
     }
     text
-}
-
-/// How well the model fits, in a line.
-fn quality(effects: &Effects) -> String {
-    let missing = if effects.missing > 0 { format!(", {} without a response", effects.missing) } else { String::new() };
-    let mut parts = vec![
-        format!("{} runs{missing}", effects.observations),
-        format!("mean {}", number::short(effects.constant.value)),
-        format!("R² {:.4}", effects.r_squared),
-    ];
-    parts.extend(effects.predicted_r_squared.map(|share| format!("predicted R² {share:.4}")));
-    parts.extend(
-        effects
-            .residual_standard_deviation
-            .map(|deviation| format!("error {} (from {})", number::short(deviation), effects.error)),
-    );
-    if effects.residual_standard_deviation.is_none() {
-        parts.push(format!("error {}", effects.error));
-    }
-    parts
-        .extend(effects.lenth.as_ref().map(|lenth| format!("margin of error {} (Lenth)", number::short(lenth.margin))));
-    parts.join(", ")
 }
 
 fn cells(term: &Term) -> Vec<String> {

@@ -2,6 +2,7 @@
 
 mod collect;
 mod effects;
+mod effects_files;
 mod plan;
 mod run;
 mod slurm;

@@ -9,7 +9,7 @@ use crate::execution::cores;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal};
+use crate::sweep::{self, aliases, journal};
 use crate::table::{columns, list, print, table};
 use crate::{number, output};
 
@@ -17,8 +17,6 @@ use crate::{number, output};
 const LISTED: usize = 16;
 /// Runs up to which every scene is built, to see which of them are there.
 const RESOLVED: usize = 20_000;
-/// Sets of aliases that are listed.
-const CHAINS: usize = 40;
 
 /// Plans a study.
 pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
@@ -150,15 +148,7 @@ impl Report {
             .map(|factor| (factor.name.clone(), format!("{}  ({})", factor.values, factor.keys.join(", "))))
             .collect();
         text.push_str(&format!("\n{}", table("Factors", &factors)));
-        if let Some(resolution) = self.resolution {
-            let letters = ('A'..='Z').filter(|letter| *letter != 'I').zip(&self.factors);
-            let letters: Vec<String> = letters.map(|(letter, factor)| format!("{letter} = {}", factor.name)).collect();
-            let mut lines =
-                vec![letters.join(", "), format!("resolution {resolution}: I = {}", self.defining_words.join(" = "))];
-            lines.extend(self.aliases.iter().take(CHAINS).map(|chain| chain.join(" = ")));
-            if self.aliases.len() > CHAINS {
-                lines.push(format!("and {} more", self.aliases.len() - CHAINS));
-            }
+        if let Some(lines) = aliases::lines(plan) {
             text.push_str(&format!("\n{}", list("Effects that cannot be told from each other", &lines)));
         }
         let names: Vec<&str> = ["run"]

@@ -64,9 +64,9 @@ impl Options {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Its name, fit for a file.
-    pub name: &'static str,
+    pub name: String,
     /// What it shows, in a few words.
-    pub title: &'static str,
+    pub title: String,
     /// What it shows, in a sentence or two.
     pub caption: String,
     /// What is plotted where.
@@ -95,7 +95,7 @@ impl Figure {
     /// # Errors
     /// [`FigureError`] when it cannot be drawn.
     pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
-        format::pdf(&self.page, self.title)
+        format::pdf(&self.page, &self.title)
     }
 }
 
@@ -152,7 +152,7 @@ pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError
 
 impl Figures {
     fn add(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, page: Page) {
-        self.figures.push(Figure { name, title, caption: caption.into(), page });
+        self.figures.push(Figure { name: name.into(), title: title.into(), caption: caption.into(), page });
     }
 
     /// Notes that a figure, or what it would show of a run, is left out.

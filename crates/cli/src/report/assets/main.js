@@ -15,15 +15,6 @@ async function showFigures() {
     }
 }
 
-function tell(problem) {
-    const place = document.getElementById("problem");
-    place.hidden = false;
-    place.textContent = problem;
-}
-
-addEventListener("error", (event) => tell(`This page does not work here: ${event.message}`));
-addEventListener("unhandledrejection", (event) => tell(`This page does not work here: ${event.reason}`));
-
 if (typeof DecompressionStream === "undefined") {
     tell("This browser cannot unpack the data of this page: it needs Chromium 80, Firefox 113 or Safari 16.4, or newer.");
 } else {

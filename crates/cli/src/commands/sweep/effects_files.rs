@@ -1,0 +1,63 @@
+//! Figures and page of `plateau sweep effects`.
+
+use std::path::Path;
+
+use plateau_io::study::collected::Collected;
+use plateau_io::study::plan::Plan;
+
+use crate::failure::Failure;
+use crate::figure::effects::figures;
+use crate::figure::run::Figure;
+use crate::output;
+use crate::report::{Picture, Pictures, StudyPage, effects_page};
+use crate::sweep::analysis::Analysis;
+
+/// A figure in both formats of files.
+struct Drawn {
+    png: Vec<u8>,
+    picture: Picture,
+}
+
+/// Writes the figures of all responses and the page with them; their paths.
+///
+/// # Errors
+/// [`Failure::Run`] when a figure cannot be drawn, and those of [`output::write()`].
+pub fn write(folder: &Path, plan: &Plan, collected: &Collected, analysis: &Analysis) -> Result<Vec<String>, Failure> {
+    let mut files = Vec::new();
+    let mut add = |name: &str, content: &[u8]| {
+        let path = folder.join(name);
+        files.push(path.display().to_string());
+        output::write(&path, content, true)
+    };
+    let mut pictures = Vec::new();
+    for of_response in figures(analysis) {
+        let mut drawn = Vec::new();
+        for Drawn { png, picture } in draw_all(&of_response.figures)? {
+            add(&format!("{}.png", picture.name), &png)?;
+            add(&format!("{}.svg", picture.name), picture.svg.as_bytes())?;
+            drawn.push(picture);
+        }
+        pictures.push(Pictures { pictures: drawn, left_out: of_response.left_out });
+    }
+    let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures });
+    add("effects.html", page.as_bytes())?;
+    Ok(files)
+}
+
+/// Draws figures, each in a thread of its own: there are as many as a response has, and most of the time is theirs.
+fn draw_all(figures: &[Figure]) -> Result<Vec<Drawn>, Failure> {
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = figures.iter().map(|figure| scope.spawn(|| draw(figure))).collect();
+        let drawn = |thread: std::thread::ScopedJoinHandle<'_, Result<Drawn, Failure>>| {
+            thread.join().unwrap_or_else(|_| Err(Failure::run("a figure cannot be drawn: its thread ended early")))
+        };
+        threads.into_iter().map(drawn).collect()
+    })
+}
+
+fn draw(figure: &Figure) -> Result<Drawn, Failure> {
+    let svg = figure.svg().map_err(Failure::run)?;
+    let png = figure.png().map_err(Failure::run)?;
+    let picture = Picture { name: figure.name.clone(), caption: figure.caption.clone(), svg };
+    Ok(Drawn { png, picture })
+}

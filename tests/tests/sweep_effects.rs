@@ -1,0 +1,332 @@
+//! `plateau sweep effects`: figures and page show what the table has.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use plateau_tests::figure::{Figure, Frame};
+use plateau_tests::program::{Outcome, WorkingDirectory, scene};
+use serde_json::Value;
+
+/// Colour of means, and of bars and dots that are significant.
+const DATA: &str = "#31688E";
+/// Colour of bars and dots that are not.
+const PALE: &str = "#9DBFD6";
+/// Colours of the lines of interaction plots.
+const LINES: [&str; 2] = ["#0072B2", "#D55E00"];
+
+const LOAD: &str = "[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n";
+const SPEED: &str = "[[factor]]\nname = \"speed\"\nkey = \"operation.rotational_speed\"\n";
+const POOL: &str = "[[factor]]\nname = \"pool\"\nkey = \"plateaus.debris_pool\"\nlevels = [\"contact\", \"track\"]\n";
+const FIBRES: &str = "[[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\n";
+const REPLICATES: &str = "[replicates]\nkeys = [\"disc.surface.synthetic.seed\"]\nseeds = [1, 2, 3]\n";
+const AREA: &str = "[[response]]\nname = \"contact area\"\ndataset = \"/series/contact_area_mean\"\nat = \"end\"\n";
+/// The disc wears only where a scene says so.
+const CONSTANT: &str = "[[response]]\nname = \"disc wear\"\ndataset = \"/series/worn_disc\"\nat = \"end\"\n";
+
+/// A directory with `study.toml`, all of whose runs were made, as far as they can be.
+fn studied(head: &str, tables: &[&str]) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    let base = scene("quick.toml");
+    directory.write(
+        "study.toml",
+        format!(
+            "version = 1\nbase = \"{base}\"\nset = [\"operation.duration = '3 s'\", \"output.sample_every = '0.5 s'\"]\n\
+             directory = \"results\"\n{head}\n{}",
+            tables.join("\n")
+        ),
+    );
+    let outcome = directory.plateau(["sweep", "run", "study.toml"]);
+    assert!(matches!(outcome.status, Some(0 | 1)), "{outcome:?}");
+    directory
+}
+
+/// Analyses the study.
+fn effects(directory: &WorkingDirectory, arguments: &[&str]) -> Outcome {
+    let outcome = directory.plateau(["sweep", "effects", "study.toml"].iter().chain(arguments));
+    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    outcome
+}
+
+fn read(directory: &WorkingDirectory, file: &str) -> String {
+    fs::read_to_string(directory.path("results/effects").join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+fn figure(directory: &WorkingDirectory, name: &str) -> Figure {
+    Figure::read(&read(directory, &format!("{name}.svg")))
+}
+
+/// Names of all figures, each of which is there in both formats.
+fn figures(directory: &WorkingDirectory) -> Vec<String> {
+    let entries = fs::read_dir(directory.path("results/effects")).unwrap();
+    let names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut figures: Vec<String> =
+        names.iter().filter_map(|name| name.strip_suffix(".svg")).map(str::to_owned).collect();
+    figures.sort();
+    for figure in &figures {
+        assert!(names.contains(&format!("{figure}.png")), "{figure} in {names:?}");
+    }
+    figures
+}
+
+/// The cells of a table in CSV, by the names of its columns; none of these studies has commas in its names.
+fn table(text: &str) -> Vec<BTreeMap<String, String>> {
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    lines
+        .map(|line| names.iter().zip(line.split(',')).map(|(name, cell)| ((*name).into(), cell.into())).collect())
+        .collect()
+}
+
+fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
+    row[name].parse().unwrap_or_else(|error| panic!("{name} of {row:?}: {error}"))
+}
+
+/// The row of a term.
+fn term(directory: &WorkingDirectory, name: &str) -> BTreeMap<String, String> {
+    table(&read(directory, "effects.csv")).into_iter().find(|row| row["term"] == name).expect("the term")
+}
+
+/// The mean of a response, mm², over the runs whose factors have these labels.
+fn mean(directory: &WorkingDirectory, labels: &[(&str, &str)]) -> f64 {
+    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    let rows = table(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
+    let own = rows.iter().filter(|row| labels.iter().all(|(factor, label)| row[*factor] == *label));
+    let values: Vec<f64> = own.map(|row| number(row, "contact_area") * 1e6).collect();
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn width(frame: Frame) -> f64 {
+    frame.x[1] - frame.x[0]
+}
+
+/// Every text begins or ends on the page.
+fn expect_texts_on_the_page(svg: &str) {
+    let (_, view) = svg.split_once("viewBox=\"0 0 ").expect("a size");
+    let size: Vec<f64> = view.split('"').next().unwrap().split(' ').map(|side| side.parse().unwrap()).collect();
+    let figure = Figure::read(svg);
+    for text in &figure.texts {
+        let inside = |place: f64, size: f64| (0.0..=size).contains(&place);
+        assert!(inside(text.place[0], size[0]) && inside(text.place[1], size[1]), "{text:?} on {size:?}");
+    }
+    for (_, places) in figure.lines.iter().chain(&figure.areas) {
+        assert!(places.iter().all(|[x, y]| (0.0..=size[0]).contains(x) && (0.0..=size[1]).contains(y)));
+    }
+}
+
+/// Three factors of two levels, three sets of surfaces: an error is known.
+fn replicated() -> WorkingDirectory {
+    let factors = [&format!("{LOAD}levels = [\"5 N\", \"10 N\"]"), POOL, &format!("{FIBRES}levels = [0.2, 0.4]")];
+    studied(
+        "title = \"Replicated\"\ndesign = \"full-factorial\"",
+        &[REPLICATES, factors[0], factors[1], factors[2], AREA],
+    )
+}
+
+#[test]
+fn figures_show_the_means_and_effects_of_the_table() {
+    let directory = replicated();
+    let text = effects(&directory, &[]).stdout;
+    let names = ["half-normal", "interactions", "main-effects", "pareto"].map(|name| format!("contact-area-{name}"));
+    assert_eq!(figures(&directory), names);
+    assert!(text.contains("effects.html") && text.contains("4 figures as PNG and SVG"), "{text}");
+
+    // Means of the runs at a level, and their difference: the effect.
+    let main = figure(&directory, "contact-area-main-effects");
+    let boxes = main.boxes();
+    assert_eq!(boxes.len(), 3);
+    let y = main.y_axis(boxes[0]);
+    let factors = [("load", ["5 N", "10 N"]), ("pool", ["contact", "track"]), ("fibres", ["0.2", "0.4"])];
+    for (frame, (factor, levels)) in boxes.iter().zip(factors) {
+        let dots = main.dots(DATA, *frame);
+        assert_eq!(dots.len(), 2, "{factor}");
+        for (dot, level) in dots.iter().zip(levels) {
+            let expected = y.place(mean(&directory, &[(factor, level)]));
+            assert!((dot[1] - expected).abs() < 1.5, "{factor} {level}: {} and {expected}", dot[1]);
+        }
+        let effect = number(&term(&directory, factor), "effect") * 1e6;
+        assert!((dots[0][1] - dots[1][1] - (y.place(0.0) - y.place(effect))).abs() < 2.5, "{factor}");
+    }
+
+    // Means of pairs of levels.
+    let pairs = figure(&directory, "contact-area-interactions");
+    let boxes = pairs.boxes();
+    assert_eq!(boxes.len(), 3);
+    let y = pairs.y_axis(boxes[0]);
+    for (colour, load) in LINES.iter().zip(["5 N", "10 N"]) {
+        for (dot, pool) in pairs.dots(colour, boxes[0]).iter().zip(["contact", "track"]) {
+            let expected = y.place(mean(&directory, &[("load", load), ("pool", pool)]));
+            assert!((dot[1] - expected).abs() < 1.5, "{load}, {pool}");
+        }
+    }
+
+    // Bars as long as abs(t), the longest on top.
+    let pareto = figure(&directory, "contact-area-pareto");
+    let frame = pareto.boxes()[0];
+    let x = pareto.x_axis(frame);
+    let rows = table(&read(&directory, "effects.csv"));
+    let mut lengths: Vec<f64> =
+        rows.iter().filter(|row| !row["t"].is_empty()).map(|row| number(row, "t").abs()).collect();
+    lengths.sort_by(|one, other| other.total_cmp(one));
+    let bars: Vec<_> = pareto
+        .areas
+        .iter()
+        .filter(|(colour, bar)| (colour == DATA || colour == PALE) && bar[0][1] > frame.y[0])
+        .collect();
+    assert_eq!(bars.len(), 6);
+    for ((_, bar), length) in bars.iter().zip(lengths) {
+        let end = bar.iter().map(|corner| corner[0]).fold(0.0, f64::max);
+        assert!((end - x.place(length)).abs() < 2.0, "{end} and {}", x.place(length));
+    }
+
+    // Sizes of effects, from the smallest; the load is named.
+    let half = figure(&directory, "contact-area-half-normal");
+    let panel = half.panel(half.boxes()[0]);
+    let mut dots = [half.dots(DATA, panel.frame), half.dots(PALE, panel.frame)].concat();
+    dots.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    let mut sizes: Vec<f64> =
+        rows.iter().filter(|row| !row["effect"].is_empty()).map(|row| number(row, "effect").abs() * 1e6).collect();
+    sizes.sort_by(f64::total_cmp);
+    assert_eq!(dots.len(), sizes.len());
+    for (dot, size) in dots.iter().zip(sizes) {
+        assert!((dot[1] - panel.y.place(size)).abs() < 1.5);
+    }
+    assert!(half.texts.iter().any(|text| text.text == "load"));
+    for name in names {
+        expect_texts_on_the_page(&read(&directory, &format!("{name}.svg")));
+    }
+}
+
+#[test]
+fn the_page_holds_every_term_and_loads_nothing() {
+    let directory = replicated();
+    let report: Value = serde_json::from_str(&effects(&directory, &["--json"]).stdout).unwrap();
+    let files: Vec<&str> = report["files"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    assert_eq!(files.len(), 2 + 2 * 4);
+    assert!(files.iter().all(|file| directory.path(file).is_file()), "{files:?}");
+    let page = read(&directory, "effects.html");
+    for row in table(&read(&directory, "effects.csv")) {
+        assert!(page.contains(&format!("<th scope=\"row\">{}</th>", row["term"])), "{row:?}");
+    }
+    for loading in ["src=", "http:", "https:", "url(", "@import", "fetch(", "<link rel=\"stylesheet"] {
+        let rest = page.replace("http://www.w3.org/2000/svg", "");
+        assert!(!rest.contains(loading), "{loading}");
+    }
+    // The design, and all runs with their values.
+    assert!(page.contains("8 points × 3 replicates = 24 runs: 24 finished"));
+    let (_, data) = page.split_once("<script type=\"application/json\" id=\"data\">").unwrap();
+    let data: Value = serde_json::from_str(data.split_once("</script>").unwrap().0).unwrap();
+    let runs = data["runs"].as_array().unwrap();
+    assert_eq!((runs.len(), page.matches("<path class=\"c").count()), (24, 24));
+    let total: f64 = runs.iter().map(|run| run[3].as_f64().unwrap()).sum();
+    assert!((total / 24.0 / mean(&directory, &[]) - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn names_are_text_wherever_they_stand() {
+    let name = "</script><script>alert(1)</script><b>\\\"x\\\" & 'y'";
+    let load = format!("[[factor]]\nname = \"{name}\"\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"10 N\"]");
+    let area = AREA.replace("contact area", name);
+    let directory = studied(&format!("title = \"{name}\"\ndesign = \"full-factorial\""), &[&load, POOL, &area]);
+    effects(&directory, &[]);
+    let page = read(&directory, "effects.html");
+    assert_eq!(page.matches("<script").count(), 2);
+    assert_eq!(
+        page.matches("alert(1)").count(),
+        page.matches("script&gt;alert(1)").count() + page.matches("script>alert(1)\\u003c").count()
+    );
+    assert!(!page.contains("<b>"));
+    for figure in figures(&directory) {
+        assert!(figure.chars().all(|letter| letter.is_alphanumeric() || letter == '-'), "{figure}");
+        expect_texts_on_the_page(&read(&directory, &format!("{figure}.svg")));
+    }
+}
+
+#[test]
+fn one_factor_without_replicates_has_what_there_is() {
+    let directory = studied("design = \"full-factorial\"", &[&format!("{LOAD}levels = [\"5 N\", \"10 N\"]"), AREA]);
+    effects(&directory, &[]);
+    assert_eq!(figures(&directory), ["contact-area-main-effects", "contact-area-pareto"]);
+    let page = read(&directory, "effects.html");
+    assert!(page.contains("Interactions need two factors") && page.contains("half-normal plot needs at least 3"));
+    let pareto = figure(&directory, "contact-area-pareto");
+    let frame = pareto.boxes()[0];
+    let effect = pareto.x_axis(frame).place(number(&term(&directory, "load"), "effect").abs() * 1e6);
+    let ends = pareto.areas.iter().flat_map(|(_, bar)| bar).map(|corner| corner[0]);
+    assert!((ends.fold(0.0, f64::max) - effect).abs() < 2.0);
+}
+
+#[test]
+fn a_saturated_study_is_judged_by_the_margin_of_lenth() {
+    let factors =
+        [format!("{LOAD}levels = [\"5 N\", \"10 N\"]"), format!("{SPEED}levels = [\"425 rpm\", \"850 rpm\"]")];
+    let directory = studied("design = \"full-factorial\"", &[&factors[0], &factors[1], POOL, AREA]);
+    let text = effects(&directory, &["--model", "full"]).stdout;
+    let (before, _) = text.split_once(" (Lenth)").expect("a margin");
+    let margin: f64 = before.rsplit(' ').next().unwrap().parse().unwrap();
+    let pareto = figure(&directory, "contact-area-pareto");
+    let frame = pareto.boxes()[0];
+    let line = pareto.line("#C44E1C", frame);
+    assert!((line[0][0] - pareto.x_axis(frame).place(margin * 1e6)).abs() < 3.0, "{margin} at {line:?}");
+    assert!(pareto.texts.iter().any(|text| text.text.starts_with("margin of error (Lenth, 95 %)")));
+}
+
+#[test]
+fn a_central_composite_has_a_surface() {
+    let factors = [
+        format!("{LOAD}range = [\"8 N\", \"20 N\"]"),
+        format!("{SPEED}range = [\"425 rpm\", \"850 rpm\"]"),
+        format!("{FIBRES}range = [0.2, 0.4]"),
+    ];
+    let head = "design = \"central-composite\"\nalpha = \"rotatable\"";
+    let directory = studied(head, &[&factors[0], &factors[1], &factors[2], AREA]);
+    effects(&directory, &[]);
+    let names = ["half-normal", "interactions", "main-effects", "pareto", "surface"];
+    assert_eq!(figures(&directory), names.map(|name| format!("contact-area-{name}")));
+    let surface = figure(&directory, "contact-area-surface");
+    let panel = surface.panel(surface.boxes()[0]);
+    // Corners, axial points and the centre: by hand in the units of the study.
+    let dots = surface.dots("#222222", panel.frame);
+    assert_eq!(dots.len(), 9);
+    assert!(surface.texts.iter().any(|text| text.text == "load, N"));
+    let expected = panel.x.place(20.0);
+    assert!(dots.iter().any(|dot| (dot[0] - expected).abs() < 2.0), "no dot at 20 N: {dots:?}");
+    assert_eq!(surface.images.len(), 2);
+    let page = read(&directory, "effects.html");
+    assert!(page.contains("the others are at 0 in coded units") && page.contains("The fitted surface"));
+}
+
+#[test]
+fn ranges_have_lines_of_predictions() {
+    let factors =
+        [format!("{LOAD}range = [\"5 N\", \"20 N\"]"), format!("{FIBRES}range = [0.02, 0.4]\nscale = \"logarithmic\"")];
+    let directory = studied("design = \"latin-hypercube\"\npoints = 24", &[&factors[0], &factors[1], POOL, AREA]);
+    effects(&directory, &[]);
+    assert_eq!(figures(&directory).len(), 4);
+    let main = figure(&directory, "contact-area-main-effects");
+    let boxes = main.boxes();
+    let y = main.y_axis(boxes[0]);
+    let line = main.line(DATA, boxes[0]);
+    // The model is linear: from end to end the line rises by the effect.
+    let effect = number(&term(&directory, "load"), "effect") * 1e6;
+    let rise = y.value(line[line.len() - 1][1]) - y.value(line[0][1]);
+    let pixel = (y.value(0.0) - y.value(1.0)).abs();
+    assert!((rise - effect).abs() < 2.5 * pixel, "{rise} and {effect}");
+    assert!(width(boxes[1]) > 100.0 && main.texts.iter().any(|text| text.text == "log\u{2081}\u{2080} fibres"));
+    assert_eq!(main.dots(DATA, boxes[2]).len(), 2, "words have means");
+}
+
+#[test]
+fn a_constant_response_and_failed_runs_are_told() {
+    let load = format!("{LOAD}levels = [\"5 N\", \"10 N\", \"20 N\", \"1e300 N\"]");
+    let directory = studied("design = \"full-factorial\"", &[REPLICATES, &load, POOL, CONSTANT, AREA]);
+    let outcome = effects(&directory, &["--json"]);
+    assert!(outcome.stderr.contains("6 of 24 runs have no results"), "{}", outcome.stderr);
+    assert!(figures(&directory).iter().all(|name| name.starts_with("contact-area-")));
+    let page = read(&directory, "effects.html");
+    assert!(page.contains("no factor has an effect on it") && page.contains("6 failed, 0 not made yet"));
+    // Runs without a response end before its axis.
+    assert_eq!(page.matches("<path class=\"none\"").count(), 6);
+    let main = figure(&directory, "contact-area-main-effects");
+    assert_eq!(main.dots(DATA, main.boxes()[0]).len(), 3);
+    expect_texts_on_the_page(&read(&directory, "contact-area-main-effects.svg"));
+}
