@@ -222,10 +222,11 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
                     return Err(place.problem(alpha, "alpha", message));
                 }
             };
-            let centre = centre.unwrap_or(4);
+            // Equal points without seeds are equal runs, and tell nothing of the error.
+            let centre = centre.unwrap_or(1);
             Kind::CentralComposite { alpha, centre: [centre.div_ceil(2), centre / 2] }
         }
-        "box-behnken" => Kind::BoxBehnken { centre: centre.unwrap_or(3) },
+        "box-behnken" => Kind::BoxBehnken { centre: centre.unwrap_or(1) },
         "latin-hypercube" => match points() {
             Some(points) => {
                 Kind::LatinHypercube { points, seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()) }
