@@ -170,6 +170,27 @@ fn a_rank_that_is_asked_to_stop_stops_all_in_good_order() {
 
 #[test]
 #[ignore = "needs MPI"]
+fn what_ranks_did_is_gone_on_with() {
+    let enough = ["--set", "operation.steps=1500000", "--resume"];
+    let mut job = EndlessJob::in_directory(WorkingDirectory::new(), 2, &enough);
+    assert!(Command::new("kill").args(["-s", "TERM", &job.process(1)]).status().expect("kill").success());
+    let (status, stderr) = job.end();
+    assert_eq!(status, Some(143), "{stderr}");
+    let directory = &job.directory;
+    let arguments = |file: &str| {
+        let words = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned);
+        words.into_iter().chain(enough.map(str::to_owned)).collect::<Vec<_>>()
+    };
+    let resumed = on_ranks(directory, 2, &arguments("run.h5"));
+    assert_eq!(resumed.status, Some(0), "{}", resumed.stderr);
+    assert_eq!(resumed.stderr.matches("goes on from step").count(), 1, "{}", resumed.stderr);
+    assert_eq!(directory.plateau(arguments("whole.h5")).status, Some(0));
+    let content = |file| RunFile::open(directory.path(file)).content();
+    assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);
+}
+
+#[test]
+#[ignore = "needs MPI"]
 fn a_rank_that_is_killed_ends_all() {
     let mut job = EndlessJob::start(2);
     assert!(Command::new("kill").args(["-s", "KILL", &job.process(1)]).status().expect("kill").success());
@@ -219,13 +240,17 @@ struct EndlessJob {
 impl EndlessJob {
     /// Starts it and waits for its first sample.
     fn start(ranks: usize) -> Self {
-        let directory = WorkingDirectory::new();
+        Self::in_directory(WorkingDirectory::new(), ranks, &["--set", "operation.steps=100000000"])
+    }
+
+    /// The same with other arguments.
+    fn in_directory(directory: WorkingDirectory, ranks: usize, arguments: &[&str]) -> Self {
         let stderr = File::create(directory.path("stderr")).expect("a file");
         let mut command = mpirun(&directory);
         // Every rank leaves its process number in a file that is named by its rank.
         let order = "echo $$ >$OMPI_COMM_WORLD_RANK; exec \"$0\" \"$@\"";
         command.args(["-n", &ranks.to_string(), "sh", "-c", order]).arg(program());
-        command.args(["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.steps=100000000"]);
+        command.args(["run", &scene("quick.toml"), "-o", "run.h5"]).args(arguments);
         let launcher = command.stdout(Stdio::null()).stderr(stderr).spawn().expect("the launcher");
         let job = Self { directory, launcher };
         let runs = || RunFile::follow(job.file()).is_ok_and(|file| file.shape("/time")[0] > 0);

@@ -48,9 +48,7 @@ impl Filling {
             secondary_area: RingSum::default(),
             up_to: 0,
         };
-        for sector in sectors {
-            (0..sector.columns).for_each(|column| filling.measure(&mesh.area()[rows.clone()], sector, column));
-        }
+        filling.measure_all(mesh, &rows, sectors, 0);
         filling
     }
 

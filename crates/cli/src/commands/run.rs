@@ -70,6 +70,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         inputs,
     };
     let mut states = if arguments.resumes() { earlier(&path, &about, arguments)? } else { Vec::new() };
+    let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
+    job.compare(&format!("{steps:?}"))?;
     if states.first().is_some_and(|state| state.finished && arguments.extend_to.is_none()) {
         message::note(format_args!("{} is finished; --extend-to TIME goes on beyond its end", path.display()));
         return Ok(());
