@@ -3,6 +3,7 @@
 mod accuracy;
 mod arguments;
 mod commands;
+mod csv_table;
 mod deflate;
 mod drive;
 mod execution;

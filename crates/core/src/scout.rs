@@ -182,6 +182,6 @@ fn revolution(simulation: &Simulation) -> u64 {
 /// Whether the disc is too smooth now.
 fn too_smooth(smoothness: Option<Smoothness>, simulation: &mut Simulation) -> Result<Option<Idle>, SimulationError> {
     let Some(smoothness) = smoothness else { return Ok(None) };
-    let disc = simulation.disc()?;
-    Ok(smoothness.forbids(simulation.parameters(), &disc.height).then(|| Idle::Smooth(simulation.time())))
+    let disc_height = simulation.disc_height()?;
+    Ok(smoothness.forbids(simulation.parameters(), &disc_height).then(|| Idle::Smooth(simulation.time())))
 }

@@ -295,6 +295,15 @@ impl Simulation {
         Ok(Disc { height, substrate })
     }
 
+    /// z_d of every disc cell as it is now, m, column by column.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn disc_height(&mut self) -> Result<Vec<f64>, SimulationError> {
+        let [height] = self.heights([Map::DiscHeight])?;
+        Ok(height)
+    }
+
     /// The pin as it is now.
     ///
     /// # Errors
@@ -314,7 +323,7 @@ impl Simulation {
         Ok(BothRoughness { disc: Roughness::of(mesh, &disc), pin: Roughness::of_pin(mesh, &pin) })
     }
 
-    fn heights(&mut self, maps: [Map; 2]) -> Result<[Vec<f64>; 2], SimulationError> {
+    fn heights<const COUNT: usize>(&mut self, maps: [Map; COUNT]) -> Result<[Vec<f64>; COUNT], SimulationError> {
         let mut fields = self.snapshot(&maps)?.maps.into_iter().map(|(_, values)| match values {
             MapValues::Float(heights) => heights,
             MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),

@@ -64,11 +64,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     )?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     interrupt.listen_for_save().map_err(Failure::run)?;
-    let about = About {
-        program: format!("{} {}", version::program(), version::REVISION),
-        scene: scene.resolved.clone(),
-        inputs,
-    };
+    let about = About { program: version::build(), scene: scene.resolved.clone(), inputs };
     let mut states = if arguments.resumes() { earlier(&path, &about, arguments)? } else { Vec::new() };
     let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
     job.compare(&format!("{steps:?}"))?;

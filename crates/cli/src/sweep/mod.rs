@@ -28,12 +28,7 @@ use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
 
 use crate::failure::Failure;
-use crate::{machine, version};
-
-/// Which program makes a result: version and revision.
-pub fn program() -> String {
-    format!("{} {}", version::program(), version::REVISION)
-}
+use crate::machine;
 
 /// Reads a study and makes its design.
 ///

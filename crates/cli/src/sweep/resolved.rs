@@ -4,8 +4,8 @@ use plateau_io::study::identity::{Digests, identity};
 use plateau_io::study::plan::Plan;
 use rayon::prelude::*;
 
-use super::program;
 use crate::failure::Failure;
+use crate::version;
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
@@ -25,7 +25,7 @@ impl Resolved {
     /// # Errors
     /// [`Failure::Input`] with the runs whose scenes cannot be built, before any is made.
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
-        let (digests, program) = (Digests::default(), program());
+        let (digests, program) = (Digests::default(), version::build());
         let resolve = |number: usize| {
             let run = plan.run(number);
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;

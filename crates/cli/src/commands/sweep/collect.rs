@@ -6,6 +6,7 @@ use plateau_io::study::plan::Plan;
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
+use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::resolved::Resolved;
 use crate::sweep::{self, journal};
@@ -20,7 +21,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let collected = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
-    std::fs::create_dir_all(&folder).map_err(|error| Failure::input(format_args!("{}: {error}", folder.display())))?;
+    output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
     collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
     output::write(&csv, rows(&plan, &collected).as_bytes(), true)?;
@@ -82,14 +83,12 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
 /// A line for each run: number, point, replicate, state, factors, responses.
 fn rows(plan: &Plan, collected: &Collected) -> String {
     let study = plan.study();
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let names =
         study.factors.iter().map(|factor| &factor.name).chain(study.responses.iter().map(|response| &response.name));
     let header =
         ["run", "point", "replicate", "state"].map(str::to_owned).into_iter().chain(names.map(|name| plain(name)));
-    // Writing to memory cannot fail.
-    let _ = writer.write_record(header.chain(["error".to_owned()]));
-    for run in &collected.runs {
+    let header = header.chain(["error".to_owned()]).collect::<Vec<_>>();
+    let lines = collected.runs.iter().map(|run| {
         let error = if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
         let numbers = [run.run.number, run.run.point + 1, run.run.replicate + 1].map(|number| number.to_string());
         let responses = run
@@ -98,9 +97,9 @@ fn rows(plan: &Plan, collected: &Collected) -> String {
             .map(|response| if response.is_nan() { String::new() } else { format!("{response:?}") });
         let cells = numbers.into_iter().chain([run.state.name().to_owned()]);
         let cells = cells.chain(run.run.levels.iter().map(|level| level.label.clone())).chain(responses).chain([error]);
-        let _ = writer.write_record(cells);
-    }
-    String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned()
+        cells.collect()
+    });
+    csv_table(std::iter::once(header).chain(lines))
 }
 
 /// What `plateau sweep collect` reports.

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::collect::collected;
 use super::effects_files;
 use crate::arguments::{EffectsArguments, Model};
+use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep;
 use crate::sweep::analysis::{AnalysedResponse, Analysis};
@@ -43,7 +44,7 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
         Options { model: model(arguments.model, study), confidence: arguments.confidence, ..Options::default() };
     let analysis = Analysis::new(study, &collected, &options);
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("effects"));
-    std::fs::create_dir_all(&folder).map_err(|error| Failure::input(format_args!("{}: {error}", folder.display())))?;
+    output::make_directory(&folder)?;
     let csv = folder.join("effects.csv");
     output::write(&csv, rows(&analysis).as_bytes(), true)?;
     let mut files = vec![csv.display().to_string()];
@@ -88,7 +89,6 @@ fn model(asked: Option<Model>, study: &Study) -> effects::Model {
 
 /// A line for each response and term.
 fn rows(analysis: &Analysis) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let header = [
         "response",
         "term",
@@ -106,14 +106,13 @@ fn rows(analysis: &Analysis) -> String {
         "high",
         "aliased_with",
     ];
-    // Writing to memory cannot fail.
-    let _ = writer.write_record(header);
+    let mut lines = vec![header.map(str::to_owned).to_vec()];
     let shown = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
     for response in &analysis.responses {
         let Ok(effects) = &response.effects else { continue };
         for term in effects.rows() {
             let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
-            let _ = writer.write_record([
+            lines.push(vec![
                 response.name.clone(),
                 term.label.clone(),
                 term.freedom.to_string(),
@@ -140,10 +139,10 @@ fn rows(analysis: &Analysis) -> String {
                 shown(squares.mean()),
             ];
             cells.resize(header.len(), String::new());
-            let _ = writer.write_record(cells);
+            lines.push(cells);
         }
     }
-    String::from_utf8_lossy(&writer.into_inner().unwrap_or_default()).into_owned()
+    csv_table(lines)
 }
 
 /// What is said of a response.

@@ -5,6 +5,7 @@ use plateau_io::study::plan::Plan;
 use serde::Serialize;
 
 use crate::arguments::PlanArguments;
+use crate::csv_table::csv_table;
 use crate::execution::cores;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
@@ -177,15 +178,11 @@ fn cells(plan: &Plan, number: usize) -> Vec<String> {
 
 /// Every run in the order in which it is made, in CSV.
 fn table_of_runs(plan: &Plan) -> String {
-    let quoted = |cell: &str| {
-        if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
-    };
     let names = plan.study().factors.iter().map(|factor| factor.name.clone());
     let header: Vec<String> = ["run".to_owned()]
         .into_iter()
         .chain(names)
         .chain((plan.replicates() > 1).then(|| "replicate".to_owned()))
         .collect();
-    let lines = std::iter::once(header).chain(plan.order().map(|number| cells(plan, number)));
-    lines.map(|cells| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n").collect()
+    csv_table(std::iter::once(header).chain(plan.order().map(|number| cells(plan, number))))
 }
