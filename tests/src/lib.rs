@@ -1,6 +1,7 @@
 //! Helpers shared by the end-to-end tests.
 
 pub mod divergence;
+pub mod fault;
 pub mod figure;
 pub mod patience;
 pub mod program;

@@ -44,6 +44,16 @@ pub fn differences(one: &BTreeMap<String, Content>, other: &BTreeMap<String, Con
         .collect()
 }
 
+/// The datasets of which `part` does not hold the start of what `whole` holds.
+pub fn differences_of_start(whole: &BTreeMap<String, Content>, part: &BTreeMap<String, Content>) -> Vec<String> {
+    let paths = whole.keys().chain(part.keys().filter(|path| !whole.contains_key(*path)));
+    let differs = |path: &&String| match (whole.get(*path), part.get(*path)) {
+        (Some(whole), Some(part)) => whole.shape[1..] != part.shape[1..] || !whole.bits.starts_with(&part.bits),
+        _ => true,
+    };
+    paths.filter(differs).cloned().collect()
+}
+
 /// An HDF5 file that is read. Whatever cannot be read ends the test.
 #[derive(Debug)]
 pub struct RunFile {

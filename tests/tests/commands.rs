@@ -23,7 +23,7 @@ fn a_run_tells_its_results_and_nothing_else() {
     }
     assert!(!summary.contains('\u{1b}'), "colours for no terminal: {summary:?}");
     // The file of the scene, in the working directory.
-    assert_eq!(directory.names(), ["quick.h5", "scene.toml"]);
+    assert_eq!(directory.names(), ["quick.h5", "quick.h5.checkpoint", "scene.toml"]);
     let run = RunFile::open(directory.path("quick.h5"));
     assert_eq!((run.text("state"), run.text("title")), ("finished".into(), "Quick look".into()));
     assert_eq!(run.number("format_version"), 1.0);
@@ -41,7 +41,7 @@ fn force_replaces_a_run() {
     assert!(RunFile::open(directory.path("run.h5")).content() == first);
     directory.plateau(again.iter().chain(&["--force"])).quiet_success();
     assert_eq!(RunFile::open(directory.path("run.h5")).shape("/time"), [30]);
-    assert_eq!(directory.names(), ["run.h5", "scene.toml"]);
+    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint", "scene.toml"]);
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn outputs_are_found_from_the_working_directory_and_surfaces_from_the_scene() {
     directory.plateau(["run", "scenes/scene.toml"]).quiet_success();
     let content = |name| RunFile::open(directory.path(name)).content();
     assert!(content("results/one.h5") == content("results/two.h5") && content("results/one.h5") == content("run.h5"));
-    assert_eq!(directory.names(), ["results", "run.h5", "scenes"]);
+    assert_eq!(directory.names(), ["results", "run.h5", "run.h5.checkpoint", "scenes"]);
     assert_eq!(fs::read_dir(directory.path("scenes")).unwrap().count(), 3);
 
     // An input that --set names is found from the scene that is run, too; the dataset stays the one named before.
@@ -75,7 +75,7 @@ fn set_overrides_the_scene_and_o_overrides_set() {
     let sets = ["operation.normal_force=20 N", "operation.normal_force=0.03 kN", "output.file=set.h5", "title=Other"];
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     directory.plateau(["run", "scene.toml", "-o", "run.h5"].into_iter().chain(sets)).quiet_success();
-    assert_eq!(directory.names(), ["run.h5", "scene.toml"]);
+    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint", "scene.toml"]);
     let run = RunFile::open(directory.path("run.h5"));
     assert_eq!(run.text("title"), "Other");
     assert!(run.text("scene").contains("normal_force = \"30 N\""), "{}", run.text("scene"));
@@ -114,7 +114,7 @@ fn json_is_one_document() {
     let check: Value =
         serde_json::from_str(&directory.plateau(["check", "scene.toml", "--json"]).quiet_success()).unwrap();
     assert_eq!((&check["steps"], &check["rows"], &check["samples"]), (&20.into(), &20.into(), &20.into()));
-    assert_eq!(directory.names(), ["run.h5", "scene.toml"], "a check writes nothing");
+    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint", "scene.toml"], "a check writes nothing");
 }
 
 #[test]

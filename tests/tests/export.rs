@@ -101,7 +101,7 @@ fn grids_of_a_run_without_maps_are_none() {
     assert_eq!(notes.last(), Some(&"plateau: nothing is written: this format has maps only"));
     let said = directory.plateau(["export", "run.h5", "--to", "npz"]).quiet_success();
     assert!(said.contains("run.npz  1 sample of 23 series, 0 maps at 0 times"), "{said}");
-    assert_eq!(directory.names(), ["run.h5", "run.npz", "scene.toml"]);
+    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint", "run.npz", "scene.toml"]);
 }
 
 #[test]
@@ -116,5 +116,5 @@ fn a_damaged_run_file_leaves_no_output() {
             assert!(outcome.stderr.starts_with("plateau: cut.h5 is "), "{}", outcome.stderr);
         }
     }
-    assert_eq!(directory.names(), ["cut.h5", "run.h5", "scene.toml"]);
+    assert_eq!(directory.names(), ["cut.h5", "run.h5", "run.h5.checkpoint", "scene.toml"]);
 }

@@ -1,5 +1,6 @@
 //! Runs that are stopped, killed and gone on with end as if nothing had happened.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::process::{Command, Stdio};
@@ -7,7 +8,7 @@ use std::thread;
 use std::time::Duration;
 
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
-use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::Stream;
 
 /// A run of some seconds with many samples, some maps and a checkpoint every few hundredths of a second.
@@ -40,31 +41,56 @@ fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stre
     kill(child);
 }
 
+/// How often the test below kills, unless `PLATEAU_KILLS` says.
+const KILLS: usize = 20;
+
 #[test]
 fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
+    let kills = std::env::var("PLATEAU_KILLS").map_or(KILLS, |kills| kills.parse().unwrap());
     let directory = WorkingDirectory::new();
     assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
     let whole = RunFile::open(directory.path("whole.h5")).content();
-    let mut random = Stream(8);
-    for kills in 0..12 {
-        let workers = ["1", "2", "3"][kills % 3];
-        start_and_kill(&directory, &["--resume", "--workers", workers], &mut random);
-        // Whatever the moment, there is a file with whole samples in it.
-        let there = RunFile::follow(directory.path("run.h5")).unwrap();
-        let samples = there.shape("/time")[0];
-        assert!(there.shape("/series/contact_area")[0] >= samples);
+    let (mut random, mut killed, mut ended) = (Stream(8), 0, 0);
+    while killed < kills || ended == 0 {
+        let workers = ["1", "2", "3"][killed % 3];
+        let mut command = directory.command(arguments("run.h5", &["--resume", "--workers", workers]));
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        if killed < kills {
+            thread::sleep(Duration::from_secs_f64(0.5 * random.uniform()));
+        }
+        let status = if killed < kills { child.try_wait().unwrap() } else { Some(child.wait().unwrap()) };
+        let Some(status) = status else {
+            kill(child);
+            killed += 1;
+            check_that_it_can_be_read(&directory, &whole);
+            continue;
+        };
+        assert!(status.success(), "{status}");
+        let run_file = RunFile::open(directory.path("run.h5"));
+        assert_eq!(run_file.text("state"), "finished");
+        assert_eq!(differences(&whole, &run_file.content()), [""; 0], "after {killed} kills");
+        let kept = ["run.h5", "run.h5.checkpoint", "run.h5.checkpoint-before"];
+        let names: Vec<_> = directory.names().into_iter().filter(|name| name.contains("run.h5")).collect();
+        assert!(kept[..names.len()] == names, "{names:?}");
+        // Once more changes nothing.
+        let again = run(&directory, "run.h5", &["--resume"]);
+        assert!(again.status == Some(0) && again.stderr.contains("is finished"), "{again:?}");
+        ended += 1;
+        names.iter().for_each(|name| fs::remove_file(directory.path(name)).unwrap());
     }
-    let last = run(&directory, "run.h5", &["--resume"]);
-    assert_eq!(last.status, Some(0), "{last:?}");
-    assert!(last.stderr.contains("goes on from step "), "{}", last.stderr);
-    assert_eq!(differences(&whole, &RunFile::open(directory.path("run.h5")).content()), [""; 0]);
-    assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "finished");
-    let kept = ["run.h5", "run.h5.checkpoint", "run.h5.checkpoint-before"];
-    assert_eq!(directory.names().into_iter().filter(|name| name.contains("run.h5")).collect::<Vec<_>>(), kept);
-    // Once more changes nothing.
-    let again = run(&directory, "run.h5", &["--resume"]);
-    assert_eq!(again.status, Some(0));
-    assert!(again.stderr.contains("is finished"), "{}", again.stderr);
+    println!("{killed} kills, {ended} runs to their end");
+}
+
+/// Whatever the moment of a kill, after `plateau repair` the file holds the start of the whole run.
+fn check_that_it_can_be_read(directory: &WorkingDirectory, whole: &BTreeMap<String, Content>) {
+    let [file, copy] = ["run.h5", "copy.h5"].map(|name| directory.path(name));
+    if file.exists() {
+        fs::copy(file, &copy).unwrap();
+        directory.plateau(["repair", "copy.h5"]).quiet_success();
+        assert_eq!(differences_of_start(whole, &RunFile::open(&copy).content()), [""; 0]);
+        let copies = directory.names().into_iter().filter(|name| name.starts_with("copy.h5"));
+        copies.for_each(|name| fs::remove_file(directory.path(&name)).unwrap());
+    }
 }
 
 #[test]
@@ -87,7 +113,11 @@ fn signals_leave_a_checkpoint_of_the_moment() {
     let directory = WorkingDirectory::new();
     let rarely = ["--set", "output.checkpoint_every=1 h", "--set", "operation.duration=600 s"];
     assert_eq!(run(&directory, "whole.h5", &rarely).status, Some(0));
-    assert_eq!(directory.names(), ["whole.h5"], "a run that is soon done again needs no checkpoint");
+    assert_eq!(
+        directory.names(),
+        ["whole.h5", "whole.h5.checkpoint"],
+        "the end is kept, from which it can be extended"
+    );
     for (signal, status) in [("USR1", None), ("INT", Some(130)), ("TERM", Some(143))] {
         let file = directory.path("run.h5");
         let made = || fs::metadata(&file).map_or(0, |file| file.ino());

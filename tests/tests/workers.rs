@@ -12,8 +12,9 @@ use plateau_tests::run_file::{Content, RunFile, differences};
 use serde_json::Value;
 
 /// Run attributes that tell how, where and when a run was carried out, or whose content does: the resolved scene has
-/// a line for the workers.
-const OF_THE_EXECUTION: [&str; 6] = ["workers", "instruction_set", "scene", "start_time", "end_time", "wall_time"];
+/// a line for the workers, and the digest of the attributes is one of the scene, too.
+const OF_THE_EXECUTION: [&str; 7] =
+    ["workers", "instruction_set", "scene", "start_time", "end_time", "wall_time", "attributes_sha256"];
 
 fn cores() -> usize {
     available_parallelism().map_or(1, NonZeroUsize::get)
@@ -109,7 +110,7 @@ fn more_workers_than_cores_work_with_a_warning() {
     assert!(outcome.stderr.starts_with(&warning), "{}", outcome.stderr);
     assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
     assert_eq!((file.number("workers").to_string(), file.text("state")), (many, "finished".into()));
-    assert_eq!(directory.names(), ["run.h5"]);
+    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint"]);
     // As many as there are cores deserve no warning.
     assert_eq!(run(&["--workers", &cores.to_string()]).0.stderr, "");
 }

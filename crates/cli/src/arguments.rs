@@ -61,6 +61,15 @@ pub enum Command {
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]
     Surface(SurfaceArguments),
+    /// Tell whether run files still hold what was written
+    #[command(after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau verify quick.h5")]
+    Verify(VerifyArguments),
+    /// Make the file of a killed run readable by every program
+    #[command(
+        after_help = "Examples:\n  plateau run data/scenes/quick.toml -o quick.h5\n  plateau repair quick.h5\n\n\
+                      A file that was closed in good order is not touched. To go on with the run: plateau run SCENE --resume"
+    )]
+    Repair(RepairArguments),
     /// Print the JSON Schema of scenes, with which editors complete and check them
     #[command(
         after_help = "Example:\n  plateau schema\n\nFor an editor: plateau schema > scene.schema.json; see docs/scenes.md."
@@ -353,6 +362,28 @@ pub struct WatchArguments {
 /// A value of `--timeout`.
 fn seconds(text: &str) -> Result<u64, &'static str> {
     text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
+}
+
+/// Arguments of `plateau verify`.
+#[derive(Debug, Args)]
+pub struct VerifyArguments {
+    /// Run files
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Print one JSON document instead of text: an array with an object for each file
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau repair`.
+#[derive(Debug, Args)]
+pub struct RepairArguments {
+    /// Run files
+    #[arg(value_name = "RUN", required = true)]
+    pub runs: Vec<PathBuf>,
+    /// Repair also what another machine has written a moment ago
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// Arguments of `plateau export`.

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use crossbeam::channel::Receiver;
 use plateau_core::scout::Scout;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::checkpoint::{self, RunState};
+use plateau_io::run_file::Synced;
 
 use crate::message;
 
@@ -34,8 +34,6 @@ pub struct Keeper {
     start: Instant,
     /// Wall time of the run before this process.
     earlier: f64,
-    /// Whether any was written, now or before.
-    any: bool,
     /// What is sent to the run file.
     sent: [usize; 2],
     writing: Option<JoinHandle<io::Result<()>>>,
@@ -52,7 +50,6 @@ impl Keeper {
             last: now,
             start: now,
             earlier: earlier.map_or(0.0, |state| state.wall_time),
-            any: earlier.is_some(),
             sent: earlier.map_or([0, 0], |state| [state.samples, state.snapshots]),
             writing: None,
         }
@@ -68,14 +65,9 @@ impl Keeper {
         self.sent[1] += 1;
     }
 
-    /// Whether it is time for a checkpoint.
+    /// Whether it is time for a checkpoint, and the one before is on the disk: no step waits for a slow one.
     pub fn is_due(&self) -> bool {
-        self.last.elapsed() >= self.every
-    }
-
-    /// Whether a run that ends now leaves a checkpoint: one that took less than the time between two is soon done again.
-    pub fn keeps_the_end(&self) -> bool {
-        self.any || self.is_due()
+        self.last.elapsed() >= self.every && self.writing.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
     /// Takes the state of a run between two steps, and writes it as soon as what was sent to the run file is on the disk,
@@ -88,9 +80,9 @@ impl Keeper {
         simulation: &mut Simulation,
         scout: Option<&mut Scout>,
         finished: bool,
-        synced: Option<Receiver<()>>,
+        synced: Option<Synced>,
     ) -> Result<(), SimulationError> {
-        (self.last, self.any) = (Instant::now(), true);
+        self.last = Instant::now();
         let run = simulation.checkpoint()?;
         let scout = scout.map(Scout::checkpoint).transpose()?;
         let Some(synced) = synced else { return Ok(()) };
@@ -110,18 +102,10 @@ impl Keeper {
         let run_file = self.run_file.clone();
         let write = move || {
             // Without an answer the run file is not complete; its writer says why.
-            if synced.recv().is_ok() { checkpoint::write(&run_file, &state) } else { Ok(()) }
+            if synced.wait() { checkpoint::write(&run_file, &state) } else { Ok(()) }
         };
         self.writing = std::thread::Builder::new().name("checkpoint".into()).spawn(write).map_err(warn).ok();
         Ok(())
-    }
-
-    /// For a run file that is complete on the disk.
-    pub fn synced() -> Receiver<()> {
-        let (answer, answers) = crossbeam::channel::bounded(1);
-        // There is room for it.
-        let _ = answer.send(());
-        answers
     }
 
     /// Waits until the checkpoint that is being written is on the disk; says so if it cannot be.

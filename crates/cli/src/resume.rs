@@ -44,29 +44,11 @@ pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunSt
 
 /// Refuses a state of another run.
 fn compare(run_file: &Path, state: &RunState, about: &About, extends: bool) -> Result<(), Failure> {
-    let refuse = |what: String| {
-        Err(Failure::input(format_args!(
-            "{} cannot be resumed: {what}; undo that, or begin again without --resume",
-            run_file.display()
-        )))
-    };
     if state.program != about.program {
-        return refuse(format!("it was begun by {}, this is {}", state.program, about.program));
+        let what = format_args!("it was begun by {}, this is {}", state.program, about.program);
+        return Err(refusal(run_file, what));
     }
-    let now = about.scene.parse().unwrap_or_default();
-    let differences = differences(&state.scene, &now);
-    let free = |key: &str| FREE.contains(&key) || (extends && LENGTH.contains(&key));
-    let keys: Vec<String> = differences
-        .into_iter()
-        .filter(|difference| !free(&difference.key))
-        .map(|difference| {
-            let value = |value: Option<String>| value.unwrap_or_else(|| "nothing".into());
-            format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
-        })
-        .collect();
-    if !keys.is_empty() {
-        return refuse(format!("the scene differs: {}", keys.join(", ")));
-    }
+    compare_scenes(run_file, &state.scene, about, extends)?;
     let changed: Vec<String> = about
         .inputs
         .iter()
@@ -77,7 +59,34 @@ fn compare(run_file: &Path, state: &RunState, about: &About, extends: bool) -> R
     if changed.is_empty() && about.inputs.len() == state.inputs.len() {
         return Ok(());
     }
-    refuse(format!("files that it reads have changed: {}", changed.join(", ")))
+    Err(refusal(run_file, format_args!("files that it reads have changed: {}", changed.join(", "))))
+}
+
+/// Refuses a run file of another scene.
+///
+/// # Errors
+/// [`Failure::Input`], which names the keys that differ.
+pub fn compare_scenes(run_file: &Path, scene: &str, about: &About, extends: bool) -> Result<(), Failure> {
+    let now = about.scene.parse().unwrap_or_default();
+    let free = |key: &str| FREE.contains(&key) || (extends && LENGTH.contains(&key));
+    let keys: Vec<String> = differences(scene, &now)
+        .into_iter()
+        .filter(|difference| !free(&difference.key))
+        .map(|difference| {
+            let value = |value: Option<String>| value.unwrap_or_else(|| "nothing".into());
+            format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
+        })
+        .collect();
+    if keys.is_empty() {
+        Ok(())
+    } else {
+        Err(refusal(run_file, format_args!("the scene differs: {}", keys.join(", "))))
+    }
+}
+
+fn refusal(run_file: &Path, what: impl std::fmt::Display) -> Failure {
+    let run_file = run_file.display();
+    Failure::input(format_args!("{run_file} cannot be resumed: {what}; undo that, or begin again without --resume"))
 }
 
 /// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.

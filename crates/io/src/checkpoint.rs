@@ -94,14 +94,13 @@ pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     file.write_all(&(content.len() as u64).to_le_bytes())?;
     file.write_all(&content)?;
     file.write_all(&Sha256::digest(&content))?;
+    // Before the last takes another name: it goes only when there is one in its place.
     file.sync_all()?;
     match fs::rename(&last, &before) {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         _ => {}
     }
-    temporary.publish(true)?;
-    let folder = last.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    File::open(folder)?.sync_all()
+    temporary.publish_durably()
 }
 
 /// Reads a checkpoint; none if there is no such file.
@@ -138,16 +137,41 @@ pub fn read(path: &Path) -> Result<Option<RunState>, CheckpointError> {
     postcard::from_bytes(&content).map(Some).map_err(|_| damaged("it holds something else"))
 }
 
-/// Removes the checkpoints of a run file, for a new run takes its place.
+/// Checkpoints that are out of the way while a new run takes their place; they come back unless they are discarded.
+#[derive(Debug)]
+pub struct Aside {
+    moved: Vec<(PathBuf, Temporary)>,
+}
+
+/// Moves the checkpoints of a run file out of the way.
 ///
 /// # Errors
-/// What the system says.
-pub fn remove(run_file: &Path) -> io::Result<()> {
+/// What the system says; they are then where they were.
+pub fn set_aside(run_file: &Path) -> io::Result<Aside> {
+    let mut aside = Aside { moved: Vec::new() };
     for path in paths(run_file) {
-        match fs::remove_file(path) {
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-            _ => {}
+        let temporary = Temporary::beside(&path);
+        match fs::rename(&path, temporary.path()) {
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(error),
+            Ok(()) => aside.moved.push((path, temporary)),
         }
     }
-    Ok(())
+    Ok(aside)
+}
+
+impl Aside {
+    /// Removes them.
+    pub fn discard(mut self) {
+        self.moved.clear();
+    }
+}
+
+impl Drop for Aside {
+    fn drop(&mut self) {
+        for (path, temporary) in &self.moved {
+            // Nobody is left to tell.
+            let _ = fs::rename(temporary.path(), path);
+        }
+    }
 }

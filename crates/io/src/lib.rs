@@ -11,6 +11,7 @@
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | HDF5 files of named results | [`dataset_file`] |
 //! | files that appear when they are complete | [`temporary`] |
+//! | who has a file open for writing | [`writer`] |
 
 pub mod checkpoint;
 pub mod dataset_file;
@@ -24,3 +25,4 @@ pub mod surface;
 pub mod temporary;
 mod timestamp;
 pub mod units;
+pub mod writer;

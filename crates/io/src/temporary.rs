@@ -1,6 +1,6 @@
 //! Files that appear under their name when they are complete.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -24,7 +24,7 @@ impl Temporary {
     /// Removes what processes that were killed left beside a target. Those of living ones of this machine stay; where the
     /// system does not tell who lives, all do.
     pub fn remove_abandoned(target: &Path) {
-        let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder(target);
         let (start, processes) = (start_of_name(target), Path::new("/proc"));
         let Ok(entries) = fs::read_dir(folder).map(Iterator::flatten) else { return };
         for entry in entries.filter(|_| processes.join("self").exists()) {
@@ -59,6 +59,22 @@ impl Temporary {
             Ok(()) => Ok(()),
         }
     }
+
+    /// Gives the file its name, in place of another if there is one: when this returns, it is on the disk under its name.
+    ///
+    /// # Errors
+    /// What the system says; the file that was there then still is.
+    pub fn publish_durably(self) -> io::Result<()> {
+        File::open(&self.path)?.sync_all()?;
+        let folder = folder(&self.target).to_owned();
+        self.publish(true)?;
+        File::open(folder)?.sync_all()
+    }
+}
+
+/// The folder that a file is in.
+fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// How the names of the temporary files of a target begin.

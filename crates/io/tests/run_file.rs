@@ -381,8 +381,13 @@ fn child_cannot_create() {
 fn a_disk_that_is_full_at_the_end_leaves_a_readable_file() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.h5");
-    // The limit, 128 KiB, is what is asked for behind the end of the file, so that it is never there.
-    let output = child("child_cannot_end", "ulimit -f 256;", &path).output().unwrap();
+    let mut writer = RunWriter::create(&path, false, &small()).unwrap();
+    writer.sample(sample(1)).unwrap();
+    let whole = writer.finish(&End::Finished).unwrap().bytes;
+    fs::remove_file(&path).unwrap();
+    // The last page is missing, in blocks of 512 bytes.
+    let limit = format!("ulimit -f {};", (whole - 4096) / 512);
+    let output = child("child_cannot_end", &limit, &path).output().unwrap();
     let out = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{out}{}", String::from_utf8_lossy(&output.stderr));
     assert!(out.contains("File too large"), "{out}");

@@ -6,12 +6,14 @@ mod completions;
 mod export;
 mod man;
 mod plot;
+mod repair;
 mod report;
 mod run;
 mod runs;
 mod schema;
 mod surface;
 mod sweep;
+mod verify;
 mod watch;
 
 use plateau_io::scene::{self, recipe::Scene};
@@ -33,6 +35,8 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Sweep(command) => sweep::sweep(command),
         Command::Surface(arguments) => surface::surface(&arguments),
+        Command::Verify(arguments) => verify::verify(&arguments),
+        Command::Repair(arguments) => repair::repair(&arguments),
         Command::Schema => schema::schema(),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),

@@ -54,6 +54,11 @@ pub(crate) fn is_hdf5(path: &Path) -> io::Result<bool> {
     Ok(superblock(&File::open(path)?)?.is_some())
 }
 
+/// Whether a file is marked as being written, or was when its writer was killed: then plain readers refuse it.
+pub(crate) fn is_marked(path: &Path) -> io::Result<bool> {
+    is_being_written(&File::open(path)?)
+}
+
 /// An attribute that is one text of any kind, if there is one.
 ///
 /// # Errors
@@ -73,8 +78,9 @@ pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Op
     }
 }
 
-fn text(read: hdf5::Result<impl ToString>) -> hdf5::Result<Option<String>> {
-    read.map(|text| Some(text.to_string()))
+/// The bytes of a damaged file may be no text.
+fn text(read: hdf5::Result<impl AsRef<[u8]>>) -> hdf5::Result<Option<String>> {
+    read.map(|text| Some(String::from_utf8_lossy(text.as_ref()).into_owned()))
 }
 
 /// Whether the superblock says that a program has the file open for writing; if it was killed, it still does.

@@ -12,9 +12,12 @@ use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 /// CLASS = "DIMENSION_SCALE" as the specification wants it: 16 bytes, null-terminated.
 ///
 /// The crate `hdf5` makes null-padded strings only, with which the HDF5 library does not recognise a dimension scale.
-/// This file is where the type comes from; every run file starts as a copy of it. It was made by h5py:
+/// This file is where the type comes from; every run file starts as a copy of it. What says how a file is organised lies in
+/// pages of 4 KiB here, so that a process that is killed while it writes has written the whole of a piece or nothing of it: a
+/// system ends a write at the end of a page of memory. It was made by h5py:
 /// ```python
-/// with h5py.File("empty.h5", "w", libver=("v110", "v110"), track_order=True) as file:
+/// options = dict(libver=("v110", "v110"), track_order=True, fs_strategy="page", fs_page_size=4096)
+/// with h5py.File("empty.h5", "w", **options) as file:
 ///     text = h5py.h5t.C_S1.copy(); text.set_size(16); text.set_strpad(h5py.h5t.STR_NULLTERM)
 ///     attribute = h5py.h5a.create(file.id, b"CLASS", text, h5py.h5s.create(h5py.h5s.SCALAR))
 ///     attribute.write(numpy.array(b"DIMENSION_SCALE", dtype="S16"))

@@ -71,6 +71,14 @@ pub enum RunFileError {
         /// What the HDF5 library or the system said.
         reason: String,
     },
+    /// A file that was to take the place of another could not be made; that one is as it was.
+    #[error("writing {} anew failed: {reason}; it is as it was; free space or make its folder writable", path.display())]
+    Anew {
+        /// The run file.
+        path: PathBuf,
+        /// What the HDF5 library or the system said.
+        reason: String,
+    },
     /// The file of a run that was stopped cannot be gone on with; it is as it was.
     #[error("cannot go on with {}: {reason}", path.display())]
     Earlier {
@@ -95,7 +103,7 @@ pub enum RunFileError {
     #[error("the writer of the run file stopped; this is a defect of the program, please report it")]
     Stopped,
     /// The run file was moved or replaced by another program while the run went on.
-    #[error("{} was moved or replaced while the run went on; its final state could not be recorded", path.display())]
+    #[error("{} was moved, removed or replaced while the run went on, which ends it", path.display())]
     Moved {
         /// Where the run file should be.
         path: PathBuf,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::mesh::Mesh;
 use plateau_core::observe::{Extras, Map};
 use plateau_core::state::Base;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::RunFileError;
 use crate::digest::sha256;
@@ -55,7 +55,7 @@ impl Header {
 }
 
 /// A file that was read for a run, with what it held.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InputFile {
     /// Path as the run used it; characters that are no Unicode are replaced.
     pub path: String,

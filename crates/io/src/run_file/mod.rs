@@ -16,6 +16,8 @@
 //! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.
 //!
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands.
+mod datasets;
+mod digest;
 pub(crate) mod dimension;
 mod end;
 mod error;
@@ -25,8 +27,13 @@ mod limit;
 mod place;
 mod read_error;
 mod reader;
+mod recorded;
+mod repair;
+mod seal;
 mod status;
 mod store;
+mod synced;
+mod verify;
 mod writer;
 
 pub use end::{Earlier, End};
@@ -37,4 +44,7 @@ pub use limit::report_file_size_limit;
 pub use place::check_place;
 pub use read_error::ReadError;
 pub use reader::{RunFile, Series, State};
+pub use repair::{Repair, RepairError, is_healthy, repair};
+pub use synced::Synced;
+pub use verify::{Damage, Verification, verify};
 pub use writer::{RunWriter, WriterReport};

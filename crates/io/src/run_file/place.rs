@@ -19,13 +19,31 @@ impl Place {
     pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
         let path = resolve(path, overwrite)?;
         let temporary = Temporary::beside(&path);
-        fs::write(temporary.path(), start).map_err(refused_in(&path))?;
+        fs::write(temporary.path(), start).map_err(|error| match error.kind() {
+            // That is not the user's mistake, and nothing that writing elsewhere in the folder would mend.
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+                RunFileError::SetUp { path: path.clone(), reason: error.to_string() }
+            }
+            _ => refused_in(&path)(error),
+        })?;
         Ok(Self { path, temporary, overwrite })
+    }
+
+    /// Where the file will be.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Where the file is until it is published.
     pub(super) fn temporary(&self) -> &Path {
         self.temporary.path()
+    }
+
+    /// Replaces the file that is there, so that one of both is whole even if the power fails.
+    pub(super) fn publish_durably(self) -> Result<PathBuf, RunFileError> {
+        let Self { path, temporary, .. } = self;
+        temporary.publish_durably().map_err(refused_in(&path))?;
+        Ok(path)
     }
 
     /// Gives the temporary its final name; replaces an existing file only where that was asked for.

@@ -60,7 +60,7 @@ pub struct Series {
 /// A run file as it was when it was opened: what is appended later is not seen.
 pub struct RunFile {
     path: PathBuf,
-    file: hdf5::File,
+    pub(super) file: hdf5::File,
     title: String,
     state: State,
     scene: toml::Table,

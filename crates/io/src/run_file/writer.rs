@@ -9,7 +9,7 @@ use plateau_core::mesh::Mesh;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
 use super::store::Store;
-use super::{Earlier, End, Header, RunFileError};
+use super::{Earlier, End, Header, RunFileError, Synced};
 
 /// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
 const QUEUED_SAMPLES: usize = 16 * 1024;
@@ -53,6 +53,8 @@ struct Queues {
     samples: Sender<Sample>,
     snapshots: Sender<Snapshot>,
     syncs: Sender<Sender<()>>,
+    /// See [`Synced`].
+    alive: Receiver<()>,
 }
 
 impl RunWriter {
@@ -72,14 +74,18 @@ impl RunWriter {
         let (sample_sender, samples) = channel::bounded(QUEUED_SAMPLES);
         let (snapshot_sender, snapshots) = channel::bounded(QUEUED_SNAPSHOTS);
         let (sync_sender, syncs) = channel::bounded(1);
-        let thread =
-            thread::Builder::new().name("run file".into()).spawn(move || write(store, &samples, &snapshots, &syncs));
+        let (life, alive) = channel::bounded(0);
+        let work = move || {
+            let _life: Sender<()> = life;
+            write(store, &samples, &snapshots, &syncs)
+        };
+        let thread = thread::Builder::new().name("run file".into()).spawn(work);
         let thread =
             thread.map_err(|error| RunFileError::Write { path: path.into(), reason: format!("no thread: {error}") })?;
         Ok(Self {
             mesh: header.mesh.clone(),
             maps: header.maps.clone(),
-            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender, syncs: sync_sender }),
+            queues: Some(Queues { samples: sample_sender, snapshots: snapshot_sender, syncs: sync_sender, alive }),
             thread: Some(thread),
             failure: None,
             waited: Duration::ZERO,
@@ -94,15 +100,15 @@ impl RunWriter {
         Self::start(path, header, Store::resume(path, header, earlier)?)
     }
 
-    /// Asks for all that was sent so far to be handed to the disk. An answer comes when it is there; none comes when it
-    /// cannot be, which the next call tells.
-    pub fn sync(&self) -> Receiver<()> {
+    /// Asks for all that was sent so far to be handed to the disk.
+    pub fn sync(&self) -> Synced {
         let (answer, answers) = channel::bounded(1);
+        let alive = self.queues.as_ref().map_or_else(|| channel::bounded(0).1, |queues| queues.alive.clone());
         if let Some(queues) = &self.queues {
             // Nobody receives any more where the writer has failed.
             let _ = queues.syncs.send(answer);
         }
-        answers
+        Synced::new(answers, alive)
     }
 
     /// Sends a sample; readers see it within a second. Waits only when the queue is full.

@@ -1,0 +1,76 @@
+//! `plateau repair`: make the file of a run that was killed readable by every program.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use plateau_io::checkpoint;
+use plateau_io::run_file::{self, Repair, RepairError, RunFile};
+use plateau_io::writer::writer_of;
+
+use crate::arguments::RepairArguments;
+use crate::failure::Failure;
+use crate::table::print;
+use crate::{machine, message, number};
+
+/// A run that goes on touches its file or a checkpoint at least that often, unless its scene says otherwise.
+const SILENCE: Duration = Duration::from_secs(150);
+
+/// Repairs all files that can be before it fails because of one.
+pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
+    let mut last = None;
+    for path in &arguments.runs {
+        match repair_one(path, arguments.force) {
+            Ok(line) => print(&line)?,
+            Err(failure) => {
+                if let Some(earlier) = last.replace(failure) {
+                    earlier.say();
+                }
+            }
+        }
+    }
+    last.map_or(Ok(()), Err)
+}
+
+/// What became of a file, on one line.
+fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
+    let file = path.display();
+    let unreadable = |error| Failure::input(error);
+    if !run_file::is_healthy(path).map_err(unreadable)? {
+        refuse_if_written(path, force)?;
+    }
+    match run_file::repair(path) {
+        Ok(Repair::Healthy) => Ok(format!("{file} is healthy: nothing was done\n")),
+        Ok(Repair::Repaired { copy, samples, moments }) => Ok(format!(
+            "{file} is repaired: {}, {} with maps; what was there is {}\n",
+            number::count(samples, "sample"),
+            number::count(moments, "moment"),
+            copy.display()
+        )),
+        Err(error @ (RepairError::Read(_) | RepairError::Unknown { .. })) => Err(Failure::input(error)),
+        Err(error) => Err(Failure::run(error)),
+    }
+}
+
+/// Refuses a file whose run goes on, or may.
+fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
+    let file = path.display();
+    if let Some(process) = writer_of(path) {
+        return Err(Failure::input(format_args!("{file} is being written by process {process}; stop it first")));
+    }
+    let run = RunFile::open(path).map_err(Failure::input)?;
+    let host = run.attribute("host").unwrap_or_default();
+    if force || host == machine::host() {
+        return Ok(());
+    }
+    let [last, _] = checkpoint::paths(path);
+    let ages = [path, &last].map(|path| fs::metadata(path).ok()?.modified().ok()?.elapsed().ok());
+    let Some(age) = ages.into_iter().flatten().min().filter(|age| *age < SILENCE) else {
+        message::note(format_args!("{file} was last written on the machine {host}"));
+        return Ok(());
+    };
+    Err(Failure::input(format_args!(
+        "{file} was written {} ago on the machine {host}, where its run may still go on; if not, give --force",
+        number::duration(age.as_secs_f64().floor())
+    )))
+}

@@ -1,0 +1,161 @@
+//! `plateau run`: simulate a scene and write its run file.
+
+mod beginning;
+mod header;
+mod recorder;
+
+use std::path::Path;
+use std::time::Instant;
+
+use plateau_core::observe::Sample;
+use plateau_core::scout::{Idle, Scout};
+use plateau_core::simulation::Execution;
+use plateau_core::state::InitialSurfaces;
+use plateau_io::run_file::{End, Synced, check_place, report_file_size_limit};
+use plateau_io::scene::recipe::Scene;
+use plateau_io::surface::{self, Loaded};
+
+use self::beginning::Beginning;
+use self::header::header;
+use self::recorder::{Recorder, RunFailure};
+use super::load_scene;
+use crate::arguments::{RunArguments, SceneArguments};
+use crate::drive::drive;
+use crate::execution::decide;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::job::{Agreement, Job};
+use crate::keeper::{About, Keeper};
+use crate::progress::Progress;
+use crate::summary::Summary;
+use crate::table::print;
+use crate::{message, number, stability, version};
+
+/// Runs a scene, together with the other processes of the job if there are any.
+pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let mut job = Job::start()?;
+    let result = run_scene(arguments, &mut job);
+    job.end(result)
+}
+
+/// All processes of the job do the same, but only the leading one writes and prints.
+fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
+    // Where the system takes no handler, a run beyond the file size limit ends by a signal; no reason not to run.
+    let _ = report_file_size_limit();
+    // From now on: preparing a large scene takes long enough to be told to stop meanwhile.
+    let interrupt = Interrupt::listen().map_err(Failure::run)?;
+    interrupt.listen_for_save().map_err(Failure::run)?;
+    let scene = load_scene(&lengthened(arguments))?;
+    let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
+    if job.leads() {
+        check_place(&path, arguments.force || arguments.resumes()).map_err(Failure::input)?;
+    }
+    stability::warn(&scene.parameters);
+    let loaded = surface::load(&scene).map_err(Failure::input)?;
+    interrupt.check()?;
+    refuse_to_replace_inputs(&path, &scene, &loaded)?;
+    let mut schedule = scene.schedule();
+    let Loaded { surfaces, inputs, report: surface_report } = loaded;
+    let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
+    let execution = execution.map_err(Failure::run)?;
+    let mut scout = scout(&scene, &surfaces, execution, job)?;
+    let mut simulation = job.simulation(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
+    let header = header(&scene, &simulation, scout.is_some(), &inputs, &surface_report, schedule.samples())?;
+    job.compare(
+        &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
+    )?;
+    let about = About { program: version::build(), scene: scene.resolved.clone(), inputs };
+    interrupt.check()?;
+    let Some(Beginning { writer, state }) = Beginning::of(&path, &header, &about, arguments, job)? else {
+        return Ok(());
+    };
+    if let Some(state) = &state {
+        simulation.restore(&state.run).map_err(Failure::run)?;
+        if let (Some(scout), Some(kept)) = (&mut scout, &state.scout) {
+            scout.restore(kept).map_err(Failure::run)?;
+        }
+        schedule.go_on(state.run.clock());
+        let (steps, time) = (state.run.steps(), number::short(state.run.time()));
+        message::note(format_args!("goes on from step {steps}, t = {time} s"));
+    }
+    let keeper = Keeper::new(&path, about, scene.output.checkpoint_every, state.as_ref());
+
+    let start = Instant::now();
+    let progress = Progress::new(schedule.end_time(), job.leads());
+    let agreement = Agreement::default();
+    let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default(), keeper, agreement };
+    let result = drive(&mut simulation, scout.as_mut(), schedule, &scene.output, &mut recorder);
+    recorder.progress.finish();
+    let Recorder { writer, last, mut keeper, .. } = recorder;
+    keeper.wait();
+    if result.is_ok() && writer.is_none() {
+        keeper.keep(&mut simulation, scout.as_mut(), true, None).map_err(Failure::run)?;
+    }
+    let Some(writer) = writer else {
+        return result.map(drop).map_err(|failure| match failure {
+            RunFailure::Stopped(signal) => Failure::Stopped { signal, message: None },
+            failure => Failure::run(failure),
+        });
+    };
+    match result {
+        Ok(()) => {}
+        Err(RunFailure::Stopped(signal)) => {
+            let report = writer.finish(&End::Interrupted).map_err(Failure::run)?;
+            let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
+            let message = format!(
+                "stopped by signal {signal} after {steps} steps; {file} holds {samples} samples, --resume goes on from here"
+            );
+            return Err(Failure::Stopped { signal, message: Some(message) });
+        }
+        Err(failure) => {
+            // The first error is the one to report; a writer that failed has nothing more to say.
+            let _ = writer.finish(&End::Failed(failure.to_string()));
+            return Err(Failure::run(failure));
+        }
+    }
+    let report = writer.finish(&End::Finished).map_err(Failure::run)?;
+    keeper.keep(&mut simulation, scout.as_mut(), true, Some(Synced::already())).map_err(Failure::run)?;
+    keeper.wait();
+    let summary =
+        Summary::new(&scene, surface_report, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
+    summary.warn();
+    scout.as_ref().and_then(Scout::idle).into_iter().for_each(warn_of);
+    if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
+}
+
+/// The command line with the duration that `--extend-to` gives.
+fn lengthened(arguments: &RunArguments) -> SceneArguments {
+    let mut scene = arguments.scene.clone();
+    scene.sets.extend(arguments.extend_to.iter().map(|time| format!("operation.duration={time}")));
+    scene
+}
+
+/// What goes before a run that chooses its acceleration, where there is something to choose.
+fn scout(scene: &Scene, surfaces: &InitialSurfaces, execution: Execution, job: &Job) -> Result<Option<Scout>, Failure> {
+    let Some(adaptive) = &scene.adaptive else { return Ok(None) };
+    let simulation = job.simulation(scene.parameters.clone(), surfaces.clone(), execution).map_err(Failure::input)?;
+    let scout = Scout::new(simulation, adaptive, scene.duration).map_err(Failure::run)?;
+    if let Some(idle) = scout.idle() {
+        warn_of(idle);
+        return Ok(None);
+    }
+    Ok(Some(scout))
+}
+
+/// Says why the run is not accelerated although it might choose.
+pub fn warn_of(idle: Idle) {
+    message::warning(format_args!("numerics.time_acceleration: {idle}; see docs/accuracy.md"));
+}
+
+/// Refuses an output that is a file which the run reads: not even `--force` is meant like that.
+fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Result<(), Failure> {
+    let Ok(existing) = output.canonicalize() else { return Ok(()) };
+    let mut inputs = scene.files.iter().chain(loaded.inputs.iter().map(|(path, _)| path));
+    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == existing)) {
+        let output = output.display();
+        return Err(Failure::input(format_args!(
+            "the output file {output} is an input of this run and is not replaced; write elsewhere with -o FILE"
+        )));
+    }
+    Ok(())
+}

@@ -1,0 +1,53 @@
+//! What a run file says about its run, read back.
+
+use std::path::Path;
+
+use plateau_core::material::Status;
+use plateau_core::observe::{Extras, Map};
+use plateau_core::state::Base;
+
+use super::{Header, InputFile, ReadError, RunFile};
+
+impl Header {
+    /// The header of a file that is there.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`] when something is missing or is no longer what was written.
+    pub(super) fn of(run: &RunFile) -> Result<Self, ReadError> {
+        let damaged = |reason: String| ReadError::Damaged { path: run.path().into(), reason };
+        let text = |name: &str| run.attribute(name).ok_or_else(|| damaged(format!("it has no {name}")));
+        let has = |name: &str| run.series().iter().any(|series| series.name == name);
+        let base = run.pin_base()?.ok_or_else(|| damaged("it has no base of the pin".to_owned()))?;
+        let seeds: serde_json::Map<String, serde_json::Value> = json(run.path(), "seeds", &text("seeds")?)?;
+        let inputs: Vec<InputFile> = json(run.path(), "inputs", &text("inputs")?)?;
+        let seeds = seeds.into_iter().map(|(key, seed)| {
+            let number = seed.as_u64();
+            number.map(|number| (key.clone(), number)).ok_or_else(|| damaged(format!("the seed of {key} is {seed}")))
+        });
+        Ok(Self {
+            title: run.title().to_owned(),
+            mesh: run.mesh().clone(),
+            pin_base: base
+                .iter()
+                .map(|base| if *base == Status::None as u8 { Base::None } else { Base::Primary })
+                .collect(),
+            maps: Map::ALL.into_iter().filter(|map| run.has_map(*map)).collect(),
+            extras: Extras { roughness: has("disc_sa"), acceleration: has("time_acceleration") },
+            expected_samples: run.time().len() as u64,
+            scene: text("scene")?,
+            program: text("program")?,
+            source_revision: text("source_revision")?,
+            host: text("host")?,
+            workers: run.number("workers").ok_or_else(|| damaged("it has no workers".to_owned()))? as usize,
+            instruction_set: text("instruction_set")?,
+            seeds: seeds.collect::<Result<_, _>>()?,
+            inputs,
+            surfaces: text("surfaces")?.lines().map(str::to_owned).collect(),
+        })
+    }
+}
+
+fn json<T: serde::de::DeserializeOwned>(path: &Path, name: &str, text: &str) -> Result<T, ReadError> {
+    serde_json::from_str(text)
+        .map_err(|error| ReadError::Damaged { path: path.into(), reason: format!("its {name}: {error}") })
+}

@@ -1,0 +1,177 @@
+//! Whether a run file still holds what was written.
+
+use std::path::Path;
+
+use hdf5::Dataset;
+use plateau_core::observe::{Map, MapValues};
+
+use super::digest::{ATTRIBUTES_DIGEST, DIGEST, of_attributes, of_bytes, of_floats, texts};
+use super::layout::{MAP_TIME, PIN_BASE, TIME, map_path, series_path};
+use super::{ReadError, RunFile, State};
+use crate::hdf5_file;
+
+/// What was found of a run file that can be opened.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Verification {
+    /// How its run ended.
+    pub state: State,
+    /// Samples.
+    pub samples: usize,
+    /// Moments of which there are maps.
+    pub moments: usize,
+    /// Digests that hold.
+    pub intact: usize,
+    /// Whether it has digests: not before it is closed.
+    pub digested: bool,
+    /// What is no longer what was written.
+    pub damage: Vec<Damage>,
+}
+
+/// A part of a run file that is damaged.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damage {
+    /// Where it is, such as `/disc/height at 500 s`.
+    pub place: String,
+    /// How it shows.
+    pub problem: String,
+}
+
+/// Compares all that a run file holds with the digests that were taken when it was written.
+///
+/// # Errors
+/// [`ReadError`] when it cannot be opened, is no run file, or so damaged that nothing more can be said.
+pub fn verify(path: &Path) -> Result<Verification, ReadError> {
+    let run = RunFile::open(path)?;
+    let found = Verification {
+        state: run.state(),
+        samples: run.time().len(),
+        moments: run.map_time().len(),
+        intact: 0,
+        digested: run.file.attr(ATTRIBUTES_DIGEST).is_ok(),
+        damage: Vec::new(),
+    };
+    let mut check = Check { run: &run, found };
+    for name in ["radius", "disc_angle", "pin_angle", TIME, MAP_TIME] {
+        // Without maps there are no times of them.
+        if name != MAP_TIME || run.file.link_exists(MAP_TIME) {
+            check.column(name);
+        }
+    }
+    for series in run.series() {
+        check.series(&series.name);
+    }
+    check.pin_base();
+    for map in Map::ALL.into_iter().filter(|map| run.has_map(*map)) {
+        check.map(map);
+    }
+    check.attributes();
+    Ok(check.found)
+}
+
+struct Check<'a> {
+    run: &'a RunFile,
+    found: Verification,
+}
+
+impl Check<'_> {
+    /// A dataset with one dimension.
+    fn column(&mut self, path: &str) {
+        let values = self.guarded(path, |dataset| dataset.read_1d::<f64>());
+        let values = values.map(|values| values.to_vec()).map_err(|error| reason(&error));
+        self.compare(path, values.map(|values| of_floats(&values)));
+    }
+
+    /// As many values as there are times; where the program was killed there may be more.
+    fn series(&mut self, name: &str) {
+        let path = series_path(name);
+        let values = self.run.values(name).map(Option::unwrap_or_default).map_err(in_short);
+        self.compare(&path, values.map(|values| of_floats(&values)));
+    }
+
+    fn pin_base(&mut self) {
+        let base = self.run.pin_base().map(Option::unwrap_or_default).map_err(in_short);
+        self.compare(PIN_BASE, base.map(|base| of_bytes(&base)));
+    }
+
+    /// Every moment has its own digest.
+    fn map(&mut self, map: Map) {
+        let path = map_path(map);
+        let written = self.written(path);
+        for (moment, time) in self.run.map_time().iter().enumerate() {
+            let found = match self.run.map(map, moment) {
+                Ok(Some(MapValues::Float(values))) => Ok(of_floats(&values)),
+                Ok(Some(MapValues::Status(values))) => Ok(of_bytes(&values)),
+                Ok(None) => Err("it is not there".to_owned()),
+                Err(error) => Err(in_short(error)),
+            };
+            let written = match &written {
+                Ok(None) => Ok(None),
+                Ok(Some(digests)) => {
+                    digests.get(moment).cloned().map(Some).ok_or_else(|| "it has no digest".to_owned())
+                }
+                Err(error) => Err(error.clone()),
+            };
+            self.judge(format!("/{path} at {time} s"), found, written);
+        }
+    }
+
+    fn attributes(&mut self) {
+        let file = &self.run.file;
+        let found = hdf5_file::guarded(0, || of_attributes(file)).map_err(|error| reason(&error));
+        let written = hdf5_file::text_attribute(file, ATTRIBUTES_DIGEST).map_err(|error| reason(&error));
+        self.judge("attributes".to_owned(), found, written);
+    }
+
+    /// A dataset that has one digest.
+    fn compare(&mut self, path: &str, found: Result<String, String>) {
+        let written = self.written(path).map(|digests| digests.and_then(|digests| digests.first().cloned()));
+        self.judge(format!("/{path}"), found, written);
+    }
+
+    /// The digests of a dataset, if it has any.
+    fn written(&self, path: &str) -> Result<Option<Vec<String>>, String> {
+        let digests = self.guarded(path, |dataset| {
+            if dataset.attr_names()?.iter().any(|name| name == DIGEST) {
+                texts(&self.run.file, &dataset.attr(DIGEST)?)
+            } else {
+                Ok(None)
+            }
+        });
+        digests.map_err(|error| reason(&error))
+    }
+
+    fn judge(&mut self, place: String, found: Result<String, String>, written: Result<Option<String>, String>) {
+        let problem = match (found, written) {
+            (Ok(found), Ok(Some(written))) if found == written => {
+                self.found.intact += 1;
+                return;
+            }
+            (Ok(_), Ok(None)) if !self.found.digested => return,
+            (Err(error), _) | (_, Err(error)) => error,
+            (Ok(_), Ok(None)) => "it has no digest".to_owned(),
+            (Ok(found), Ok(Some(written))) => {
+                format!("it is not what was written: SHA-256 {found}, expected {written}")
+            }
+        };
+        self.found.damage.push(Damage { place, problem });
+    }
+
+    /// Does `work` on a dataset with no more memory than it needs.
+    fn guarded<T>(&self, path: &str, work: impl FnOnce(&Dataset) -> hdf5::Result<T>) -> hdf5::Result<T> {
+        let dataset = self.run.file.dataset(path)?;
+        hdf5_file::guarded(dataset.size().saturating_mul(size_of::<f64>()), || work(&dataset))
+    }
+}
+
+/// What is wrong with a part of a file, without what is said of the file.
+fn in_short(error: ReadError) -> String {
+    match error {
+        ReadError::Damaged { reason, .. } => reason,
+        error => error.to_string(),
+    }
+}
+
+/// What the library said, on one line.
+fn reason(error: &hdf5::Error) -> String {
+    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
+}

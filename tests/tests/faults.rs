@@ -1,0 +1,145 @@
+//! Nothing is lost, whichever of the calls that change files is the last of the program, or fails: what was complete can be
+//! read, and a run that is gone on with ends as if nothing had happened.
+//!
+//! Here a part of the calls is looked at, in turn with each fault; `PLATEAU_FAULTS=all` has every call with every fault.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::Command;
+
+use plateau_tests::fault::{Fault, count, strike};
+use plateau_tests::program::{WorkingDirectory, run, scene};
+use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
+
+/// Unless all are asked for, every so many calls is looked at. No multiple of the number of faults.
+const STRIDE: usize = 7;
+
+/// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
+fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
+    let sets = [
+        "mesh.rows=8",
+        "mesh.disc_columns=160",
+        "mesh.pin_columns=16",
+        "operation.duration=6 s",
+        "numerics.time_acceleration=1",
+        "output.sample_every=0.1 s",
+        "output.maps_at=[\"0 s\", \"1 s\"]",
+        "output.checkpoint_every=0.001 s",
+    ];
+    let mut command = directory.command(["run", &scene("quick.toml"), "-o", "run.h5"]);
+    command.args(sets.iter().flat_map(|set| ["--set", set])).args(more);
+    command
+}
+
+/// The calls to look at, each with a fault.
+fn strikes(calls: usize) -> Vec<(Fault, usize)> {
+    let all = (1..=calls).flat_map(|call| Fault::ALL.map(|fault| (fault, call)));
+    let stride = if std::env::var("PLATEAU_FAULTS").is_ok_and(|faults| faults == "all") { 1 } else { STRIDE };
+    all.step_by(stride).collect()
+}
+
+/// The content of an undisturbed run.
+fn whole() -> BTreeMap<String, Content> {
+    let directory = WorkingDirectory::new();
+    let outcome = run(short_run(&directory, &[]));
+    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    RunFile::open(directory.path("run.h5")).content()
+}
+
+/// Checks that what is there can be read and gone on with.
+fn check(directory: &WorkingDirectory, whole: &BTreeMap<String, Content>, what: &str) {
+    let run_file = directory.path("run.h5");
+    if run_file.exists() {
+        for command in ["repair", "verify"] {
+            let outcome = directory.plateau([command, "run.h5"]);
+            assert_eq!(outcome.status, Some(0), "{command} after {what}: {outcome:?}");
+        }
+        let there = RunFile::open(&run_file).content();
+        assert_eq!(differences_of_start(whole, &there), [""; 0], "after {what}");
+    }
+    let states = ["run.h5.checkpoint", "run.h5.checkpoint-before"].map(|name| directory.path(name).exists());
+    let outcome = run(short_run(directory, &["--resume"]));
+    assert_eq!(outcome.status, Some(0), "--resume after {what}: {outcome:?}");
+    let said = |text| outcome.stderr.contains(text);
+    let expected = if states.contains(&true) { "goes on from step" } else { "begins from the beginning" };
+    assert!(said(expected) || said("is finished"), "{what}: {outcome:?}");
+    assert_eq!(differences(whole, &RunFile::open(&run_file).content()), [""; 0], "--resume after {what}");
+    let verified = directory.plateau(["verify", "run.h5"]);
+    assert_eq!(verified.status, Some(0), "{what}: {verified:?}");
+    let left = directory.names().into_iter().find(|name| name.ends_with(".tmp"));
+    assert_eq!(left, None, "after {what}");
+}
+
+#[test]
+fn a_run_loses_nothing() {
+    let whole = whole();
+    let calls = count(short_run(&WorkingDirectory::new(), &[]));
+    for (fault, call) in strikes(calls) {
+        let directory = WorkingDirectory::new();
+        let outcome = strike(short_run(&directory, &[]), fault, call);
+        let what = format!("{fault:?} at call {call} of {calls}: {outcome:?}");
+        if outcome.status == Some(0) {
+            assert_eq!(differences(&whole, &RunFile::open(directory.path("run.h5")).content()), [""; 0], "{what}");
+        }
+        check(&directory, &whole, &what);
+    }
+}
+
+/// A directory with what a killed run has left, again and again.
+struct Killed {
+    files: Vec<(String, Vec<u8>)>,
+}
+
+impl Killed {
+    fn new() -> Self {
+        let calls = count(short_run(&WorkingDirectory::new(), &[]));
+        // How many calls there are depends on how many checkpoints the disk takes.
+        for call in (1..calls).rev() {
+            let directory = WorkingDirectory::new();
+            let outcome = strike(short_run(&directory, &[]), Fault::Kill, call);
+            let samples = outcome.status.is_none()
+                && RunFile::follow(directory.path("run.h5"))
+                    .is_ok_and(|run| run.shape("/time")[0] > 0 && run.text("state") == "running");
+            if samples && directory.path("run.h5.checkpoint").exists() {
+                let read = |name: String| (name.clone(), fs::read(directory.path(&name)).unwrap());
+                return Self { files: directory.names().into_iter().map(read).collect() };
+            }
+        }
+        panic!("no call of {calls} leaves a run to go on with");
+    }
+
+    fn directory(&self) -> WorkingDirectory {
+        let directory = WorkingDirectory::new();
+        for (name, content) in &self.files {
+            directory.write(name, content);
+        }
+        directory
+    }
+}
+
+#[test]
+fn going_on_loses_nothing() {
+    let (whole, killed) = (whole(), Killed::new());
+    let calls = count(short_run(&killed.directory(), &["--resume"]));
+    for (fault, call) in strikes(calls) {
+        let directory = killed.directory();
+        let outcome = strike(short_run(&directory, &["--resume"]), fault, call);
+        check(&directory, &whole, &format!("{fault:?} at call {call} of {calls} of --resume: {outcome:?}"));
+    }
+}
+
+#[test]
+fn repairing_loses_nothing() {
+    let (whole, killed) = (whole(), Killed::new());
+    let repair = |directory: &WorkingDirectory| directory.command(["repair", "run.h5"]);
+    let calls = count(repair(&killed.directory()));
+    let samples = |directory: &WorkingDirectory| RunFile::follow(directory.path("run.h5")).unwrap().shape("/time");
+    let expected = samples(&killed.directory());
+    for (fault, call) in strikes(calls) {
+        let directory = killed.directory();
+        let outcome = strike(repair(&directory), fault, call);
+        let what = format!("{fault:?} at call {call} of {calls} of repair: {outcome:?}");
+        assert_eq!(samples(&directory), expected, "{what}");
+        check(&directory, &whole, &what);
+    }
+}
