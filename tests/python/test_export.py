@@ -150,7 +150,7 @@ class Export(unittest.TestCase):
             self.same(arrays["map_time"], np.empty(0))
             self.same(arrays["contact_area"], run["series/contact_area"][:])
             self.assertNotIn("disc_height", arrays)
-        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["run.csv", "run.h5", "run.npz"])
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["run.csv", "run.h5", "run.h5.checkpoint", "run.npz"])
 
     def test_a_single_map_of_a_single_cell(self):
         changes = ["mesh.rows=1", "mesh.disc_columns=1", "mesh.pin_columns=1", 'output.maps=["pressure"]', "operation.steps=3"]

@@ -12,7 +12,7 @@ use plateau_tests::program::{WorkingDirectory, run, scene};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 
 /// Unless all are asked for, every so many calls is looked at. No multiple of the number of faults.
-const STRIDE: usize = 7;
+const STRIDE: usize = 31;
 
 /// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
@@ -20,11 +20,11 @@ fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
         "mesh.rows=8",
         "mesh.disc_columns=160",
         "mesh.pin_columns=16",
-        "operation.duration=6 s",
+        "operation.duration=2 s",
         "numerics.time_acceleration=1",
-        "output.sample_every=0.1 s",
+        "output.sample_every=0.02 s",
         "output.maps_at=[\"0 s\", \"1 s\"]",
-        "output.checkpoint_every=0.001 s",
+        "output.checkpoint_every=0.004 s",
     ];
     let mut command = directory.command(["run", &scene("quick.toml"), "-o", "run.h5"]);
     command.args(sets.iter().flat_map(|set| ["--set", set])).args(more);

@@ -2,8 +2,11 @@
 
 use std::fmt;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use signal_hook::consts::SIGABRT;
 
 use crate::message;
 
@@ -34,6 +37,16 @@ impl Failure {
         Self::Run(error.to_string())
     }
 
+    /// The same failure, with what holds nevertheless.
+    #[must_use]
+    pub fn but(self, what: impl fmt::Display) -> Self {
+        match self {
+            Self::Input(message) => Self::Input(format!("{message}; {what}")),
+            Self::Run(message) => Self::Run(format!("{message}; {what}")),
+            stopped @ Self::Stopped { .. } => stopped,
+        }
+    }
+
     /// The exit status.
     pub fn status(&self) -> u8 {
         match self {
@@ -55,6 +68,13 @@ impl Failure {
         self.say();
         ExitCode::from(self.status())
     }
+}
+
+/// A program that gets no more memory ends as one whose run failed, and not by a signal; the library has said then how much was
+/// asked for. Files are left as a kill leaves them: complete up to the last flush.
+pub fn end_where_memory_does() {
+    // Where the system takes no handler the signal tells, too.
+    let _ = signal_hook::flag::register_conditional_shutdown(SIGABRT, 1, Arc::new(AtomicBool::new(true)));
 }
 
 /// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.

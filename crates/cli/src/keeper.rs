@@ -120,6 +120,6 @@ impl Keeper {
 
 fn warn(error: io::Error) {
     message::warning(format_args!(
-        "cannot write a checkpoint: {error}; the run goes on, the last checkpoint still holds"
+        "cannot write a checkpoint: {error}; the run file is not touched by that, the last checkpoint still holds"
     ));
 }

@@ -32,6 +32,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
+    failure::end_where_memory_does();
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return failure::answer(answer),

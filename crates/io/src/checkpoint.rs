@@ -15,6 +15,8 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use plateau_core::checkpoint::Checkpoint;
+use plateau_core::mesh::Mesh;
+use plateau_core::observe::Extras;
 use plateau_core::scout::ScoutCheckpoint;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -24,6 +26,8 @@ use crate::temporary::Temporary;
 
 /// How every checkpoint begins.
 const MAGIC: &[u8; 16] = b"plateau state 1\n";
+/// Bytes of what is not of every cell, at most: scene, sums, and what is known of a revolution.
+const BESIDES: u64 = 16 * 1024;
 /// No mesh that fits into memory needs more, bytes.
 const LARGEST: u64 = 1 << 40;
 
@@ -69,6 +73,14 @@ pub enum CheckpointError {
         /// How it shows.
         reason: &'static str,
     },
+}
+
+/// Bytes of a checkpoint, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
+/// twice.
+pub fn size_estimate(mesh: &Mesh, extras: Extras) -> u64 {
+    let cells = (mesh.disc_cells() + mesh.pin_cells()) as u64;
+    let states = if extras.acceleration { 2 } else { 1 };
+    BESIDES + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
 }
 
 /// Where the checkpoints of a run file are: the last, and the one before.

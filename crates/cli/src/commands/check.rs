@@ -1,12 +1,16 @@
 //! `plateau check`: what a scene resolves to, what it needs and what it will cost, without running it.
 
+use std::env;
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use plateau_core::parts::{ACCELERATION, Part, parts};
 use plateau_core::scout::Idle;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::smoothness::Smoothness;
+use plateau_io::checkpoint;
+use plateau_io::run_file::{resolve, size_estimate};
 use plateau_io::scene::{memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
 use serde::Serialize;
@@ -29,7 +33,8 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let mut scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
-    let Loaded { surfaces, report, .. } = loaded;
+    let Loaded { surfaces, inputs, report } = loaded;
+    let files = files(&scene, &inputs);
     if scene.adaptive.is_some() && Smoothness::forbids_from_the_start(&scene.parameters, &surfaces) {
         warn_of(Idle::Smooth(0.0));
         scene.adaptive = None;
@@ -39,7 +44,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
-    let check = Check::new(&scene, report, &parts, simulation.execution(), seconds_per_step);
+    let check = Check::new(&scene, files, report, &parts, simulation.execution(), seconds_per_step);
     stability::warn(&scene.parameters);
     if scene.output.file.exists() {
         message::warning(format_args!(
@@ -60,6 +65,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
 struct Check {
     title: String,
     scene: String,
+    files: Vec<File>,
     surfaces: Vec<String>,
     rows: usize,
     disc_columns: usize,
@@ -73,6 +79,8 @@ struct Check {
     samples: u64,
     maps: usize,
     memory: u64,
+    run_file: u64,
+    checkpoint: u64,
     workers: usize,
     instruction_set: &'static str,
     estimated_time: f64,
@@ -91,8 +99,57 @@ struct Reasoned {
     reason: String,
 }
 
+/// A file that a run reads or writes.
+#[derive(Debug, Serialize)]
+struct File {
+    access: &'static str,
+    /// As the run uses it.
+    path: String,
+    /// What that is without links and `..`.
+    resolved: String,
+}
+
+impl File {
+    fn row(&self) -> (&'static str, String) {
+        let Self { access, path, resolved } = self;
+        let plain = env::current_dir().is_ok_and(|here| here.join(path) == Path::new(resolved));
+        (access, if plain { path.clone() } else { format!("{path}, which is {resolved}") })
+    }
+}
+
+/// Every file that a run of the scene reads, and the one that it writes, with where they really are.
+fn files(scene: &Scene, inputs: &[(PathBuf, String)]) -> Vec<File> {
+    let read = scene.files.iter().chain(inputs.iter().map(|(path, _)| path));
+    let mut files: Vec<File> = Vec::new();
+    for path in read {
+        // It was there a moment ago.
+        let resolved = path.canonicalize().unwrap_or_else(|_| path.clone()).display().to_string();
+        let path = path.display().to_string();
+        if files.iter().all(|file| file.path != path) {
+            files.push(File { access: "reads", path, resolved });
+        }
+    }
+    let path = &scene.output.file;
+    match resolve(path, true) {
+        Ok(resolved) => files.push(File {
+            access: "writes",
+            path: path.display().to_string(),
+            resolved: resolved.display().to_string(),
+        }),
+        Err(error) => message::warning(error),
+    }
+    files
+}
+
 impl Check {
-    fn new(scene: &Scene, surfaces: Vec<String>, parts: &[Part], execution: Execution, seconds_per_step: f64) -> Self {
+    fn new(
+        scene: &Scene,
+        files: Vec<File>,
+        surfaces: Vec<String>,
+        parts: &[Part],
+        execution: Execution,
+        seconds_per_step: f64,
+    ) -> Self {
         let parameters = &scene.parameters;
         let mesh = &parameters.mesh;
         let schedule = scene.schedule();
@@ -117,9 +174,11 @@ impl Check {
         reasoned.push((roughness, Reasoned { part: "roughness with every sample".into(), reason }));
         let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
         let stiffness_number = parameters.stiffness_number();
+        let maps = if scene.output.maps.is_empty() { 0 } else { schedule.maps() };
         Self {
             title: scene.title.clone(),
             scene: scene.resolved.clone(),
+            files,
             surfaces,
             rows: mesh.rows(),
             disc_columns: mesh.disc_columns(),
@@ -131,8 +190,10 @@ impl Check {
             step_time: parameters.step_time(),
             revolutions: parameters.steps as f64 / mesh.disc_columns() as f64,
             samples: schedule.samples(),
-            maps: if scene.output.maps.is_empty() { 0 } else { schedule.maps() },
+            maps,
             memory: memory_estimate(scene),
+            run_file: size_estimate(mesh, &scene.output.maps, scene.extras(), schedule.samples(), maps as u64),
+            checkpoint: checkpoint::size_estimate(mesh, scene.extras()),
             workers: execution.workers,
             instruction_set: execution.instructions.name(),
             estimated_time: seconds_per_step * parameters.steps as f64,
@@ -180,6 +241,14 @@ impl Check {
             ("output", format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps)),
             ("stiffness number", stiffness),
             ("memory for cells and maps", number::bytes(self.memory)),
+            (
+                "storage",
+                format!(
+                    "run file at most {}, two checkpoints of at most {}",
+                    number::bytes(self.run_file),
+                    number::bytes(self.checkpoint)
+                ),
+            ),
             ("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)),
             (
                 "estimated time",
@@ -197,7 +266,8 @@ impl Check {
         // Writing to a String cannot fail.
         let _ = write!(
             text,
-            "{}\n{}\n{}\n{}",
+            "{}\n{}\n{}\n{}\n{}",
+            table("Files", &self.files.iter().map(File::row).collect::<Vec<_>>()),
             list("Surfaces", &self.surfaces),
             table("Run", &rows),
             table("Needed", &reasons(&self.needed)),

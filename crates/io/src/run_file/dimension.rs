@@ -24,6 +24,9 @@ use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 /// ```
 pub(crate) const EMPTY_FILE: &[u8] = include_bytes!("empty.h5");
 
+/// Attribute of a dataset: the scales of its dimensions.
+pub(crate) const DIMENSION_LIST: &str = "DIMENSION_LIST";
+
 type Text = FixedAscii<16>;
 
 /// One entry of REFERENCE_LIST: a dataset, and which of its axes the scale describes.
@@ -70,7 +73,7 @@ impl Dimensions {
         dataset
             .new_attr::<VarLenArray<ObjectReference1>>()
             .shape(scales.len())
-            .create("DIMENSION_LIST")?
+            .create(DIMENSION_LIST)?
             .write_raw(&scales)
     }
 

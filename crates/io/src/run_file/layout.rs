@@ -3,16 +3,16 @@
 use std::str::FromStr;
 use std::time::SystemTime;
 
-use hdf5::plist::dataset_create::ChunkOpts;
 use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Datatype, Extent, File, H5Type, Location, SimpleExtents};
+use ndarray::s;
 use plateau_core::mesh::Mesh;
 use plateau_core::observe::{Map, quantities};
 
 use super::Header;
 use super::digest::{self, DIGEST};
-use super::dimension::Dimensions;
+use super::dimension::{DIMENSION_LIST, Dimensions};
 use super::status::StoredStatus;
 use crate::timestamp::iso_8601;
 
@@ -24,13 +24,19 @@ const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Co
 
 /// Times in one chunk of a series, at least and at most.
 ///
-/// A chunk that is not full yet is neither compressed nor protected by a checksum: of a run of few samples, which come
-/// slowly, short ones leave less so. Long chunks cost less time per sample, 4 µs instead of 10 µs for all series.
+/// Short ones leave less room unused in the file of a run of few samples. Long ones cost less time per sample, 4 µs instead of
+/// 10 µs for all series.
 const SERIES_CHUNK: (u64, u64) = (64, 512);
 /// Chunks of a series that is as long as expected.
 const CHUNKS_PER_SERIES: u64 = 64;
 /// Bytes in one chunk of a map before compression, at most.
 const MAP_CHUNK_BYTES: usize = 512 * 1024;
+
+/// Times in one chunk of a series of which so many are expected.
+pub(super) fn series_chunk(expected_samples: u64) -> usize {
+    let (shortest, longest) = SERIES_CHUNK;
+    (expected_samples / CHUNKS_PER_SERIES).clamp(shortest, longest) as usize
+}
 
 /// Path of the datasets that say how much of a file is complete.
 pub(super) const TIME: &str = "time";
@@ -79,12 +85,13 @@ fn map_long_name(map: Map) -> &'static str {
     }
 }
 
-/// Writes everything that is known before the first step, and makes every other dataset with no times in it yet.
+/// Writes everything that is known before the first step, and makes every other dataset: with no times in it yet, or with
+/// all that a `source` has, the file of the same run as it was while the run went on.
 ///
 /// No object of the file is open any more when this returns.
-pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
+pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: Option<&File>) -> hdf5::Result<()> {
     write_provenance(file, header, start)?;
-    let mut layout = Layout::new(file, header)?;
+    let mut layout = Layout::new(file, header, source)?;
     layout.coordinates(!header.maps.is_empty())?;
     for quantity in quantities(header.extras) {
         layout.series(quantity.name, quantity.unit, quantity.long_name)?;
@@ -143,10 +150,11 @@ struct Layout<'a> {
     float: Datatype,
     /// Committed, since netCDF-4 knows enumerations only as named types.
     status: Datatype,
+    source: Option<&'a File>,
 }
 
 impl<'a> Layout<'a> {
-    fn new(file: &'a File, header: &'a Header) -> hdf5::Result<Self> {
+    fn new(file: &'a File, header: &'a Header, source: Option<&'a File>) -> hdf5::Result<Self> {
         let status = Datatype::from_type::<StoredStatus>()?;
         let dimensions = Dimensions::new(file)?;
         file.commit_datatype("status", &status)?;
@@ -155,14 +163,14 @@ impl<'a> Layout<'a> {
                 .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
                 .create(group)?;
         }
-        let (shortest, longest) = SERIES_CHUNK;
         Ok(Self {
             file,
             mesh: &header.mesh,
-            series_chunk: (header.expected_samples / CHUNKS_PER_SERIES).clamp(shortest, longest) as usize,
+            series_chunk: series_chunk(header.expected_samples),
             dimensions,
             float: Datatype::from_type::<f64>()?,
             status,
+            source,
         })
     }
 
@@ -183,9 +191,11 @@ impl<'a> Layout<'a> {
             // What cannot be written when a dataset is let go of is not told.
             self.file.flush()?;
         }
-        self.scale(TIME, "s", "physical time of the samples")?;
+        let time = self.scale(TIME, "s", "physical time of the samples")?;
+        self.fill(&time, TIME)?;
         if with_maps {
-            self.scale(MAP_TIME, "s", "physical time of the maps")?;
+            let map_time = self.scale(MAP_TIME, "s", "physical time of the maps")?;
+            self.fill(&map_time, MAP_TIME)?;
         }
         Ok(())
     }
@@ -198,17 +208,45 @@ impl<'a> Layout<'a> {
 
     fn series(&mut self, name: &str, unit: &str, long_name: &str) -> hdf5::Result<()> {
         let series = self.dataset(&series_path(name), &self.float, &[TIME], unit, long_name)?;
+        self.fill(&series, &series_path(name))?;
         self.dimensions.attach(&series, &[TIME])
     }
 
     fn map(&mut self, map: Map) -> hdf5::Result<()> {
         let dimensions = [MAP_TIME, if map.on_disc() { "disc_angle" } else { "pin_angle" }, "radius"];
+        if let (Some(source), false) = (self.source, map.is_status()) {
+            // As it is compressed; its scales are those of this file.
+            source.dataset(map_path(map))?.copy_to(self.file, map_path(map))?;
+            let copy = self.file.dataset(map_path(map))?;
+            copy.delete_attr(DIMENSION_LIST)?;
+            return self.dimensions.attach(&copy, &dimensions);
+        }
         let datatype = if map.is_status() { &self.status } else { &self.float };
         let dataset = self.dataset(map_path(map), datatype, &dimensions, map_unit(map), map_long_name(map))?;
         if map.is_status() {
             write_flags(&dataset)?;
         }
+        if let Some(source) = self.source {
+            let statuses = source.dataset(map_path(map))?;
+            dataset.resize(statuses.shape())?;
+            // One moment after the other: in memory they are not small.
+            for moment in 0..statuses.shape()[0] {
+                let level = statuses.read_slice_2d::<StoredStatus, _>(s![moment, .., ..])?;
+                dataset.write_slice(&level, s![moment, .., ..])?;
+            }
+            self.file.flush()?;
+        }
         self.dimensions.attach(&dataset, &dimensions)
+    }
+
+    /// Takes the values of a dataset with one dimension from the source.
+    fn fill(&self, dataset: &Dataset, path: &str) -> hdf5::Result<()> {
+        let Some(source) = self.source else { return Ok(()) };
+        let values = source.dataset(path)?.read_1d::<f64>()?;
+        dataset.resize(values.len())?;
+        dataset.write(&values)?;
+        // What cannot be written when a dataset is let go of is not told.
+        self.file.flush()
     }
 
     fn pin_base(&mut self, header: &Header) -> hdf5::Result<()> {
@@ -242,20 +280,14 @@ impl<'a> Layout<'a> {
             _ => Extent::resizable(0),
         });
         let extents = SimpleExtents::from_vec(extents.collect());
-        // The chunk of a series that is not full yet stays where it is in the file, and is compressed when it is full; else
-        // every flush would leave a copy behind for those who may be reading it.
-        let partial = if extents.ndim() == 1 { ChunkOpts::DONT_FILTER_PARTIAL_CHUNKS } else { ChunkOpts::empty() };
-        let dataset = self
-            .file
-            .new_dataset_builder()
-            .chunk(self.chunk(&extents, datatype.size()))
-            .with_dcpl(|list| list.chunk_opts(partial))
-            .shuffle()
-            .deflate(1)
-            .fletcher32()
-            .empty_as(datatype)
-            .shape(extents)
-            .create(path)?;
+        let mut builder = self.file.new_dataset_builder().chunk(self.chunk(&extents, datatype.size()));
+        // What is filtered takes a new place in the file whenever it changes, and leaves the old one behind for those who may
+        // be reading it. A series changes with every flush.
+        let changes = self.source.is_none() && extents.dims() == [0];
+        if !changes {
+            builder = builder.shuffle().deflate(1);
+        }
+        let dataset = builder.empty_as(datatype).shape(extents).create(path)?;
         write_text(&dataset, "units", unit)?;
         write_text(&dataset, "long_name", long_name)?;
         Ok(dataset)

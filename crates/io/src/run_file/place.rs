@@ -66,7 +66,10 @@ pub fn check_place(path: &Path, overwrite: bool) -> Result<(), RunFileError> {
 
 /// The file that is meant by an output path: absolute, so that a change of the working directory does no harm, and
 /// where a symbolic link is to be replaced, the file that it points to.
-fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
+///
+/// # Errors
+/// As [`RunWriter::create`](super::RunWriter::create) for a path that cannot be written.
+pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
     let not_a_file = || RunFileError::NotAFile { path: path.into() };
     let (Some(parent), Some(name)) = (path.parent(), path.file_name()) else { return Err(not_a_file()) };
     let names_a_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");

@@ -100,11 +100,14 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     let (file, mut datasets) = set_up(&place, &header, start_time).map_err(not_anew(path))?;
     datasets.copy(&file, &old, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
-    let seal = Seal { end: &End::Interrupted, end_time, wall_time, digests: datasets.into_digests() };
-    file.close().and_then(|()| seal.write(place.temporary())).map_err(not_anew(path))?;
+    let digests = datasets.into_digests();
+    let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests };
+    let sealed = Place::claim(path, true, EMPTY_FILE)?;
+    let closed = file.close().and_then(|()| seal.make(place.temporary(), sealed.temporary()));
+    closed.map_err(not_anew(path))?;
     drop(old);
-    let copy = keep(place.path())?;
-    place.publish_durably()?;
+    let copy = keep(sealed.path())?;
+    sealed.publish_durably()?;
     Ok(Repair::Repaired { copy, samples, moments })
 }
 

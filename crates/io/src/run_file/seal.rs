@@ -5,10 +5,14 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
+use hdf5::File;
+
 use super::digest::Digests;
-use super::layout::{write_number, write_text};
+use super::dimension::EMPTY_FILE;
+use super::layout::{lay_out, write_number, write_text};
 use super::store::{failed, open};
-use super::{End, RunFileError};
+use super::{End, Header, RunFileError};
+use crate::hdf5_file;
 use crate::temporary::Temporary;
 use crate::timestamp::iso_8601;
 
@@ -17,6 +21,8 @@ const ROOM: [usize; 2] = [128 * 1024, 128];
 
 /// What closes a run file.
 pub(super) struct Seal<'a> {
+    pub(super) header: &'a Header,
+    pub(super) start_time: SystemTime,
     pub(super) end: &'a End,
     pub(super) end_time: SystemTime,
     pub(super) wall_time: Duration,
@@ -26,27 +32,30 @@ pub(super) struct Seal<'a> {
 impl Seal<'_> {
     /// Puts it on a file that is closed.
     ///
-    /// On a copy that takes the place of the file when it is complete: killed at whatever moment, the program leaves a file
-    /// that can be read. Where there is no room for a copy it is put on the file itself, if there is room for that.
+    /// The file is made anew, series compressed and nothing left over, and takes the place of the old one when it is complete:
+    /// killed at whatever moment, the program leaves a file that can be read. Where there is no room for a second file, it is
+    /// put on the file itself, if there is room for that.
     pub(super) fn put_on(&self, path: &Path) -> Result<(), RunFileError> {
-        if self.put_on_copy(path).is_ok() {
+        let system = |error: io::Error| hdf5::Error::from(error.to_string());
+        let place = Temporary::beside(path);
+        let anew = self.make(path, place.path()).and_then(|()| place.publish_durably().map_err(system));
+        if anew.is_ok() {
             return Ok(());
         }
         self.check_room(path).map_err(|error| RunFileError::Write { path: path.into(), reason: error.to_string() })?;
-        self.write(path).map_err(failed(path))
+        // A file that readers follow takes no new attributes, so it is opened once more without them.
+        open(path).and_then(|file| self.write(file)).map_err(failed(path))
     }
 
-    fn put_on_copy(&self, path: &Path) -> hdf5::Result<()> {
-        let system = |error: io::Error| hdf5::Error::from(error.to_string());
-        let copy = Temporary::beside(path);
-        fs::copy(path, copy.path()).map_err(system)?;
-        self.write(copy.path())?;
-        copy.publish_durably().map_err(system)
+    /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
+    pub(super) fn make(&self, path: &Path, place: &Path) -> hdf5::Result<()> {
+        fs::write(place, EMPTY_FILE).map_err(|error| hdf5::Error::from(error.to_string()))?;
+        let (old, new) = (hdf5_file::open(path)?, open(place)?);
+        lay_out(&new, self.header, self.start_time, Some(&old))?;
+        self.write(new)
     }
 
-    /// Writes it. A file that readers follow takes no new attributes, so it is opened once more without them.
-    pub(super) fn write(&self, path: &Path) -> hdf5::Result<()> {
-        let file = open(path)?;
+    fn write(&self, file: File) -> hdf5::Result<()> {
         write_text(&file, "end_time", &iso_8601(self.end_time))?;
         write_number(&file, "wall_time", self.wall_time.as_secs_f64())?;
         if let End::Failed(message) = self.end {

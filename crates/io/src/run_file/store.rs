@@ -25,6 +25,8 @@ pub(super) struct Store {
     path: PathBuf,
     /// Device and inode: the path may come to mean another file while a run goes on.
     identity: Option<(u64, u64)>,
+    header: Header,
+    start_time: SystemTime,
     started: Instant,
     file: File,
     datasets: Datasets,
@@ -42,13 +44,13 @@ impl Store {
     /// Makes the file, complete but for samples and maps, and lets readers in.
     pub(super) fn create(path: &Path, overwrite: bool, header: &Header) -> Result<Self, RunFileError> {
         header.check()?;
-        let started = Instant::now();
+        let (started, start_time) = (Instant::now(), SystemTime::now());
         let place = Place::claim(path, overwrite, EMPTY_FILE)?;
-        let set_up = set_up(&place, header, SystemTime::now());
+        let set_up = set_up(&place, header, start_time);
         let (file, datasets) =
             set_up.map_err(|error| RunFileError::SetUp { path: path.into(), reason: reason(&error) })?;
         let path = place.publish()?;
-        Ok(Self { identity: identity(&path), path, started, file, datasets })
+        Ok(Self { identity: identity(&path), path, header: header.clone(), start_time, started, file, datasets })
     }
 
     /// Makes the file anew with the first samples and maps of the one that is there, of a run that was stopped, and takes
@@ -67,14 +69,14 @@ impl Store {
             );
             return Err(RunFileError::Earlier { path: path.into(), reason });
         }
-        let start = old.start_time().unwrap_or_else(SystemTime::now);
-        let (file, mut datasets) = set_up(&place, header, start).map_err(not_anew(path))?;
+        let start_time = old.start_time().unwrap_or_else(SystemTime::now);
+        let (file, mut datasets) = set_up(&place, header, start_time).map_err(not_anew(path))?;
         datasets.copy(&file, &old, earlier)?;
         drop(old);
         // What is there may be all that there is of a long run.
         file.flush().map_err(not_anew(path))?;
         let path = place.publish_durably()?;
-        Ok(Self { identity: identity(&path), path, started, file, datasets })
+        Ok(Self { identity: identity(&path), path, header: header.clone(), start_time, started, file, datasets })
     }
 
     /// Hands all that was appended to the disk. A run whose file was replaced must not leave a checkpoint beside the other.
@@ -115,10 +117,11 @@ impl Store {
     /// Closes the file for good and states how the run ended.
     pub(super) fn seal(self, end: &End) -> Result<Written, RunFileError> {
         self.check_identity()?;
-        let Self { path, started, file, datasets, .. } = self;
+        let Self { path, header, start_time, started, file, datasets, .. } = self;
         let (samples, snapshots) = (datasets.samples, datasets.snapshots);
         let (end_time, wall_time) = (SystemTime::now(), started.elapsed());
-        let seal = Seal { end, end_time, wall_time, digests: datasets.into_digests() };
+        let header = &header;
+        let seal = Seal { header, start_time, end, end_time, wall_time, digests: datasets.into_digests() };
         file.close().map_err(failed(&path))?;
         seal.put_on(&path)?;
         let bytes = fs::metadata(&path).map_or(0, |metadata| metadata.len());
@@ -129,7 +132,7 @@ impl Store {
 /// Makes a file at a place, complete but for samples and maps, which readers can follow.
 pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime) -> hdf5::Result<(File, Datasets)> {
     let file = open(place.temporary())?;
-    layout::lay_out(&file, header, start)?;
+    layout::lay_out(&file, header, start, None)?;
     file.start_swmr()?;
     let datasets = Datasets::open(&file, header)?;
     file.flush()?;

@@ -120,7 +120,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         Summary::new(&scene, surface_report, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
     summary.warn();
     scout.as_ref().and_then(Scout::idle).into_iter().for_each(warn_of);
-    if arguments.scene.json { print(&summary.to_json()?) } else { print(&summary.to_text()) }
+    let text = if arguments.scene.json { summary.to_json()? } else { summary.to_text() };
+    print(&text).map_err(|failure| failure.but(format_args!("the run is finished, {} is complete", path.display())))
 }
 
 /// The command line with the duration that `--extend-to` gives.
