@@ -87,10 +87,10 @@ pub enum RunFileError {
         /// What is wrong with it.
         reason: String,
     },
-    /// Writing failed; what was written before can be read (h5py: `swmr=True`).
+    /// Writing failed; what was written before can be read.
     #[error(
-        "writing {} failed: {reason}; samples that were complete can still be read (h5py: swmr=True); \
-         free space or write elsewhere",
+        "writing {} failed: {reason}; its complete samples and maps are safe, and so is the last checkpoint: \
+         free space and go on with --resume, or close the file with `plateau repair`",
         path.display()
     )]
     Write {
@@ -103,7 +103,7 @@ pub enum RunFileError {
     #[error("the writer of the run file stopped; this is a defect of the program, please report it")]
     Stopped,
     /// The run file was moved or replaced by another program while the run went on.
-    #[error("{} was moved, removed or replaced while the run went on, which ends it", path.display())]
+    #[error("{} was moved, removed or replaced while the run went on, which ends it; what is there now is not touched", path.display())]
     Moved {
         /// Where the run file should be.
         path: PathBuf,

@@ -22,7 +22,13 @@ impl Place {
         fs::write(temporary.path(), start).map_err(|error| match error.kind() {
             // That is not the user's mistake, and nothing that writing elsewhere in the folder would mend.
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-                RunFileError::SetUp { path: path.clone(), reason: error.to_string() }
+                let reason = error.to_string();
+                // One that is there stays.
+                if path.exists() {
+                    RunFileError::Anew { path: path.clone(), reason }
+                } else {
+                    RunFileError::SetUp { path: path.clone(), reason }
+                }
             }
             _ => refused_in(&path)(error),
         })?;

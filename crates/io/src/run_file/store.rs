@@ -17,8 +17,9 @@ use super::{Earlier, End, Header, RunFile, RunFileError};
 
 /// Chunk cache of a dataset: slots, bytes, and 1 for "a chunk that is full goes first".
 ///
-/// Nothing is read back, so it need hold no more than the chunk that is being filled.
-const CHUNK_CACHE: (usize, usize, f64) = (521, 1024 * 1024, 1.0);
+/// Nothing is read back, so it need hold no more than the chunk of a series that is being filled; a chunk of a map is written
+/// at once. Every dataset has one that grows to its size.
+const CHUNK_CACHE: (usize, usize, f64) = (31, 16 * 1024, 1.0);
 
 /// A run file while it is written. Only one thread uses it.
 pub(super) struct Store {
@@ -47,8 +48,10 @@ impl Store {
         let (started, start_time) = (Instant::now(), SystemTime::now());
         let place = Place::claim(path, overwrite, EMPTY_FILE)?;
         let set_up = set_up(&place, header, start_time);
-        let (file, datasets) =
-            set_up.map_err(|error| RunFileError::SetUp { path: path.into(), reason: reason(&error) })?;
+        let (file, datasets) = set_up.map_err(|error| {
+            let (path, reason) = (path.to_owned(), reason(&error));
+            if path.exists() { RunFileError::Anew { path, reason } } else { RunFileError::SetUp { path, reason } }
+        })?;
         let path = place.publish()?;
         Ok(Self { identity: identity(&path), path, header: header.clone(), start_time, started, file, datasets })
     }

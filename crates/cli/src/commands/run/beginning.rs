@@ -102,7 +102,7 @@ fn refuse_if_written(path: &Path) -> Result<(), Failure> {
 /// Whose fault it is that a run file cannot be made.
 fn create_failure(error: RunFileError) -> Failure {
     match error {
-        RunFileError::SetUp { .. } | RunFileError::Write { .. } => Failure::run(error),
+        RunFileError::SetUp { .. } | RunFileError::Anew { .. } | RunFileError::Write { .. } => Failure::run(error),
         _ => Failure::input(error),
     }
 }

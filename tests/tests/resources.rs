@@ -1,0 +1,154 @@
+//! What a run lacks is told, and what it has done is safe: files that vanish, memory, handles, moments at which signals come.
+
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use plateau_tests::program::{Outcome, WorkingDirectory, kill, run, scene, wait_until};
+use plateau_tests::run_file::RunFile;
+
+/// A run that does not end by itself, with a checkpoint as often as that.
+fn endless(file: &str, checkpoint_every: &str) -> Vec<String> {
+    let sets = ["operation.duration=100 h", "numerics.time_acceleration=1", "output.maps=[]"].map(str::to_owned);
+    let every = [format!("output.checkpoint_every={checkpoint_every}")];
+    let sets = sets.into_iter().chain(every).flat_map(|set| ["--set".to_owned(), set]);
+    ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).into_iter().chain(sets).collect()
+}
+
+fn has_samples(file: &Path) -> bool {
+    wait_until(|| RunFile::follow(file).is_ok_and(|run| run.shape("/time")[0] > 1))
+}
+
+/// Runs until there are samples, lets something happen, and waits for the end.
+fn disturbed(directory: &WorkingDirectory, file: &str, disturb: impl FnOnce()) -> Outcome {
+    let mut command = directory.command(endless(file, "0.1 s"));
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let child = command.spawn().unwrap();
+    assert!(has_samples(&directory.path(file)));
+    disturb();
+    let ended = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Outcome { status: ended.status.code(), stdout: text(ended.stdout), stderr: text(ended.stderr) }
+}
+
+#[test]
+fn a_file_or_a_directory_that_vanishes_ends_the_run() {
+    let directory = WorkingDirectory::new();
+    let outcome =
+        disturbed(&directory, "run.h5", || fs::rename(directory.path("run.h5"), directory.path("moved.h5")).unwrap());
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("run.h5 was moved, removed or replaced"), "{outcome:?}");
+    // It is all that there is of the run.
+    directory.plateau(["repair", "moved.h5"]).quiet_success();
+    assert!(RunFile::open(directory.path("moved.h5")).shape("/time")[0] > 1);
+
+    directory.write("folder/a file", "");
+    let outcome = disturbed(&directory, "folder/run.h5", || fs::remove_dir_all(directory.path("folder")).unwrap());
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("folder/run.h5 was moved, removed or replaced"), "{outcome:?}");
+}
+
+#[test]
+fn a_run_whose_file_was_replaced_leaves_the_checkpoints_of_the_other_alone() {
+    let directory = WorkingDirectory::new();
+    let content = || ["run.h5", "run.h5.checkpoint"].map(|name| fs::read(directory.path(name)).ok());
+    let mut other = None;
+    let outcome = disturbed(&directory, "run.h5", || {
+        // As on another machine, where nobody sees that the file is being written.
+        let elsewhere = WorkingDirectory::new();
+        assert_eq!(run(elsewhere.command(["run", &scene("quick.toml"), "-o", "run.h5"])).status, Some(0));
+        for name in ["run.h5.checkpoint", "run.h5"] {
+            directory.write("new", fs::read(elsewhere.path(name)).unwrap());
+            fs::rename(directory.path("new"), directory.path(name)).unwrap();
+        }
+        fs::remove_file(directory.path("run.h5.checkpoint-before")).unwrap_or_default();
+        other = Some(content());
+    });
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    let other = other.unwrap();
+    assert!(content()[0] == other[0], "the file of the other run was changed");
+    // A checkpoint that was under way may have come last; the one before is then that of the other.
+    let kept = fs::read(directory.path("run.h5.checkpoint-before")).ok();
+    assert!(content()[1] == other[1] || kept == other[1], "the checkpoint of the other run is gone");
+}
+
+#[test]
+fn a_signal_during_the_preparation_is_heard() {
+    let large = ["--set", "mesh.rows=300", "--set", "mesh.disc_columns=20700", "--set", "mesh.pin_columns=1200"];
+    for (signal, status) in [("TERM", 143), ("INT", 130)] {
+        let directory = WorkingDirectory::new();
+        let mut command = directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(large));
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // Its handlers are the first that it sets up: 1 is SIGHUP's bit.
+        let caught = || {
+            let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+            let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:").map(str::trim).map(str::to_owned));
+            mask.and_then(|mask| u64::from_str_radix(&mask, 16).ok()).is_some_and(|mask| mask >> (10 - 1) & 1 == 1)
+        };
+        assert!(wait_until(caught), "no handler of SIGUSR1");
+        let send = |signal: &str| Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+        assert!(send("USR1").success() && send(signal).success());
+        assert_eq!(child.wait().unwrap().code(), Some(status), "{signal}");
+    }
+}
+
+#[test]
+fn without_memory_a_run_fails_with_status_1() {
+    let directory = WorkingDirectory::new();
+    let large = ["--set", "mesh.rows=300", "--set", "mesh.disc_columns=69000", "--set", "mesh.pin_columns=4000"];
+    let arguments = endless("run.h5", "1 h");
+    // kibibytes of address space: enough for the program, and not for the cells.
+    let command =
+        directory.command_after("ulimit -c 0; ulimit -v 400000", arguments.iter().map(String::as_str).chain(large));
+    let outcome = run(command);
+    assert!(matches!(outcome.status, Some(1 | 2)), "{outcome:?}");
+    assert!(outcome.stderr.contains("memory"), "{outcome:?}");
+}
+
+#[test]
+fn with_few_handles_a_run_still_ends_well() {
+    for handles in 5..9 {
+        let directory = WorkingDirectory::new();
+        let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];
+        let outcome = run(directory.command_after(&format!("ulimit -n {handles}"), arguments));
+        assert_eq!(outcome.status, Some(0), "{handles} handles: {outcome:?}");
+        directory.plateau(["verify", "run.h5"]).quiet_success();
+    }
+}
+
+#[test]
+fn files_have_the_permissions_that_the_user_wants() {
+    let directory = WorkingDirectory::new();
+    let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];
+    assert_eq!(run(directory.command_after("umask 027", arguments)).status, Some(0));
+    for name in ["run.h5", "run.h5.checkpoint"] {
+        let mode = fs::metadata(directory.path(name)).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o640, "{name}");
+    }
+}
+
+#[test]
+fn check_shows_where_files_really_are() {
+    let directory = WorkingDirectory::new();
+    fs::create_dir(directory.path("elsewhere")).unwrap();
+    let text = fs::read_to_string(scene("quick.toml")).unwrap();
+    directory.write("scenes/base.toml", text);
+    directory.write("scenes/scene.toml", "extends = \"../scenes/base.toml\"\n");
+    symlink(directory.path("elsewhere"), directory.path("results")).unwrap();
+    let arguments = ["check", "scenes/scene.toml", "--set", "output.file=results/run.h5"];
+    let text = directory.without_path(&directory.plateau(arguments).quiet_success());
+    assert!(text.contains("scenes/../scenes/base.toml, which is [directory]/scenes/base.toml\n"), "{text}");
+    assert!(text.contains("writes  results/run.h5, which is [directory]/elsewhere/run.h5\n"), "{text}");
+    assert!(text.contains("reads   scenes/scene.toml\n"), "{text}");
+}
+
+#[test]
+fn a_run_that_is_killed_while_it_prepares_leaves_nothing() {
+    let directory = WorkingDirectory::new();
+    let large = ["--set", "mesh.rows=300", "--set", "mesh.disc_columns=20700", "--set", "mesh.pin_columns=1200"];
+    let mut command = directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(large));
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    kill(child);
+    assert_eq!(directory.names(), [""; 0]);
+}
