@@ -203,6 +203,37 @@ fn an_interrupted_sweep_says_what_is_left() {
 }
 
 #[test]
+fn a_long_run_that_was_stopped_or_killed_goes_on() {
+    let long = study()
+        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"");
+    let long =
+        long.replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]").replace("seeds = [7, 8, 9]", "seeds = [7]");
+    let [whole, directory] = [(), ()].map(|()| {
+        let directory = WorkingDirectory::new();
+        directory.write("study.toml", &long);
+        directory
+    });
+    let start = ["sweep", "run", "study.toml", "--jobs", "2"];
+    assert_eq!(whole.plateau(start).status, Some(0));
+    let states = || fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
+    for signal in ["TERM", "KILL"] {
+        let mut command = directory.command(start);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_millis(100));
+        assert!(wait_until(|| states() > 0), "no run is under way");
+        let sent = std::process::Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
+        assert!(sent.unwrap().success());
+        child.wait().unwrap();
+        assert!(states() > 0, "nothing was kept after {signal}");
+    }
+    let last = directory.plateau(start);
+    assert_eq!(last.status, Some(0), "{last:?}");
+    assert!(last.stderr.contains("a run that was stopped goes on from step "), "{last:?}");
+    assert_eq!(results(&directory), results(&whole));
+    assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
+}
+
+#[test]
 fn a_run_that_fails_does_not_stop_the_others() {
     let directory = directory();
     // At 20 N the explicit rule is far above its bound of stability, and heights overflow.

@@ -22,7 +22,7 @@ const LENGTH: [&str; 3] = ["operation.duration", "operation.steps", "output.maps
 pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunState>, Failure> {
     let (mut states, mut trouble) = (Vec::new(), Vec::new());
     for path in checkpoint::paths(run_file) {
-        match checkpoint::read(&path) {
+        match checkpoint::read::<RunState>(&path) {
             Ok(state) => states.extend(state),
             Err(error @ (CheckpointError::Damaged { .. } | CheckpointError::Read { .. })) => {
                 message::warning(&error);

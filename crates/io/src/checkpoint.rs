@@ -18,6 +18,7 @@ use plateau_core::checkpoint::Checkpoint;
 use plateau_core::mesh::Mesh;
 use plateau_core::observe::Extras;
 use plateau_core::scout::ScoutCheckpoint;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
@@ -99,15 +100,7 @@ pub fn paths(run_file: &Path) -> [PathBuf; 2] {
 /// What the system says; the checkpoints that were there before still are.
 pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     let [last, before] = paths(run_file);
-    let content = postcard::to_stdvec(state).map_err(io::Error::other)?;
-    let temporary = Temporary::beside(&last);
-    let mut file = File::create(temporary.path())?;
-    file.write_all(MAGIC)?;
-    file.write_all(&(content.len() as u64).to_le_bytes())?;
-    file.write_all(&content)?;
-    file.write_all(&Sha256::digest(&content))?;
-    // Before the last takes another name: it goes only when there is one in its place.
-    file.sync_all()?;
+    let temporary = fill(&last, state)?;
     match fs::rename(&last, &before) {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         _ => {}
@@ -115,11 +108,32 @@ pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     temporary.publish_durably()
 }
 
-/// Reads a checkpoint; none if there is no such file.
+/// Writes any state to a file of its own. When this returns, it is on the disk.
+///
+/// # Errors
+/// What the system says; what was there before still is.
+pub fn keep(path: &Path, state: &impl Serialize) -> io::Result<()> {
+    fill(path, state)?.publish_durably()
+}
+
+/// A temporary file beside `path` with a state in it, on the disk: what it replaces may go only then.
+fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
+    let content = postcard::to_stdvec(state).map_err(io::Error::other)?;
+    let temporary = Temporary::beside(path);
+    let mut file = File::create(temporary.path())?;
+    file.write_all(MAGIC)?;
+    file.write_all(&(content.len() as u64).to_le_bytes())?;
+    file.write_all(&content)?;
+    file.write_all(&Sha256::digest(&content))?;
+    file.sync_all()?;
+    Ok(temporary)
+}
+
+/// Reads a state, such as a checkpoint; none if there is no such file.
 ///
 /// # Errors
 /// [`CheckpointError`].
-pub fn read(path: &Path) -> Result<Option<RunState>, CheckpointError> {
+pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointError> {
     let mut file = match File::open(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,

@@ -11,6 +11,7 @@ use plateau_io::study::Study;
 use plateau_io::study::record::{Outcome, Series};
 use plateau_io::surface;
 
+use super::under_way::UnderWay;
 use crate::drive::{Sink, drive};
 
 /// Whether a run goes on, and what others want to know meanwhile.
@@ -18,6 +19,9 @@ pub trait Watcher: Sync {
     /// Told how many steps were taken since the last time, about ten times a second; the signal that ends the run, if
     /// there was one.
     fn steps(&self, count: u64) -> Option<u8>;
+
+    /// Told when a run does not begin at its beginning.
+    fn goes_on(&self, steps: u64);
 }
 
 /// A signal ended the run.
@@ -28,9 +32,15 @@ pub struct Stopped(pub u8);
 ///
 /// # Errors
 /// [`Stopped`] when it was not to be ended; what fails is an outcome.
-pub fn make(study: &Study, scene: &Scene, workers: usize, watcher: &dyn Watcher) -> Result<Outcome, Stopped> {
+pub fn make(
+    study: &Study,
+    scene: &Scene,
+    workers: usize,
+    watcher: &dyn Watcher,
+    under_way: &mut UnderWay,
+) -> Result<Outcome, Stopped> {
     // A panic is a mistake of this program; it ends the run, not the study.
-    let made = catch_unwind(AssertUnwindSafe(|| finish(study, scene, workers, watcher)));
+    let made = catch_unwind(AssertUnwindSafe(|| finish(study, scene, workers, watcher, under_way)));
     match made {
         Ok(Ok(outcome)) => Ok(outcome),
         Ok(Err(Ended::Stopped(signal))) => Err(Stopped(signal)),
@@ -39,7 +49,13 @@ pub fn make(study: &Study, scene: &Scene, workers: usize, watcher: &dyn Watcher)
     }
 }
 
-fn finish(study: &Study, scene: &Scene, workers: usize, watcher: &dyn Watcher) -> Result<Outcome, Ended> {
+fn finish(
+    study: &Study,
+    scene: &Scene,
+    workers: usize,
+    watcher: &dyn Watcher,
+    under_way: &mut UnderWay,
+) -> Result<Outcome, Ended> {
     let failed = |error: &dyn std::fmt::Display| Ended::Failed(error.to_string());
     let surfaces = surface::load(scene).map_err(|error| failed(&error))?.surfaces;
     let execution = Execution { workers, instructions: InstructionSet::best(), bands: None, pin: false };
@@ -51,8 +67,18 @@ fn finish(study: &Study, scene: &Scene, workers: usize, watcher: &dyn Watcher) -
     let mut simulation = Simulation::with_execution(scene.parameters.clone(), surfaces, execution)?;
     let mut output = scene.output.clone();
     output.maps.clear();
-    let mut recorder = Recorder::new(study, scene, watcher);
-    drive(&mut simulation, scout.as_mut(), scene.schedule(), &output, &mut recorder)?;
+    let mut schedule = scene.schedule();
+    let mut recorder = Recorder::new(study, scene, watcher, under_way);
+    if let Some(state) = recorder.under_way.find(&recorder.names()) {
+        simulation.restore(&state.run)?;
+        if let (Some(scout), Some(kept)) = (&mut scout, &state.scout) {
+            scout.restore(kept)?;
+        }
+        schedule.go_on(state.run.clock());
+        watcher.goes_on(state.run.steps());
+        (recorder.columns, recorder.told) = (state.columns, state.run.steps());
+    }
+    drive(&mut simulation, scout.as_mut(), schedule, &output, &mut recorder)?;
     recorder.watcher.steps(simulation.steps_done() - recorder.told);
     Ok(Outcome::Finished { steps: simulation.steps_done(), series: recorder.series().pack() })
 }
@@ -77,10 +103,12 @@ struct Recorder<'a> {
     watcher: &'a dyn Watcher,
     /// Steps that the watcher was told of.
     told: u64,
+    under_way: &'a mut UnderWay,
+    signal: Option<u8>,
 }
 
 impl<'a> Recorder<'a> {
-    fn new(study: &Study, scene: &Scene, watcher: &'a dyn Watcher) -> Self {
+    fn new(study: &Study, scene: &Scene, watcher: &'a dyn Watcher, under_way: &'a mut UnderWay) -> Self {
         let asked = |name: &str| {
             let responses = &study.responses;
             // Means of the contact area are taken from its integral.
@@ -94,7 +122,11 @@ impl<'a> Recorder<'a> {
                     || asked(quantity.name)
             })
             .collect();
-        Self { columns: vec![Vec::new(); 1 + kept.len()], kept, watcher, told: 0 }
+        Self { columns: vec![Vec::new(); 1 + kept.len()], kept, watcher, told: 0, under_way, signal: None }
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.kept.iter().map(|quantity| quantity.name.to_owned()).collect()
     }
 
     fn series(self) -> Series {
@@ -118,8 +150,15 @@ impl Sink for Recorder<'_> {
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
         let done = simulation.steps_done();
-        let signal = self.watcher.steps(done - self.told);
+        self.signal = self.watcher.steps(done - self.told);
         self.told = done;
-        signal.map_or(Ok(steps), |signal| Err(Ended::Stopped(signal)))
+        Ok(steps)
+    }
+
+    fn rest(&mut self, simulation: &mut Simulation, scout: Option<&mut Scout>) -> Result<(), Ended> {
+        if self.signal.is_some() || self.under_way.is_due() {
+            self.under_way.keep(simulation, scout, &self.columns, self.names())?;
+        }
+        self.signal.map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))
     }
 }

@@ -10,6 +10,7 @@
 //! | how well a model fits, in a line | [`quality`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | all of them, several at a time | [`crate::job::Job::share`] |
+//! | what is kept of those that are under way | [`under_way`] |
 //! | how far they are | [`progress`] |
 
 pub mod aliases;
@@ -20,6 +21,7 @@ pub mod progress;
 pub mod quality;
 pub mod reading;
 pub mod resolved;
+pub mod under_way;
 
 use std::path::{Path, PathBuf};
 

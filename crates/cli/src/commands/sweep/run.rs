@@ -19,6 +19,7 @@ use crate::job::{Agreement, Job, Went};
 use crate::sweep::make::{Stopped, Watcher, make};
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
+use crate::sweep::under_way::UnderWay;
 use crate::sweep::{self, journal, journal_folder};
 use crate::table::{print, table};
 use crate::{machine, message, number};
@@ -140,6 +141,11 @@ impl Watcher for Floor<'_> {
         self.progress.steps(count);
         self.interrupt.signal()
     }
+
+    fn goes_on(&self, steps: u64) {
+        self.progress.steps(steps);
+        self.progress.say(|| message::note(format_args!("a run that was stopped goes on from step {steps}")));
+    }
 }
 
 impl Floor<'_> {
@@ -150,15 +156,17 @@ impl Floor<'_> {
         }
         let start = Instant::now();
         let run = self.plan.run(number);
+        let (study, identity) = (self.plan.study(), &self.resolved.identities[number - 1]);
+        let under_way = |every| UnderWay::new(&study.directory, identity, every);
         let outcome = match self.plan.scene(&run) {
-            Ok(scene) => make(self.plan.study(), &scene, self.workers, self),
+            Ok(scene) => make(study, &scene, self.workers, self, &mut under_way(scene.output.checkpoint_every)),
             // It could be built a moment ago.
             Err(error) => Ok(Outcome::Failed { error: error.to_string() }),
         };
         let Ok(outcome) = outcome.map_err(|Stopped(_)| ()) else { return Went::Stopped };
         let failure = if let Outcome::Failed { error } = &outcome { Some(error.clone()) } else { None };
         let record = Record {
-            identity: self.resolved.identities[number - 1].clone(),
+            identity: identity.clone(),
             run: number,
             outcome,
             wall_time: start.elapsed().as_secs_f64(),
@@ -171,6 +179,7 @@ impl Floor<'_> {
             *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(Failure::run(message));
             return Went::Stopped;
         }
+        under_way(0.0).forget();
         self.progress.ended(failure.is_some());
         match failure {
             None => {

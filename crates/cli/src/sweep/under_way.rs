@@ -1,0 +1,87 @@
+//! What is kept of a study's runs that are under way, so that a long one need not begin again.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use plateau_core::checkpoint::Checkpoint;
+use plateau_core::scout::{Scout, ScoutCheckpoint};
+use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_io::checkpoint;
+use serde::{Deserialize, Serialize};
+
+use crate::message;
+
+/// The state of one run between two steps.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct State {
+    /// The simulation.
+    pub run: Checkpoint,
+    /// What goes before it, where it chooses its acceleration.
+    pub scout: Option<ScoutCheckpoint>,
+    /// The series so far, time first.
+    pub columns: Vec<Vec<f64>>,
+    /// Their names but for the time.
+    pub names: Vec<String>,
+}
+
+/// Where the state of one run is, and when it is due. The file is named by the identity of the run: another scene, program
+/// or surface has another one.
+#[derive(Debug)]
+pub struct UnderWay {
+    path: PathBuf,
+    every: Duration,
+    last: Instant,
+}
+
+impl UnderWay {
+    /// For a run of that identity; `every` is in seconds.
+    pub fn new(results: &Path, identity: &str, every: f64) -> Self {
+        let every = Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX);
+        Self { path: results.join("under-way").join(identity), every, last: Instant::now() }
+    }
+
+    /// What was kept, if there is something that holds and has these series.
+    pub fn find(&self, names: &[String]) -> Option<State> {
+        let state: Option<State> = checkpoint::read(&self.path).unwrap_or_else(|error| {
+            message::warning(format_args!("{error}: this run begins again"));
+            None
+        });
+        state.filter(|state| state.names == names)
+    }
+
+    /// Whether it is time to keep the state.
+    pub fn is_due(&self) -> bool {
+        self.last.elapsed() >= self.every
+    }
+
+    /// Keeps the state; what cannot be kept is done again if need be.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn keep(
+        &mut self,
+        simulation: &mut Simulation,
+        scout: Option<&mut Scout>,
+        columns: &[Vec<f64>],
+        names: Vec<String>,
+    ) -> Result<(), SimulationError> {
+        self.last = Instant::now();
+        let run = simulation.checkpoint()?;
+        let scout = scout.map(Scout::checkpoint).transpose()?;
+        let folder = self.path.parent().map_or(Ok(()), fs::create_dir_all);
+        let state = State { run, scout, columns: columns.to_vec(), names };
+        if let Err(error) = folder.and_then(|()| checkpoint::keep(&self.path, &state)) {
+            message::warning(format_args!("cannot keep the state of a run: {error}; the run goes on"));
+        }
+        Ok(())
+    }
+
+    /// Forgets the state of a run whose result is kept.
+    pub fn forget(&self) {
+        // Most runs are too short to have left any; the folder goes with its last file.
+        if fs::remove_file(&self.path).is_ok() {
+            let _ = self.path.parent().map(fs::remove_dir);
+        }
+    }
+}
