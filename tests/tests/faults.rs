@@ -81,6 +81,7 @@ fn process_lives(name: &str) -> bool {
 fn a_run_loses_nothing() {
     let whole = whole();
     let calls = count(short_run(&WorkingDirectory::new(), &[]));
+    println!("{calls} calls of a run");
     for (fault, call) in strikes(calls) {
         let directory = WorkingDirectory::new();
         let outcome = strike(short_run(&directory, &[]), fault, call);
@@ -128,6 +129,7 @@ impl Killed {
 fn going_on_loses_nothing() {
     let (whole, killed) = (whole(), Killed::new());
     let calls = count(short_run(&killed.directory(), &["--resume"]));
+    println!("{calls} calls of --resume");
     for (fault, call) in strikes(calls) {
         let directory = killed.directory();
         let outcome = strike(short_run(&directory, &["--resume"]), fault, call);
@@ -140,6 +142,7 @@ fn repairing_loses_nothing() {
     let (whole, killed) = (whole(), Killed::new());
     let repair = |directory: &WorkingDirectory| directory.command(["repair", "run.h5"]);
     let calls = count(repair(&killed.directory()));
+    println!("{calls} calls of repair");
     let samples = |directory: &WorkingDirectory| RunFile::follow(directory.path("run.h5")).unwrap().shape("/time");
     let expected = samples(&killed.directory());
     for (fault, call) in strikes(calls) {

@@ -187,3 +187,33 @@ fn a_finished_run_goes_on_beyond_its_end() {
     }
     assert_eq!(longer.last_map("/disc/height"), whole.last_map("/disc/height"));
 }
+
+#[test]
+fn only_the_same_run_is_gone_on_with() {
+    let directory = WorkingDirectory::new();
+    let short = ["--set", "operation.duration=20 s"];
+    let with = |more: &[&str]| run(&directory, "run.h5", &[&short[..], more].concat());
+    assert_eq!(with(&[]).status, Some(0));
+    // There is nothing to do, and that is said.
+    for more in [["--resume", "--json"], ["--extend-to", "20 s"]] {
+        let done = with(&more);
+        assert!(done.status == Some(0) && done.stderr.contains("is finished"), "{done:?}");
+    }
+    let earlier = with(&["--extend-to", "10 s"]);
+    assert!(earlier.status == Some(2) && earlier.stderr.contains("has come to 20.00 s already"), "{earlier:?}");
+    for name in ["run.h5.checkpoint", "run.h5.checkpoint-before"] {
+        fs::remove_file(directory.path(name)).unwrap();
+    }
+    let before = directory.content();
+    let extended = with(&["--extend-to", "30 s"]);
+    assert!(extended.status == Some(2) && extended.stderr.contains("has no checkpoint"), "{extended:?}");
+    let other = with(&["--resume", "--set", "operation.normal_force=7 N"]);
+    assert!(other.status == Some(2) && other.stderr.contains("operation.normal_force"), "{other:?}");
+    assert_eq!(with(&["--resume"]).status, Some(0));
+    assert!(directory.content() == before);
+    fs::write(directory.path("run.h5"), "notes").unwrap();
+    for more in [["--resume", "--json"], ["--extend-to", "30 s"]] {
+        assert_eq!(with(&more).status, Some(2));
+    }
+    assert_eq!(fs::read_to_string(directory.path("run.h5")).unwrap(), "notes");
+}

@@ -6,8 +6,6 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
-use crate::failure::Failure;
-
 /// Notes the signals that ask a run to stop.
 #[derive(Debug)]
 pub struct Interrupt {
@@ -39,14 +37,6 @@ impl Interrupt {
     /// Whether a checkpoint was asked for since the last time.
     pub fn save(&self) -> bool {
         self.save.swap(false, Ordering::Relaxed)
-    }
-
-    /// Ends what is not a run yet when a signal has come.
-    ///
-    /// # Errors
-    /// [`Failure::Stopped`].
-    pub fn check(&self) -> Result<(), Failure> {
-        self.signal().map_or(Ok(()), |signal| Err(Failure::Stopped { signal, message: None }))
     }
 
     /// The signal that came, if one did.

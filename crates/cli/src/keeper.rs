@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use plateau_core::observe::Sample;
 use plateau_core::scout::Scout;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::checkpoint::{self, RunState};
@@ -34,6 +35,8 @@ pub struct Keeper {
     start: Instant,
     /// Wall time of the run before this process.
     earlier: f64,
+    /// The last sample of the run, in this process or before.
+    pub last_sample: Option<Sample>,
     /// What is sent to the run file.
     sent: [usize; 2],
     writing: Option<JoinHandle<io::Result<()>>>,
@@ -50,14 +53,16 @@ impl Keeper {
             last: now,
             start: now,
             earlier: earlier.map_or(0.0, |state| state.wall_time),
+            last_sample: earlier.and_then(|state| state.last),
             sent: earlier.map_or([0, 0], |state| [state.samples, state.snapshots]),
             writing: None,
         }
     }
 
     /// A sample was sent to the run file.
-    pub fn sampled(&mut self) {
+    pub fn sampled(&mut self, sample: Sample) {
         self.sent[0] += 1;
+        self.last_sample = Some(sample);
     }
 
     /// Maps were sent to the run file.
@@ -92,6 +97,7 @@ impl Keeper {
             scene,
             inputs,
             samples: self.sent[0],
+            last: self.last_sample,
             snapshots: self.sent[1],
             wall_time: self.earlier + self.start.elapsed().as_secs_f64(),
             finished,

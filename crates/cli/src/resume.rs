@@ -36,9 +36,11 @@ pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunSt
             trouble.join("; ")
         )));
     }
-    for state in &states {
-        compare(run_file, state, about, extends)?;
+    if let Some(newest) = states.first() {
+        compare(run_file, newest, about, extends)?;
     }
+    // The one before may be of the end that was extended since.
+    states.retain(|state| compare(run_file, state, about, extends).is_ok());
     Ok(states)
 }
 
@@ -107,7 +109,8 @@ pub fn writer(path: &Path, header: &Header, states: &[RunState]) -> Result<(RunW
                 message::warning(format_args!("{error}; the checkpoint of step {} is passed over", state.run.steps()));
                 refusals.push(error.to_string());
             }
-            Err(error) => return Err(Failure::run(error)),
+            Err(error @ (RunFileError::Anew { .. } | RunFileError::Write { .. })) => return Err(Failure::run(error)),
+            Err(error) => return Err(Failure::input(error)),
         }
     }
     Err(Failure::input(format_args!("{}; begin again without --resume", refusals.join("; "))))

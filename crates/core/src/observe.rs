@@ -1,12 +1,14 @@
 //! What a simulation reports: samples of its quantities and maps of its fields (model section 5).
 
+use serde::{Deserialize, Serialize};
+
 use crate::roughness::BothRoughness;
 
 /// The reported quantities at the end of one step, in SI units.
 ///
 /// Displacement, contact area and pressures are those of that step's load balance, everything else is the state after
 /// the step.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Sample {
     /// Steps done.
     pub step: u64,
@@ -65,7 +67,7 @@ pub struct Sample {
 }
 
 /// Acceleration at the end of a step, in a run that chooses it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ChosenAcceleration {
     /// m.
     pub acceleration: f64,

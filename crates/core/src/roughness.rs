@@ -1,12 +1,14 @@
 //! Roughness of disc and pin while they wear: height parameters of their cells (ISO 25178-2:2021, 4.2).
 
+use serde::{Deserialize, Serialize};
+
 use crate::mesh::Mesh;
 
 /// Height parameters of the cells of one body.
 ///
 /// A cell counts with its area, which differs from row to row, and heights are measured from the mean so weighted;
 /// nothing else is taken out: that the track runs in as a groove is part of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Roughness {
     /// Sa = Σ A |z − z̄| / Σ A, m.
     pub arithmetical_mean_height: f64,
@@ -19,7 +21,7 @@ pub struct Roughness {
 }
 
 /// Roughness of both bodies, peaks positive on either.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BothRoughness {
     /// The whole ring: all of it passes under the pin.
     pub disc: Roughness,

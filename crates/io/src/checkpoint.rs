@@ -4,7 +4,7 @@
 //! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
 //!
 //! ```text
-//! magic    16 bytes: "plateau state 1\n"
+//! magic    16 bytes: "plateau state 2\n"
 //! length   8 bytes: of what follows but for the digest, the least first
 //! content  the state, in the encoding of the crate postcard 1
 //! digest   32 bytes: SHA-256 of the content
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::checkpoint::Checkpoint;
 use plateau_core::mesh::Mesh;
-use plateau_core::observe::Extras;
+use plateau_core::observe::{Extras, Sample};
 use plateau_core::scout::ScoutCheckpoint;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -26,7 +26,7 @@ use thiserror::Error;
 use crate::temporary::Temporary;
 
 /// How every checkpoint begins.
-const MAGIC: &[u8; 16] = b"plateau state 1\n";
+const MAGIC: &[u8; 16] = b"plateau state 2\n";
 /// Bytes of what is not of every cell, at most: scene, sums, and what is known of a revolution.
 const BESIDES: u64 = 16 * 1024;
 /// No mesh that fits into memory needs more, bytes.
@@ -45,6 +45,8 @@ pub struct RunState {
     pub samples: usize,
     /// Moments of which there are maps.
     pub snapshots: usize,
+    /// The last sample, if there was any.
+    pub last: Option<Sample>,
     /// Wall time so far, s.
     pub wall_time: f64,
     /// Whether all steps are done.
@@ -175,7 +177,7 @@ pub struct Aside {
 /// What the system says; they are then where they were.
 pub fn set_aside(run_file: &Path) -> io::Result<Aside> {
     let mut aside = Aside { moved: Vec::new() };
-    for path in paths(run_file) {
+    for path in paths(run_file).into_iter().filter(|path| path.is_file()) {
         let temporary = Temporary::beside(&path);
         match fs::rename(&path, temporary.path()) {
             Err(error) if error.kind() == ErrorKind::NotFound => {}

@@ -68,7 +68,9 @@ impl Temporary {
         File::open(&self.path)?.sync_all()?;
         let folder = folder(&self.target).to_owned();
         self.publish(true)?;
-        File::open(folder)?.sync_all()
+        // Some network file systems know nothing like that; the file has its name in any case.
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
+        Ok(())
     }
 }
 

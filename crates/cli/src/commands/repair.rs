@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use plateau_io::checkpoint;
 use plateau_io::run_file::{self, Repair, RepairError, RunFile};
+use plateau_io::units::{self, Dimension};
 use plateau_io::writer::writer_of;
 
 use crate::arguments::RepairArguments;
@@ -13,7 +14,7 @@ use crate::failure::Failure;
 use crate::table::print;
 use crate::{machine, message, number};
 
-/// A run that goes on touches its file or a checkpoint at least that often, unless its scene says otherwise.
+/// A run that goes on touches its file or a checkpoint at least that often, unless its scene wants rarer checkpoints.
 const SILENCE: Duration = Duration::from_secs(150);
 
 /// Repairs all files that can be before it fails because of one.
@@ -52,6 +53,13 @@ fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
     }
 }
 
+/// How long a run that goes on may touch nothing.
+fn silence(run: &RunFile) -> Duration {
+    let every = run.scene().get("output").and_then(|output| output.get("checkpoint_every")?.as_str());
+    let every = every.and_then(|every| units::parse(every, Dimension::Time).ok()).unwrap_or(0.0);
+    SILENCE.max(Duration::try_from_secs_f64(2.5 * every).unwrap_or(Duration::MAX))
+}
+
 /// Refuses a file whose run goes on, or may.
 fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
     let file = path.display();
@@ -64,8 +72,9 @@ fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
         return Ok(());
     }
     let [last, _] = checkpoint::paths(path);
-    let ages = [path, &last].map(|path| fs::metadata(path).ok()?.modified().ok()?.elapsed().ok());
-    let Some(age) = ages.into_iter().flatten().min().filter(|age| *age < SILENCE) else {
+    // Another machine's clock may go ahead.
+    let ages = [path, &last].map(|path| Some(fs::metadata(path).ok()?.modified().ok()?.elapsed().unwrap_or_default()));
+    let Some(age) = ages.into_iter().flatten().min().filter(|age| *age < silence(&run)) else {
         message::note(format_args!("{file} was last written on the machine {host}"));
         return Ok(());
     };

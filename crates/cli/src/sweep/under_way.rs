@@ -8,6 +8,7 @@ use plateau_core::checkpoint::Checkpoint;
 use plateau_core::scout::{Scout, ScoutCheckpoint};
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::checkpoint;
+use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
 use crate::message;
@@ -38,7 +39,9 @@ impl UnderWay {
     /// For a run of that identity; `every` is in seconds.
     pub fn new(results: &Path, identity: &str, every: f64) -> Self {
         let every = Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX);
-        Self { path: results.join("under-way").join(identity), every, last: Instant::now() }
+        let path = results.join("under-way").join(identity);
+        Temporary::remove_abandoned(&path);
+        Self { path, every, last: Instant::now() }
     }
 
     /// What was kept, if there is something that holds and has these series.

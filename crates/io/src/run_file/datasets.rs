@@ -63,9 +63,8 @@ impl Datasets {
         let unreadable = |error: ReadError| RunFileError::Earlier { path: path.into(), reason: error.to_string() };
         let missing = |name: &str| RunFileError::Earlier { path: path.into(), reason: format!("it has no {name}") };
         let columns = self.series.iter().map(|(quantity, _)| {
-            let mut values = other.values(quantity.name).map_err(unreadable)?.ok_or_else(|| missing(quantity.name))?;
-            values.truncate(earlier.samples);
-            Ok(values)
+            let values = other.first_values(quantity.name, earlier.samples).map_err(unreadable)?;
+            values.ok_or_else(|| missing(quantity.name))
         });
         let columns = columns.collect::<Result<_, RunFileError>>()?;
         self.append(file, columns, other.time()[..earlier.samples].to_vec()).map_err(not_anew(path))?;

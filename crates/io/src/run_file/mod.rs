@@ -15,7 +15,8 @@
 //! `start_time` and `end_time` (ISO 8601, UTC) are texts; `wall_time` is in seconds; `error` says why a run is `failed`;
 //! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.
 //!
-//! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands.
+//! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; the series only when the
+//! run has ended (see [`seal`]).
 mod datasets;
 mod digest;
 pub(crate) mod dimension;

@@ -150,11 +150,29 @@ impl RunFile {
     /// # Errors
     /// [`ReadError::Damaged`] when they cannot be read or are fewer than the times.
     pub fn values(&self, name: &str) -> Result<Option<Vec<f64>>, ReadError> {
+        self.first_values(name, self.time.len())
+    }
+
+    /// The first values of a series, of which there may be fewer than times where the power has failed.
+    pub(super) fn first_values(&self, name: &str, count: usize) -> Result<Option<Vec<f64>>, ReadError> {
         if !self.series.iter().any(|series| series.name == name) {
             return Ok(None);
         }
         let opening = Opening { path: &self.path, file: &self.file };
-        opening.start(&series_path(name), self.time.len()).map(Some)
+        opening.start(&series_path(name), count).map(Some)
+    }
+
+    /// Samples of which every series has a value.
+    pub(super) fn whole_samples(&self) -> usize {
+        let lengths =
+            self.series.iter().filter_map(|series| Some(self.file.dataset(&series_path(&series.name)).ok()?.size()));
+        lengths.chain([self.time.len()]).min().unwrap_or(0)
+    }
+
+    /// Moments up to the first of which a map cannot be read.
+    pub(super) fn whole_moments(&self) -> usize {
+        let readable = |moment| Map::ALL.into_iter().all(|map| self.map(map, moment).is_ok());
+        (0..self.map_time.len()).take_while(|moment| readable(*moment)).count()
     }
 
     /// Whether a map was recorded, at whatever times there are.

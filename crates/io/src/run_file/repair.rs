@@ -14,6 +14,7 @@ use super::seal::Seal;
 use super::store::{not_anew, set_up};
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
 use crate::hdf5_file;
+use crate::temporary::Temporary;
 
 /// What became of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,6 +85,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     if is_healthy(path)? {
         return Ok(Repair::Healthy);
     }
+    Temporary::remove_abandoned(path);
     let old = RunFile::open(path)?;
     let header = Header::of(&old)?;
     let known = |name: &str| quantities(header.extras).any(|quantity| quantity.name == name);
@@ -96,7 +98,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     let end_time = fs::metadata(path).and_then(|file| file.modified()).unwrap_or_else(|_| SystemTime::now());
     let start_time = old.start_time().unwrap_or(end_time);
     let wall_time = end_time.duration_since(start_time).unwrap_or_default();
-    let (samples, moments) = (old.time().len(), old.map_time().len());
+    let (samples, moments) = (old.whole_samples(), old.whole_moments());
     let (file, mut datasets) = set_up(&place, &header, start_time).map_err(not_anew(path))?;
     datasets.copy(&file, &old, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;

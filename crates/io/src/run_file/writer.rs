@@ -100,6 +100,14 @@ impl RunWriter {
         Self::start(path, header, Store::resume(path, header, earlier)?)
     }
 
+    /// Whether the writer still takes what is sent.
+    ///
+    /// # Errors
+    /// The error with which it has ended.
+    pub fn check(&mut self) -> Result<(), RunFileError> {
+        if self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) { Ok(()) } else { Err(self.stop()) }
+    }
+
     /// Asks for all that was sent so far to be handed to the disk.
     pub fn sync(&self) -> Synced {
         let (answer, answers) = channel::bounded(1);
@@ -126,7 +134,7 @@ impl RunWriter {
     /// [`RunFileError::Map`] or [`RunFileError::Size`] when they are not the maps of the header on its mesh; otherwise
     /// as [`sample`](Self::sample).
     pub fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), RunFileError> {
-        self.check(&snapshot)?;
+        self.check_maps(&snapshot)?;
         let sent = self.queues.as_ref().is_some_and(|queues| send(&queues.snapshots, snapshot, &mut self.waited));
         if sent { Ok(()) } else { Err(self.stop()) }
     }
@@ -148,7 +156,7 @@ impl RunWriter {
     }
 
     /// Whether a snapshot holds the maps of the header on its mesh.
-    fn check(&self, snapshot: &Snapshot) -> Result<(), RunFileError> {
+    fn check_maps(&self, snapshot: &Snapshot) -> Result<(), RunFileError> {
         for &map in &self.maps {
             let name = map.name();
             let values = snapshot.maps.iter().find(|(recorded, _)| *recorded == map).map(|(_, values)| values);

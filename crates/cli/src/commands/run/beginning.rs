@@ -11,7 +11,7 @@ use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::job::Job;
 use crate::keeper::About;
-use crate::{message, resume};
+use crate::{message, number, resume};
 
 /// What a run begins with.
 pub(super) struct Beginning {
@@ -32,17 +32,30 @@ impl Beginning {
         header: &Header,
         about: &About,
         arguments: &RunArguments,
+        end: f64,
         job: &mut Job,
     ) -> Result<Option<Self>, Failure> {
+        if job.leads() {
+            for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
+                Temporary::remove_abandoned(target);
+            }
+        }
         let extends = arguments.extend_to.is_some();
         let mut states = if arguments.resumes() { resume::states(path, about, extends)? } else { Vec::new() };
-        let finished = match states.first() {
-            Some(newest) => newest.finished,
-            None => arguments.resume && !arguments.force && is_finished(path, about)?,
+        let there = if arguments.resumes() && !arguments.force { look(path, about, extends)? } else { None };
+        let finished = match (states.first().filter(|newest| newest.finished), there) {
+            (Some(_), None) if !arguments.force => {
+                return Err(refused(path, "is gone, though its checkpoint says that the run is finished"));
+            }
+            (Some(newest), _) => !extends || has_come_to(path, newest, end)?,
+            (None, Some(State::Finished)) if extends && states.is_empty() => {
+                return Err(refused(path, "is finished and has no checkpoint to go on from"));
+            }
+            (None, there) => there == Some(State::Finished) && states.is_empty(),
         };
         let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
         job.compare(&format!("{finished} {steps:?}"))?;
-        if finished && !extends {
+        if finished {
             message::note(format_args!("{} is finished; --extend-to TIME goes on beyond its end", path.display()));
             return Ok(None);
         }
@@ -65,29 +78,46 @@ fn lead(
     states: &[RunState],
 ) -> Result<(Option<RunWriter>, usize), Failure> {
     refuse_if_written(path)?;
-    for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
-        Temporary::remove_abandoned(target);
-    }
     if !states.is_empty() {
         return resume::writer(path, header, states).map(|(writer, place)| (Some(writer), place));
     }
     // What is there is of another run, and stays if the new one cannot begin.
-    let others = checkpoint::set_aside(path).map_err(Failure::run)?;
+    let others = checkpoint::set_aside(path).map_err(|error| {
+        let path = path.display();
+        Failure::input(format_args!("cannot replace the checkpoints of {path}: {error}; write elsewhere with -o FILE"))
+    })?;
     let writer = RunWriter::create(path, arguments.force || arguments.resumes(), header).map_err(create_failure)?;
     others.discard();
     Ok((Some(writer), 0))
 }
 
-/// Whether the run that is to be gone on with has come to its end and left no checkpoint.
-fn is_finished(path: &Path, about: &About) -> Result<bool, Failure> {
+/// Whether a finished run that is to go on to a time has come to just that.
+fn has_come_to(path: &Path, state: &RunState, end: f64) -> Result<bool, Failure> {
+    let time = state.run.time();
+    // The last step may go beyond the time that is asked for.
+    let step = time / state.run.steps().max(1) as f64;
+    if time > end + 1.5 * step {
+        let (path, time) = (path.display(), number::short(time));
+        return Err(Failure::input(format_args!(
+            "--extend-to: {path} has come to {time} s already; give a later time"
+        )));
+    }
+    Ok(time > end - 0.5 * step)
+}
+
+fn refused(path: &Path, what: &str) -> Failure {
+    Failure::input(format_args!("{} {what}; without --resume, --force begins again", path.display()))
+}
+
+/// The state of the file that is to be gone on with, if there is one; it must be of this run.
+fn look(path: &Path, about: &About, extends: bool) -> Result<Option<State>, Failure> {
     if !path.exists() {
-        return Ok(false);
+        return Ok(None);
     }
-    let there = RunFile::open(path).map_err(Failure::input)?;
-    if there.state() != State::Finished {
-        return Ok(false);
-    }
-    resume::compare_scenes(path, &there.attribute("scene").unwrap_or_default(), about, false).map(|()| true)
+    let there = RunFile::open(path)
+        .map_err(|error| Failure::input(format_args!("{error}; without --resume, --force begins again")))?;
+    let scene = there.attribute("scene").unwrap_or_default();
+    resume::compare_scenes(path, &scene, about, extends).map(|()| Some(there.state()))
 }
 
 /// Refuses to replace, or to go on with, a file that another run is writing.

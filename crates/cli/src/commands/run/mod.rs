@@ -7,7 +7,6 @@ mod recorder;
 use std::path::Path;
 use std::time::Instant;
 
-use plateau_core::observe::Sample;
 use plateau_core::scout::{Idle, Scout};
 use plateau_core::simulation::Execution;
 use plateau_core::state::InitialSurfaces;
@@ -47,12 +46,14 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     interrupt.listen_for_save().map_err(Failure::run)?;
     let scene = load_scene(&lengthened(arguments))?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
+    // What a link points to is what is written, and its checkpoints lie beside it.
+    let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
     if job.leads() {
         check_place(&path, arguments.force || arguments.resumes()).map_err(Failure::input)?;
     }
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
-    interrupt.check()?;
+    stop_if_told(&interrupt, job)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
     let mut schedule = scene.schedule();
     let Loaded { surfaces, inputs, report: surface_report } = loaded;
@@ -65,8 +66,9 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
     )?;
     let about = About { program: version::build(), scene: scene.resolved.clone(), inputs };
-    interrupt.check()?;
-    let Some(Beginning { writer, state }) = Beginning::of(&path, &header, &about, arguments, job)? else {
+    stop_if_told(&interrupt, job)?;
+    let beginning = Beginning::of(&path, &header, &about, arguments, schedule.end_time(), job)?;
+    let Some(Beginning { writer, state }) = beginning else {
         return Ok(());
     };
     if let Some(state) = &state {
@@ -83,10 +85,10 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let start = Instant::now();
     let progress = Progress::new(schedule.end_time(), job.leads());
     let agreement = Agreement::default();
-    let mut recorder = Recorder { writer, progress, interrupt, job, last: Sample::default(), keeper, agreement };
+    let mut recorder = Recorder { writer, progress, interrupt, job, keeper, agreement };
     let result = drive(&mut simulation, scout.as_mut(), schedule, &scene.output, &mut recorder);
     recorder.progress.finish();
-    let Recorder { writer, last, mut keeper, .. } = recorder;
+    let Recorder { writer, mut keeper, .. } = recorder;
     keeper.wait();
     if result.is_ok() && writer.is_none() {
         keeper.keep(&mut simulation, scout.as_mut(), true, None).map_err(Failure::run)?;
@@ -116,12 +118,27 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let report = writer.finish(&End::Finished).map_err(Failure::run)?;
     keeper.keep(&mut simulation, scout.as_mut(), true, Some(Synced::already())).map_err(Failure::run)?;
     keeper.wait();
-    let summary =
-        Summary::new(&scene, surface_report, &path, &last, simulation.course(), report, start.elapsed().as_secs_f64());
+    let summary = Summary::new(
+        &scene,
+        surface_report,
+        &path,
+        &keeper.last_sample.unwrap_or_default(),
+        simulation.course(),
+        report,
+        start.elapsed().as_secs_f64(),
+    );
     summary.warn();
     scout.as_ref().and_then(Scout::idle).into_iter().for_each(warn_of);
     let text = if arguments.scene.json { summary.to_json()? } else { summary.to_text() };
     print(&text).map_err(|failure| failure.but(format_args!("the run is finished, {} is complete", path.display())))
+}
+
+/// Ends what is not a run yet when a signal has come to any process of the job.
+fn stop_if_told(interrupt: &Interrupt, job: &mut Job) -> Result<(), Failure> {
+    let own = Agreement { signal: interrupt.signal(), ..Agreement::default() };
+    let Some(signal) = job.agree(own).map_err(Failure::run)?.signal else { return Ok(()) };
+    let message = format!("stopped by signal {signal} before the first step");
+    Err(Failure::Stopped { signal, message: job.leads().then_some(message) })
 }
 
 /// The command line with the duration that `--extend-to` gives.

@@ -46,7 +46,6 @@ pub(super) struct Recorder<'job> {
     pub(super) progress: Progress,
     pub(super) interrupt: Interrupt,
     pub(super) job: &'job mut Job,
-    pub(super) last: Sample,
     pub(super) keeper: Keeper,
     /// What all processes settled last.
     pub(super) agreement: Agreement,
@@ -56,8 +55,7 @@ impl Sink for Recorder<'_> {
     type Error = RunFailure;
 
     fn sample(&mut self, sample: Sample) -> Result<(), RunFailure> {
-        self.last = sample;
-        self.keeper.sampled();
+        self.keeper.sampled(sample);
         self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample)).map_err(RunFailure::RunFile)
     }
 
@@ -68,6 +66,8 @@ impl Sink for Recorder<'_> {
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, RunFailure> {
         self.progress.show(simulation);
+        // Samples may be rare: the run is not to go on for hours beside a file that is lost.
+        self.writer.as_mut().map_or(Ok(()), RunWriter::check).map_err(RunFailure::RunFile)?;
         let save = self.interrupt.save() || (self.writer.is_some() && self.keeper.is_due());
         let own = Agreement { signal: self.interrupt.signal(), save: save || self.agreement.save, steps };
         self.agreement = self.job.agree(own).map_err(RunFailure::Comm)?;

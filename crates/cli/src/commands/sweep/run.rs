@@ -53,6 +53,8 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         }
     }
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
+    // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
+    interrupt.listen_for_save().map_err(Failure::run)?;
     let workers = arguments.workers as usize;
     if job.ranks() > 1 && arguments.jobs.is_some() && job.leads() {
         message::warning("each rank makes one run at a time: --jobs has no effect");
