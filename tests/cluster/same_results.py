@@ -9,35 +9,16 @@ import zlib
 from collections import Counter
 from pathlib import Path
 
-import h5py
-import numpy as np
+from content import content, differences
 
 # What differs from one making of a run to the next, and from one build of a program to the next.
 DATASET = "wall_time"
 ATTRIBUTES = ["collected", "source_revision"]
 
 
-def content(path: Path) -> dict[str, object]:
-    """Every dataset and attribute, numbers as their bits."""
-
-    def bits(value: object) -> object:
-        array = np.asarray(value)
-        numeric = array.dtype.kind in "fiub"
-        return array.dtype.str, array.shape, array.tobytes() if numeric else array.tolist()
-
-    found = {}
-    with h5py.File(path) as file:
-
-        def look(name: str, item: h5py.HLObject) -> None:
-            for key in item.attrs:
-                # References to datasets are addresses.
-                if key not in ("DIMENSION_LIST", "REFERENCE_LIST"):
-                    found[f"{name}@{key}"] = bits(item.attrs[key])
-            if isinstance(item, h5py.Dataset):
-                found[name] = bits(item[()])
-
-        look("", file)
-        file.visititems(look)
+def result(path: Path) -> dict[str, object]:
+    """What a study gives."""
+    found = content(path)
     for name in [DATASET, *(f"@{name}" for name in ATTRIBUTES)]:
         del found[name]
     return found
@@ -59,8 +40,8 @@ def main() -> None:
     runs = len(tables[0].splitlines()) - 1
     assert runs > 0 and tables[0].count(b"finished") == runs, f"{reference} is not complete"
     assert tables[1] == tables[0], f"{other}/results.csv differs from that of {reference}"
-    expected, found = (content(folder / "results.h5") for folder in (reference, other))
-    different = [name for name in expected.keys() | found.keys() if expected.get(name) != found.get(name)]
+    expected, found = (result(folder / "results.h5") for folder in (reference, other))
+    different = differences(expected, found)
     assert not different, f"{other}/results.h5 differs from that of {reference}: {different}"
     made = records(other / "journal")
     twice = [identity for identity, count in Counter(made).items() if count > 1]

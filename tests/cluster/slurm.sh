@@ -2,6 +2,17 @@
 # their own. Sourced.
 # shellcheck shell=sh
 
+have_slurm() {
+    for command in munged slurmctld slurmd sbatch; do
+        PATH=$PATH:/usr/sbin command -v $command >/dev/null 2>&1 || return 1
+    done
+}
+
+# As in packages.sh.
+provide_slurm() {
+    provide 'Slurm' have_slurm slurm-wlm munge
+}
+
 # slurm_start DIR: brings Slurm up; DIR, which is made, takes all it writes. sbatch and its like then find it
 # (SLURM_CONF). What went wrong is on standard error.
 slurm_start() {

@@ -8,13 +8,7 @@ root=$PWD
 . tests/cluster/packages.sh
 . tests/cluster/slurm.sh
 
-have_slurm() {
-    for command in munged slurmctld slurmd sbatch; do
-        PATH=$PATH:/usr/sbin command -v $command >/dev/null 2>&1 || return 1
-    done
-}
-
-provide 'Slurm' have_slurm slurm-wlm munge
+provide_slurm
 
 . scripts/paths.sh
 . scripts/say.sh
@@ -24,37 +18,11 @@ provide 'Slurm' have_slurm slurm-wlm munge
 if [ -n "${PLATEAU_PROGRAM:-}" ]; then program=$PLATEAU_PROGRAM; else sh scripts/build.sh || exit 1; fi
 with_lock .venv.lock install_readers || exit 1
 
-lab=$(mktemp -d) || exit 1
-job=
-clean_up() {
-    trap '' INT TERM
-    if [ -n "$job" ] && kill "$job"; then wait "$job"; fi
-    slurm_stop
-    rm -rf "$lab"
-} 2>/dev/null
-trap clean_up EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-
-fail() {
-    echo "$*"
-    exit 1
-}
+. tests/cluster/lab.sh
 
 # enter NAME: the working directory is one of this name from here on.
 enter() {
     mkdir "$lab/$1" && cd "$lab/$1" || exit 1
-}
-
-# await SECONDS COMMAND...: until it succeeds.
-await() {
-    looks=$(($1 * 20))
-    shift
-    until "$@"; do
-        looks=$((looks - 1))
-        [ $looks -gt 0 ] || fail "waited in vain for: $*: $(cat said 2>/dev/null)"
-        sleep 0.05
-    done
 }
 
 # Slurm looks at time limits every 30 s, so a run that it is to warn must take longer, on a fast machine too.

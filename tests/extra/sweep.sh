@@ -9,17 +9,11 @@ root=$PWD
 . tests/cluster/open_mpi.sh
 . tests/cluster/slurm.sh
 
-have_slurm() {
-    for command in munged slurmctld slurmd sbatch; do
-        PATH=$PATH:/usr/sbin command -v $command >/dev/null 2>&1 || return 1
-    done
-}
-
 have_parallel() {
     case $(parallel --version 2>/dev/null </dev/null) in 'GNU parallel'*) ;; *) return 1 ;; esac
 }
 
-provide 'Slurm' have_slurm slurm-wlm munge
+provide_slurm
 provide 'GNU parallel' have_parallel parallel
 provide_mpi
 
@@ -32,22 +26,7 @@ need_program_with_mpi || exit 1
 sh scripts/build.sh || exit 1
 with_lock .venv.lock install_readers || exit 1
 
-lab=$(mktemp -d) || exit 1
-job=
-clean_up() {
-    trap '' INT TERM
-    if [ -n "$job" ] && kill "$job"; then wait "$job"; fi
-    slurm_stop
-    rm -rf "$lab"
-} 2>/dev/null
-trap clean_up EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-
-fail() {
-    echo "$*"
-    exit 1
-}
+. tests/cluster/lab.sh
 
 # enter NAME DURATION: the working directory is one of this name from here on, with a study in it, which `maker` makes.
 enter() {
@@ -106,17 +85,6 @@ shown() {
 # Runs of the study of this folder that have a result.
 finished() {
     "$maker" sweep collect study.toml --json -o collected | sed -n 's/.*"finished": \([0-9]*\).*/\1/p'
-}
-
-# await SECONDS COMMAND...: until it succeeds.
-await() {
-    looks=$(($1 * 20))
-    shift
-    until "$@"; do
-        looks=$((looks - 1))
-        [ $looks -gt 0 ] || fail "waited in vain for: $*"
-        sleep 0.05
-    done
 }
 
 # writers N: at least so many processes are at work; the first N process numbers, from the names of their files.

@@ -32,10 +32,10 @@ fn on_ranks(directory: &WorkingDirectory, ranks: usize, arguments: &[String]) ->
     run(command)
 }
 
-/// Every dataset of the run file that a command wrote, and the number of workers that it names.
+/// Every dataset of the run file that a command wrote beside its last checkpoint, and the number of workers that it names.
 fn written(directory: &WorkingDirectory, outcome: &Outcome) -> (BTreeMap<String, Content>, f64) {
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
-    assert_eq!(directory.names(), ["run.h5"]);
+    assert_eq!(directory.names(), ["run.h5", "run.h5.checkpoint"]);
     let file = RunFile::open(directory.path("run.h5"));
     assert_eq!(file.text("state"), "finished");
     (file.content(), file.number("workers"))

@@ -2,9 +2,10 @@
 
 use std::time::{Duration, Instant};
 
+use plateau_core::checkpoint::Checkpoint;
 use plateau_core::observe::{ChosenAcceleration, Sample, Snapshot};
 use plateau_core::schedule::Schedule;
-use plateau_core::scout::Scout;
+use plateau_core::scout::{Scout, ScoutCheckpoint};
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
 
@@ -43,6 +44,24 @@ pub trait Sink {
     fn rest(&mut self, _simulation: &mut Simulation, _scout: Option<&mut Scout>) -> Result<(), Self::Error> {
         Ok(())
     }
+}
+
+/// Puts what is to be driven where it was between two steps of a run that was stopped.
+///
+/// # Errors
+/// When the state is of another run.
+pub fn go_on(
+    simulation: &mut Simulation,
+    scout: Option<&mut Scout>,
+    schedule: &mut Schedule,
+    (run, ahead): (&Checkpoint, Option<&ScoutCheckpoint>),
+) -> Result<(), SimulationError> {
+    simulation.restore(run)?;
+    if let (Some(scout), Some(ahead)) = (scout, ahead) {
+        scout.restore(ahead)?;
+    }
+    schedule.go_on(run.clock());
+    Ok(())
 }
 
 /// Runs all steps; the samples and maps that `output` asks for go to `sink`. A run with a scout chooses its acceleration.

@@ -36,8 +36,7 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
 /// What became of a file, on one line.
 fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
     let file = path.display();
-    let unreadable = |error| Failure::input(error);
-    if !run_file::is_healthy(path).map_err(unreadable)? {
+    if !run_file::is_healthy(path).map_err(Failure::input)? {
         refuse_if_written(path, force)?;
     }
     match run_file::repair(path) {

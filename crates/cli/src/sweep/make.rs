@@ -12,7 +12,7 @@ use plateau_io::study::record::{Outcome, Series};
 use plateau_io::surface;
 
 use super::under_way::UnderWay;
-use crate::drive::{Sink, drive};
+use crate::drive::{Sink, drive, go_on};
 
 /// Whether a run goes on, and what others want to know meanwhile.
 pub trait Watcher: Sync {
@@ -70,11 +70,7 @@ fn finish(
     let mut schedule = scene.schedule();
     let mut recorder = Recorder::new(study, scene, watcher, under_way);
     if let Some(state) = recorder.under_way.find(&recorder.names()) {
-        simulation.restore(&state.run)?;
-        if let (Some(scout), Some(kept)) = (&mut scout, &state.scout) {
-            scout.restore(kept)?;
-        }
-        schedule.go_on(state.run.clock());
+        go_on(&mut simulation, scout.as_mut(), &mut schedule, (&state.run, state.scout.as_ref()))?;
         watcher.goes_on(state.run.steps());
         (recorder.columns, recorder.told) = (state.columns, state.run.steps());
     }

@@ -34,10 +34,7 @@ pub(super) struct Digests {
 impl Digests {
     /// Values that were appended to a dataset with one dimension.
     pub(super) fn append(&mut self, path: &str, values: &[f64]) {
-        if !self.columns.contains_key(path) {
-            self.columns.insert(path.to_owned(), Sha256::new());
-        }
-        self.columns.entry(path.to_owned()).and_modify(|hasher| update(hasher, values));
+        update(self.columns.entry(path.to_owned()).or_default(), values);
     }
 
     /// A map that was appended.

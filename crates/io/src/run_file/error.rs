@@ -109,3 +109,10 @@ pub enum RunFileError {
         path: PathBuf,
     },
 }
+
+impl RunFileError {
+    /// A new file could not be made at `path`; one that is there stays.
+    pub(super) fn not_made(path: PathBuf, reason: String) -> Self {
+        if path.exists() { Self::Anew { path, reason } } else { Self::SetUp { path, reason } }
+    }
+}

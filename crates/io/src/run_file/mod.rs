@@ -16,7 +16,7 @@
 //! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.
 //!
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; the series only when the
-//! run has ended (see [`seal`]).
+//! run has ended and the file is made anew.
 mod datasets;
 mod digest;
 pub(crate) mod dimension;

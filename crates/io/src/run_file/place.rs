@@ -22,13 +22,7 @@ impl Place {
         fs::write(temporary.path(), start).map_err(|error| match error.kind() {
             // That is not the user's mistake, and nothing that writing elsewhere in the folder would mend.
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-                let reason = error.to_string();
-                // One that is there stays.
-                if path.exists() {
-                    RunFileError::Anew { path: path.clone(), reason }
-                } else {
-                    RunFileError::SetUp { path: path.clone(), reason }
-                }
+                RunFileError::not_made(path.clone(), error.to_string())
             }
             _ => refused_in(&path)(error),
         })?;

@@ -352,6 +352,6 @@ impl Opening<'_> {
 }
 
 /// What the library said, on one line.
-fn reason(error: &hdf5::Error) -> String {
+pub(super) fn reason(error: &hdf5::Error) -> String {
     error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

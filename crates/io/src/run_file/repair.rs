@@ -105,7 +105,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     let digests = datasets.into_digests();
     let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests };
     let sealed = Place::claim(path, true, EMPTY_FILE)?;
-    let closed = file.close().and_then(|()| seal.make(place.temporary(), sealed.temporary()));
+    let closed = file.close().and_then(|()| seal.make(place.temporary(), &sealed));
     closed.map_err(not_anew(path))?;
     drop(old);
     let copy = keep(sealed.path())?;

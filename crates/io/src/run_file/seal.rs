@@ -10,10 +10,10 @@ use hdf5::File;
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
 use super::layout::{lay_out, write_number, write_text};
-use super::store::{failed, open};
+use super::place::Place;
+use super::store::{failed, not_anew, open};
 use super::{End, Header, RunFileError};
 use crate::hdf5_file;
-use crate::temporary::Temporary;
 use crate::timestamp::iso_8601;
 
 /// More bytes than the attributes of the end take but for the digests of maps, and for one of these.
@@ -36,9 +36,10 @@ impl Seal<'_> {
     /// killed at whatever moment, the program leaves a file that can be read. Where there is no room for a second file, it is
     /// put on the file itself, if there is room for that.
     pub(super) fn put_on(&self, path: &Path) -> Result<(), RunFileError> {
-        let system = |error: io::Error| hdf5::Error::from(error.to_string());
-        let place = Temporary::beside(path);
-        let anew = self.make(path, place.path()).and_then(|()| place.publish_durably().map_err(system));
+        let anew = Place::claim(path, true, EMPTY_FILE).and_then(|place| {
+            self.make(path, &place).map_err(not_anew(path))?;
+            place.publish_durably()
+        });
         if anew.is_ok() {
             return Ok(());
         }
@@ -48,9 +49,8 @@ impl Seal<'_> {
     }
 
     /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
-    pub(super) fn make(&self, path: &Path, place: &Path) -> hdf5::Result<()> {
-        fs::write(place, EMPTY_FILE).map_err(|error| hdf5::Error::from(error.to_string()))?;
-        let (old, new) = (hdf5_file::open(path)?, open(place)?);
+    pub(super) fn make(&self, path: &Path, place: &Place) -> hdf5::Result<()> {
+        let (old, new) = (hdf5_file::open(path)?, open(place.temporary())?);
         lay_out(&new, self.header, self.start_time, Some(&old))?;
         self.write(new)
     }

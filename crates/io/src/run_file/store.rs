@@ -48,10 +48,7 @@ impl Store {
         let (started, start_time) = (Instant::now(), SystemTime::now());
         let place = Place::claim(path, overwrite, EMPTY_FILE)?;
         let set_up = set_up(&place, header, start_time);
-        let (file, datasets) = set_up.map_err(|error| {
-            let (path, reason) = (path.to_owned(), reason(&error));
-            if path.exists() { RunFileError::Anew { path, reason } } else { RunFileError::SetUp { path, reason } }
-        })?;
+        let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), reason(&error)))?;
         let path = place.publish()?;
         Ok(Self { identity: identity(&path), path, header: header.clone(), start_time, started, file, datasets })
     }

@@ -7,6 +7,7 @@ use plateau_core::observe::{Map, MapValues};
 
 use super::digest::{ATTRIBUTES_DIGEST, DIGEST, of_attributes, of_bytes, of_floats, texts};
 use super::layout::{MAP_TIME, PIN_BASE, TIME, map_path, series_path};
+use super::reader::reason;
 use super::{ReadError, RunFile, State};
 use crate::hdf5_file;
 
@@ -169,9 +170,4 @@ fn in_short(error: ReadError) -> String {
         ReadError::Damaged { reason, .. } => reason,
         error => error.to_string(),
     }
-}
-
-/// What the library said, on one line.
-fn reason(error: &hdf5::Error) -> String {
-    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -8,9 +8,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use plateau_core::scout::{Idle, Scout};
-use plateau_core::simulation::Execution;
+use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
-use plateau_io::run_file::{End, Synced, check_place, report_file_size_limit};
+use plateau_io::run_file::{End, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
@@ -19,7 +19,7 @@ use self::header::header;
 use self::recorder::{Recorder, RunFailure};
 use super::load_scene;
 use crate::arguments::{RunArguments, SceneArguments};
-use crate::drive::drive;
+use crate::drive::{drive, go_on};
 use crate::execution::decide;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -72,11 +72,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         return Ok(());
     };
     if let Some(state) = &state {
-        simulation.restore(&state.run).map_err(Failure::run)?;
-        if let (Some(scout), Some(kept)) = (&mut scout, &state.scout) {
-            scout.restore(kept).map_err(Failure::run)?;
-        }
-        schedule.go_on(state.run.clock());
+        let kept = (&state.run, state.scout.as_ref());
+        go_on(&mut simulation, scout.as_mut(), &mut schedule, kept).map_err(Failure::run)?;
         let (steps, time) = (state.run.steps(), number::short(state.run.time()));
         message::note(format_args!("goes on from step {steps}, t = {time} s"));
     }
@@ -90,32 +87,11 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     recorder.progress.finish();
     let Recorder { writer, mut keeper, .. } = recorder;
     keeper.wait();
-    if result.is_ok() && writer.is_none() {
-        keeper.keep(&mut simulation, scout.as_mut(), true, None).map_err(Failure::run)?;
-    }
     let Some(writer) = writer else {
-        return result.map(drop).map_err(|failure| match failure {
-            RunFailure::Stopped(signal) => Failure::Stopped { signal, message: None },
-            failure => Failure::run(failure),
-        });
+        result.map_err(failure_of)?;
+        return keeper.keep(&mut simulation, scout.as_mut(), true, None).map_err(Failure::run);
     };
-    match result {
-        Ok(()) => {}
-        Err(RunFailure::Stopped(signal)) => {
-            let report = writer.finish(&End::Interrupted).map_err(Failure::run)?;
-            let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
-            let message = format!(
-                "stopped by signal {signal} after {steps} steps; {file} holds {samples} samples, --resume goes on from here"
-            );
-            return Err(Failure::Stopped { signal, message: Some(message) });
-        }
-        Err(failure) => {
-            // The first error is the one to report; a writer that failed has nothing more to say.
-            let _ = writer.finish(&End::Failed(failure.to_string()));
-            return Err(Failure::run(failure));
-        }
-    }
-    let report = writer.finish(&End::Finished).map_err(Failure::run)?;
+    let report = close(result, writer, &simulation, &path)?;
     keeper.keep(&mut simulation, scout.as_mut(), true, Some(Synced::already())).map_err(Failure::run)?;
     keeper.wait();
     let summary = Summary::new(
@@ -131,6 +107,40 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     scout.as_ref().and_then(Scout::idle).into_iter().for_each(warn_of);
     let text = if arguments.scene.json { summary.to_json()? } else { summary.to_text() };
     print(&text).map_err(|failure| failure.but(format_args!("the run is finished, {} is complete", path.display())))
+}
+
+/// Closes the file of a run that has ended like this.
+fn close(
+    result: Result<(), RunFailure>,
+    writer: RunWriter,
+    simulation: &Simulation,
+    path: &Path,
+) -> Result<WriterReport, Failure> {
+    let end = match &result {
+        Ok(()) => End::Finished,
+        Err(RunFailure::Stopped(_)) => End::Interrupted,
+        Err(failure) => End::Failed(failure.to_string()),
+    };
+    match (result, writer.finish(&end)) {
+        (Err(RunFailure::Stopped(signal)), Ok(report)) => {
+            let (steps, file, samples) = (simulation.steps_done(), path.display(), report.samples);
+            let message = format!(
+                "stopped by signal {signal} after {steps} steps; {file} holds {samples} samples, --resume goes on from here"
+            );
+            Err(Failure::Stopped { signal, message: Some(message) })
+        }
+        (Ok(()) | Err(RunFailure::Stopped(_)), closed) => closed.map_err(Failure::run),
+        // The first error is the one to report; a writer that failed has nothing more to say.
+        (Err(failure), _) => Err(failure_of(failure)),
+    }
+}
+
+/// How a process that has no file to close fails.
+fn failure_of(failure: RunFailure) -> Failure {
+    match failure {
+        RunFailure::Stopped(signal) => Failure::Stopped { signal, message: None },
+        failure => Failure::run(failure),
+    }
 }
 
 /// Ends what is not a run yet when a signal has come to any process of the job.
