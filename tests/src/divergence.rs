@@ -3,6 +3,7 @@
 use std::fmt;
 
 use plateau_core::observe::{self, ChosenAcceleration, Extras, Map, MapValues, QUANTITIES, Sample};
+use plateau_core::pressure_spread::PressureSpread;
 use plateau_core::roughness::BothRoughness;
 use plateau_core::simulation::Simulation;
 
@@ -11,7 +12,9 @@ const STEPS_BETWEEN: u64 = 100;
 
 // A sample is its step, its time and the quantities: none of its numbers is left out of a comparison.
 const _: () = {
-    let options = size_of::<Option<BothRoughness>>() + size_of::<Option<ChosenAcceleration>>();
+    let options = size_of::<Option<BothRoughness>>()
+        + size_of::<Option<PressureSpread>>()
+        + size_of::<Option<ChosenAcceleration>>();
     assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + options);
 };
 
@@ -102,8 +105,8 @@ impl Moment {
     fn reach(simulation: &mut Simulation, step: u64) -> Result<Self, String> {
         let mut told = || {
             simulation.advance_to(step)?;
-            let roughness = Some(simulation.roughness()?);
-            Ok((Sample { roughness, ..simulation.sample()? }, simulation.snapshot(&Map::ALL)?))
+            let (roughness, pressure_spread) = (Some(simulation.roughness()?), Some(simulation.pressure_spread()?));
+            Ok((Sample { roughness, pressure_spread, ..simulation.sample()? }, simulation.snapshot(&Map::ALL)?))
         };
         let (sample, snapshot) =
             told().map_err(|error: plateau_core::simulation::SimulationError| error.to_string())?;

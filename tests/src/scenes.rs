@@ -36,6 +36,7 @@ pub fn wear_only(rows: usize, disc_columns: usize, pin_columns: usize) -> Parame
         materials: paper_materials(),
         plateaus: PlateauRules {
             captured_fraction: 0.0,
+            captured_resin_fraction: None,
             pad_share: 0.5,
             debris_pool: DebrisPool::Contact,
             formation: false,

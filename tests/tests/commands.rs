@@ -174,6 +174,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "map pin_status",
         "map pressure",
         "roughness with every sample",
+        "spread of the pressure with every sample",
     ];
     let least = [
         "materials.pin_primary.specific_wear_rate=0 1/Pa",
@@ -191,6 +192,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "numerics.integrator=exponential",
         "numerics.workers=2",
         "output.roughness=true",
+        "output.pressure_spread=true",
     ];
     let most: Vec<&str> = most.iter().flat_map(|set| ["--set", set]).collect();
     assert_eq!((parts(&most, "needed"), parts(&most, "left_out")), (optional.map(str::to_owned).to_vec(), vec![]));

@@ -7,12 +7,14 @@ use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules}
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
 use plateau_tests::scenes::{primary_stiffness, random_surfaces, wear_only};
+use proptest::option;
 use proptest::prelude::*;
 
 /// Any scene of the model on a small mesh.
 fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
     let mesh = (1..12_usize, 2..40_usize).prop_flat_map(|(rows, columns)| (Just(rows), Just(columns), 1..=columns));
-    let rules = (0.0..=1.0, 0.0..=1.0, any::<bool>(), any::<bool>(), any::<bool>());
+    let fractions = (0.0..=1.0, option::of(0.0..=1.0));
+    let rules = (fractions, 0.0..=1.0, any::<bool>(), any::<bool>(), any::<bool>());
     let wear = (0.0..1e-13, 0.0..1e-13, 0.0..1e-14, 0.0..1e-14);
     (mesh, rules, wear, 0.01..100.0, 1.0..500.0, any::<bool>(), any::<u64>()).prop_map(
         |((rows, columns, pin), rules, wear, force, acceleration, exponential, seed)| {
@@ -20,7 +22,8 @@ fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
             parameters.normal_force = force;
             parameters.time_acceleration = acceleration;
             parameters.plateaus = PlateauRules {
-                captured_fraction: rules.0,
+                captured_fraction: rules.0.0,
+                captured_resin_fraction: rules.0.1,
                 pad_share: rules.1,
                 debris_pool: if rules.2 { DebrisPool::Track } else { DebrisPool::Contact },
                 formation: rules.3,
@@ -100,6 +103,21 @@ proptest! {
             (simulation.pin().unwrap(), simulation.disc().unwrap(), simulation.sample().unwrap())
         };
         prop_assert_eq!(run(workers), run(1));
+    }
+
+    #[test]
+    fn without_formation_the_pool_has_the_captured_fraction_of_each((mut parameters, seed) in scenes()) {
+        parameters.plateaus.formation = false;
+        let mut simulation = start(&parameters, random_surfaces(&parameters.mesh, seed));
+        simulation.advance_to(parameters.mesh.disc_columns() as u64).unwrap();
+        let sample = simulation.sample().unwrap();
+        let PlateauRules { captured_fraction, captured_resin_fraction, .. } = parameters.plateaus;
+        let plateaus = sample.worn_pin + sample.worn_disc;
+        let captured = captured_fraction * plateaus
+            + captured_resin_fraction.unwrap_or(captured_fraction) * sample.worn_resin;
+        let worn = plateaus + sample.worn_resin;
+        prop_assert!((sample.pool - captured).abs() <= 1e-12 * worn, "{:e} of {:e}", sample.pool - captured, worn);
+        prop_assert!((sample.emitted - (worn - captured)).abs() <= 1e-12 * worn);
     }
 
     #[test]

@@ -75,7 +75,7 @@ pub fn drive<S: Sink>(
     output: &OutputRecipe,
     sink: &mut S,
 ) -> Result<(), S::Error> {
-    let OutputRecipe { maps, roughness, .. } = output;
+    let OutputRecipe { maps, roughness, pressure_spread, .. } = output;
     let mut steps_per_look = 1;
     if simulation.steps_done() == 0 && schedule.has_maps(0) && !maps.is_empty() {
         sink.snapshot(simulation.snapshot(maps)?)?;
@@ -100,6 +100,7 @@ pub fn drive<S: Sink>(
         if sampled {
             let mut sample = simulation.sample()?;
             sample.roughness = roughness.then(|| simulation.roughness()).transpose()?;
+            sample.pressure_spread = pressure_spread.then(|| simulation.pressure_spread()).transpose()?;
             sample.acceleration = scout.as_deref().map(chosen);
             sink.sample(sample)?;
         }

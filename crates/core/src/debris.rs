@@ -43,6 +43,7 @@ pub struct Account {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Debris {
     captured_fraction: f64,
+    captured_resin_fraction: f64,
     /// β.
     pad_share: f64,
     needs: Needs,
@@ -75,6 +76,7 @@ impl Debris {
             |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
         Self {
             captured_fraction: rules.captured_fraction,
+            captured_resin_fraction: rules.captured_of_resin(),
             pad_share: rules.pad_share,
             needs: Needs::of(parameters),
             wear_height: parameters.materials.wear_height,
@@ -172,9 +174,9 @@ impl Debris {
                 worn_disc -= spared(sums.spared_disc);
             }
 
-            let worn = worn_pin + worn_resin + worn_disc;
+            let [captured, emitted] = self.part(worn_pin, worn_resin, worn_disc);
             let pool = &mut self.pools[index];
-            pool.add(self.captured_fraction * worn);
+            pool.add(captured);
             pool.add(returned);
             pool.add(-(deposited_pin + deposited_disc));
 
@@ -184,8 +186,19 @@ impl Debris {
             self.totals.returned.add(returned);
             self.totals.deposited_pin.add(deposited_pin);
             self.totals.deposited_disc.add(deposited_disc);
-            self.totals.emitted.add((1.0 - self.captured_fraction) * worn);
+            self.totals.emitted.add(emitted);
         }
+    }
+
+    /// What of the worn volume stays in the contact and what leaves it, m³: η and 1 − η of it, each for resin and plateaus.
+    fn part(&self, worn_pin: f64, worn_resin: f64, worn_disc: f64) -> [f64; 2] {
+        let (of_plateaus, of_resin) = (self.captured_fraction, self.captured_resin_fraction);
+        if of_plateaus == of_resin {
+            let worn = worn_pin + worn_resin + worn_disc;
+            return [of_plateaus * worn, (1.0 - of_plateaus) * worn];
+        }
+        let plateaus = worn_pin + worn_disc;
+        [of_plateaus * plateaus + of_resin * worn_resin, (1.0 - of_plateaus) * plateaus + (1.0 - of_resin) * worn_resin]
     }
 
     /// M, m³: debris in the contact that is not compacted, over all pools.

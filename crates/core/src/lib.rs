@@ -63,6 +63,7 @@ pub mod parameters;
 pub mod parts;
 pub mod plateau;
 pub mod plateau_size;
+pub mod pressure_spread;
 pub mod roughness;
 pub mod schedule;
 pub mod scout;

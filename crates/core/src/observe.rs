@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::pressure_spread::PressureSpread;
 use crate::roughness::BothRoughness;
 
 /// The reported quantities at the end of one step, in SI units.
@@ -64,6 +65,8 @@ pub struct Sample {
     pub acceleration: Option<ChosenAcceleration>,
     /// Roughness of disc and pin, if it was asked for ([`crate::simulation::Simulation::roughness`]).
     pub roughness: Option<BothRoughness>,
+    /// Spread of the pressures, if it was asked for ([`crate::simulation::Simulation::pressure_spread`]).
+    pub pressure_spread: Option<PressureSpread>,
 }
 
 /// Acceleration at the end of a step, in a run that chooses it.
@@ -149,6 +152,22 @@ pub const ROUGHNESS_QUANTITIES: &[Quantity] = roughness_quantities! {
     "pin_sku", pin.kurtosis, "1", "kurtosis Sku of the pin heights";
 };
 
+/// The series that a run file has besides if the spread of the pressures is asked for; NaN in a sample without it.
+pub const PRESSURE_SPREAD_QUANTITIES: &[Quantity] = &[
+    Quantity {
+        name: "pressure_variation",
+        unit: "1",
+        long_name: "coefficient of variation of the pressure over the cells in contact",
+        value: |sample| sample.pressure_spread.map_or(f64::NAN, |spread| spread.variation),
+    },
+    Quantity {
+        name: "pressure_gini",
+        unit: "1",
+        long_name: "Gini coefficient of the pressure over the cells in contact",
+        value: |sample| sample.pressure_spread.map_or(f64::NAN, |spread| spread.gini),
+    },
+];
+
 /// The series that a run file has besides if the run chooses its acceleration; NaN in a sample without it.
 pub const ACCELERATION_QUANTITIES: &[Quantity] = &[
     Quantity {
@@ -170,20 +189,23 @@ pub const ACCELERATION_QUANTITIES: &[Quantity] = &[
 pub struct Extras {
     /// Those of the roughness.
     pub roughness: bool,
+    /// Those of the spread of the pressures.
+    pub pressure_spread: bool,
     /// Those of an acceleration that the run chooses.
     pub acceleration: bool,
 }
 
 impl Extras {
     /// All of them.
-    pub const ALL: Self = Self { roughness: true, acceleration: true };
+    pub const ALL: Self = Self { roughness: true, pressure_spread: true, acceleration: true };
 }
 
 /// The series of a run file but the time.
 pub fn quantities(extras: Extras) -> impl Iterator<Item = &'static Quantity> {
     let roughness = if extras.roughness { ROUGHNESS_QUANTITIES } else { &[] };
     let acceleration = if extras.acceleration { ACCELERATION_QUANTITIES } else { &[] };
-    QUANTITIES.iter().chain(roughness).chain(acceleration)
+    let pressure_spread = if extras.pressure_spread { PRESSURE_SPREAD_QUANTITIES } else { &[] };
+    QUANTITIES.iter().chain(roughness).chain(pressure_spread).chain(acceleration)
 }
 
 /// A field that can be recorded as a map.

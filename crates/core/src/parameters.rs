@@ -27,6 +27,8 @@ pub enum Integrator {
 pub struct PlateauRules {
     /// η: fraction of the worn volume that stays in the contact.
     pub captured_fraction: f64,
+    /// η of what wears off resin, where that is another.
+    pub captured_resin_fraction: Option<f64>,
     /// β: the pin's share of a deposit where both surfaces can form a plateau.
     pub pad_share: f64,
     /// One pool for the contact or one per radius.
@@ -35,6 +37,13 @@ pub struct PlateauRules {
     pub formation: bool,
     /// Rule 4.3(b): unsupported plateaus of the pin go back to the pool.
     pub destruction: bool,
+}
+
+impl PlateauRules {
+    /// η of what wears off resin.
+    pub fn captured_of_resin(&self) -> f64 {
+        self.captured_resin_fraction.unwrap_or(self.captured_fraction)
+    }
 }
 
 /// Parameters of one simulation, in SI units.

@@ -35,7 +35,7 @@ impl Needs {
     pub fn of(parameters: &Parameters) -> Self {
         let rules = &parameters.plateaus;
         let materials = &parameters.materials;
-        let forms = rules.formation && rules.captured_fraction > 0.0;
+        let forms = rules.formation && rules.captured_fraction.max(rules.captured_of_resin()) > 0.0;
         Self {
             distinct: forms
                 && (materials.pin_primary != materials.pin_secondary

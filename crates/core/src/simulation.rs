@@ -16,6 +16,7 @@ use crate::kernel::InstructionSet;
 use crate::mesh::Mesh;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::parameters::Parameters;
+use crate::pressure_spread::PressureSpread;
 use crate::roughness::{BothRoughness, Roughness};
 use crate::sector::Partition;
 use crate::state::{Base, Disc, InitialSurfaces, Pin};
@@ -246,8 +247,8 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn checkpoint(&mut self) -> Result<Checkpoint, SimulationError> {
-        let [disc_height, disc_substrate] = self.heights([Map::DiscHeight, Map::DiscSubstrate])?;
-        let [pin_height, pin_substrate] = self.heights([Map::PinHeight, Map::PinSubstrate])?;
+        let [disc_height, disc_substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
+        let [pin_height, pin_substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
         let memory = match &mut self.team {
             Team::Alone(worker) => worker.memory(),
             Team::Crew(crew) => crew.memory()?,
@@ -291,7 +292,7 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn disc(&mut self) -> Result<Disc, SimulationError> {
-        let [height, substrate] = self.heights([Map::DiscHeight, Map::DiscSubstrate])?;
+        let [height, substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
         Ok(Disc { height, substrate })
     }
 
@@ -300,7 +301,7 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn disc_height(&mut self) -> Result<Vec<f64>, SimulationError> {
-        let [height] = self.heights([Map::DiscHeight])?;
+        let [height] = self.fields([Map::DiscHeight])?;
         Ok(height)
     }
 
@@ -309,7 +310,7 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn pin(&mut self) -> Result<Pin, SimulationError> {
-        let [height, substrate] = self.heights([Map::PinHeight, Map::PinSubstrate])?;
+        let [height, substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
         Ok(Pin { height, substrate, base: self.pin_base.clone() })
     }
 
@@ -318,14 +319,23 @@ impl Simulation {
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.
     pub fn roughness(&mut self) -> Result<BothRoughness, SimulationError> {
-        let [disc, pin] = self.heights([Map::DiscHeight, Map::PinHeight])?;
+        let [disc, pin] = self.fields([Map::DiscHeight, Map::PinHeight])?;
         let mesh = &self.parameters.mesh;
         Ok(BothRoughness { disc: Roughness::of(mesh, &disc), pin: Roughness::of_pin(mesh, &pin) })
     }
 
-    fn heights<const COUNT: usize>(&mut self, maps: [Map; COUNT]) -> Result<[Vec<f64>; COUNT], SimulationError> {
+    /// The spread of the pressures of the last step. It takes about as long as their map.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`].
+    pub fn pressure_spread(&mut self) -> Result<PressureSpread, SimulationError> {
+        let [pressures] = self.fields([Map::Pressure])?;
+        Ok(PressureSpread::of(&self.parameters.mesh, &pressures))
+    }
+
+    fn fields<const COUNT: usize>(&mut self, maps: [Map; COUNT]) -> Result<[Vec<f64>; COUNT], SimulationError> {
         let mut fields = self.snapshot(&maps)?.maps.into_iter().map(|(_, values)| match values {
-            MapValues::Float(heights) => heights,
+            MapValues::Float(values) => values,
             MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),
         });
         Ok(std::array::from_fn(|_| fields.next().unwrap_or_default()))

@@ -31,7 +31,8 @@ impl Smoothness {
     pub fn of(parameters: &Parameters, pin_base: &[Base]) -> Option<Self> {
         let Parameters { mesh, materials, .. } = parameters;
         let wears = materials.wear_height > 0.0 && pin_base.contains(&Base::None);
-        if !(wears && Needs::of(parameters).forms) {
+        let compacted = Needs::of(parameters).forms && parameters.plateaus.captured_of_resin() > 0.0;
+        if !(wears && compacted) {
             return None;
         }
         let cells = pin_base.iter().zip(mesh.area().iter().cycle());

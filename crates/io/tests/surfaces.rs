@@ -42,6 +42,7 @@ fn scene() -> Scene {
             },
             plateaus: PlateauRules {
                 captured_fraction: 0.06,
+                captured_resin_fraction: None,
                 pad_share: 0.5,
                 debris_pool: DebrisPool::Contact,
                 formation: true,
@@ -60,6 +61,7 @@ fn scene() -> Scene {
         workers: Workers::Count(1),
         output: OutputRecipe {
             roughness: false,
+            pressure_spread: false,
             checkpoint_every: 60.0,
             file: PathBuf::from("test.h5"),
             sample_every: SampleEvery::Steps(1),

@@ -69,6 +69,7 @@ pub fn paper(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters
         },
         plateaus: PlateauRules {
             captured_fraction: 0.06,
+            captured_resin_fraction: None,
             pad_share: 0.5,
             debris_pool: DebrisPool::Contact,
             formation: true,

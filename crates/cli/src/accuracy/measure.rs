@@ -65,6 +65,7 @@ pub fn measure(
         maps_at: Vec::new(),
         maps: vec![Map::DiscHeight, Map::PinHeight],
         roughness: false,
+        pressure_spread: false,
         checkpoint_every: f64::INFINITY,
     };
     let end = if scout.is_some() { schedule::End::Time(duration) } else { schedule::End::Steps(parameters.steps) };

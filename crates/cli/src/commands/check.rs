@@ -169,9 +169,13 @@ impl Check {
             let chosen = (true, Reasoned { part: ACCELERATION.into(), reason });
             reasoned.iter_mut().filter(|(_, part)| part.part == ACCELERATION).for_each(|part| *part = chosen.clone());
         }
-        let roughness = scene.output.roughness;
-        let reason = format!("output.roughness = {roughness}");
-        reasoned.push((roughness, Reasoned { part: "roughness with every sample".into(), reason }));
+        let extras = scene.extras();
+        for (key, asked, what) in [
+            ("roughness", extras.roughness, "roughness with every sample"),
+            ("pressure_spread", extras.pressure_spread, "spread of the pressure with every sample"),
+        ] {
+            reasoned.push((asked, Reasoned { part: what.into(), reason: format!("output.{key} = {asked}") }));
+        }
         let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
         let stiffness_number = parameters.stiffness_number();
         let maps = if scene.output.maps.is_empty() { 0 } else { schedule.maps() };

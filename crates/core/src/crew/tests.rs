@@ -91,6 +91,7 @@ fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
         },
         plateaus: PlateauRules {
             captured_fraction: 0.5,
+            captured_resin_fraction: None,
             pad_share: 0.5,
             debris_pool: DebrisPool::Contact,
             formation: true,

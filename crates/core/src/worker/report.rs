@@ -58,6 +58,7 @@ impl<C: Communicator> Worker<C> {
             balance_residual: self.debris.balance_residual(),
             acceleration: None,
             roughness: None,
+            pressure_spread: None,
         })
     }
 

@@ -32,7 +32,11 @@ impl Header {
                 .map(|base| if *base == Status::None as u8 { Base::None } else { Base::Primary })
                 .collect(),
             maps: Map::ALL.into_iter().filter(|map| run.has_map(*map)).collect(),
-            extras: Extras { roughness: has("disc_sa"), acceleration: has("time_acceleration") },
+            extras: Extras {
+                roughness: has("disc_sa"),
+                pressure_spread: has("pressure_gini"),
+                acceleration: has("time_acceleration"),
+            },
             expected_samples: run.time().len() as u64,
             scene: text("scene")?,
             program: text("program")?,

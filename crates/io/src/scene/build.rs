@@ -125,8 +125,11 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let (roughness, acceleration) = (settings.bool("output.roughness")?, adaptive(settings)?.is_some());
-        let extras = Extras { roughness, acceleration };
+        let extras = Extras {
+            roughness: settings.bool("output.roughness")?,
+            pressure_spread: settings.bool("output.pressure_spread")?,
+            acceleration: adaptive(settings)?.is_some(),
+        };
         let needed = memory::estimate(counts, maps, extras);
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
@@ -181,6 +184,7 @@ fn materials(settings: &Settings) -> Result<Materials, Problem> {
 fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
     Ok(PlateauRules {
         captured_fraction: settings.number("plateaus.captured_fraction")?,
+        captured_resin_fraction: settings.optional_number("plateaus.captured_resin_fraction")?,
         pad_share: settings.number("plateaus.pad_share")?,
         debris_pool: match settings.text("plateaus.debris_pool")? {
             "track" => DebrisPool::Track,
@@ -345,9 +349,10 @@ fn output(
     settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
     let file = PathBuf::from(settings.text("output.file")?);
     let roughness = settings.bool("output.roughness")?;
+    let pressure_spread = settings.bool("output.pressure_spread")?;
     let checkpoint_every = settings.number("output.checkpoint_every")?;
     let maps_at = map_times(settings, parameters, warnings);
-    Ok(OutputRecipe { file, sample_every, maps_at, maps, roughness, checkpoint_every })
+    Ok(OutputRecipe { file, sample_every, maps_at, maps, roughness, pressure_spread, checkpoint_every })
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.

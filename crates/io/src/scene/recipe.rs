@@ -57,7 +57,11 @@ impl Scene {
 
     /// Series besides those that every run has.
     pub fn extras(&self) -> Extras {
-        Extras { roughness: self.output.roughness, acceleration: self.adaptive.is_some() }
+        Extras {
+            roughness: self.output.roughness,
+            pressure_spread: self.output.pressure_spread,
+            acceleration: self.adaptive.is_some(),
+        }
     }
 
     /// When the run is over.
@@ -139,6 +143,8 @@ pub struct OutputRecipe {
     pub maps: Vec<Map>,
     /// Whether the roughness of disc and pin is written with every sample.
     pub roughness: bool,
+    /// Whether the spread of the pressures is written with every sample.
+    pub pressure_spread: bool,
     /// Wall time between two checkpoints, s.
     pub checkpoint_every: f64,
 }

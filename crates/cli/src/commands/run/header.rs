@@ -31,7 +31,7 @@ pub(super) fn header(
         mesh: scene.parameters.mesh.clone(),
         pin_base: simulation.pin_base().to_vec(),
         maps: scene.output.maps.clone(),
-        extras: Extras { roughness: scene.output.roughness, acceleration: accelerates },
+        extras: Extras { acceleration: accelerates, ..scene.extras() },
         expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),

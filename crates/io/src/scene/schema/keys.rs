@@ -94,6 +94,12 @@ pub(super) fn all() -> Vec<Key> {
         Required,
         "fraction of the wear debris that stays in the contact; the rest leaves",
     );
+    table.key(
+        "captured_resin_fraction",
+        Number(Range::FRACTION),
+        Optional,
+        "the same of what wears off resin, where that is another",
+    );
     table.key("pad_share", Number(Range::FRACTION), Default("0.5"), "pin's share of a deposit on both surfaces");
     table.key(
         "debris_pool",
@@ -182,6 +188,12 @@ pub(super) fn all() -> Vec<Key> {
         Bool,
         Default("false"),
         "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
+    );
+    table.key(
+        "pressure_spread",
+        Bool,
+        Default("false"),
+        "whether the coefficient of variation and the Gini coefficient of the pressure are written with every sample",
     );
     table.key(
         "checkpoint_every",
