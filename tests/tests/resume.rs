@@ -42,7 +42,7 @@ fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stre
 }
 
 /// How often the test below kills, unless `PLATEAU_KILLS` says.
-const KILLS: usize = 20;
+const KILLS: usize = 12;
 
 #[test]
 fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {

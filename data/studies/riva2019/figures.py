@@ -1,0 +1,208 @@
+"""Figures of the study: the paper's by their numbers, and those of what it leaves open.
+
+usage: figures.py, in the environment .venv of the checkout, after evaluate.py; figures.sh calls it
+"""
+
+import json
+from pathlib import Path
+
+import h5py
+import matplotlib
+import numpy as np
+from matplotlib.colors import ListedColormap, LogNorm
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
+
+HERE = Path(__file__).parent
+DOCS = HERE.parents[2] / "docs/images"
+RESULTS = json.loads((HERE / "results.json").read_text())
+DISCS = {"baseline": "baseline", "heights-10": "heights / 10", "heights-100": "heights / 100"}
+# Of Okabe and Ito, told apart by everybody.
+COLOURS = ["#000000", "#0072b2", "#d55e00"]
+STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
+STATUSES = ["none (resin)", "primary", "secondary"]
+# What docs/validation.md and README.md show.
+SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial"]
+# Piece of the ring that is shown, columns: the paper's 8 mm.
+PIECE = 160
+
+plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "axes.spines.top": False,
+                     "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
+
+
+def load(name: str) -> dict[str, object]:
+    """What is drawn of a run."""
+    with h5py.File(HERE / "runs" / f"{name}.h5") as file:
+        fields = ["disc/height", "disc/substrate", "disc/status", "pin/height", "pin/substrate", "pin/status", "pin/pressure"]
+        run = {field: file[field][:] for field in fields}
+        run |= {"times": file["map_time"][:], "radius": file["radius"][:], "base": file["pin/base"][:]}
+        # Columns are as long as at the mean radius.
+        run["column"] = 2 * np.pi * run["radius"].mean() / run["disc/height"].shape[1]
+    return run
+
+
+def at(run: dict[str, object], field: str, moment: float) -> np.ndarray:
+    """A map at a moment."""
+    number = int(np.argmin(np.abs(run["times"] - moment)))
+    assert abs(run["times"][number] - moment) < 1.0, moment
+    return run[field][number]
+
+
+def draw(axes, run: dict[str, object], values: np.ndarray, title: str, **how):
+    """A map with the sliding direction along x and the radius along y, mm."""
+    width = values.shape[0] * run["column"] * 1e3
+    radius = run["radius"] * 1e3
+    half = (radius[1] - radius[0]) / 2
+    image = axes.imshow(values.T, origin="lower", extent=(0, width, radius[0] - half, radius[-1] + half),
+                        interpolation="nearest", **how)
+    axes.set(title=title, xlabel="along the track, mm", ylabel="radius, mm")
+    return image
+
+
+def save(figure, name: str) -> None:
+    """Into the folder of figures, and into the documents where they show it."""
+    (HERE / "figures").mkdir(exist_ok=True)
+    figure.savefig(HERE / "figures" / f"{name}.png")
+    if name in SHOWN:
+        figure.savefig(DOCS / f"validation-{name}.png")
+    plt.close(figure)
+
+
+def of_three(runs: dict[str, dict], name: str, values, label: str, common: bool, **how) -> None:
+    """A map of each disc's run, side by side."""
+    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
+    fields = [values(run) for run in runs.values()]
+    limits = {}
+    if common:
+        every = np.concatenate([field[np.isfinite(field)] for field in fields])
+        limits = {"vmin": np.quantile(every, 0.005), "vmax": np.quantile(every, 0.995)}
+    for panel, (key, run), field in zip(axes, runs.items(), fields, strict=True):
+        scale = limits or {"vmin": np.nanquantile(field, 0.005), "vmax": np.nanquantile(field, 0.995)}
+        image = draw(panel, run, field, DISCS[key], **scale, **how)
+        if not common:
+            figure.colorbar(image, ax=panel, label=label, shrink=0.8)
+    if common:
+        figure.colorbar(image, ax=axes, label=label, shrink=0.8)
+    save(figure, name)
+
+
+def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int) -> None:
+    """Status maps, side by side."""
+    figure, axes = plt.subplots(1, 3, figsize=(10, 2.5), layout="constrained")
+    for panel, (key, run) in zip(axes, runs.items(), strict=True):
+        draw(panel, run, at(run, field, 3000)[:columns], DISCS[key], cmap=STATUS, vmin=-0.5, vmax=2.5)
+    patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
+    figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
+    save(figure, name)
+
+
+def inputs(run: dict[str, object]) -> None:
+    """The paper's figures 5 to 7: what the runs begin with."""
+    disc, pin = at(run, "disc/height", 0) * 1e6, at(run, "pin/height", 0) * 1e6
+    figure, (above, below) = plt.subplots(2, 1, figsize=(5, 4), layout="constrained", height_ratios=[2, 1])
+    figure.colorbar(draw(above, run, disc[:PIECE], "disc at the start, 8 mm of the ring", cmap="viridis"), ax=above,
+                    label="height, µm")
+    below.plot(np.arange(PIECE) * run["column"] * 1e3, disc[:PIECE, 40], color="black", lw=0.8)
+    below.set(xlabel="along the track, mm", ylabel="height, µm", title="the same at the mean radius")
+    save(figure, "fig05")
+    figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
+    draw(axes, run, run["base"], "pin: fibres (grey) in resin", cmap=STATUS, vmin=-0.5, vmax=2.5)
+    save(figure, "fig06")
+    figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
+    figure.colorbar(draw(axes, run, -pin, "pin at the start, toward the disc", cmap="viridis"), ax=axes, label="height, µm")
+    save(figure, "fig07")
+
+
+def filling_of_the_baseline(run: dict[str, object]) -> None:
+    """The paper's figure 8, and the length of the real test."""
+    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
+    for panel, moment in zip(axes, (0, 3000, 7200), strict=True):
+        image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment} s",
+                     cmap="viridis", vmin=-10, vmax=10)
+    figure.colorbar(image, ax=axes, label="height, µm", shrink=0.8, extend="both")
+    save(figure, "fig08")
+
+
+def contact_area() -> None:
+    """The paper's figure 14."""
+    figure, axes = plt.subplots(figsize=(5.2, 3), layout="constrained")
+    for run, name, colour in zip(("1", "10", "100"), DISCS.values(), COLOURS, strict=True):
+        time, area = np.transpose(RESULTS["runs"][run]["contact_area"])
+        axes.plot(time, area * 1e6, color=colour, lw=1.2, label=name)
+    axes.axvline(3000, color="grey", lw=0.6, ls=":")
+    axes.annotate("end of the paper's simulations", (3000, 0.15), textcoords="offset points", xytext=(4, 0), color="grey")
+    axes.set(xlabel="time, s", ylabel="contact area, mm², means of 50 s", xlim=(0, 7200), ylim=(0, None))
+    axes.legend(loc="upper right")
+    save(figure, "fig14")
+
+
+def radial() -> None:
+    """Filling against the radius."""
+    figure, axes = plt.subplots(figsize=(4.2, 2.8), layout="constrained")
+    of_baseline = RESULTS["sets"]["1"]
+    bands = np.array([of_baseline[f"band_{number}"] for number in range(16)]) * 100
+    radius = 20 + (np.arange(16) + 0.5) * 0.25
+    axes.errorbar(radius, bands[:, 0], bands[:, 1], fmt="o", color="black", ms=3, capsize=2, lw=0.8,
+                  label="ten sets of surfaces, 95 %")
+    profile = np.array(RESULTS["runs"]["1"]["maps"]["3000"]["radial_filling"]) * 100
+    axes.plot(radius, profile, color=COLOURS[1], lw=1, label="the run with m = 1")
+    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline")
+    axes.legend()
+    save(figure, "radial")
+
+
+def tornado() -> None:
+    """What each choice does to four results, with the others at their defaults."""
+    outcomes = RESULTS["variants"]["outcomes"]
+    names = [name for name in outcomes if name != "default"]
+    names.sort(key=lambda name: sum(abs(outcomes[name][key]["change"][0]) for key in outcomes[name]))
+    panels = list(outcomes["default"])
+    figure, axes = plt.subplots(1, len(panels), figsize=(11, 4.6), layout="constrained", sharey=True)
+    places = np.arange(len(names))
+    for panel, outcome in zip(axes, panels, strict=True):
+        default = outcomes["default"][outcome]["value"][0] * 100
+        change = np.array([outcomes[name][outcome]["change"] for name in names]) * 100
+        colours = [COLOURS[1] if value > 0 else COLOURS[2] for value in change[:, 0]]
+        panel.barh(places, change[:, 0], left=default, color=colours, height=0.7)
+        panel.errorbar(default + change[:, 0], places, xerr=change[:, 1], fmt="none", ecolor="black", elinewidth=0.8, capsize=2)
+        panel.axvline(default, color="black", lw=0.8)
+        panel.set(title=f"{outcome}, %", xlabel=f"default {default:.1f} %")
+    axes[0].set_yticks(places, names)
+    save(figure, "tornado")
+
+
+def main() -> None:
+    runs = {name: load(name) for name in DISCS}
+    baseline = runs["baseline"]
+    inputs(baseline)
+    filling_of_the_baseline(baseline)
+    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm", False, cmap="viridis")
+    status_of_three(runs, "fig10", "disc/status", PIECE)
+    of_three(runs, "fig10b", lambda run: (at(run, "disc/height", 3000) - at(run, "disc/substrate", 3000))[:PIECE] * 1e6,
+             "build-up, µm", True, cmap="viridis")
+
+    def pin_height(run: dict[str, object]) -> np.ndarray:
+        height = -at(run, "pin/height", 3000) * 1e6
+        return height - height[run["base"] == 1].mean()
+
+    of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", True, cmap="viridis")
+    status_of_three(runs, "fig12", "pin/status", 161)
+
+    def pressure(run: dict[str, object]) -> np.ndarray:
+        field = at(run, "pin/pressure", 3000) * 1e-6
+        return np.where(field > 0, field, np.nan)
+
+    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
+    for panel, (key, run) in zip(axes, runs.items(), strict=True):
+        panel.set_facecolor("#d9d2c3")
+        image = draw(panel, run, pressure(run), DISCS[key], cmap="viridis", norm=LogNorm(0.5, 50))
+    figure.colorbar(image, ax=axes, label="pressure, MPa", shrink=0.8, extend="both")
+    save(figure, "fig13")
+    contact_area()
+    radial()
+    tornado()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,95 @@
+"""The study of the paper (data/studies/riva2019): its measures have closed forms, and documents agree with its results."""
+
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+STUDY = Path(__file__).parents[2] / "data/studies/riva2019"
+sys.path.insert(0, str(STUDY))
+import make_points  # noqa: E402, where the study is
+import measures  # noqa: E402
+
+
+class Measures(unittest.TestCase):
+    """Rows of radius 1 and 3, so that cells of the outer one have three times the area."""
+
+    radius = np.array([1.0, 3.0])
+
+    def test_filled_volume_and_area(self) -> None:
+        initial = np.array([[0.0, -2.0], [-4.0, 0.0]])
+        height = np.array([[1.0, -1.0], [-4.0, 5.0]])
+        # By hand: open at first 2·3 + 4·1 = 10, later 1·3 + 4·1 = 7; of the low cells' area of 3 + 1, within 1 of the top 3.
+        self.assertAlmostEqual(measures.filled_volume(initial, height, self.radius), 0.3)
+        self.assertEqual(measures.filled_area(initial, height, self.radius, 0.5), 0.0)
+        self.assertAlmostEqual(measures.filled_area(initial, height, self.radius, 1.0), 0.75)
+        self.assertEqual(measures.radial_filling(initial, height, self.radius, 2).tolist(), [0.0, 0.5])
+        # What is open, 3 in the outer row and 4 in the inner one; deepest is the inner cell of -4.
+        self.assertAlmostEqual(measures.open_where_deepest(initial, height, self.radius, 0.25), 4 / 7)
+
+    def test_shares_count_areas(self) -> None:
+        self.assertAlmostEqual(measures.share(np.array([[True, False]]), self.radius), 0.25)
+
+    def test_run_in_and_change_point(self) -> None:
+        time = np.arange(100.0)
+        broken = np.minimum(time, 40.0)
+        self.assertEqual(measures.run_in(time, broken, 0.9), 36.0)
+        self.assertEqual(measures.change_point(time, broken), 40.0)
+
+    def test_drift_of_a_line(self) -> None:
+        time = np.linspace(0.0, 10.0, 21)
+        slope, half = measures.drift(time, 2.0 + 0.1 * time)
+        self.assertAlmostEqual(slope, 0.1 / 2.5)
+        self.assertLess(half, 1e-12)
+
+    def test_an_interval_of_the_drift_has_the_slope_in_it(self) -> None:
+        # Noise in which neighbours are alike (first order, 0.7): 95 % of the intervals have the slope; without allowing
+        # for that, fewer than 70 % would.
+        random, time, hits = np.random.default_rng(1), np.arange(60.0), 0
+        for _ in range(400):
+            noise = np.zeros(60)
+            for step in range(1, 60):
+                noise[step] = 0.7 * noise[step - 1] + random.standard_normal()
+            slope, half = measures.drift(time, 100.0 + 0.05 * time + noise)
+            hits += abs(slope * (100.0 + 0.05 * time + noise).mean() - 0.05) <= half * 101.5
+        self.assertGreater(hits, 340)
+
+    def test_plateaus_are_pieces_with_common_edges(self) -> None:
+        cells = np.array([[1, 0, 0], [0, 1, 1], [1, 0, 0]], bool)
+        self.assertEqual(sorted(measures.plateau_sizes(cells, False).tolist()), [1, 1, 2])
+        # Round the ring the first column lies beside the last.
+        self.assertEqual(sorted(measures.plateau_sizes(cells, True).tolist()), [2, 2])
+
+    def test_diameters_of_equal_discs(self) -> None:
+        areas = np.full(9, np.pi / 4)
+        self.assertEqual(set(measures.diameters(areas, [10, 50, 90]).values()), {1.0})
+
+    def test_interval_of_a_known_table(self) -> None:
+        # Student's t for two degrees of freedom and 95 %, 4.302653; standard deviation 1.
+        mean, half = measures.interval([1.0, 2.0, 3.0])
+        self.assertAlmostEqual(mean, 2.0)
+        self.assertAlmostEqual(half, 4.302653 / np.sqrt(3.0), places=5)
+
+
+class Documents(unittest.TestCase):
+    def test_documents_have_the_numbers_of_the_study(self) -> None:
+        check = [sys.executable, "-B", str(STUDY / "write_docs.py"), "--check"]
+        told = subprocess.run(check, capture_output=True, text=True, check=False)
+        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+
+    def test_points_are_those_of_the_variants(self) -> None:
+        lines = [line for line in (STUDY / "points.csv").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(len(lines), 1 + len(make_points.VARIANTS) * len(make_points.HEIGHTS))
+        defaults = list(make_points.DEFAULT.values())
+        for variant, changes in enumerate(make_points.VARIANTS.values()):
+            for disc, heights in enumerate(make_points.HEIGHTS):
+                cells = lines[1 + variant * len(make_points.HEIGHTS) + disc].split(",")
+                self.assertEqual(cells[0], heights)
+                changed = sum(cell != default for cell, default in zip(cells[1:], defaults, strict=True))
+                self.assertEqual(changed, len(changes))
+
+
+if __name__ == "__main__":
+    unittest.main()
