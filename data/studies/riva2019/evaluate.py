@@ -21,8 +21,8 @@ THICKNESS = {"disc": 0.5e-6, "pin": 0.1e-6}
 SETS = range(1, 11)
 # Duration of a step, s: 2764 columns, 850 rpm.
 STEP = 60 / 850 / 2764
-# Specific wear rate of plateaus on the pin, 1/Pa.
-WEAR_RATE = 5e-14
+# Load, N, unless it is what is varied, and specific wear rate of plateaus on the pin, 1/Pa.
+FORCE, WEAR_RATE = 47.0, 5e-14
 # Length of the means that run-in and drift are taken of, s.
 WINDOW = 50.0
 # Time at the end over which samples of the pressure are averaged.
@@ -69,7 +69,7 @@ def history(series: dict[str, np.ndarray], end: float, force: float) -> dict[str
         "worn_pin": worn_pin,
         "worn_resin": at(time, series["worn_resin"], end),
         "worn_disc": at(time, series["worn_disc"], end),
-        # What load, distance and wear rate say, against what was worn off the pin's plateaus and the disc.
+        # Worn off the pin's plateaus over what load, distance and wear rate say, less one.
         "bookkeeping": worn_pin / (WEAR_RATE * force * distance) - 1,
         "balance_residual": float(np.abs(series["balance_residual"]).max()),
         "load_residual": float(np.abs(series["load_residual"]).max()),
@@ -112,7 +112,6 @@ def maps(file: h5py.File, moment: float) -> dict[str, object]:
         "plateau_count": {name: len(cells) for name, cells in sizes.items()},
         # Where the deepest fifth of the area was.
         "open_where_deepest": measures.open_where_deepest(initial, height, radius, 0.2),
-        "contact_largest_pressure": float(pressure.max()),
     }
 
 
@@ -121,7 +120,6 @@ def run_numbers(path: Path) -> dict[str, object]:
     with h5py.File(path) as file:
         assert file.attrs["state"] == "finished", f"{path} is {file.attrs['state']}"
         series = {name: values[:] for name, values in file["series"].items()} | {"time": file["time"][:]}
-        force = 47.0
         ends = [END, LONG_END] if series["time"][-1] > END + 1 else [END]
         middles, area = window_means(series["time"], series["contact_area_integral"], ends[-1])
         return {
@@ -130,7 +128,7 @@ def run_numbers(path: Path) -> dict[str, object]:
             "host": str(file.attrs["host"]),
             "steps": round(series["time"][-1] / STEP),
             "wall_time": float(file.attrs["wall_time"]),
-            "history": {f"{end:.0f}": history(series, end, force) for end in ends},
+            "history": {f"{end:.0f}": history(series, end, FORCE) for end in ends},
             "maps": {f"{moment:.0f}": maps(file, moment) for moment in file["map_time"][1:]},
             "filled_at": {f"{t:.0f}": at(series["time"], series["filled_fraction"], t) for t in file["map_time"][1:]},
             "contact_area": [[float(t), float(a)] for t, a in zip(middles, area, strict=True)],
@@ -245,7 +243,7 @@ def symmetry() -> dict[str, dict[str, float]]:
     for name in ("as-they-are", "other-direction", "inside-out", "half-a-turn"):
         with h5py.File(HERE / "runs" / f"{name}.h5") as file:
             series = {key: values[:] for key, values in file["series"].items()} | {"time": file["time"][:]}
-            found[name] = history(series, END, 47.0)
+            found[name] = history(series, END, FORCE)
     return found
 
 
@@ -260,7 +258,7 @@ def sets() -> dict[str, object]:
                 of_maps = maps(file, END)
                 contact = of_maps["plateau_diameter"]["pin_contact"]
                 runs.append(
-                    history(series, END, 47.0)
+                    history(series, END, FORCE)
                     | {key: of_maps[key] for key in ("mean_build_up", "highest", "inner_over_outer", "initial_depth")}
                     | {f"covered_{body}": share for body, share in of_maps["covered"].items()}
                     | {"filled_area": of_maps["filled_area"]["0.1"], "open_where_deepest": of_maps["open_where_deepest"]}
@@ -280,6 +278,16 @@ def acceleration() -> dict[str, float]:
             wall_time = float(file.attrs["wall_time"])
     exact, quick = areas
     return {"error": float(np.sqrt(((quick - exact) ** 2).sum() / (exact**2).sum())), "wall_time": wall_time}
+
+
+def core_hours() -> float:
+    """Wall time of all runs, each of which has one worker, h."""
+    seconds = 0.0
+    for path in [*(HERE / "runs").glob("*.h5"), HERE / "open-questions/results.h5"]:
+        with h5py.File(path) as file:
+            seconds += float(file.attrs.get("wall_time", 0.0))
+            seconds += float(file["wall_time"][:].sum()) if "wall_time" in file else 0.0
+    return seconds / 3600
 
 
 def rounded(value: object) -> object:
@@ -306,7 +314,8 @@ def main() -> None:
         "sets": sets(),
         "calibration": calibration(found, 0.7),
         "variants": summary(found),
-        "books": {"bookkeeping": books[0], "explicit": explicit, "balance_residual": books[1], "runs": len(every)},
+        "books": {"bookkeeping": books[0], "explicit": explicit, "balance_residual": books[1], "runs": len(every),
+                  "core_hours": core_hours()},
     }
     (HERE / "results.json").write_text(json.dumps(rounded(results), indent=1) + "\n")
 

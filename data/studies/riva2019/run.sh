@@ -1,6 +1,6 @@
 #!/bin/sh
 # The whole study: runs without time acceleration of the paper's three discs, checks of symmetry, and what the paper leaves open;
-# then all numbers, figures and tables. Takes about an hour and a half on two cores. Called again after it was stopped, it goes on.
+# then all numbers, figures and tables. Takes one to two hours on two cores. Called again after it was stopped, it goes on.
 #
 # usage: data/studies/riva2019/run.sh
 set -u

@@ -179,12 +179,13 @@ def documents() -> dict[Path, str]:
 
 
 def main() -> int:
-    stale = [path for path, text in documents().items() if not path.exists() or path.read_text() != text]
+    texts = documents()
+    stale = [path for path, text in texts.items() if not path.exists() or path.read_text() != text]
     for path in stale:
         if "--check" in sys.argv[1:]:
             print(f"{path.relative_to(ROOT)} and data/studies/riva2019/results.json disagree: write_docs.py writes it anew")
         else:
-            path.write_text(documents()[path])
+            path.write_text(texts[path])
     return 1 if "--check" in sys.argv[1:] and stale else 0
 
 
