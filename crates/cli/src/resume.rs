@@ -36,12 +36,12 @@ pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunSt
             trouble.join("; ")
         )));
     }
-    if let Some(newest) = states.first() {
-        compare(run_file, newest, about, extends)?;
-    }
+    let mut states = states.into_iter();
+    let Some(newest) = states.next() else { return Ok(Vec::new()) };
+    compare(run_file, &newest, about, extends)?;
     // The one before may be of the end that was extended since.
-    states.retain(|state| compare(run_file, state, about, extends).is_ok());
-    Ok(states)
+    let before = states.filter(|state| compare(run_file, state, about, extends).is_ok());
+    Ok([newest].into_iter().chain(before).collect())
 }
 
 /// Refuses a state of another run.
@@ -109,9 +109,16 @@ pub fn writer(path: &Path, header: &Header, states: &[RunState]) -> Result<(RunW
                 message::warning(format_args!("{error}; the checkpoint of step {} is passed over", state.run.steps()));
                 refusals.push(error.to_string());
             }
-            Err(error @ (RunFileError::Anew { .. } | RunFileError::Write { .. })) => return Err(Failure::run(error)),
-            Err(error) => return Err(Failure::input(error)),
+            Err(error) => return Err(not_made(error)),
         }
     }
     Err(Failure::input(format_args!("{}; begin again without --resume", refusals.join("; "))))
+}
+
+/// Whose fault it is that a run file cannot be made, new or anew.
+pub fn not_made(error: RunFileError) -> Failure {
+    match error {
+        RunFileError::SetUp { .. } | RunFileError::Anew { .. } | RunFileError::Write { .. } => Failure::run(error),
+        _ => Failure::input(error),
+    }
 }

@@ -129,19 +129,19 @@ pub const QUANTITIES: &[Quantity] = quantities! {
     balance_residual, "1", "relative residual of the debris balance";
 };
 
-macro_rules! roughness_quantities {
-    ($($name:literal, $body:ident.$field:ident, $unit:literal, $long_name:literal;)*) => {
+macro_rules! optional_quantities {
+    ($part:ident: $($name:literal, $($field:ident).+, $unit:literal, $long_name:literal;)*) => {
         &[$(Quantity {
             name: $name,
             unit: $unit,
             long_name: $long_name,
-            value: |sample| sample.roughness.map_or(f64::NAN, |roughness| roughness.$body.$field),
+            value: |sample| sample.$part.map_or(f64::NAN, |part| part.$($field).+),
         }),*]
     };
 }
 
 /// The series that a run file has besides if roughness is asked for; NaN in a sample without it.
-pub const ROUGHNESS_QUANTITIES: &[Quantity] = roughness_quantities! {
+pub const ROUGHNESS_QUANTITIES: &[Quantity] = optional_quantities! { roughness:
     "disc_sa", disc.arithmetical_mean_height, "m", "arithmetical mean height Sa of the disc";
     "disc_sq", disc.root_mean_square_height, "m", "root-mean-square height Sq of the disc";
     "disc_ssk", disc.skewness, "1", "skewness Ssk of the disc heights";
@@ -153,36 +153,16 @@ pub const ROUGHNESS_QUANTITIES: &[Quantity] = roughness_quantities! {
 };
 
 /// The series that a run file has besides if the spread of the pressures is asked for; NaN in a sample without it.
-pub const PRESSURE_SPREAD_QUANTITIES: &[Quantity] = &[
-    Quantity {
-        name: "pressure_variation",
-        unit: "1",
-        long_name: "coefficient of variation of the pressure over the cells in contact",
-        value: |sample| sample.pressure_spread.map_or(f64::NAN, |spread| spread.variation),
-    },
-    Quantity {
-        name: "pressure_gini",
-        unit: "1",
-        long_name: "Gini coefficient of the pressure over the cells in contact",
-        value: |sample| sample.pressure_spread.map_or(f64::NAN, |spread| spread.gini),
-    },
-];
+pub const PRESSURE_SPREAD_QUANTITIES: &[Quantity] = optional_quantities! { pressure_spread:
+    "pressure_variation", variation, "1", "coefficient of variation of the pressure over the cells in contact";
+    "pressure_gini", gini, "1", "Gini coefficient of the pressure over the cells in contact";
+};
 
 /// The series that a run file has besides if the run chooses its acceleration; NaN in a sample without it.
-pub const ACCELERATION_QUANTITIES: &[Quantity] = &[
-    Quantity {
-        name: "time_acceleration",
-        unit: "1",
-        long_name: "revolutions that one simulated revolution stands for",
-        value: |sample| sample.acceleration.map_or(f64::NAN, |chosen| chosen.acceleration),
-    },
-    Quantity {
-        name: "acceleration_error",
-        unit: "1",
-        long_name: "estimate of the relative error of the contact area that the time acceleration causes",
-        value: |sample| sample.acceleration.map_or(f64::NAN, |chosen| chosen.error),
-    },
-];
+pub const ACCELERATION_QUANTITIES: &[Quantity] = optional_quantities! { acceleration:
+    "time_acceleration", acceleration, "1", "revolutions that one simulated revolution stands for";
+    "acceleration_error", error, "1", "estimate of the relative error of the contact area that the time acceleration causes";
+};
 
 /// Series that not every run file has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
-use plateau_io::run_file::{Header, RunFile, RunFileError, RunWriter, State};
+use plateau_io::run_file::{Header, RunFile, RunWriter, State};
 use plateau_io::temporary::Temporary;
 use plateau_io::writer::writer_of;
 
@@ -86,7 +86,7 @@ fn lead(
         let path = path.display();
         Failure::input(format_args!("cannot replace the checkpoints of {path}: {error}; write elsewhere with -o FILE"))
     })?;
-    let writer = RunWriter::create(path, arguments.force || arguments.resumes(), header).map_err(create_failure)?;
+    let writer = RunWriter::create(path, arguments.force || arguments.resumes(), header).map_err(resume::not_made)?;
     others.discard();
     Ok((Some(writer), 0))
 }
@@ -127,12 +127,4 @@ fn refuse_if_written(path: &Path) -> Result<(), Failure> {
         "{} is being written by process {process}; stop that first, or write elsewhere with -o FILE",
         path.display()
     )))
-}
-
-/// Whose fault it is that a run file cannot be made.
-fn create_failure(error: RunFileError) -> Failure {
-    match error {
-        RunFileError::SetUp { .. } | RunFileError::Anew { .. } | RunFileError::Write { .. } => Failure::run(error),
-        _ => Failure::input(error),
-    }
 }
