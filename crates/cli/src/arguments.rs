@@ -1,5 +1,7 @@
 //! The command line.
 
+mod accuracy;
+mod surface;
 mod sweep;
 
 use std::num::NonZeroU64;
@@ -8,9 +10,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use plateau_core::kernel::InstructionSet;
-use plateau_core::surface::Level;
-use plateau_io::units::{self, Dimension};
 
+pub use accuracy::{AccuracyArguments, Ladder};
+pub use surface::SurfaceArguments;
 pub use sweep::{
     CollectArguments, EffectsArguments, Model, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments,
 };
@@ -165,48 +167,6 @@ pub struct CheckArguments {
     pub execution: ExecutionArguments,
 }
 
-/// Arguments of `plateau surface`.
-#[derive(Debug, Args)]
-pub struct SurfaceArguments {
-    /// Surface files, told by their content
-    #[arg(value_name = "FILE", required_unless_present = "prepare")]
-    pub files: Vec<PathBuf>,
-    /// Print one JSON document instead of a table: an object for one surface, an array for several; heights in um
-    #[arg(long)]
-    pub json: bool,
-    /// Form that is taken out first: none, mean, plane or quadratic; plane for files, none for what a scene prepared,
-    /// unless given
-    #[arg(long, value_name = "FORM", value_parser = level)]
-    pub level: Option<Level>,
-    /// Draw map, histogram and Abbott-Firestone curve of each surface
-    #[arg(long, value_name = "PNG")]
-    pub plot: Option<PathBuf>,
-    /// Write the heights as they are, not levelled, in the format of the ending
-    #[arg(long, value_name = "FILE")]
-    pub to: Option<PathBuf>,
-    /// Describe what a scene makes of its disc and pin surfaces, too
-    #[arg(long, value_name = "SCENE")]
-    pub prepare: Option<PathBuf>,
-    /// Draw the pin's fibre map that the scene makes, beside the micrograph that it comes from
-    #[arg(long, value_name = "PNG", requires = "prepare")]
-    pub preview: Option<PathBuf>,
-    /// What the number 1 stands for in a file that does not say so, such as um
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    pub unit: Option<f64>,
-    /// Distance of the points of a file that does not say so, such as "0.5 um", or "0.5 um, 2 um" along x and y
-    #[arg(long, value_name = "LENGTH", value_parser = pitch)]
-    pub pitch: Option<Pitch>,
-    /// Heights of black and white of an image, such as "0 um, 12 um"
-    #[arg(long, value_name = "LENGTHS", value_parser = height_range)]
-    pub height_range: Option<HeightRange>,
-    /// Dataset of an HDF5 file, or array of an .npz archive
-    #[arg(long, value_name = "NAME")]
-    pub dataset: Option<String>,
-    /// Replace the files that --plot, --preview and --to name if they exist
-    #[arg(long)]
-    pub force: bool,
-}
-
 /// Arguments of `plateau report`.
 #[derive(Debug, Args)]
 pub struct ReportArguments {
@@ -239,68 +199,6 @@ pub struct PlotArguments {
     /// Replace figures that exist
     #[arg(long)]
     pub force: bool,
-}
-
-/// Arguments of `plateau accuracy`.
-#[derive(Debug, Args)]
-pub struct AccuracyArguments {
-    #[command(flatten)]
-    pub scene: SceneArguments,
-    /// Wall time that all runs together may take; the reference is as fine as it allows
-    #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
-    pub budget: f64,
-    /// Ladders that are climbed, with commas between; all but perturbation unless given
-    #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
-    pub ladders: Vec<Ladder>,
-    /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here
-    #[arg(long, value_name = "RUN")]
-    pub reference: Option<PathBuf>,
-    /// Folder for accuracy.csv, .h5, .png and .svg, made if it is not there
-    #[arg(short, long, value_name = "DIR", default_value = "accuracy")]
-    pub output: PathBuf,
-    /// Replace these files if they exist
-    #[arg(long)]
-    pub force: bool,
-    #[command(flatten)]
-    pub execution: ExecutionArguments,
-}
-
-/// What runs differ in whose errors are measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub enum Ladder {
-    /// Revolutions that a simulated one stands for
-    TimeAcceleration,
-    /// Accelerations that the run chooses itself, by the error that it may make
-    Tolerance,
-    /// Coarser meshes, with the initial surfaces averaged
-    Mesh,
-    /// Load tolerance
-    LoadTolerance,
-    /// The other integrator of wear
-    Integrator,
-    /// The reference anew with initial heights that differ a little: how much of the errors is chance
-    Perturbation,
-}
-
-impl Ladder {
-    /// Its name on the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::TimeAcceleration => "time_acceleration",
-            Self::Tolerance => "tolerance",
-            Self::Mesh => "mesh",
-            Self::LoadTolerance => "load_tolerance",
-            Self::Integrator => "integrator",
-            Self::Perturbation => "perturbation",
-        }
-    }
-}
-
-/// A value of `--budget`, s.
-fn budget(text: &str) -> Result<f64, String> {
-    let time = units::parse(text.trim(), Dimension::Time).map_err(|error| error.to_string())?;
-    if time > 0.0 && time.is_finite() { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
 }
 
 /// Format of a figure.
@@ -414,49 +312,4 @@ pub enum ExportFormat {
     Npz,
     /// ParaView: maps on the cells of ring and pin, as a time series
     Vtk,
-}
-
-/// Distance of neighbouring points along x and y, m.
-#[derive(Debug, Clone, Copy)]
-pub struct Pitch(pub [f64; 2]);
-
-/// Heights of black and white, m.
-#[derive(Debug, Clone, Copy)]
-pub struct HeightRange(pub [f64; 2]);
-
-/// A value of `--level`.
-fn level(text: &str) -> Result<Level, &'static str> {
-    match text {
-        "none" => Ok(Level::None),
-        "mean" => Ok(Level::Mean),
-        "plane" => Ok(Level::Plane),
-        "quadratic" => Ok(Level::Quadratic),
-        _ => Err("expected none, mean, plane or quadratic"),
-    }
-}
-
-/// A value of `--unit`.
-fn unit(text: &str) -> Result<f64, String> {
-    length(&format!("1 {text}")).map_err(|_| "expected a unit of length: m, mm, um, nm".to_owned())
-}
-
-/// A value of `--pitch`.
-fn pitch(text: &str) -> Result<Pitch, String> {
-    let pitch = match text.split_once(',') {
-        Some((x, y)) => [length(x)?, length(y)?],
-        None => [length(text)?; 2],
-    };
-    if pitch.iter().all(|pitch| *pitch > 0.0) { Ok(Pitch(pitch)) } else { Err("expected more than 0".to_owned()) }
-}
-
-/// A value of `--height-range`.
-fn height_range(text: &str) -> Result<HeightRange, String> {
-    let (black, white) = text.split_once(',').ok_or("expected two lengths, such as \"0 um, 12 um\"")?;
-    let range = [length(black)?, length(white)?];
-    if range[0] == range[1] { Err("expected two different heights".to_owned()) } else { Ok(HeightRange(range)) }
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    let length = units::parse(text.trim(), Dimension::Length).map_err(|error| error.to_string())?;
-    if length.is_finite() { Ok(length) } else { Err("expected a finite length".to_owned()) }
 }

@@ -1,0 +1,70 @@
+//! The command line of `plateau accuracy`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use plateau_io::units::{self, Dimension};
+
+use super::{ExecutionArguments, SceneArguments};
+
+/// Arguments of `plateau accuracy`.
+#[derive(Debug, Args)]
+pub struct AccuracyArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Wall time that all runs together may take; the reference is as fine as it allows
+    #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
+    pub budget: f64,
+    /// Ladders that are climbed, with commas between; all but perturbation unless given
+    #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
+    pub ladders: Vec<Ladder>,
+    /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here
+    #[arg(long, value_name = "RUN")]
+    pub reference: Option<PathBuf>,
+    /// Folder for accuracy.csv, .h5, .png and .svg, made if it is not there
+    #[arg(short, long, value_name = "DIR", default_value = "accuracy")]
+    pub output: PathBuf,
+    /// Replace these files if they exist
+    #[arg(long)]
+    pub force: bool,
+    #[command(flatten)]
+    pub execution: ExecutionArguments,
+}
+
+/// What runs differ in whose errors are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub enum Ladder {
+    /// Revolutions that a simulated one stands for
+    TimeAcceleration,
+    /// Accelerations that the run chooses itself, by the error that it may make
+    Tolerance,
+    /// Coarser meshes, with the initial surfaces averaged
+    Mesh,
+    /// Load tolerance
+    LoadTolerance,
+    /// The other integrator of wear
+    Integrator,
+    /// The reference anew with initial heights that differ a little: how much of the errors is chance
+    Perturbation,
+}
+
+impl Ladder {
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TimeAcceleration => "time_acceleration",
+            Self::Tolerance => "tolerance",
+            Self::Mesh => "mesh",
+            Self::LoadTolerance => "load_tolerance",
+            Self::Integrator => "integrator",
+            Self::Perturbation => "perturbation",
+        }
+    }
+}
+
+/// A value of `--budget`, s.
+fn budget(text: &str) -> Result<f64, String> {
+    let time = units::parse(text.trim(), Dimension::Time).map_err(|error| error.to_string())?;
+    if time > 0.0 && time.is_finite() { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
+}
