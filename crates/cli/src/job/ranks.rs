@@ -155,17 +155,21 @@ impl Job {
         Ok(sums)
     }
 
-    /// Leaves the other ranks in good order; if this rank failed, all end with its exit status.
+    /// Leaves the other ranks in good order; if this rank failed, all end with its exit status. Says why they were stopped while
+    /// all are still there: the launcher ends the others as soon as one is gone with a status other than 0.
     pub fn end(self, result: Result<(), Failure>) -> Result<(), Failure> {
         match result {
-            Err(failure @ (Failure::Input(_) | Failure::Run(_))) => {
-                self.session.fail(failure.status(), || failure.say())
+            Ok(()) => {
+                self.session.finish();
+                Ok(())
             }
             // All ranks were stopped together.
-            Ok(()) | Err(Failure::Stopped { .. }) => {
+            Err(failure @ Failure::Stopped { signal, .. }) => {
+                failure.say();
                 self.session.finish();
-                result
+                Err(Failure::Stopped { signal, message: None })
             }
+            Err(failure) => self.session.fail(failure.status(), || failure.say()),
         }
     }
 }
