@@ -9,6 +9,7 @@ import numpy as np
 
 STUDY = Path(__file__).parents[2] / "data/studies/riva2019"
 sys.path.insert(0, str(STUDY))
+import discs  # noqa: E402, where the study is
 import make_points  # noqa: E402, where the study is
 import measures  # noqa: E402
 
@@ -81,11 +82,11 @@ class Documents(unittest.TestCase):
 
     def test_points_are_those_of_the_variants(self) -> None:
         lines = [line for line in (STUDY / "points.csv").read_text().splitlines() if not line.startswith("#")]
-        self.assertEqual(len(lines), 1 + len(make_points.VARIANTS) * len(make_points.HEIGHTS))
+        self.assertEqual(len(lines), 1 + len(make_points.VARIANTS) * len(discs.SCENES))
         defaults = list(make_points.DEFAULT.values())
         for variant, changes in enumerate(make_points.VARIANTS.values()):
-            for disc, heights in enumerate(make_points.HEIGHTS):
-                cells = lines[1 + variant * len(make_points.HEIGHTS) + disc].split(",")
+            for disc, heights in enumerate(discs.SCENES):
+                cells = lines[1 + variant * len(discs.SCENES) + disc].split(",")
                 self.assertEqual(cells[0], heights)
                 changed = sum(cell != default for cell, default in zip(cells[1:], defaults, strict=True))
                 self.assertEqual(changed, len(changes))

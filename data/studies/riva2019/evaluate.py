@@ -3,30 +3,43 @@
 usage: evaluate.py, in the environment .venv of the checkout; run.sh calls it
 """
 
-import csv
 import json
 from pathlib import Path
 
 import h5py
 import measures
 import numpy as np
-from make_points import HEIGHTS, VARIANTS
+from discs import SCENES
+from make_points import DEFAULT, VARIANTS
 
 HERE = Path(__file__).parent
-RUNS = {"1": "baseline", "10": "heights-10", "100": "heights-100"}
 # Times of the paper's results and, for the baseline, of the end of the real test, s.
 END, LONG_END = 3000.0, 7200.0
 # Build-ups from which a cell counts as covered, m: any film makes it secondary, and the pin's are thin.
 THICKNESS = {"disc": 0.5e-6, "pin": 0.1e-6}
+# How near to the highest of the start counts as filled, m.
+NEAR = 0.1e-6
 SETS = range(1, 11)
+WAYS = ["as-they-are", "other-direction", "inside-out", "half-a-turn"]
 # Duration of a step, s: 2764 columns, 850 rpm.
 STEP = 60 / 850 / 2764
-# Load, N, unless it is what is varied, and specific wear rate of plateaus on the pin, 1/Pa.
-FORCE, WEAR_RATE = 47.0, 5e-14
+# Specific wear rate of plateaus on the pin, 1/Pa.
+WEAR_RATE = 5e-14
 # Length of the means that run-in and drift are taken of, s.
 WINDOW = 50.0
 # Time at the end over which samples of the pressure are averaged.
 LAST = 300.0
+
+
+def force_of(variant: str) -> float:
+    """Load of a variant, N."""
+    return float((DEFAULT | VARIANTS[variant])["normal force"].removesuffix(" N"))
+
+
+def series_of(file: h5py.File) -> dict[str, np.ndarray]:
+    """All series of a run that came to its end, and their time."""
+    assert file.attrs["state"] == "finished", f"{file.filename} is {file.attrs['state']}"
+    return {name: values[:] for name, values in file["series"].items()} | {"time": file["time"][:]}
 
 
 def at(time: np.ndarray, values: np.ndarray, moment: float) -> float:
@@ -41,7 +54,7 @@ def window_means(time: np.ndarray, integral: np.ndarray, end: float, width: floa
     return edges[:-1] + width / 2, values
 
 
-def history(series: dict[str, np.ndarray], end: float, force: float) -> dict[str, float]:
+def history(series: dict[str, np.ndarray], end: float = END, variant: str = "default") -> dict[str, float]:
     """What the series of a run say up to a time."""
     time = series["time"]
     middles, area = window_means(time, series["contact_area_integral"], end)
@@ -70,7 +83,7 @@ def history(series: dict[str, np.ndarray], end: float, force: float) -> dict[str
         "worn_resin": at(time, series["worn_resin"], end),
         "worn_disc": at(time, series["worn_disc"], end),
         # Worn off the pin's plateaus over what load, distance and wear rate say, less one.
-        "bookkeeping": worn_pin / (WEAR_RATE * force * distance) - 1,
+        "bookkeeping": worn_pin / (WEAR_RATE * force_of(variant) * distance) - 1,
         "balance_residual": float(np.abs(series["balance_residual"]).max()),
         "load_residual": float(np.abs(series["load_residual"]).max()),
     }
@@ -78,28 +91,26 @@ def history(series: dict[str, np.ndarray], end: float, force: float) -> dict[str
 
 def maps(file: h5py.File, moment: float) -> dict[str, object]:
     """What the maps of one moment say."""
-    number = int(np.argmin(np.abs(file["map_time"][:] - moment)))
-    assert abs(file["map_time"][number] - moment) < 1.0, f"no maps at {moment} s"
+    number = measures.number_at(file["map_time"][:], moment)
     radius = file["radius"][:]
     initial, height = file["disc/height"][0], file["disc/height"][number]
     substrate = file["disc/substrate"][number]
     reference = initial.max()
     build_up = {"disc": height - substrate, "pin": file["pin/substrate"][number] - file["pin/height"][number]}
-    filled = {str(level): measures.filled_area(initial, height, radius, level * 1e-6) for level in (0, 0.1, 0.5, 1)}
     pressure = file["pin/pressure"][number]
     status = {body: file[f"{body}/status"][number] for body in ("disc", "pin")}
     sizes = {
         "pin_plateaus": measures.plateau_sizes(status["pin"] > 0, False),
         "pin_contact": measures.plateau_sizes(pressure > 0, False),
         "pin_thick": measures.plateau_sizes(build_up["pin"] >= THICKNESS["pin"], False),
-        "disc_lowlands_filled": measures.plateau_sizes((initial < reference) & (height >= reference - 1e-7), True),
+        "disc_lowlands_filled": measures.plateau_sizes((initial < reference) & (height >= reference - NEAR), True),
         "disc_holes": measures.plateau_sizes(height < reference - 1e-6, True),
     }
-    cell = file["radius"][:].mean() * 2 * np.pi / height.shape[0] * np.diff(radius).mean()
+    cell = radius.mean() * 2 * np.pi / height.shape[0] * np.diff(radius).mean()
     profile = measures.radial_filling(initial, height, radius, 16)
     return {
         "filled": measures.filled_volume(initial, height, radius),
-        "filled_area": filled,
+        "filled_area": measures.filled_area(initial, height, radius, NEAR),
         "covered": {body: measures.share(build >= THICKNESS[body], radius) for body, build in build_up.items()},
         "initial_depth": float(measures.mean(reference - initial, radius)),
         "mean_build_up": float(measures.mean(build_up["disc"], radius)),
@@ -118,8 +129,7 @@ def maps(file: h5py.File, moment: float) -> dict[str, object]:
 def run_numbers(path: Path) -> dict[str, object]:
     """All numbers of a run without time acceleration."""
     with h5py.File(path) as file:
-        assert file.attrs["state"] == "finished", f"{path} is {file.attrs['state']}"
-        series = {name: values[:] for name, values in file["series"].items()} | {"time": file["time"][:]}
+        series = series_of(file)
         ends = [END, LONG_END] if series["time"][-1] > END + 1 else [END]
         middles, area = window_means(series["time"], series["contact_area_integral"], ends[-1])
         return {
@@ -128,38 +138,32 @@ def run_numbers(path: Path) -> dict[str, object]:
             "host": str(file.attrs["host"]),
             "steps": round(series["time"][-1] / STEP),
             "wall_time": float(file.attrs["wall_time"]),
-            "history": {f"{end:.0f}": history(series, end, FORCE) for end in ends},
+            "history": {f"{end:.0f}": history(series, end) for end in ends},
             "maps": {f"{moment:.0f}": maps(file, moment) for moment in file["map_time"][1:]},
-            "filled_at": {f"{t:.0f}": at(series["time"], series["filled_fraction"], t) for t in file["map_time"][1:]},
             "contact_area": [[float(t), float(a)] for t, a in zip(middles, area, strict=True)],
         }
 
 
 def variants(path: Path) -> dict[str, object]:
     """The open questions: of every variant and disc the numbers of each replicate."""
-    with (HERE / "points.csv").open(newline="") as file:
-        points = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    assert len(points) == len(VARIANTS) * len(HEIGHTS)
-    found: dict[str, dict[str, list]] = {name: {heights: [] for heights in HEIGHTS} for name in VARIANTS}
-    keys = [(name, heights) for name in VARIANTS for heights in HEIGHTS]
+    found: dict[str, dict[str, list]] = {name: {heights: [] for heights in SCENES} for name in VARIANTS}
+    # In the order of points.csv.
+    keys = [(name, heights) for name in VARIANTS for heights in SCENES]
     with h5py.File(path) as file:
         assert set(file["state"].asstr()[:]) == {"finished"}, "not every run of open-questions.toml is finished"
         names = [name for name, data in file.items() if data.ndim == 2 and name != "sample_time"]
         for row in range(len(file["run"])):
-            number = int(file["point"][row]) - 1
-            name, heights = keys[number]
+            name, heights = keys[int(file["point"][row]) - 1]
             time = file["time"][:] if "time" in file else file["sample_time"][row]
             there = np.isfinite(time)
             series = {key: file[key][row][there] for key in names} | {"time": time[there]}
-            force = float(points[number]["normal force"].split()[0])
-            numbers = history(series, END, force)
-            numbers["replicate"] = int(file["replicate"][row])
+            numbers = history(series, variant=name)
             numbers["wall_time"] = float(file["wall_time"][row])
-            found[name][heights].append(numbers)
-    for discs in found.values():
-        for runs in discs.values():
-            runs.sort(key=lambda numbers: numbers["replicate"])
-    return found
+            found[name][heights].append((int(file["replicate"][row]), numbers))
+    return {
+        name: {heights: [numbers for _, numbers in sorted(runs, key=lambda run: run[0])] for heights, runs in discs.items()}
+        for name, discs in found.items()
+    }
 
 
 # What the paper concludes of rough (1), smoother (0.1) and smoothest (0.01) disc, each as something to be seen in one set of
@@ -198,13 +202,9 @@ OUTCOMES = {
 
 def summary(found: dict[str, dict[str, list]]) -> dict[str, object]:
     """Means over the sets of surfaces with 95 % intervals, what holds of the conclusions, and changes against the default."""
-    quantities = [key for key in found["default"]["1"][0] if key != "replicate"]
     means, holds, outcomes = {}, {}, {}
     for name, discs in found.items():
-        means[name] = {
-            heights: {key: measures.interval([run[key] for run in runs]) for key in quantities}
-            for heights, runs in discs.items()
-        }
+        means[name] = {heights: intervals(runs) for heights, runs in discs.items()}
         seeds = range(len(discs["1"]))
         holds[name] = {
             claim: sum(test(lambda key, heights, seed=seed: discs[heights][seed][key]) for seed in seeds)
@@ -216,7 +216,8 @@ def summary(found: dict[str, dict[str, list]]) -> dict[str, object]:
             # The same surfaces with and without the change: what they have in common drops out.
             change = measures.interval([one - other for one, other in zip(values, default, strict=True)])
             outcomes[name][outcome] = {"value": measures.interval(values), "change": change}
-    return {"means": means, "holds": holds, "outcomes": outcomes, "seeds": len(found["default"]["1"])}
+    count = sum(len(runs) for discs in found.values() for runs in discs.values())
+    return {"means": means, "holds": holds, "outcomes": outcomes, "seeds": len(found["default"]["1"]), "runs": count}
 
 
 def calibration(found: dict[str, dict[str, list]], wanted: float) -> dict[str, object]:
@@ -240,33 +241,37 @@ def calibration(found: dict[str, dict[str, list]], wanted: float) -> dict[str, o
 def symmetry() -> dict[str, dict[str, float]]:
     """Runs of the same surfaces seen otherwise."""
     found = {}
-    for name in ("as-they-are", "other-direction", "inside-out", "half-a-turn"):
-        with h5py.File(HERE / "runs" / f"{name}.h5") as file:
-            series = {key: values[:] for key, values in file["series"].items()} | {"time": file["time"][:]}
-            found[name] = history(series, END, FORCE)
+    for way in WAYS:
+        with h5py.File(HERE / "runs" / f"{way}.h5") as file:
+            found[way] = history(series_of(file))
     return found
 
 
-def sets() -> dict[str, object]:
-    """The three discs with ten sets of surfaces: means with 95 % intervals of what maps and series say at the end."""
+def sets() -> dict[str, list[dict[str, float]]]:
+    """The three discs with ten sets of surfaces: what maps and series of each run say at the end."""
     found = {}
-    for heights in HEIGHTS:
-        runs = []
+    for heights in SCENES:
+        found[heights] = []
         for seed in SETS:
             with h5py.File(HERE / "runs" / f"set-{seed}-{heights}.h5") as file:
-                series = {name: values[:] for name, values in file["series"].items()} | {"time": file["time"][:]}
-                of_maps = maps(file, END)
-                contact = of_maps["plateau_diameter"]["pin_contact"]
-                runs.append(
-                    history(series, END, FORCE)
-                    | {key: of_maps[key] for key in ("mean_build_up", "highest", "inner_over_outer", "initial_depth")}
-                    | {f"covered_{body}": share for body, share in of_maps["covered"].items()}
-                    | {"filled_area": of_maps["filled_area"]["0.1"], "open_where_deepest": of_maps["open_where_deepest"]}
-                    | {f"contact_{percent}": diameter for percent, diameter in contact.items()}
-                    | {f"band_{number}": filled for number, filled in enumerate(of_maps["radial_filling"])}
-                )
-        found[heights] = {key: measures.interval([run[key] for run in runs]) for key in runs[0]}
+                of_series, of_maps = history(series_of(file)), maps(file, END)
+            of_maps |= {f"covered_{body}": share for body, share in of_maps["covered"].items()}
+            of_maps |= {f"contact_{part}": size for part, size in of_maps["plateau_diameter"]["pin_contact"].items()}
+            of_maps |= {f"band_{number}": filled for number, filled in enumerate(of_maps["radial_filling"])}
+            # The filling is in the series, too.
+            found[heights].append({key: number for key, number in of_maps.items() if isinstance(number, float)} | of_series)
     return found
+
+
+def intervals(runs: list[dict[str, float]]) -> dict[str, tuple[float, float]]:
+    """Mean and half width of its 95 % interval of every number of some runs."""
+    return {key: measures.interval([run[key] for run in runs]) for key in runs[0]}
+
+
+def books(runs: list[dict[str, float]]) -> dict[str, float]:
+    """What the balances of many runs leave at worst."""
+    rests = ("bookkeeping", "balance_residual", "load_residual")
+    return {key: max(abs(run[key]) for run in runs) for key in rests} | {"runs": len(runs)}
 
 
 def acceleration() -> dict[str, float]:
@@ -274,7 +279,8 @@ def acceleration() -> dict[str, float]:
     areas = []
     for name in ("baseline", "as-they-are"):
         with h5py.File(HERE / "runs" / f"{name}.h5") as file:
-            areas.append(window_means(file["time"][:], file["series/contact_area_integral"][:], END, 100.0)[1])
+            series = series_of(file)
+            areas.append(window_means(series["time"], series["contact_area_integral"], END, 100.0)[1])
             wall_time = float(file.attrs["wall_time"])
     exact, quick = areas
     return {"error": float(np.sqrt(((quick - exact) ** 2).sum() / (exact**2).sum())), "wall_time": wall_time}
@@ -303,19 +309,20 @@ def rounded(value: object) -> object:
 
 
 def main() -> None:
-    found = variants(HERE / "open-questions" / "results.h5")
-    every = [(name, run) for name, discs in found.items() for runs in discs.values() for run in runs]
-    books = [max(abs(run[key]) for _, run in every) for key in ("bookkeeping", "balance_residual")]
-    explicit = max(abs(run["bookkeeping"]) for name, run in every if name != "exponential wear")
+    runs = {heights: run_numbers(HERE / "runs" / f"{scene}.h5") for heights, scene in SCENES.items()}
+    seen_otherwise, of_sets, found = symmetry(), sets(), variants(HERE / "open-questions" / "results.h5")
+    of_variants = [run for discs in found.values() for runs in discs.values() for run in runs]
+    to_the_end = [list(run["history"].values())[-1] for run in runs.values()]
+    every = [*to_the_end, *seen_otherwise.values(), *(run for of_disc in of_sets.values() for run in of_disc), *of_variants]
     results = {
-        "runs": {key: run_numbers(HERE / "runs" / f"{name}.h5") for key, name in RUNS.items()},
+        "runs": runs,
         "acceleration": acceleration(),
-        "symmetry": symmetry(),
-        "sets": sets(),
+        "symmetry": seen_otherwise,
+        "sets": {heights: intervals(of_disc) for heights, of_disc in of_sets.items()},
         "calibration": calibration(found, 0.7),
         "variants": summary(found),
-        "books": {"bookkeeping": books[0], "explicit": explicit, "balance_residual": books[1], "runs": len(every),
-                  "core_hours": core_hours()},
+        "books": books(every),
+        "core_hours": core_hours(),
     }
     (HERE / "results.json").write_text(json.dumps(rounded(results), indent=1) + "\n")
 

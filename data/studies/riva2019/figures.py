@@ -8,8 +8,10 @@ from pathlib import Path
 
 import h5py
 import matplotlib
+import measures
 import numpy as np
-from matplotlib.colors import ListedColormap, LogNorm
+from discs import NAMES, SCENES
+from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
@@ -17,10 +19,10 @@ import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
 HERE = Path(__file__).parent
 DOCS = HERE.parents[2] / "docs/images"
 RESULTS = json.loads((HERE / "results.json").read_text())
-DISCS = {"baseline": "baseline", "heights-10": "heights / 10", "heights-100": "heights / 100"}
 # Of Okabe and Ito, told apart by everybody.
 COLOURS = ["#000000", "#0072b2", "#d55e00"]
 STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
+OF_STATUS = {"cmap": STATUS, "vmin": -0.5, "vmax": 2.5}
 STATUSES = ["none (resin)", "primary", "secondary"]
 # What docs/validation.md and README.md show.
 SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial"]
@@ -31,9 +33,9 @@ plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "ax
                      "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
 
 
-def load(name: str) -> dict[str, object]:
+def load(scene: str) -> dict[str, object]:
     """What is drawn of a run."""
-    with h5py.File(HERE / "runs" / f"{name}.h5") as file:
+    with h5py.File(HERE / "runs" / f"{scene}.h5") as file:
         fields = ["disc/height", "disc/substrate", "disc/status", "pin/height", "pin/substrate", "pin/status", "pin/pressure"]
         run = {field: file[field][:] for field in fields}
         run |= {"times": file["map_time"][:], "radius": file["radius"][:], "base": file["pin/base"][:]}
@@ -44,9 +46,7 @@ def load(name: str) -> dict[str, object]:
 
 def at(run: dict[str, object], field: str, moment: float) -> np.ndarray:
     """A map at a moment."""
-    number = int(np.argmin(np.abs(run["times"] - moment)))
-    assert abs(run["times"][number] - moment) < 1.0, moment
-    return run[field][number]
+    return run[field][measures.number_at(run["times"], moment)]
 
 
 def draw(axes, run: dict[str, object], values: np.ndarray, title: str, **how):
@@ -69,29 +69,32 @@ def save(figure, name: str) -> None:
     plt.close(figure)
 
 
-def of_three(runs: dict[str, dict], name: str, values, label: str, common: bool, **how) -> None:
-    """A map of each disc's run, side by side."""
+def of_three(runs: dict[str, dict], name: str, values, label: str, common=None) -> None:
+    """A map of each disc's run, side by side, on scales of their own or on a common one."""
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
-    fields = [values(run) for run in runs.values()]
-    limits = {}
-    if common:
-        every = np.concatenate([field[np.isfinite(field)] for field in fields])
-        limits = {"vmin": np.quantile(every, 0.005), "vmax": np.quantile(every, 0.995)}
-    for panel, (key, run), field in zip(axes, runs.items(), fields, strict=True):
-        scale = limits or {"vmin": np.nanquantile(field, 0.005), "vmax": np.nanquantile(field, 0.995)}
-        image = draw(panel, run, field, DISCS[key], **scale, **how)
+    for panel, (heights, run) in zip(axes, runs.items(), strict=True):
+        # Where nothing is to be drawn.
+        panel.set_facecolor(STATUS(0))
+        field = values(run)
+        image = draw(panel, run, field, NAMES[heights], norm=common or scale([field]))
         if not common:
             figure.colorbar(image, ax=panel, label=label, shrink=0.8)
     if common:
-        figure.colorbar(image, ax=axes, label=label, shrink=0.8)
+        figure.colorbar(image, ax=axes, label=label, shrink=0.8, extend="both")
     save(figure, name)
 
 
-def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int) -> None:
+def scale(fields: list[np.ndarray]) -> Normalize:
+    """From nearly the lowest to nearly the highest."""
+    every = np.concatenate([field[np.isfinite(field)] for field in fields])
+    return Normalize(*np.quantile(every, [0.005, 0.995]))
+
+
+def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int | None = None) -> None:
     """Status maps, side by side."""
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.5), layout="constrained")
-    for panel, (key, run) in zip(axes, runs.items(), strict=True):
-        draw(panel, run, at(run, field, 3000)[:columns], DISCS[key], cmap=STATUS, vmin=-0.5, vmax=2.5)
+    for panel, (heights, run) in zip(axes, runs.items(), strict=True):
+        draw(panel, run, at(run, field, 3000)[:columns], NAMES[heights], **OF_STATUS)
     patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
     figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
     save(figure, name)
@@ -101,16 +104,16 @@ def inputs(run: dict[str, object]) -> None:
     """The paper's figures 5 to 7: what the runs begin with."""
     disc, pin = at(run, "disc/height", 0) * 1e6, at(run, "pin/height", 0) * 1e6
     figure, (above, below) = plt.subplots(2, 1, figsize=(5, 4), layout="constrained", height_ratios=[2, 1])
-    figure.colorbar(draw(above, run, disc[:PIECE], "disc at the start, 8 mm of the ring", cmap="viridis"), ax=above,
+    figure.colorbar(draw(above, run, disc[:PIECE], "disc at the start, 8 mm of the ring"), ax=above,
                     label="height, µm")
     below.plot(np.arange(PIECE) * run["column"] * 1e3, disc[:PIECE, 40], color="black", lw=0.8)
     below.set(xlabel="along the track, mm", ylabel="height, µm", title="the same at the mean radius")
     save(figure, "fig05")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
-    draw(axes, run, run["base"], "pin: fibres (grey) in resin", cmap=STATUS, vmin=-0.5, vmax=2.5)
+    draw(axes, run, run["base"], "pin: fibres (grey) in resin", **OF_STATUS)
     save(figure, "fig06")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
-    figure.colorbar(draw(axes, run, -pin, "pin at the start, toward the disc", cmap="viridis"), ax=axes, label="height, µm")
+    figure.colorbar(draw(axes, run, -pin, "pin at the start, toward the disc"), ax=axes, label="height, µm")
     save(figure, "fig07")
 
 
@@ -119,7 +122,7 @@ def filling_of_the_baseline(run: dict[str, object]) -> None:
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
     for panel, moment in zip(axes, (0, 3000, 7200), strict=True):
         image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment} s",
-                     cmap="viridis", vmin=-10, vmax=10)
+                     norm=Normalize(-10, 10))
     figure.colorbar(image, ax=axes, label="height, µm", shrink=0.8, extend="both")
     save(figure, "fig08")
 
@@ -127,8 +130,8 @@ def filling_of_the_baseline(run: dict[str, object]) -> None:
 def contact_area() -> None:
     """The paper's figure 14."""
     figure, axes = plt.subplots(figsize=(5.2, 3), layout="constrained")
-    for run, name, colour in zip(("1", "10", "100"), DISCS.values(), COLOURS, strict=True):
-        time, area = np.transpose(RESULTS["runs"][run]["contact_area"])
+    for (heights, name), colour in zip(NAMES.items(), COLOURS, strict=True):
+        time, area = np.transpose(RESULTS["runs"][heights]["contact_area"])
         axes.plot(time, area * 1e6, color=colour, lw=1.2, label=name)
     axes.axvline(3000, color="grey", lw=0.6, ls=":")
     axes.annotate("end of the paper's simulations", (3000, 0.15), textcoords="offset points", xytext=(4, 0), color="grey")
@@ -172,33 +175,33 @@ def tornado() -> None:
     save(figure, "tornado")
 
 
+def build_up(run: dict[str, object]) -> np.ndarray:
+    """Of the piece of the ring that is shown, µm."""
+    return (at(run, "disc/height", 3000) - at(run, "disc/substrate", 3000))[:PIECE] * 1e6
+
+
+def pin_height(run: dict[str, object]) -> np.ndarray:
+    """Toward the disc, above the mean fibre, µm."""
+    height = -at(run, "pin/height", 3000) * 1e6
+    return height - height[run["base"] == 1].mean()
+
+
+def pressure(run: dict[str, object]) -> np.ndarray:
+    """Where there is contact, MPa."""
+    field = at(run, "pin/pressure", 3000) * 1e-6
+    return np.where(field > 0, field, np.nan)
+
+
 def main() -> None:
-    runs = {name: load(name) for name in DISCS}
-    baseline = runs["baseline"]
-    inputs(baseline)
-    filling_of_the_baseline(baseline)
-    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm", False, cmap="viridis")
+    runs = {heights: load(scene) for heights, scene in SCENES.items()}
+    inputs(runs["1"])
+    filling_of_the_baseline(runs["1"])
+    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm")
     status_of_three(runs, "fig10", "disc/status", PIECE)
-    of_three(runs, "fig10b", lambda run: (at(run, "disc/height", 3000) - at(run, "disc/substrate", 3000))[:PIECE] * 1e6,
-             "build-up, µm", True, cmap="viridis")
-
-    def pin_height(run: dict[str, object]) -> np.ndarray:
-        height = -at(run, "pin/height", 3000) * 1e6
-        return height - height[run["base"] == 1].mean()
-
-    of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", True, cmap="viridis")
-    status_of_three(runs, "fig12", "pin/status", 161)
-
-    def pressure(run: dict[str, object]) -> np.ndarray:
-        field = at(run, "pin/pressure", 3000) * 1e-6
-        return np.where(field > 0, field, np.nan)
-
-    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
-    for panel, (key, run) in zip(axes, runs.items(), strict=True):
-        panel.set_facecolor("#d9d2c3")
-        image = draw(panel, run, pressure(run), DISCS[key], cmap="viridis", norm=LogNorm(0.5, 50))
-    figure.colorbar(image, ax=axes, label="pressure, MPa", shrink=0.8, extend="both")
-    save(figure, "fig13")
+    of_three(runs, "fig10b", build_up, "build-up, µm", scale([build_up(run) for run in runs.values()]))
+    of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", scale([pin_height(run) for run in runs.values()]))
+    status_of_three(runs, "fig12", "pin/status")
+    of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(0.5, 50))
     contact_area()
     radial()
     tornado()

@@ -6,6 +6,8 @@ A variant changes one thing of the default, but for the last ones, which change 
 import csv
 from pathlib import Path
 
+from discs import NAMES
+
 DEFAULT = {
     "captured fraction": "0.06",
     "captured resin fraction": "0.06",
@@ -48,9 +50,9 @@ VARIANTS = {
     "time acceleration 100": {"time acceleration": "100"},
     "time acceleration 500": {"time acceleration": "500"},
     "exponential wear": {"integrator": "exponential"},
+    "pad share 0.95, all debris stays": {"pad share": "0.95", **both(1.0)},
     "pad share 1, all debris stays": {"pad share": "1", **both(1.0)},
 }
-HEIGHTS = ["1", "0.1", "0.01"]
 
 
 def main() -> None:
@@ -60,7 +62,7 @@ def main() -> None:
         table.writerow(["heights", *DEFAULT])
         for changes in VARIANTS.values():
             assert changes.keys() <= DEFAULT.keys()
-            for heights in HEIGHTS:
+            for heights in NAMES:
                 table.writerow([heights, *(DEFAULT | changes).values()])
 
 

@@ -11,18 +11,19 @@ import re
 import sys
 from pathlib import Path
 
+from discs import NAMES
+
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 MARKS = "<!-- found by data/studies/riva2019 -->\n", "<!-- end of what was found -->\n"
 RESULTS = json.loads((HERE / "results.json").read_text())
-DISCS = {"1": "baseline", "0.1": "heights / 10", "0.01": "heights / 100"}
 
 
 def value(path: str) -> object:
     """What is at a path of keys in results.json."""
     found = RESULTS
     for key in path.split("/"):
-        found = found[int(key)] if isinstance(found, list) else found[key]
+        found = found[key]
     return found
 
 
@@ -31,10 +32,10 @@ def shown(number: float, form: str) -> str:
     return format(number, form).replace("-", "−").replace(",", " ")
 
 
-def with_interval(pair: list[float], factor: float, form: str, unit: str = "") -> str:
+def with_interval(pair: list[float], factor: float, form: str) -> str:
     """Mean ± half width of the 95 % interval."""
     mean, half = (entry * factor for entry in pair)
-    return f"{shown(mean, form)} ± {shown(half, form)}{unit}"
+    return f"{shown(mean, form)} ± {shown(half, form)}"
 
 
 def row(*cells: str) -> str:
@@ -49,8 +50,8 @@ def head(*cells: str) -> str:
 
 def table_runs() -> str:
     """The runs without time acceleration."""
-    ends = [("1", "3000"), ("10", "3000"), ("100", "3000"), ("1", "7200")]
-    text = head("at the end", "baseline", "heights / 10", "heights / 100", "baseline, 7200 s")
+    ends = [*((heights, "3000") for heights in NAMES), ("1", "7200")]
+    text = head("at the end", *NAMES.values(), "baseline, 7200 s")
 
     def line(name: str, factor: float, form: str, key: str) -> str:
         def one(run: str, end: str) -> str:
@@ -59,7 +60,7 @@ def table_runs() -> str:
         return row(name, *(one(run, end) for run, end in ends))
 
     text += line("filled, by volume, %", 100, ".1f", "filled")
-    text += line("filled, by area (within 0.1 µm), %", 100, ".1f", "/filled_area/0.1")
+    text += line("filled, by area (within 0.1 µm), %", 100, ".1f", "/filled_area")
     text += line("disc covered by 0.5 µm and more, %", 100, ".1f", "/covered/disc")
     text += line("pin covered by 0.1 µm and more, %", 100, ".1f", "/covered/pin")
     text += line("build-up on the disc, mean, µm", 1e6, ".2f", "/mean_build_up")
@@ -83,7 +84,7 @@ def table_runs() -> str:
 
 def table_sizes() -> str:
     """Sizes of plateaus."""
-    text = head("diameter of plateaus, µm: 10, 50, 90 % of their area lies in smaller ones", *DISCS.values())
+    text = head("diameter of plateaus, µm: 10, 50, 90 % of their area lies in smaller ones", *NAMES.values())
     names = {
         "pin_contact": "pin, in contact",
         "pin_plateaus": "pin, primary and secondary",
@@ -93,9 +94,9 @@ def table_sizes() -> str:
     }
     for key, name in names.items():
         cells = []
-        for run in ("1", "10", "100"):
-            sizes = value(f"runs/{run}/maps/3000/plateau_diameter").get(key)
-            count = value(f"runs/{run}/maps/3000/plateau_count/{key}")
+        for heights in NAMES:
+            sizes = value(f"runs/{heights}/maps/3000/plateau_diameter").get(key)
+            count = value(f"runs/{heights}/maps/3000/plateau_count/{key}")
             cells.append(
                 "none" if sizes is None else ", ".join(shown(sizes[p] * 1e6, ".0f") for p in ("10", "50", "90")) + f" ({count})"
             )
@@ -105,24 +106,23 @@ def table_sizes() -> str:
 
 def table_history() -> str:
     """Filling at the times of the maps."""
-    times = list(value("runs/1/filled_at"))
-    times.sort(key=float)
+    times = list(value("runs/1/maps"))
     text = head("filled, by volume, %", *(f"{time} s" for time in times))
-    for run, name in zip(("1", "10", "100"), DISCS.values(), strict=True):
-        filled = value(f"runs/{run}/filled_at")
-        text += row(name, *(shown(filled[time] * 100, ".1f") if time in filled else "" for time in times))
+    for heights, name in NAMES.items():
+        maps = value(f"runs/{heights}/maps")
+        text += row(name, *(shown(maps[time]["filled"] * 100, ".1f") if time in maps else "" for time in times))
     return text
 
 
 def table_variants() -> str:
     """The numbers of every variant."""
     text = head(
-        "variant", "filled, %: baseline", "heights / 10", "heights / 100", "contact area, mm²: baseline", "heights / 10",
-        "heights / 100", "run-in of the baseline, s",
+        "variant", *(f"{name}: filled, %" for name in NAMES.values()), *(f"{name}: contact area, mm²" for name in NAMES.values()),
+        "baseline: run-in, s",
     )
     for name, means in value("variants/means").items():
-        filled = (with_interval(means[heights]["filled"], 100, ".1f") for heights in DISCS)
-        area = (with_interval(means[heights]["contact_area"], 1e6, ".2f") for heights in DISCS)
+        filled = (with_interval(means[heights]["filled"], 100, ".1f") for heights in NAMES)
+        area = (with_interval(means[heights]["contact_area"], 1e6, ".2f") for heights in NAMES)
         text += row(name, *filled, *area, with_interval(means["1"]["run_in"], 1, ".0f"))
     return text
 
