@@ -13,8 +13,11 @@ build() {
     mark=$stamp.$$
     printf '%s\n' "$stamp_key" >"$mark" || exit 1
     [ -x "$program" ] || say "building the program; the first time takes a few minutes"
+    # With the bench among the packages, of which nothing is built: libraries then have the features that they have in tests,
+    # and cargo does not build them, and the crates above them, a second time for those.
     # shellcheck disable=SC2086
-    if ! (cd "$root" && cargo build --release --locked -p plateau --target-dir "$target" $feature_options); then
+    if ! (cd "$root" && cargo build --release --locked -p plateau -p plateau-bench --bin plateau --target-dir "$target" \
+        $feature_options); then
         rm -f "$mark"
         die "the program could not be built, see above"
     fi

@@ -99,6 +99,7 @@ impl Units {
 mod tests {
     use proptest::prelude::*;
     use proptest::string::string_regex;
+    use regex::Regex;
 
     use super::*;
     use crate::units::parse;
@@ -140,7 +141,8 @@ mod tests {
     fn the_units_that_messages_name_match() {
         // Expected: the units that the documentation names, and a unit of every other dimension.
         for dimension in DIMENSIONS {
-            let matches = |text: &str| jsonschema::is_valid(&schema(&quantity(dimension, Sign::Any)), &text.into());
+            let pattern = Regex::new(&quantity(dimension, Sign::Any)).unwrap();
+            let matches = |text: &str| pattern.is_match(text);
             assert!(matches(dimension.example()), "{}", dimension.example());
             for unit in dimension.units().split(", ") {
                 assert!(matches(&format!("-1.5e-3 {unit}")), "{unit}");
@@ -151,11 +153,8 @@ mod tests {
             }
             assert!(!matches("1") && !matches("") && !matches("14 Hz") && !matches("one m"), "{dimension:?}");
         }
-        let matches = |text: &str| jsonschema::is_valid(&schema(&length_unit()), &text.into());
+        let pattern = Regex::new(&length_unit()).unwrap();
+        let matches = |text: &str| pattern.is_match(text);
         assert!(matches("um") && matches("0.5 µm") && !matches("kg") && !matches("0 um") && !matches("1"));
-    }
-
-    fn schema(pattern: &str) -> serde_json::Value {
-        serde_json::json!({ "pattern": pattern })
     }
 }

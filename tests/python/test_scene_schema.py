@@ -1,0 +1,209 @@
+"""The JSON Schema of scenes, as the validator of another house reads it, and the program agree."""
+
+import json
+import os
+import pathlib
+import random
+import re
+import subprocess
+import tomllib
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+import jsonschema
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+SCENES = ROOT / "crates/io/tests/scenes"
+
+# Bad scenes that are no mistake of one file's form: what numbers say together, what the machine or this version cannot do, and
+# what only the scenes that they extend tell.
+FORM_IS_GOOD = {
+    "black-is-white",
+    "companion-alone",
+    "extends-a-folder",
+    "extends-a-newer",
+    "extends-in-a-circle",
+    "extends-in-a-circle-too",
+    "extends-itself",
+    "extends-what-is-not-there",
+    "fibre-wider-than-long",
+    "image-without-pixel",
+    "mesh-larger-than-memory",
+    "pin-wider-than-ring",
+    "power-law-incomplete",
+    "radii-exchanged",
+    "steps-beyond-counting",
+    "texture-missing",
+}
+WRONG_TYPES = ["1979-05-27", "[true]", "[[1]]", '""', '" "']
+UNITS = "m mm um µm N kN Pa GPa s min m/s km/h rpm rad/s Hz 1/Pa m^2/N mm^3/(N_m) m^2 um^2 kg x deg".split()
+# Random values that are tried, and keys that each is tried with.
+VALUES, KEYS_EACH = 300, 8
+
+
+def schema():
+    return json.loads(subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True).stdout)
+
+
+SCHEMA = schema()
+VALIDATOR = jsonschema.Draft7Validator(SCHEMA)
+
+
+def keys(node=SCHEMA, path=()):
+    """Path and schema of every key that has a value."""
+    for name, key in node["properties"].items():
+        if "properties" in key:
+            yield from keys(key, (*path, name))
+        elif name != "extends":
+            yield ".".join((*path, name)), key
+
+
+def document(text):
+    """What a validator sees of a scene; None if it is not TOML, whose integers have 64 bits."""
+    try:
+        found = tomllib.loads(text)
+    except tomllib.TOMLDecodeError:
+        return None
+    return None if any(abs(number) >= 2**63 for number in integers(found)) else found
+
+
+def integers(value):
+    if isinstance(value, dict | list):
+        for entry in value.values() if isinstance(value, dict) else value:
+            yield from integers(entry)
+    elif isinstance(value, int):
+        yield value
+
+
+def in_toml(value):
+    """A value of the schema as scenes have it."""
+    return json.dumps(value, ensure_ascii=False)
+
+
+def accepted(path, value):
+    """Whether the program and the schema accept this value (in TOML) of a key, whatever it needs beside it."""
+    # Another key that is wrong keeps the program from looking at what several keys say together.
+    wrong = "mesh.rows=0" if path == "contact.load_tolerance" else "contact.load_tolerance=7"
+    command = [PROGRAM, "check", str(SCENES / "good/minimal.toml"), "--set", f"{path}={value}", "--set", wrong]
+    told = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert told.returncode == 2, (path, value, told)
+    about, alone = f": {path}: ", "has a meaning only beside"
+    refused = any(about in line and alone not in line for line in told.stderr.splitlines())
+    scene = document(f'extends = "minimal.toml"\n{path} = {value}')
+    return not refused, scene is not None and VALIDATOR.is_valid(scene)
+
+
+def random_value(chance):
+    """A value of any kind, in TOML. Whole numbers are integers: JSON does not tell 8.0 from 8. There is no minus zero."""
+    def number():
+        if chance.random() < 0.5:
+            return str(chance.randrange(-3, 20))
+        return str(chance.choice([tenths for tenths in range(-30, 300) if tenths % 10]) / 10)
+
+    def quantity():
+        return f'"{number()}{chance.choice(["", " ", "e-3 ", "e2 "])}{chance.choice([*UNITS, ""]).replace("_", " ")}"'
+
+    def word():
+        return in_toml(chance.choice(WORDS))
+
+    def plain():
+        return chance.choice([number, quantity, quantity, word, lambda: "true", lambda: "false"])()
+
+    if chance.random() < 0.75:
+        return plain()
+    return "[" + ", ".join(plain() for _ in range(chance.randrange(4))) + "]"
+
+
+def words(node):
+    """Every word that some key may be."""
+    match node:
+        case {"enum": list(choices)}:
+            yield from (word for word in choices if isinstance(word, str))
+        case {"const": str(word)}:
+            yield word
+        case dict():
+            for entry in node.values():
+                yield from words(entry)
+        case list():
+            for entry in node:
+                yield from words(entry)
+
+
+WORDS = sorted({*words(SCHEMA), "pressure", "disc_height"})
+
+
+class SceneSchema(unittest.TestCase):
+    def assert_accepted(self, cases):
+        """Checks cases of path, value and whether both accept it; None where they need only agree."""
+        cases = list(cases)
+        self.assertGreater(len(cases), 0)
+        with ThreadPoolExecutor() as threads:
+            answers = threads.map(lambda case: accepted(*case[:2]), cases)
+            for (path, value, expected), (program, schema) in zip(cases, answers, strict=True):
+                expected = program if expected is None else expected
+                self.assertEqual((program, schema), (expected, expected), f"{path} = {value}: program, schema")
+
+    def test_it_is_a_schema_of_draft_7(self):
+        self.assertEqual(SCHEMA["$schema"], "http://json-schema.org/draft-07/schema#")
+        jsonschema.Draft7Validator.check_schema(SCHEMA)
+
+    def test_every_good_scene_is_valid(self):
+        folders = [SCENES / "good", SCENES / "good/parts", ROOT / "data/scenes", *(ROOT / "tests/vectors").iterdir()]
+        for folder in folders:
+            for path in folder.glob("*.toml"):
+                with self.subTest(path=path):
+                    VALIDATOR.validate(document(path.read_text()))
+
+    def test_every_scene_of_bad_form_is_not_valid(self):
+        paths = list((SCENES / "bad").glob("*.toml"))
+        self.assertLess(FORM_IS_GOOD, {path.stem for path in paths})
+        for path in paths:
+            with self.subTest(path=path):
+                try:
+                    scene = document(path.read_bytes().decode())
+                except (UnicodeDecodeError, IsADirectoryError):
+                    scene = None
+                valid = scene is not None and VALIDATOR.is_valid(scene)
+                self.assertEqual(valid, path.stem in FORM_IS_GOOD)
+
+    def test_every_piece_of_a_scene_in_the_documentation_is_valid(self):
+        count = 0
+        for path in (ROOT / "docs").glob("*.md"):
+            for piece in re.findall(r"^```toml\n(.*?)^```", path.read_text(), re.DOTALL | re.MULTILINE):
+                # The others are of studies.
+                if "[[factor]]" not in piece:
+                    with self.subTest(path=path, piece=piece):
+                        start = "" if "extends" in piece else 'extends = "scene.toml"\n'
+                        VALIDATOR.validate(document(start + piece))
+                    count += 1
+        self.assertGreater(count, 3)
+
+    def test_both_accept_examples_and_defaults_and_a_good_value_of_every_key(self):
+        cases = []
+        for path, key in keys():
+            good = [*key.get("examples", []), *([key["default"]] if "default" in key else [])]
+            if not good:
+                # Not from the schema under test but written by hand.
+                choices = [0.5, 2.5, 1, True, "a text", *key.get("enum", [])[:1]]
+                good = [value for value in choices if accepted(path, in_toml(value)) == (True, True)][:1]
+                self.assertTrue(good, f"both accept no value of {path}")
+            cases += [(path, in_toml(value), True) for value in good]
+        self.assert_accepted(cases)
+
+    def test_both_refuse_wrong_types(self):
+        self.assert_accepted((path, value, False) for path, _ in keys() for value in WRONG_TYPES)
+
+    def test_both_refuse_keys_that_are_not_there(self):
+        paths = ["mesh.row", "pin.prepare.syntetic", "disc.surface.synthetic.sed", "pin.base.flat", "titel", "meshes"]
+        self.assert_accepted((path, "1", False) for path in paths)
+
+    def test_they_agree_on_random_values(self):
+        chance = random.Random(20261122)
+        paths = [path for path, _ in keys()]
+        pairs = ((random_value(chance), chance.sample(paths, KEYS_EACH)) for _ in range(VALUES))
+        self.assert_accepted((path, value, None) for value, some in pairs for path in some)
+
+
+if __name__ == "__main__":
+    unittest.main()
