@@ -30,6 +30,30 @@ pub struct Totals {
     pub emitted: RunningSum,
 }
 
+impl Totals {
+    /// (worn + returned − deposited − emitted − pool) / worn with this much (m³) in the pools; 0 if nothing is worn.
+    pub fn balance_residual(&self, pool: f64) -> f64 {
+        let worn = self.worn_pin.value() + self.worn_resin.value() + self.worn_disc.value();
+        if worn == 0.0 {
+            return 0.0;
+        }
+        let mut rest = RunningSum::default();
+        for term in [
+            self.worn_pin.value(),
+            self.worn_resin.value(),
+            self.worn_disc.value(),
+            self.returned.value(),
+            -self.deposited_pin.value(),
+            -self.deposited_disc.value(),
+            -self.emitted.value(),
+            -pool,
+        ] {
+            rest.add(term);
+        }
+        rest.value() / worn
+    }
+}
+
 /// What the pools hold, and what went through them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Account {
@@ -115,7 +139,7 @@ impl Debris {
         let mut largest = 0.0_f64;
         for (index, (pool, share)) in self.pools.iter().zip(&mut self.pool_share).enumerate() {
             let open = self.pool_area[index] - contact.pools()[index].area;
-            // Rounding may leave a trace of debt in an emptied pool; it is not spread, and the next step settles it.
+            // Rounding may leave a trace of debt in a pool that has given nearly all; it is not spread.
             *share = if open > 0 { (pool.value() / (float(open) * self.area_unit)).max(0.0) } else { 0.0 };
             largest = largest.max(*share);
         }
@@ -148,12 +172,14 @@ impl Debris {
     /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool.
     ///
     /// What wears follows from the contact, less what cells were spared whose build-up was worn through; what is
-    /// compacted is the even deposit on every open cell, and what some got beyond it.
+    /// compacted is the even deposit on every open cell, and what some got beyond it. Where every open cell got the whole
+    /// share, the pool has given all.
     pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) {
         for (index, (contact, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
             let mut worn_pin = contact.pin_loss;
             let worn_resin = self.wear_height * (float(contact.resin_area) * self.area_unit);
             let mut worn_disc = contact.disc_loss;
+            let mut emptied = false;
             let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
             if self.needs.forms {
                 let open = self.pool_area[index] - contact.area;
@@ -165,6 +191,7 @@ impl Debris {
                 };
                 deposited_pin = deposited(even_on_pin, sums.deposited_pin);
                 deposited_disc = deposited(share - even_on_pin, sums.deposited_disc);
+                emptied = open > 0 && !sums.limited;
                 worn_pin -= sums.spared_resin.value();
                 returned = sums.returned.value();
             }
@@ -176,9 +203,15 @@ impl Debris {
 
             let [captured, emitted] = self.part(worn_pin, worn_resin, worn_disc);
             let pool = &mut self.pools[index];
+            if emptied {
+                // Exactly: what rounding would leave could make a cell of the next step secondary.
+                *pool = RunningSum::default();
+            }
             pool.add(captured);
             pool.add(returned);
-            pool.add(-(deposited_pin + deposited_disc));
+            if !emptied {
+                pool.add(-(deposited_pin + deposited_disc));
+            }
 
             self.totals.worn_pin.add(worn_pin);
             self.totals.worn_resin.add(worn_resin);
@@ -214,25 +247,7 @@ impl Debris {
 
     /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
     pub fn balance_residual(&self) -> f64 {
-        let totals = &self.totals;
-        let worn = totals.worn_pin.value() + totals.worn_resin.value() + totals.worn_disc.value();
-        if worn == 0.0 {
-            return 0.0;
-        }
-        let mut rest = RunningSum::default();
-        for term in [
-            totals.worn_pin.value(),
-            totals.worn_resin.value(),
-            totals.worn_disc.value(),
-            totals.returned.value(),
-            -totals.deposited_pin.value(),
-            -totals.deposited_disc.value(),
-            -totals.emitted.value(),
-            -self.pool(),
-        ] {
-            rest.add(term);
-        }
-        rest.value() / worn
+        self.totals.balance_residual(self.pool())
     }
 }
 

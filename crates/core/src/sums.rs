@@ -117,6 +117,8 @@ pub struct PoolSums {
     pub deposited_pin: i128,
     /// The same on the disc.
     pub deposited_disc: i128,
+    /// Whether an open cell had no room for the whole share: else the pool is empty.
+    pub limited: bool,
     /// Volume that plateaus of the pin did not lose of their raw loss, in units and quanta of the losses.
     pub spared_pin: i128,
     /// The same of the disc.
@@ -166,6 +168,7 @@ impl Sums {
             if weights.needs.forms {
                 sums.deposited_pin = sum(&moved.deposited_pin);
                 sums.deposited_disc = sum(&moved.deposited_disc);
+                sums.limited = moved.is_limited(here.clone());
             }
             if weights.needs.distinct {
                 sums.spared_pin = sum(&moved.spared_pin);
@@ -198,6 +201,7 @@ impl Sums {
             let moved =
                 [&mut sums.deposited_pin, &mut sums.deposited_disc, &mut sums.spared_pin, &mut sums.spared_disc];
             moved.into_iter().for_each(|sum| *sum += of_words(words));
+            sums.limited |= words.next() == Some(1);
             sums.returned.add(StepVolume::of_integer(of_words(words)));
             sums.spared_resin.add(StepVolume::of_integer(of_words(words)));
         }
@@ -223,6 +227,7 @@ impl Sums {
             for sum in [sums.deposited_pin, sums.deposited_disc, sums.spared_pin, sums.spared_disc] {
                 message.extend(words(sum));
             }
+            message.push(u64::from(sums.limited));
             message.extend(words(sums.returned.integer()));
             message.extend(words(sums.spared_resin.integer()));
         }

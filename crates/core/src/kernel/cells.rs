@@ -127,6 +127,7 @@ pub(super) fn update<
 
         // 4.4 Debris at hand fills the clearance of open cells, wholly or in part.
         let filled = plateau::fill(clearance, rules.share).only(!touches);
+        moved.limited = moved.limited | (filled.below(rules.share) & !touches);
         let on_pin = plateau::on_pin(filled, supported, rules.pad_share());
         let on_disc = filled - on_pin;
         z_p = z_p - on_pin;

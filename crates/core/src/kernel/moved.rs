@@ -1,6 +1,8 @@
 //! What a sweep moved, row by row.
 
-use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes};
+use std::ops::Range;
+
+use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
 use super::pairs::lanes_of;
 use crate::exact::RowIntegers;
 
@@ -19,6 +21,8 @@ pub struct Moved {
     pub spared_pin: RowIntegers,
     /// The same for disc cells.
     pub spared_disc: RowIntegers,
+    /// Rows of each strip, one bit each, in which an open cell had no room for the whole share.
+    pub limited: Vec<u8>,
     /// What happened in few cells.
     pub seldom: Vec<SeldomEvent>,
 }
@@ -43,6 +47,7 @@ impl Moved {
             deposited_disc: rows(forms),
             spared_pin: rows(distinct),
             spared_disc: rows(distinct),
+            limited: vec![0; if forms { strips } else { 0 }],
             seldom: Vec::new(),
         }
     }
@@ -52,7 +57,17 @@ impl Moved {
         for rows in [&mut self.deposited_pin, &mut self.deposited_disc, &mut self.spared_pin, &mut self.spared_disc] {
             rows.clear();
         }
+        self.limited.fill(0);
         self.seldom.clear();
+    }
+
+    /// Whether some open cell of these rows had no room for the whole share.
+    pub fn is_limited(&self, rows: Range<usize>) -> bool {
+        (rows.start / LANES..rows.end.div_ceil(LANES)).any(|strip| {
+            let first = strip * LANES;
+            let of_strip = (rows.start.max(first)..rows.end.min(first + LANES)).map(|row| 1_u8 << (row - first));
+            self.limited[strip] != 0 && of_strip.fold(0, |bits, bit| bits | bit) & self.limited[strip] != 0
+        })
     }
 }
 
@@ -63,6 +78,8 @@ pub(super) struct StripMoved<L: Lanes> {
     pub deposited_disc: L::Integers,
     pub spared_pin: L::Integers,
     pub spared_disc: L::Integers,
+    /// Rows in which an open cell had no room for the whole share.
+    pub limited: L::Mask,
 }
 
 impl<L: Lanes> StripMoved<L> {
@@ -70,7 +87,13 @@ impl<L: Lanes> StripMoved<L> {
     #[inline(always)]
     pub fn new() -> Self {
         let zero = L::Integers::splat(0);
-        Self { deposited_pin: zero, deposited_disc: zero, spared_pin: zero, spared_disc: zero }
+        Self {
+            deposited_pin: zero,
+            deposited_disc: zero,
+            spared_pin: zero,
+            spared_disc: zero,
+            limited: L::Mask::of_byte(0),
+        }
     }
 
     /// Adds the sums of the strip to the others.
@@ -79,6 +102,7 @@ impl<L: Lanes> StripMoved<L> {
         if FORMS {
             add::<L>(&mut moved.deposited_pin.0[strip], self.deposited_pin);
             add::<L>(&mut moved.deposited_disc.0[strip], self.deposited_disc);
+            moved.limited[strip] |= self.limited.byte();
         }
         if DISTINCT {
             add::<L>(&mut moved.spared_pin.0[strip], self.spared_pin);
