@@ -3,7 +3,7 @@
 use plateau_core::kernel::InstructionSet;
 use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::{Base, InitialSurfaces};
 use plateau_tests::scenes::{primary_stiffness, random_surfaces, wear_only};
@@ -25,7 +25,7 @@ fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
                 captured_fraction: rules.0.0,
                 captured_resin_fraction: rules.0.1,
                 pad_share: rules.1,
-                debris_pool: if rules.2 { DebrisPool::Track } else { DebrisPool::Contact },
+                debris: if rules.2 { DebrisRule::Track } else { DebrisRule::Contact },
                 formation: rules.3,
                 destruction: rules.4,
             };
@@ -213,11 +213,11 @@ proptest! {
 /// cells secondary in the next step, with another stiffness.
 #[test]
 fn a_pool_that_has_given_all_is_exactly_empty() {
-    for debris in [DebrisPool::Contact, DebrisPool::Track] {
+    for debris in [DebrisRule::Contact, DebrisRule::Track] {
         for tenths in 1..=10 {
             let mut parameters = wear_only(13, 40, 9);
             parameters.plateaus = PlateauRules {
-                debris_pool: debris,
+                debris,
                 captured_fraction: f64::from(tenths) / 10.0,
                 captured_resin_fraction: None,
                 pad_share: 0.3,

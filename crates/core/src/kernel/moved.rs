@@ -8,13 +8,13 @@ use crate::exact::RowIntegers;
 
 /// What a step took off and put on, as far as it does not follow from its load balance alone.
 ///
-/// Most open cells get the whole share, and those of the pin with a plateau ahead the pad share of it: the even deposit.
-/// Only what differs from that is counted here.
+/// With a pool most open cells get the whole share, and those of the pin with a plateau ahead the pad share of it: the even
+/// deposit. Only what differs from that is counted here. With local debris no deposit is even.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Heights compacted on the pin beyond the even deposit, in quanta of the deposits.
+    /// Heights compacted on the pin beyond the even deposit of a pool, in quanta of the deposits.
     pub deposited_pin: RowIntegers,
-    /// Heights compacted on the disc beyond the even deposit, in quanta of the deposits.
+    /// Heights compacted on the disc beyond the even deposit of a pool, in quanta of the deposits.
     pub deposited_disc: RowIntegers,
     /// What pin cells did not lose of their raw loss because their build-up was worn through, in quanta of the losses;
     /// only where build-up has properties of its own.
@@ -27,7 +27,7 @@ pub struct Moved {
     pub seldom: Vec<SeldomEvent>,
 }
 
-/// What happened to the build-up of one cell on resin.
+/// What happened to the build-up of one cell on resin, or behind one of resin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeldomEvent {
     /// Row of the cell.
@@ -36,6 +36,15 @@ pub struct SeldomEvent {
     pub returned: f64,
     /// What resin was spared of the raw loss because the build-up on it was worn through, m.
     pub spared: f64,
+    /// What was compacted on pin and disc of what resin ahead lost, m.
+    pub deposited: [f64; 2],
+}
+
+impl SeldomEvent {
+    /// Nothing yet, in a row.
+    fn in_row(row: usize) -> Self {
+        Self { row: row as u32, returned: 0.0, spared: 0.0, deposited: [0.0; 2] }
+    }
 }
 
 impl Moved {
@@ -128,11 +137,18 @@ pub(super) fn note_seldom(
     worn_through: u8,
     strip: usize,
 ) {
-    let row = |lane: usize| (strip * LANES + lane) as u32;
-    seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { row: row(lane), returned: build_up.0[lane], spared: 0.0 }));
-    seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent {
-        row: row(lane),
-        returned: 0.0,
-        spared: raw.0[lane] - build_up.0[lane],
+    let event = |lane: usize| SeldomEvent::in_row(strip * LANES + lane);
+    seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { returned: build_up.0[lane], ..event(lane) }));
+    let spared = |lane: usize| raw.0[lane] - build_up.0[lane];
+    seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent { spared: spared(lane), ..event(lane) }));
+}
+
+/// Notes, for some of eight cells behind resin that lost its wear height, what is compacted of it on pin and disc.
+#[cold]
+#[inline(never)]
+pub(super) fn note_deposits(seldom: &mut Vec<SeldomEvent>, on_pin: &Chunk, on_disc: &Chunk, lanes: u8, strip: usize) {
+    seldom.extend(lanes_of(lanes).map(|lane| SeldomEvent {
+        deposited: [on_pin.0[lane], on_disc.0[lane]],
+        ..SeldomEvent::in_row(strip * LANES + lane)
     }));
 }
