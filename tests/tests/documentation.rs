@@ -81,6 +81,10 @@ fn need(key: &Key) -> String {
         Need::Default(value) => format!("`{value}`"),
         Need::SameAs(table) => format!("as in `[{table}]`"),
         Need::Computed(what) => what.into(),
+        Need::RequiredUnless(choose, default) => {
+            let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
+            format!("required; `{default}` with `{key} = \"{}\"`", choose.value)
+        }
         Need::Optional => "–".into(),
     }
 }

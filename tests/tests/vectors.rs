@@ -121,10 +121,16 @@ fn volume_deviations(run: &RunFile, expected: &RunFile) -> Vec<Deviation> {
 
 /// Runs a vector's scene with changes and gives the quantities that deviate more than is accepted.
 fn refused(name: &str, sets: &[&str]) -> Vec<Deviation> {
+    refused_by(name, sets, &[])
+}
+
+/// The same with options of `run`.
+fn refused_by(name: &str, sets: &[&str], options: &[&str]) -> Vec<Deviation> {
     let directory = WorkingDirectory::new();
     let scene = vector(name, "scene.toml");
     let mut arguments = vec!["run", &scene, "-o", "run.h5"];
     arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
+    arguments.extend(options);
     directory.plateau(arguments).quiet_success();
     let (run, expected) = (RunFile::open(directory.path("run.h5")), RunFile::open(vector(name, "expected.h5")));
     assert_eq!(run.text("state"), "finished");
@@ -138,10 +144,19 @@ fn refused(name: &str, sets: &[&str]) -> Vec<Deviation> {
 
 #[test]
 fn every_vector_is_reproduced() {
-    for name in ["flat", "rough", "track"] {
-        let refused: Vec<_> = refused(name, &[]).iter().map(Deviation::to_string).collect();
-        assert!(refused.is_empty(), "{name}:\n{}", refused.join("\n"));
+    for name in ["flat", "rough", "track", "local"] {
+        for options in [&[][..], &["--workers", "3"], &["--engine", "plain"]] {
+            let refused: Vec<_> = refused_by(name, &[], options).iter().map(Deviation::to_string).collect();
+            assert!(refused.is_empty(), "{name} {options:?}:\n{}", refused.join("\n"));
+        }
     }
+}
+
+#[test]
+fn local_debris_that_is_wrong_by_a_millionth_is_noticed() {
+    let refused = refused("local", &["plateaus.captured_fraction=0.999999"]);
+    let refused: Vec<_> = refused.into_iter().map(|deviation| deviation.quantity).collect();
+    assert!(refused.iter().any(|quantity| quantity == "deposited_disc"), "{refused:?}");
 }
 
 #[test]

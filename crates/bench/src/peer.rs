@@ -182,13 +182,14 @@ pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
 
 /// The peers do what the paper's scene needs and nothing else.
 fn supported(parameters: &Parameters) -> Result<(), BenchError> {
-    let Needs { distinct, disc_wears, forms, destroys } = Needs::of(parameters);
+    let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
     let unsupported = [
         (distinct, "materials of their own for build-ups"),
         (disc_wears, "wear of the disc"),
         (!forms, "no formation"),
+        (local, "local debris"),
         (!destroys, "no destruction"),
-        (parameters.plateaus.debris != DebrisRule::Contact, "one pool per track"),
+        (parameters.plateaus.debris == DebrisRule::Track, "one pool per track"),
         (parameters.integrator != Integrator::Explicit, "exponential wear"),
     ];
     match unsupported.into_iter().find(|(asked, _)| *asked) {

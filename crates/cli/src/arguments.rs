@@ -140,15 +140,27 @@ impl RunArguments {
     }
 }
 
-/// How a run is carried out, which does not show in its results.
+/// How a run is carried out, which does not show in its results, but that the two engines round differently.
 #[derive(Debug, Args)]
 pub struct ExecutionArguments {
+    /// What takes the steps: the fast engine, or the plain model, cell by cell, which is slow and rounds otherwise
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = EngineArgument::Fast)]
+    pub engine: EngineArgument,
     /// Instruction set of the kernels, for tests; the widest that the processor has unless given
     #[arg(long, value_name = "NAME", value_parser = instruction_set)]
     pub isa: Option<InstructionSet>,
     /// Keep each worker on a core of its own, as far as there are enough; a single worker is left free
     #[arg(long)]
     pub pin: bool,
+}
+
+/// A value of `--engine`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum EngineArgument {
+    /// On any number of workers.
+    Fast,
+    /// On one worker.
+    Plain,
 }
 
 /// A value of `--isa`.

@@ -4,11 +4,11 @@ use std::time::{Duration, Instant};
 
 use plateau_core::kernel::InstructionSet;
 use plateau_core::parameters::Parameters;
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::scene::recipe::Workers;
 
-use crate::arguments::ExecutionArguments;
+use crate::arguments::{EngineArgument, ExecutionArguments};
 use crate::message;
 
 /// How long each number of workers is tried.
@@ -30,6 +30,15 @@ pub fn decide(
     surfaces: &InitialSurfaces,
 ) -> Result<Execution, SimulationError> {
     let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
+    if arguments.engine == EngineArgument::Plain {
+        if ranks > 1 {
+            return Err(SimulationError::PlainOnRanks { ranks });
+        }
+        if workers != Workers::Count(1) {
+            message::warning("the plain model runs on one worker: numerics.workers and --workers have no effect");
+        }
+        return Ok(Execution { engine: Engine::Plain, instructions, ..Execution::default() });
+    }
     let execution = Execution { instructions, pin: arguments.pin, ..Execution::default() };
     if ranks > 1 {
         if workers != Workers::Count(1) || arguments.pin {

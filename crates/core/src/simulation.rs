@@ -70,6 +70,12 @@ pub enum SimulationError {
         /// That of the simulation.
         expected: Engine,
     },
+    /// The plain model is to run on the ranks of an MPI job.
+    #[error("the plain model runs in one process, there are {ranks} ranks: start one, or leave out --engine plain")]
+    PlainOnRanks {
+        /// How many there are.
+        ranks: usize,
+    },
     /// A worker failed.
     #[error(transparent)]
     Worker(#[from] CommError),
@@ -115,6 +121,16 @@ pub struct Execution {
     pub bands: Option<usize>,
     /// Whether each worker stays on a core of its own.
     pub pin: bool,
+}
+
+impl Execution {
+    /// With what the steps are taken: the name of the instruction set, or `plain model`.
+    pub fn means(&self) -> &'static str {
+        match self.engine {
+            Engine::Fast => self.instructions.name(),
+            Engine::Plain => "plain model",
+        }
+    }
 }
 
 impl Default for Execution {

@@ -199,7 +199,7 @@ impl Check {
             run_file: size_estimate(mesh, &scene.output.maps, scene.extras(), schedule.samples(), maps as u64),
             checkpoint: checkpoint::size_estimate(mesh, scene.extras()),
             workers: execution.workers,
-            instruction_set: execution.instructions.name(),
+            instruction_set: execution.means(),
             estimated_time: seconds_per_step * parameters.steps as f64,
             stiffness_number,
             largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),

@@ -3,16 +3,19 @@
 //!
 //! What a cell gets depends on what the cell ahead of it loses, so a column is worn one column before it is finished.
 
+use std::ops::Range;
+
 use super::cells::{Behind, Strip};
 use super::edge::Ahead;
 use super::instructions::kernel;
 use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use super::local_plain::sweep_plain_locally;
 use super::moved::{Moved, SeldomEvent, StripMoved, note_deposits, note_seldom};
 use super::pairs::Pairs;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
-use super::sweep::Sweep;
+use super::sweep::{MOST_UNUSUAL, Sweep};
 use super::worn::{Cells, Worn, wear};
 use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
@@ -57,35 +60,56 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
         let rules = StripRules::<L>::new(rules, conditions, index);
         let mut strip = Strip::new::<L, DISTINCT, true>(index, pin, disc, span, joined);
         let edge = Ahead::of_edge(conditions.ahead, &rules, index);
-        let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, DISTINCT>::new());
-        let mut behind = strip.behind::<L, DISTINCT>(0);
-        let (mut cells, mut worn) = strip.wear::<L, DISTINCT, DISC_WEARS>(&rules, 0);
-        for column in 0..span.columns {
-            let mut ahead = edge;
-            let mut next_worn = (cells, worn);
-            if column + 1 < span.columns {
-                next_worn = strip.wear::<L, DISTINCT, DISC_WEARS>(&rules, column + 1);
-                let plateau = strip.pin.plateau[column + 1];
-                ahead = Ahead::new::<DISTINCT, DISC_WEARS>(&rules, &next_worn.0, &next_worn.1, plateau);
+        let (mut column, mut unusual) = (0, 0);
+        while column < span.columns {
+            let mut end = span.columns;
+            if !DISTINCT && unusual <= MOST_UNUSUAL {
+                column = sweep_plain_locally::<L, DISC_WEARS>(&rules, &mut strip, column, moved, reading);
+                end = column + 1;
             }
-            behind = finish::<L, DISTINCT, DISC_WEARS>(
-                &rules,
-                &mut strip,
-                column,
-                &cells,
-                &worn,
-                ahead,
-                behind,
-                &mut strip_moved,
-                &mut moved.seldom,
-                &mut next,
-                reading,
-            );
-            (cells, worn) = next_worn;
+            sweep_any::<L, DISTINCT, DISC_WEARS>(&rules, &mut strip, column..end, edge, moved, reading);
+            (column, unusual) = (end, unusual + 1);
         }
-        strip_moved.store::<DISTINCT, true>(index, moved);
-        next.store(index, reading);
     }
+}
+
+/// Sweeps some columns of a strip, whatever happens to their cells; `edge` is what is ahead of the strip's last.
+#[inline(always)]
+fn sweep_any<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    columns: Range<usize>,
+    edge: Ahead<L>,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) {
+    let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, DISTINCT>::new());
+    let mut behind = strip.behind::<L, DISTINCT>(columns.start);
+    let (mut cells, mut worn) = strip.wear::<L, DISTINCT, DISC_WEARS>(rules, columns.start);
+    for column in columns {
+        let (mut ahead, mut next_worn) = (edge, (cells, worn));
+        if column + 1 < strip.disc_height.len() {
+            next_worn = strip.wear::<L, DISTINCT, DISC_WEARS>(rules, column + 1);
+            let plateau = strip.pin.plateau[column + 1];
+            ahead = Ahead::new::<DISTINCT, DISC_WEARS>(rules, &next_worn.0, &next_worn.1, plateau);
+        }
+        behind = finish::<L, DISTINCT, DISC_WEARS>(
+            rules,
+            strip,
+            column,
+            &cells,
+            &worn,
+            ahead,
+            behind,
+            &mut strip_moved,
+            &mut moved.seldom,
+            &mut next,
+            reading,
+        );
+        (cells, worn) = next_worn;
+    }
+    strip_moved.store::<DISTINCT, true>(strip.index, moved);
+    next.store(strip.index, reading);
 }
 
 impl Strip<'_> {

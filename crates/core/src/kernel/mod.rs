@@ -8,6 +8,7 @@ mod edge;
 mod instructions;
 pub(crate) mod lanes;
 mod local;
+mod local_plain;
 mod moved;
 mod pairs;
 mod plain;

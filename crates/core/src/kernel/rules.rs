@@ -152,10 +152,16 @@ impl<'a, L: Lanes> StripRules<'a, L> {
         L::splat(self.rules.reference_height)
     }
 
+    /// What of the losses of eight pairs of plateaus local debris may compact behind them, m.
+    #[inline(always)]
+    pub fn caught_of_plateaus(&self, lost: L) -> L {
+        lost * L::splat(self.rules.captured_fraction)
+    }
+
     /// What of the losses of eight pairs local debris may compact behind them, m.
     #[inline(always)]
     pub fn caught(&self, of_plateaus: L, of_resin: L) -> L {
-        of_plateaus * L::splat(self.rules.captured_fraction) + of_resin * L::splat(self.rules.captured_resin_fraction)
+        self.caught_of_plateaus(of_plateaus) + of_resin * L::splat(self.rules.captured_resin_fraction)
     }
 
     /// A deposit in quanta.

@@ -23,7 +23,7 @@ use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
 
 /// Columns of a strip with something out of the ordinary after which it is not looked for any more.
-const MOST_UNUSUAL: usize = 12;
+pub(super) const MOST_UNUSUAL: usize = 12;
 
 /// A sweep over a span; the flag tells whether the pair of its first pin column with the disc column before its first
 /// is to be read for the next step.

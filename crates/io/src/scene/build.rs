@@ -30,6 +30,9 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
     let parameters = parameters(&settings)?;
+    warnings.extend(debris_by_default(&settings));
+    // From here on it is `debris`.
+    settings.remove("plateaus.debris_pool");
     let duration = settings.optional_number("operation.duration")?;
     let output = output(&mut settings, &parameters, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
@@ -181,17 +184,30 @@ fn materials(settings: &Settings) -> Result<Materials, Problem> {
     })
 }
 
+/// A word to scenes of before local debris that leave the rule open.
+fn debris_by_default(settings: &Settings) -> Option<String> {
+    let (debris, pool) = (settings.origin("plateaus.debris"), settings.get("plateaus.debris_pool"));
+    let is_open = debris == Origin::Default && pool.is_none() && settings.bool("plateaus.formation").unwrap_or(false);
+    is_open.then(|| {
+        "plateaus.debris is not given: wear debris goes to one pool for the whole contact, as before; write debris = \
+         \"contact\" to keep that, or \"local\" for the rule of the paper"
+            .to_owned()
+    })
+}
+
 fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
     Ok(PlateauRules {
         captured_fraction: settings.number("plateaus.captured_fraction")?,
         captured_resin_fraction: settings.optional_number("plateaus.captured_resin_fraction")?,
-        pad_share: settings.number("plateaus.pad_share")?,
-        debris: match settings.text("plateaus.debris_pool")? {
+        // Local debris has neither.
+        pad_share: settings.optional_number("plateaus.pad_share")?.unwrap_or(0.0),
+        debris: match settings.text("plateaus.debris")? {
+            "local" => DebrisRule::Local,
             "track" => DebrisRule::Track,
             _ => DebrisRule::Contact,
         },
         formation: settings.bool("plateaus.formation")?,
-        destruction: settings.bool("plateaus.destruction")?,
+        destruction: settings.get("plateaus.destruction").is_some() && settings.bool("plateaus.destruction")?,
     })
 }
 

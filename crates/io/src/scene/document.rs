@@ -55,6 +55,11 @@ impl fmt::Display for Value {
     }
 }
 
+/// Whether a key is given with this value.
+pub(super) fn chooses(entries: &Entries, choose: schema::Choose) -> bool {
+    matches!(entries.get(choose.key), Some(Entry { value: Value::Text(text), .. }) if text == choose.value)
+}
+
 /// A value and where it was given.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Entry {

@@ -53,6 +53,9 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
                 remove_others(group, chosen, &mut entries);
             }
         }
+        for meaningless in schema::MEANINGLESS.iter().filter(|each| document::chooses(&layer, each.beside)) {
+            remove(meaningless.key, &mut entries);
+        }
         lay_over(&mut entries, layer);
     }
     entries.remove("extends");

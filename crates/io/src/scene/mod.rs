@@ -41,6 +41,7 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
         settings::refuse_missing(&entries, path, &mut problems);
     }
     settings::refuse_lone_companions(&entries, &mut problems);
+    settings::refuse_meaningless(&entries, &mut problems);
     let settings = Settings::read(&entries, path, &mut problems);
     if !problems.is_empty() {
         return Err(SceneError::new(problems));

@@ -38,6 +38,10 @@ impl Settings {
         self.values.insert(path.to_owned(), (setting, origin.clone()));
     }
 
+    pub(super) fn remove(&mut self, path: &str) {
+        self.values.remove(path);
+    }
+
     pub(super) fn get(&self, path: &str) -> Option<&Setting> {
         self.values.get(path).map(|(setting, _)| setting)
     }
@@ -101,16 +105,17 @@ impl Settings {
     fn fill_in(&mut self, entries: &Entries, scene: &Path) {
         for key in schema::keys() {
             let path = key.path();
-            if entries.contains_key(&path) || !applies(key, entries) {
+            if entries.contains_key(&path) || !applies(key, entries) || is_meaningless(&path, entries) {
                 continue;
             }
             let setting = match key.need {
-                Need::Default(text) => {
-                    document::read_default(text).and_then(|entry| interpret(&path, key.kind, &entry, scene).ok())
+                Need::Default(text) => read_default(key, text, scene),
+                Need::RequiredUnless(choose, text) if document::chooses(entries, choose) => {
+                    read_default(key, text, scene)
                 }
                 Need::SameAs(table) => self.get(&schema::join(table, key.name)).cloned(),
                 Need::Computed(_) => self.computed(&path, entries, scene),
-                Need::Required | Need::OneOf | Need::Optional => None,
+                Need::Required | Need::RequiredUnless(..) | Need::OneOf | Need::Optional => None,
             };
             if let Some(setting) = setting {
                 self.insert(&path, setting, &Origin::Default);
@@ -123,6 +128,9 @@ impl Settings {
         match path {
             "title" => Some(Setting::Text(stem.into_owned())),
             "output.file" => Some(Setting::Text(format!("{stem}.h5"))),
+            "plateaus.debris" => {
+                Some(self.get("plateaus.debris_pool").cloned().unwrap_or(Setting::Text("contact".to_owned())))
+            }
             "output.maps" => Some(Setting::Maps(Map::ALL.to_vec())),
             // They have a meaning only beside an image.
             "pin.base.rotate" | "pin.base.threshold" | "pin.base.fibres" if !entries.contains_key("pin.base.image") => {
@@ -138,6 +146,15 @@ impl Settings {
             _ => None,
         }
     }
+}
+
+fn read_default(key: &Key, text: &str, scene: &Path) -> Option<Setting> {
+    document::read_default(text).and_then(|entry| interpret(&key.path(), key.kind, &entry, scene).ok())
+}
+
+/// Whether a key has no meaning beside a value of another key.
+fn is_meaningless(path: &str, entries: &Entries) -> bool {
+    schema::MEANINGLESS.iter().any(|each| each.key == path && document::chooses(entries, each.beside))
 }
 
 /// Whether the inline table that holds the key, if it is in one, is there.
@@ -162,12 +179,27 @@ pub(super) fn refuse_lone_companions(entries: &Entries, problems: &mut Vec<Probl
     }
 }
 
+/// `pad_share` means nothing with `debris = "local"`.
+pub(super) fn refuse_meaningless(entries: &Entries, problems: &mut Vec<Problem>) {
+    for each in schema::MEANINGLESS.iter().filter(|each| document::chooses(entries, each.beside)) {
+        if let Some(entry) = entries.get(each.key) {
+            let schema::Choose { key, value } = each.beside;
+            let message = format!("this key has no meaning beside {key} = \"{value}\": {}; leave it out", each.reason);
+            problems.push(Problem::new(&entry.origin, each.key, message));
+        }
+    }
+}
+
 /// Tells all missing keys at once, table by table.
 pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec<Problem>) {
     let given = |section, name| entries.contains_key(&schema::join(section, name));
     let mut message = String::new();
     for section in schema::sections() {
-        let keys = schema::keys().iter().filter(|key| key.section == section && key.need == Need::Required);
+        let is_required = |key: &Key| match key.need {
+            Need::RequiredUnless(choose, _) => !document::chooses(entries, choose),
+            need => need == Need::Required,
+        };
+        let keys = schema::keys().iter().filter(|key| key.section == section && is_required(key));
         let keys = keys.filter(|key| !given(section, key.name) && applies(key, entries));
         let groups = schema::GROUPS.iter().filter(|group| group.section == section && group.required);
         let groups = groups.filter(|group| group.applies(|path| entries.contains_key(path)));

@@ -38,7 +38,7 @@ pub(super) fn header(
         source_revision: version::REVISION.into(),
         host: machine::host(),
         workers: simulation.execution().workers,
-        instruction_set: simulation.execution().instructions.name().into(),
+        instruction_set: simulation.execution().means().into(),
         seeds: scene.seeds.clone(),
         inputs,
         surfaces: surfaces.to_vec(),

@@ -1,9 +1,9 @@
 //! The table of keys.
 
-use super::{Group, Key, Kind, Need, Range};
+use super::{Choose, Group, Key, Kind, Meaningless, Need, Range};
 use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Text, Times, True};
-use Need::{Computed, Default, OneOf, Optional, Required, SameAs};
+use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, SameAs};
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] =
     &[("file", &["dataset", "unit", "pitch", "height_range"]), ("synthetic", &[]), ("flat", &[])];
@@ -28,6 +28,23 @@ pub const GROUPS: &[Group] = &[
     Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true },
     Group { section: "pin.surface", members: TEXTURES, required: true },
     Group { section: "output", members: &[("sample_every", &[]), ("sample_every_steps", &[])], required: false },
+    Group { section: "plateaus", members: &[("debris", &[]), ("debris_pool", &[])], required: false },
+];
+
+const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };
+
+/// Keys that have no meaning beside a value of another key.
+pub const MEANINGLESS: &[Meaningless] = &[
+    Meaningless {
+        beside: DEBRIS_IS_LOCAL,
+        key: "plateaus.pad_share",
+        reason: "local debris goes to the pin up to the plateau ahead and then to the disc",
+    },
+    Meaningless {
+        beside: DEBRIS_IS_LOCAL,
+        key: "plateaus.destruction",
+        reason: "with local debris no plateau falls for want of support, it goes when it is worn through",
+    },
 ];
 
 /// Quarters of a turn, in order.
@@ -89,10 +106,17 @@ pub(super) fn all() -> Vec<Key> {
 
     table.section = "plateaus";
     table.key(
+        "debris",
+        Choice(&["local", "contact", "track"]),
+        Computed("`\"contact\"`"),
+        "where wear debris goes: into the gap behind the cell that wears, into a pool, or into one for each row of cells",
+    );
+    table.key("debris_pool", Choice(&["contact", "track"]), Optional, "the former name of `debris`, for the two pools");
+    table.key(
         "captured_fraction",
         Number(Range::FRACTION),
-        Required,
-        "fraction of the wear debris that stays in the contact; the rest leaves",
+        RequiredUnless(DEBRIS_IS_LOCAL, "1"),
+        "fraction of the wear debris that may stay in the contact; the rest leaves",
     );
     table.key(
         "captured_resin_fraction",
@@ -100,15 +124,10 @@ pub(super) fn all() -> Vec<Key> {
         Optional,
         "the same of what wears off resin, where that is another",
     );
-    table.key("pad_share", Number(Range::FRACTION), Default("0.5"), "pin's share of a deposit on both surfaces");
-    table.key(
-        "debris_pool",
-        Choice(&["contact", "track"]),
-        Default("\"contact\""),
-        "where loose debris is kept: one pool, or one for each row of cells",
-    );
+    let pad_share = "pin's share of a deposit on both surfaces, with a pool";
+    table.key("pad_share", Number(Range::FRACTION), Default("0.5"), pad_share);
     table.key("formation", Bool, Default("true"), "whether plateaus form at all");
-    table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up");
+    table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up, with a pool");
 
     table.section = "disc.surface";
     table.heights();

@@ -15,8 +15,8 @@ use std::sync::LazyLock;
 use crate::units::Dimension;
 
 pub use json_schema::document as json_schema;
-pub use keys::GROUPS;
 pub(crate) use keys::ROTATIONS;
+pub use keys::{GROUPS, MEANINGLESS};
 pub(crate) use suggest::{nearest, unknown};
 pub use tables::table_meaning;
 
@@ -119,8 +119,30 @@ pub enum Need {
     SameAs(&'static str),
     /// A value that depends on the scene is taken.
     Computed(&'static str),
+    /// It is an error, unless another key has a certain value: then this value is taken, in TOML.
+    RequiredUnless(Choose, &'static str),
     /// What the key describes is not done.
     Optional,
+}
+
+/// A value of a key that decides over others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choose {
+    /// Full path of the key.
+    pub key: &'static str,
+    /// The word.
+    pub value: &'static str,
+}
+
+/// A key that has no meaning beside a value of another, and why.
+#[derive(Debug, Clone, Copy)]
+pub struct Meaningless {
+    /// The value that takes its meaning.
+    pub beside: Choose,
+    /// Full path of the key.
+    pub key: &'static str,
+    /// What the value does instead.
+    pub reason: &'static str,
 }
 
 /// Keys of which a scene gives exactly one, or at most one.

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::super::suggest::children;
 use super::super::{GROUPS, Group, Key, Need, find, is_below, is_table, join, keys};
-use super::exclusion::{members, name_in};
+use super::exclusion::{chooses, members, name_in};
 
 /// What must be in a table, and in the tables in it.
 pub(super) fn table(path: &str) -> Map<String, Value> {
@@ -32,7 +32,8 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
     if !properties.is_empty() {
         schema.insert("properties".into(), properties.into());
     }
-    let choices = choices(path);
+    let mut choices = choices(path);
+    choices.extend(unless(path));
     if !choices.is_empty() {
         schema.insert("allOf".into(), choices.into());
     }
@@ -46,7 +47,8 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
 /// Whether a table holds anything that is required, but for tables that are themselves a choice.
 fn is_needed(path: &str) -> bool {
     let in_it = |section: &str| section == path || is_below(section, path);
-    let key = |key: &Key| key.need == Need::Required && key.inline_table().is_none() && in_it(key.section);
+    let is_required = |key: &Key| matches!(key.need, Need::Required | Need::RequiredUnless(..));
+    let key = |key: &Key| is_required(key) && key.inline_table().is_none() && in_it(key.section);
     let group = |group: &Group| {
         let plain = group.members.iter().all(|(name, _)| !name.contains('.'));
         group.required && plain && in_it(group.section)
@@ -59,6 +61,18 @@ fn choices(path: &str) -> Vec<Value> {
     let groups = GROUPS.iter().filter(|group| group.required).filter_map(|group| members(group, path));
     let one = |name: &str| json!({ "required": [name] });
     groups.map(|names| json!({ "anyOf": names.into_iter().map(one).collect::<Vec<_>>() })).collect()
+}
+
+/// Keys that are required unless another of the table has a certain value.
+fn unless(path: &str) -> Vec<Value> {
+    let of_table = keys().iter().filter(|key| key.section == path);
+    let alternatives = of_table.filter_map(|key| match key.need {
+        Need::RequiredUnless(choose, _) => {
+            Some(json!({ "anyOf": [{ "required": [key.name] }, chooses(path, choose)?] }))
+        }
+        _ => None,
+    });
+    alternatives.collect()
 }
 
 /// Keys that have a meaning only beside an alternative, each with that alternative.

@@ -35,6 +35,9 @@ fn absent(key: &Key) -> Option<String> {
         Need::Default(default) => Some(format!("Default: {default}")),
         Need::SameAs(table) => Some(format!("Default: as in [{table}]")),
         Need::Computed(what) => Some(format!("Default: {}", what.replace('`', ""))),
+        Need::RequiredUnless(choose, default) => {
+            Some(format!("Required; default with {} = \"{}\": {default}", choose.key, choose.value))
+        }
         Need::OneOf => key.group().map(|group| {
             let count = if group.required { "One of" } else { "At most one of" };
             format!("{count} {}", group.names())

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::{GROUPS, Group, join};
+use super::super::{Choose, GROUPS, Group, MEANINGLESS, Meaningless, join};
 
 /// For each alternative of a table: the others are not there. An editor so marks the key that is one too many.
 pub(super) fn table(path: &str) -> Map<String, Value> {
@@ -15,6 +15,21 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
         }
     }
     dependencies
+}
+
+/// That a key of this table is given with this value.
+pub(super) fn chooses(table: &str, choose: Choose) -> Option<Value> {
+    let name = choose.key.strip_prefix(table)?.strip_prefix('.')?;
+    Some(json!({ "required": [name], "properties": { name: { "const": choose.value } } }))
+}
+
+/// For each value of a key that takes the meaning of others of this table: those are not there.
+pub(super) fn meaningless(table: &str) -> Vec<Value> {
+    let rule = |each: &Meaningless| {
+        let name = each.key.strip_prefix(table)?.strip_prefix('.')?;
+        Some(json!({ "if": chooses(table, each.beside)?, "then": { "properties": { name: false } } }))
+    };
+    MEANINGLESS.iter().filter_map(rule).collect()
 }
 
 /// The alternatives of a group by their names in this table, if they belong there.

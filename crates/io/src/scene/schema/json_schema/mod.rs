@@ -40,6 +40,10 @@ fn table(path: &str) -> Map<String, Value> {
     if !exclusions.is_empty() {
         schema.insert("dependencies".into(), exclusions.into());
     }
+    let meaningless = exclusion::meaningless(path);
+    if !meaningless.is_empty() {
+        schema.insert("allOf".into(), meaningless.into());
+    }
     schema
 }
 
