@@ -2,7 +2,7 @@
 
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::simulation::Simulation;
 use plateau_core::state::{Base, InitialSurfaces};
 
@@ -38,7 +38,7 @@ pub fn wear_only(rows: usize, disc_columns: usize, pin_columns: usize) -> Parame
             captured_fraction: 0.0,
             captured_resin_fraction: None,
             pad_share: 0.5,
-            debris_pool: DebrisPool::Contact,
+            debris: DebrisRule::Contact,
             formation: false,
             destruction: false,
         },
@@ -85,4 +85,45 @@ pub fn random_surfaces(mesh: &Mesh, seed: u64) -> InitialSurfaces {
             .map(|_| if stream.uniform() < 0.4 { Base::Primary } else { Base::None })
             .collect(),
     }
+}
+
+/// Any scene of the model on a small mesh, with every option, drawn from a seed.
+pub fn random_scene(seed: u64, debris: DebrisRule) -> Parameters {
+    let mut stream = Stream(seed ^ 0xA5A5_5A5A_0F0F_F0F0);
+    let mut between = |low: f64, high: f64| low + (high - low) * stream.uniform();
+    let (rows, disc_columns) = (between(1.0, 20.0) as usize, between(2.0, 40.0) as usize);
+    let pin_columns = 1 + (between(0.0, 1.2).min(0.999) * disc_columns as f64) as usize;
+    let mut parameters = wear_only(rows, disc_columns, pin_columns);
+    parameters.normal_force = 10.0_f64.powf(between(-2.0, 2.0)) * rows as f64 * pin_columns as f64 / 100.0;
+    parameters.time_acceleration = 10.0_f64.powf(between(0.0, 2.7));
+    let often = |number: f64| number < 0.8;
+    parameters.plateaus = PlateauRules {
+        debris,
+        captured_fraction: between(0.0, 1.3).min(1.0),
+        captured_resin_fraction: if often(between(0.0, 1.0)) { None } else { Some(between(0.0, 1.0)) },
+        pad_share: between(0.0, 1.0),
+        formation: often(between(0.0, 0.9)),
+        destruction: often(between(0.0, 1.2)),
+    };
+    parameters.integrator = if between(0.0, 1.0) < 0.5 { Integrator::Explicit } else { Integrator::Exponential };
+    let materials = &mut parameters.materials;
+    materials.wear_height = between(0.2e-6, 6e-6);
+    // Fibre wears: else heights tie, and rounding decides which cells touch.
+    materials.pin_primary.specific_wear_rate = between(1e-15, 1e-13);
+    materials.pin_secondary = materials.pin_primary;
+    if between(0.0, 1.0) < 0.6 {
+        materials.disc_primary.specific_wear_rate = between(-1e-14, 1e-14).max(0.0);
+        materials.disc_secondary = materials.disc_primary;
+    }
+    if between(0.0, 1.0) < 0.5 {
+        materials.pin_secondary.specific_wear_rate = between(1e-15, 2e-13);
+        materials.pin_secondary.youngs_modulus = 4e8;
+        materials.disc_secondary.specific_wear_rate = between(-1e-14, 2e-14).max(0.0);
+        materials.disc_secondary.youngs_modulus = 5e9;
+    }
+    if parameters.stiffness_number() > 1.0 {
+        // The explicit rule is unstable there, so that the rounding of either engine grows.
+        parameters.integrator = Integrator::Exponential;
+    }
+    parameters
 }

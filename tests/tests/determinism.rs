@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use plateau_core::kernel::InstructionSet;
 use plateau_core::observe::{Map, Sample};
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::{scene as scene_file, surface};
@@ -75,7 +75,7 @@ impl Scene {
                 let grid = if bands.is_some() { "in one band" } else { "in the best bands" };
                 let variant = format!("{}, {workers} workers {grid} with {}", self.name, instructions.name());
                 let scene = self.clone();
-                let execution = Execution { workers, instructions, bands, pin: false };
+                let execution = Execution { workers, instructions, bands, ..Execution::default() };
                 let compare = move || first_divergence(|| scene.reference(), || scene.start(execution));
                 if let Some(divergence) = within(PATIENCE, &variant, compare) {
                     panic!("{variant}: {divergence}");
@@ -165,7 +165,7 @@ fn rows_that_fill_no_strip_and_columns_that_no_number_of_workers_divides() {
         parameters.materials.disc_primary.specific_wear_rate = 1e-15;
         parameters.materials.pin_secondary.specific_wear_rate = 9e-14;
         parameters.materials.disc_secondary.youngs_modulus = 2e10;
-        parameters.plateaus.debris_pool = DebrisPool::Track;
+        parameters.plateaus.debris = DebrisRule::Track;
         parameters.integrator = Integrator::Exponential;
     };
     Scene::random([13, 211, 29], change).agrees_for_all(the_disc_wears_too);

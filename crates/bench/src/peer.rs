@@ -7,7 +7,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
 
 use plateau_core::material::Material;
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::parts::Needs;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -188,7 +188,7 @@ fn supported(parameters: &Parameters) -> Result<(), BenchError> {
         (disc_wears, "wear of the disc"),
         (!forms, "no formation"),
         (!destroys, "no destruction"),
-        (parameters.plateaus.debris_pool != DebrisPool::Contact, "one pool per track"),
+        (parameters.plateaus.debris != DebrisRule::Contact, "one pool per track"),
         (parameters.integrator != Integrator::Explicit, "exponential wear"),
     ];
     match unsupported.into_iter().find(|(asked, _)| *asked) {

@@ -30,7 +30,7 @@ pub fn decide(
     surfaces: &InitialSurfaces,
 ) -> Result<Execution, SimulationError> {
     let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
-    let execution = Execution { workers: 1, instructions, bands: None, pin: arguments.pin };
+    let execution = Execution { instructions, pin: arguments.pin, ..Execution::default() };
     if ranks > 1 {
         if workers != Workers::Count(1) || arguments.pin {
             message::warning(format_args!(

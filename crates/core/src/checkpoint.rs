@@ -16,7 +16,8 @@ use crate::worker::Course;
 /// The complete state of a simulation between two steps.
 ///
 /// A simulation of the same parameters and initial surfaces that is given it takes the coming steps bit for bit as the one
-/// that it was taken of, with any number of workers and any instruction set.
+/// that it was taken of, with any number of workers and any instruction set,
+/// on the same engine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// z_d, m, column by column.
@@ -37,9 +38,16 @@ pub(crate) struct Memory {
     pub course: Course,
     pub clock: Clock,
     pub time_acceleration: f64,
-    pub contact: Contact,
     pub account: Account,
     pub history: History,
+    /// What the fast engine keeps beside it; the plain model needs nothing more.
+    pub engine: Option<EngineMemory>,
+}
+
+/// What the fast engine keeps from step to step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct EngineMemory {
+    pub contact: Contact,
     pub forecast: Forecast,
     pub bracket: Option<Bracket>,
     pub overlaps: Quantum,

@@ -1,10 +1,10 @@
-//! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4.4 and 4.5).
+//! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4L and 4P).
 
 use crate::contact::Contact;
 use crate::exact::{Quantum, float};
 use crate::kernel::{Chunk, LANES};
 use crate::pair::Coefficients;
-use crate::parameters::Parameters;
+use crate::parameters::{DebrisRule, Parameters};
 use crate::parts::Needs;
 use crate::strips::strips;
 use crate::sum::RunningSum;
@@ -30,6 +30,30 @@ pub struct Totals {
     pub emitted: RunningSum,
 }
 
+impl Totals {
+    /// (worn + returned − deposited − emitted − pool) / worn with this much (m³) in the pools; 0 if nothing is worn.
+    pub fn balance_residual(&self, pool: f64) -> f64 {
+        let worn = self.worn_pin.value() + self.worn_resin.value() + self.worn_disc.value();
+        if worn == 0.0 {
+            return 0.0;
+        }
+        let mut rest = RunningSum::default();
+        for term in [
+            self.worn_pin.value(),
+            self.worn_resin.value(),
+            self.worn_disc.value(),
+            self.returned.value(),
+            -self.deposited_pin.value(),
+            -self.deposited_disc.value(),
+            -self.emitted.value(),
+            -pool,
+        ] {
+            rest.add(term);
+        }
+        rest.value() / worn
+    }
+}
+
 /// What the pools hold, and what went through them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Account {
@@ -42,6 +66,8 @@ pub struct Account {
 /// The pools of debris and the account of all that went through them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Debris {
+    /// Whether there are no pools.
+    local: bool,
     captured_fraction: f64,
     captured_resin_fraction: f64,
     /// β.
@@ -56,6 +82,8 @@ pub struct Debris {
     area_unit: f64,
     /// Power of two that is above any loss per overlap.
     loss_exponent: i32,
+    /// What of the loss of a pair of plateaus may be compacted, per overlap.
+    largest_deposit: f64,
     /// M, m³: one pool, or one per row.
     pools: Vec<RunningSum>,
     /// s = M/S of every pool, m; 0 without formation.
@@ -75,6 +103,7 @@ impl Debris {
         let area_of =
             |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
         Self {
+            local: rules.debris == DebrisRule::Local,
             captured_fraction: rules.captured_fraction,
             captured_resin_fraction: rules.captured_of_resin(),
             pad_share: rules.pad_share,
@@ -84,6 +113,7 @@ impl Debris {
             pool_area: (0..weights.pools()).map(area_of).collect(),
             area_unit: weights.area.unit(),
             loss_exponent: loss_exponent(coefficients),
+            largest_deposit: rules.captured_fraction * largest_loss(coefficients),
             pools: vec![RunningSum::default(); weights.pools()],
             pool_share: vec![0.0; weights.pools()],
             share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
@@ -95,6 +125,7 @@ impl Debris {
     /// Takes over the coefficients of another acceleration.
     pub fn set_coefficients(&mut self, coefficients: &Coefficients) {
         self.loss_exponent = loss_exponent(coefficients);
+        self.largest_deposit = self.captured_fraction * largest_loss(coefficients);
     }
 
     /// What the pools hold, and what went through them.
@@ -107,15 +138,21 @@ impl Debris {
         (self.pools, self.totals) = (pools, totals);
     }
 
-    /// Spreads each pool evenly over its cells that do not touch: s = M/S.
-    pub fn spread(&mut self, contact: &Contact) {
-        if !self.needs.forms {
-            return;
+    /// Makes ready for the deposits of a step in whose contact no overlap is more than `largest_overlap` (m).
+    pub fn prepare(&mut self, contact: &Contact, largest_overlap: f64) {
+        if self.needs.local {
+            self.deposits = Quantum::of(self.largest_deposit * largest_overlap, self.columns);
+        } else if self.needs.forms {
+            self.spread(contact);
         }
+    }
+
+    /// Spreads each pool evenly over its cells that do not touch: s = M/S.
+    fn spread(&mut self, contact: &Contact) {
         let mut largest = 0.0_f64;
         for (index, (pool, share)) in self.pools.iter().zip(&mut self.pool_share).enumerate() {
             let open = self.pool_area[index] - contact.pools()[index].area;
-            // Rounding may leave a trace of debt in an emptied pool; it is not spread, and the next step settles it.
+            // Rounding may leave a trace of debt in a pool that has given nearly all; it is not spread.
             *share = if open > 0 { (pool.value() / (float(open) * self.area_unit)).max(0.0) } else { 0.0 };
             largest = largest.max(*share);
         }
@@ -145,15 +182,18 @@ impl Debris {
         overlaps.coarser(self.loss_exponent)
     }
 
-    /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool.
+    /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool; with local debris
+    /// emitted += worn − deposited, and there is no pool.
     ///
     /// What wears follows from the contact, less what cells were spared whose build-up was worn through; what is
-    /// compacted is the even deposit on every open cell, and what some got beyond it.
+    /// compacted is the even deposit on every open cell, and what some got beyond it. Where every open cell got the whole
+    /// share, the pool has given all.
     pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) {
         for (index, (contact, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
             let mut worn_pin = contact.pin_loss;
             let worn_resin = self.wear_height * (float(contact.resin_area) * self.area_unit);
             let mut worn_disc = contact.disc_loss;
+            let mut emptied = false;
             let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
             if self.needs.forms {
                 let open = self.pool_area[index] - contact.area;
@@ -165,6 +205,9 @@ impl Debris {
                 };
                 deposited_pin = deposited(even_on_pin, sums.deposited_pin);
                 deposited_disc = deposited(share - even_on_pin, sums.deposited_disc);
+                deposited_pin += sums.deposited_pin_of_resin.value();
+                deposited_disc += sums.deposited_disc_of_resin.value();
+                emptied = self.local || (open > 0 && !sums.limited);
                 worn_pin -= sums.spared_resin.value();
                 returned = sums.returned.value();
             }
@@ -174,11 +217,20 @@ impl Debris {
                 worn_disc -= spared(sums.spared_disc);
             }
 
-            let [captured, emitted] = self.part(worn_pin, worn_resin, worn_disc);
+            let [captured, emitted] = match self.local {
+                true => [0.0, worn_pin + worn_resin + worn_disc - (deposited_pin + deposited_disc)],
+                false => self.part(worn_pin, worn_resin, worn_disc),
+            };
             let pool = &mut self.pools[index];
+            if emptied {
+                // Exactly: what rounding would leave could make a cell of the next step secondary.
+                *pool = RunningSum::default();
+            }
             pool.add(captured);
             pool.add(returned);
-            pool.add(-(deposited_pin + deposited_disc));
+            if !emptied {
+                pool.add(-(deposited_pin + deposited_disc));
+            }
 
             self.totals.worn_pin.add(worn_pin);
             self.totals.worn_resin.add(worn_resin);
@@ -214,31 +266,23 @@ impl Debris {
 
     /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
     pub fn balance_residual(&self) -> f64 {
-        let totals = &self.totals;
-        let worn = totals.worn_pin.value() + totals.worn_resin.value() + totals.worn_disc.value();
-        if worn == 0.0 {
-            return 0.0;
-        }
-        let mut rest = RunningSum::default();
-        for term in [
-            totals.worn_pin.value(),
-            totals.worn_resin.value(),
-            totals.worn_disc.value(),
-            totals.returned.value(),
-            -totals.deposited_pin.value(),
-            -totals.deposited_disc.value(),
-            -totals.emitted.value(),
-            -self.pool(),
-        ] {
-            rest.add(term);
-        }
-        rest.value() / worn
+        self.totals.balance_residual(self.pool())
     }
 }
 
 /// Power of two that is above any loss per overlap.
 fn loss_exponent(coefficients: &Coefficients) -> i32 {
-    let losses = coefficients.pin.iter().chain(&coefficients.disc).flatten();
-    let largest = losses.copied().fold(0.0, f64::max);
+    let [pin, disc] = largest_losses(coefficients);
+    let largest = pin.max(disc);
     if largest > 0.0 { libm::ilogb(largest) + 1 } else { 0 }
+}
+
+/// What a pair of plateaus loses per overlap, at most.
+fn largest_loss(coefficients: &Coefficients) -> f64 {
+    largest_losses(coefficients).into_iter().sum()
+}
+
+/// The largest loss of pin and disc per overlap.
+fn largest_losses(coefficients: &Coefficients) -> [f64; 2] {
+    [&coefficients.pin, &coefficients.disc].map(|table| table.iter().flatten().copied().fold(0.0, f64::max))
 }

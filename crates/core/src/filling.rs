@@ -111,6 +111,11 @@ impl Filling {
         self.secondary_area.subtract(before.1);
     }
 
+    /// z_ref, m: highest initial height of the whole disc.
+    pub fn reference_height(&self) -> f64 {
+        self.reference
+    }
+
     /// Σ A (z_ref − z_d)₊ over the own columns, m³.
     pub fn open_volume(&self) -> RingSum {
         self.open_volume

@@ -57,6 +57,7 @@ pub mod history;
 pub mod kernel;
 pub mod material;
 pub mod mesh;
+pub mod model;
 pub mod observe;
 pub mod pair;
 pub mod parameters;

@@ -4,12 +4,14 @@ use crate::clock::Clock;
 use crate::material::Materials;
 use crate::mesh::Mesh;
 
-/// Where worn material waits until it is compacted (model 4.5).
+/// Where what wears is compacted (model 4L and 4P).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DebrisPool {
-    /// One pool for the whole contact.
+pub enum DebrisRule {
+    /// In the gap behind the cell that wears, in the same step; what finds no room leaves the contact.
+    Local,
+    /// In all open cells evenly, out of one pool for the whole contact.
     Contact,
-    /// One pool per radius.
+    /// In all open cells of a row evenly, out of one pool for each row.
     Track,
 }
 
@@ -22,20 +24,20 @@ pub enum Integrator {
     Exponential,
 }
 
-/// Formation and destruction of secondary plateaus (model 4.3 to 4.5).
+/// Formation and destruction of secondary plateaus (model 4L and 4P).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlateauRules {
-    /// η: fraction of the worn volume that stays in the contact.
+    /// How debris travels.
+    pub debris: DebrisRule,
+    /// η: fraction of the worn volume that stays in the contact (pools) or may be compacted (local debris).
     pub captured_fraction: f64,
     /// η of what wears off resin, where that is another.
     pub captured_resin_fraction: Option<f64>,
-    /// β: the pin's share of a deposit where both surfaces can form a plateau.
+    /// β: the pin's share of a deposit where both surfaces can form a plateau; pools only.
     pub pad_share: f64,
-    /// One pool for the contact or one per radius.
-    pub debris_pool: DebrisPool,
-    /// Rule 4.4; without it captured debris stays in the pool.
+    /// Whether plateaus form; without it captured debris stays in its pool, and with local debris all leaves the contact.
     pub formation: bool,
-    /// Rule 4.3(b): unsupported plateaus of the pin go back to the pool.
+    /// Whether unsupported plateaus of the pin go back to their pool; pools only.
     pub destruction: bool,
 }
 

@@ -1,6 +1,6 @@
 //! Which parts of the model a scene needs, and which it leaves out.
 
-use crate::parameters::{DebrisPool, Integrator, Parameters};
+use crate::parameters::{DebrisRule, Integrator, Parameters};
 use crate::state::Base;
 
 /// Name of the part that accelerates.
@@ -26,6 +26,8 @@ pub struct Needs {
     pub disc_wears: bool,
     /// Plateaus can form.
     pub forms: bool,
+    /// They form of what wears ahead of them, and there is no pool.
+    pub local: bool,
     /// Plateaus can fall.
     pub destroys: bool,
 }
@@ -43,7 +45,8 @@ impl Needs {
             disc_wears: materials.disc_primary.specific_wear_rate > 0.0
                 || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
             forms,
-            destroys: forms && rules.destruction,
+            local: forms && rules.debris == DebrisRule::Local,
+            destroys: forms && rules.destruction && rules.debris != DebrisRule::Local,
         }
     }
 }
@@ -52,7 +55,7 @@ impl Needs {
 pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
     let materials = &parameters.materials;
     let has = |base| pin_base.contains(&base);
-    let Needs { distinct, disc_wears, forms, destroys } = Needs::of(parameters);
+    let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
     let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
         || (forms && materials.pin_secondary.specific_wear_rate > 0.0);
     let part = |name, needed, reason_needed, reason_left_out| Part {
@@ -74,7 +77,10 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
             "destruction of plateaus",
             destroys && has(Base::None),
             "destruction = true on resin",
-            "destruction = false, no formation, or no resin",
+            match parameters.plateaus.debris {
+                DebrisRule::Local => "debris = \"local\" has none for lack of support",
+                DebrisRule::Contact | DebrisRule::Track => "destruction = false, no formation, or no resin",
+            },
         ),
         part(
             "properties of their own for build-ups",
@@ -83,10 +89,16 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
             "secondary materials equal primary ones",
         ),
         part(
+            "debris pool",
+            forms && !local,
+            "debris = \"contact\" or \"track\"",
+            "debris = \"local\", or no formation",
+        ),
+        part(
             "one debris pool per track",
-            parameters.plateaus.debris_pool == DebrisPool::Track,
-            "debris_pool = \"track\"",
-            "debris_pool = \"contact\"",
+            parameters.plateaus.debris == DebrisRule::Track,
+            "debris = \"track\"",
+            "debris = \"local\" or \"contact\"",
         ),
         part(
             "exponential wear",

@@ -1,5 +1,6 @@
 //! A pin on a disc, from its first step to its last (model section 4).
 
+use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
@@ -14,15 +15,16 @@ use crate::contact::ContactError;
 use crate::crew::Crew;
 use crate::kernel::InstructionSet;
 use crate::mesh::Mesh;
+use crate::model::plain::Plain;
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 use crate::parameters::Parameters;
+use crate::parts::Needs;
 use crate::pressure_spread::PressureSpread;
 use crate::roughness::{BothRoughness, Roughness};
 use crate::sector::Partition;
 use crate::state::{Base, Disc, InitialSurfaces, Pin};
-use crate::strips::PinStrips;
 pub use crate::worker::Course;
-use crate::worker::Worker;
+use crate::worker::{Worker, halo_words};
 
 /// Why a simulation cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -60,6 +62,14 @@ pub enum SimulationError {
     /// A checkpoint is of another mesh.
     #[error(transparent)]
     Checkpoint(#[from] WrongMesh),
+    /// A checkpoint is of the other engine.
+    #[error("the checkpoint is of the {found} engine, expected one of the {expected} engine")]
+    OtherEngine {
+        /// That of the checkpoint.
+        found: Engine,
+        /// That of the simulation.
+        expected: Engine,
+    },
     /// A worker failed.
     #[error(transparent)]
     Worker(#[from] CommError),
@@ -73,9 +83,30 @@ pub enum SimulationError {
     },
 }
 
-/// How a simulation is carried out. Nothing of it shows in the results.
+/// What takes the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// Eight cells at a time, on any number of workers: one pass over the pin a step.
+    #[default]
+    Fast,
+    /// The plain model, cell by cell ([`crate::model`]), on one worker: the same results but for rounding, slowly.
+    Plain,
+}
+
+impl fmt::Display for Engine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fast => "fast",
+            Self::Plain => "plain",
+        })
+    }
+}
+
+/// How a simulation is carried out. Nothing of it shows in the results, but that the two engines round differently.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Execution {
+    /// What takes the steps.
+    pub engine: Engine,
     /// Workers that share the ring, at least 1: threads or, with feature `mpi`, ranks.
     pub workers: usize,
     /// Instruction set of the kernels.
@@ -88,7 +119,7 @@ pub struct Execution {
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { workers: 1, instructions: InstructionSet::best(), bands: None, pin: false }
+        Self { engine: Engine::Fast, workers: 1, instructions: InstructionSet::best(), bands: None, pin: false }
     }
 }
 
@@ -106,6 +137,8 @@ pub struct Simulation {
 enum Team {
     /// This thread.
     Alone(Box<Worker<Single>>),
+    /// This thread, with the plain model.
+    Plain(Box<Plain>),
     /// Threads of their own.
     Crew(Crew),
     /// This thread and, each for itself, the other ranks of an MPI job.
@@ -118,6 +151,7 @@ macro_rules! team {
     ($simulation:expr, $worker:ident => $call:expr) => {
         match &mut $simulation.team {
             Team::Alone($worker) => $call,
+            Team::Plain($worker) => $call,
             Team::Crew($worker) => $call,
             #[cfg(feature = "mpi")]
             Team::Rank($worker) => $call,
@@ -162,13 +196,18 @@ impl Simulation {
         execution.workers = execution.workers.clamp(1, (mesh.disc_columns() / 2).max(1));
         let partition = Arc::new(Partition::new(mesh, execution.workers, execution.bands));
         let parameters = Arc::new(parameters);
+        if execution.engine == Engine::Plain {
+            let pin_base = surfaces.pin_base.clone();
+            let team = Team::Plain(Box::new(Plain::new(parameters.clone(), surfaces, columns)));
+            return Ok(Self { parameters, pin_base, execution: Execution { workers: 1, ..execution }, team });
+        }
         let instructions = execution.instructions;
         let team =
             if execution.workers == 1 {
                 let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, Single);
                 Team::Alone(Box::new(worker))
             } else {
-                let halo_words = PinStrips::crossing_words(parameters.mesh.rows());
+                let halo_words = halo_words(parameters.mesh.rows(), Needs::of(&parameters).local);
                 let boundaries = if partition.groups() > 1 { partition.sectors() * partition.bands() } else { 0 };
                 let ends = Threads::connect(execution.workers, boundaries, halo_words);
                 let worker = |end: Threads| {
@@ -200,7 +239,8 @@ impl Simulation {
         communicator: Mpi,
     ) -> Result<Self, SimulationError> {
         check(&parameters.mesh, &surfaces)?;
-        let execution = Execution { workers: communicator.size(), instructions, bands: None, pin: false };
+        let workers = communicator.size();
+        let execution = Execution { workers, instructions, ..Execution::default() };
         let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
         let parameters = Arc::new(parameters);
         let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, 0, communicator);
@@ -251,6 +291,7 @@ impl Simulation {
         let [pin_height, pin_substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
         let memory = match &mut self.team {
             Team::Alone(worker) => worker.memory(),
+            Team::Plain(plain) => plain.memory(),
             Team::Crew(crew) => crew.memory()?,
             #[cfg(feature = "mpi")]
             Team::Rank(worker) => worker.memory(),
@@ -360,6 +401,7 @@ impl Simulation {
     pub fn course(&self) -> Course {
         match &self.team {
             Team::Alone(worker) => worker.course(),
+            Team::Plain(plain) => plain.course(),
             Team::Crew(crew) => crew.course(),
             #[cfg(feature = "mpi")]
             Team::Rank(worker) => worker.course(),

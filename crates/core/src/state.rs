@@ -49,6 +49,14 @@ pub struct Pin {
     pub base: Vec<Base>,
 }
 
+impl Pin {
+    /// Status of every cell, column by column.
+    pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
+        let cells = self.height.iter().zip(&self.substrate).zip(&self.base);
+        cells.map(|((height, substrate), base)| pin_status(*height, *substrate, base.is_resin()))
+    }
+}
+
 /// Status of a disc cell: secondary where the surface stands above the substrate.
 pub fn disc_status(height: f64, substrate: f64) -> Status {
     if height > substrate { Status::Secondary } else { Status::Primary }

@@ -1,7 +1,7 @@
 //! Storage of disc and pin as the kernels want it: strips of eight rows, each strip column by column.
 //!
 //! A strip of a column is one [`Chunk`]; a sweep along a strip reads and writes memory from one end to the other. Rows
-//! beyond the mesh fill up the last strip: the pin's are so high that they never touch.
+//! beyond the mesh fill up the last strip: the pin's are so high, and the disc's so low, that they never touch.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::kernel::{Chunk, LANES};
 use crate::mesh::Mesh;
 use crate::state::Base;
 
-/// Height of pin cells that are there only to fill up the last strip, m: out of reach of any disc.
+/// Height of pin cells that are there only to fill up the last strip, m, and depth of disc cells: out of reach of each other.
 const OUT_OF_REACH: f64 = 1e200;
 
 /// Number of strips that hold `rows` rows.
@@ -41,9 +41,9 @@ impl Strips {
         Self { rows, columns, chunks: vec![Chunk([height; LANES]); strips(rows) * columns] }
     }
 
-    /// Some rows of a field given column by column of the mesh; 0 fills up the last strip.
+    /// Some rows of a field given column by column of the mesh; heights out of reach of any pin fill up the last strip.
     pub fn of_columns(mesh: &Mesh, own: Range<usize>, heights: &[f64]) -> Self {
-        let mut field = Self::new(own.len(), heights.len() / mesh.rows(), 0.0);
+        let mut field = Self::new(own.len(), heights.len() / mesh.rows(), -OUT_OF_REACH);
         for (column, heights) in heights.chunks_exact(mesh.rows()).enumerate() {
             field.set_column(column, &heights[own.clone()]);
         }
@@ -149,6 +149,12 @@ impl PinStrips {
         &self.resin[strip * self.columns..][..self.columns]
     }
 
+    /// Which rows of a strip are plateaus at the start of the coming step, column by column.
+    #[inline]
+    pub fn plateau(&self, strip: usize) -> &[u8] {
+        &self.plateau[strip * self.columns..][..self.columns]
+    }
+
     /// Some columns of a strip.
     #[inline]
     pub fn strip_mut(&mut self, strip: usize, columns: Range<usize>) -> PinStrip<'_> {
@@ -197,7 +203,6 @@ impl PinStrips {
     /// Writes a column that crosses to another worker, and which cells of it and of the next are plateaus: the status of
     /// the next column is all that the other worker needs of it.
     pub fn write_crossing(&self, column: usize, words: &mut Vec<u64>) {
-        words.clear();
         let substrate = self.substrate();
         for strip in 0..self.height.strips() {
             words.extend_from_slice(&self.height.strip(strip)[column].0.map(f64::to_bits));

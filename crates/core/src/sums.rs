@@ -10,7 +10,7 @@ use crate::exact::{RowIntegers, StepVolume, Weights, of_words, product, words};
 use crate::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
 use crate::mesh::Mesh;
 use crate::pair::{Coefficients, Pair, Table};
-use crate::parameters::{DebrisPool, Parameters};
+use crate::parameters::{DebrisRule, Parameters};
 use crate::parts::Needs;
 
 /// The weights of every row, for what is summed.
@@ -47,9 +47,9 @@ impl RowWeights {
             pairs: told_apart(needs.distinct),
             needs,
             rows: mesh.rows(),
-            pools: match parameters.plateaus.debris_pool {
-                DebrisPool::Contact => 1,
-                DebrisPool::Track => mesh.rows(),
+            pools: match parameters.plateaus.debris {
+                DebrisRule::Local | DebrisRule::Contact => 1,
+                DebrisRule::Track => mesh.rows(),
             },
             own,
         }
@@ -117,12 +117,18 @@ pub struct PoolSums {
     pub deposited_pin: i128,
     /// The same on the disc.
     pub deposited_disc: i128,
+    /// Whether an open cell had no room for the whole share: else the pool is empty.
+    pub limited: bool,
     /// Volume that plateaus of the pin did not lose of their raw loss, in units and quanta of the losses.
     pub spared_pin: i128,
     /// The same of the disc.
     pub spared_disc: i128,
     /// Volume of fallen build-up, m³.
     pub returned: StepVolume,
+    /// Volume compacted on the pin of what resin ahead lost, m³.
+    pub deposited_pin_of_resin: StepVolume,
+    /// The same on the disc.
+    pub deposited_disc_of_resin: StepVolume,
     /// Volume that resin did not lose because the build-up on it was worn through, m³.
     pub spared_resin: StepVolume,
 }
@@ -166,18 +172,21 @@ impl Sums {
             if weights.needs.forms {
                 sums.deposited_pin = sum(&moved.deposited_pin);
                 sums.deposited_disc = sum(&moved.deposited_disc);
+                sums.limited = moved.is_limited(here.clone());
             }
             if weights.needs.distinct {
                 sums.spared_pin = sum(&moved.spared_pin);
                 sums.spared_disc = sum(&moved.spared_disc);
             }
-            (sums.returned, sums.spared_resin) = (StepVolume::default(), StepVolume::default());
+            sums.seldom().into_iter().for_each(|sum| *sum = StepVolume::default());
         }
         for event in &moved.seldom {
             let sums = &mut self.pools[weights.pool_of(event.row as usize)];
             let area = weights.area.value(event.row as usize);
             sums.returned.add(StepVolume::of(event.returned * area));
             sums.spared_resin.add(StepVolume::of(event.spared * area));
+            sums.deposited_pin_of_resin.add(StepVolume::of(event.deposited[0] * area));
+            sums.deposited_disc_of_resin.add(StepVolume::of(event.deposited[1] * area));
         }
     }
 
@@ -198,8 +207,8 @@ impl Sums {
             let moved =
                 [&mut sums.deposited_pin, &mut sums.deposited_disc, &mut sums.spared_pin, &mut sums.spared_disc];
             moved.into_iter().for_each(|sum| *sum += of_words(words));
-            sums.returned.add(StepVolume::of_integer(of_words(words)));
-            sums.spared_resin.add(StepVolume::of_integer(of_words(words)));
+            sums.limited |= words.next() == Some(1);
+            sums.seldom().into_iter().for_each(|sum| sum.add(StepVolume::of_integer(of_words(words))));
         }
     }
 
@@ -223,8 +232,9 @@ impl Sums {
             for sum in [sums.deposited_pin, sums.deposited_disc, sums.spared_pin, sums.spared_disc] {
                 message.extend(words(sum));
             }
-            message.extend(words(sums.returned.integer()));
-            message.extend(words(sums.spared_resin.integer()));
+            message.push(u64::from(sums.limited));
+            let mut sums = *sums;
+            sums.seldom().into_iter().for_each(|sum| message.extend(words(sum.integer())));
         }
     }
 }
@@ -259,6 +269,14 @@ impl RowWeights {
             }
         }
         sums
+    }
+}
+
+impl PoolSums {
+    /// What happens in few cells.
+    fn seldom(&mut self) -> [&mut StepVolume; 4] {
+        let Self { returned, spared_resin, deposited_pin_of_resin, deposited_disc_of_resin, .. } = self;
+        [returned, spared_resin, deposited_pin_of_resin, deposited_disc_of_resin]
     }
 }
 

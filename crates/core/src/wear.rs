@@ -32,13 +32,14 @@ pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L
 #[inline(always)]
 pub(crate) fn disc<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L> {
     // The disc is the pin upside down.
-    let worn = pin(negative(height), negative(substrate), raw, below);
-    Worn { height: negative(worn.height), spared: worn.spared }
+    let worn = pin(upside_down(height), upside_down(substrate), raw, below);
+    Worn { height: upside_down(worn.height), spared: worn.spared }
 }
 
+/// Off 0 and not negated, so that the height 0 stays 0 and does not become −0, which is equal but has other bits.
 #[inline(always)]
-fn negative<L: Lanes + Sub>(heights: L) -> L {
-    L::splat(-0.0) - heights
+fn upside_down<L: Lanes + Sub>(heights: L) -> L {
+    L::splat(0.0) - heights
 }
 
 #[cfg(test)]
@@ -80,6 +81,12 @@ mod tests {
     #[test]
     fn bare_fibre_loses_all() {
         assert_eq!(worn(pin, [3.0, 3.0, 0.5, 9.0]), (3.5, 0.0));
+    }
+
+    #[test]
+    fn a_disc_at_height_0_that_does_not_wear_keeps_its_bits() {
+        let (height, _) = worn(disc, [0.0, 0.0, 0.0, 0.5]);
+        assert_eq!(height.to_bits(), 0.0_f64.to_bits());
     }
 
     #[test]

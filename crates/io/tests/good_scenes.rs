@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::material::Material;
 use plateau_core::observe::Map;
-use plateau_core::parameters::{DebrisPool, Integrator};
+use plateau_core::parameters::{DebrisRule, Integrator};
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
@@ -61,7 +61,7 @@ fn the_example_of_the_format_gives_its_values() {
     assert_eq!(parameters.materials.wear_height, 5e-6);
     let plateaus = parameters.plateaus;
     assert_eq!((plateaus.captured_fraction, plateaus.pad_share), (0.06, 0.5));
-    assert_eq!((plateaus.debris_pool, plateaus.formation, plateaus.destruction), (DebrisPool::Contact, true, true));
+    assert_eq!((plateaus.debris, plateaus.formation, plateaus.destruction), (DebrisRule::Contact, true, true));
     assert_eq!((parameters.time_acceleration, parameters.integrator), (1.0, Integrator::Explicit));
 
     let preparation =
@@ -94,7 +94,7 @@ fn what_is_absent_gets_the_default_of_the_format() {
     assert_eq!(parameters.angular_velocity, 2.0 / (0.5 * (0.02 + 0.024)));
     assert_eq!((parameters.steps, parameters.load_tolerance), (1000, 1e-9));
     let plateaus = parameters.plateaus;
-    assert_eq!((plateaus.pad_share, plateaus.debris_pool), (0.5, DebrisPool::Contact));
+    assert_eq!((plateaus.pad_share, plateaus.debris), (0.5, DebrisRule::Contact));
     assert!(plateaus.formation && plateaus.destruction);
     assert_eq!((parameters.time_acceleration, parameters.integrator), (1.0, Integrator::Explicit));
     assert_eq!(parameters.materials.pin_secondary, parameters.materials.pin_primary);
@@ -131,7 +131,7 @@ fn the_scenes_of_the_reference_vectors_give_their_values() {
         assert_eq!(scene.output.sample_every, SampleEvery::Steps(1));
     }
     let track = load("vector-track.toml", &[]).parameters;
-    assert_eq!((track.plateaus.debris_pool, track.integrator), (DebrisPool::Track, Integrator::Exponential));
+    assert_eq!((track.plateaus.debris, track.integrator), (DebrisRule::Track, Integrator::Exponential));
     assert_eq!(track.time_acceleration, 10.0);
     let secondary = Material { youngs_modulus: 5e9, poisson_ratio: 0.33, specific_wear_rate: 2e-14 };
     assert_eq!(track.materials.disc_secondary, secondary);

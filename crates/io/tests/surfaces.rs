@@ -7,7 +7,7 @@ use hdf5::types::VarLenUnicode;
 use ndarray::{Array2, Array3};
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
@@ -44,7 +44,7 @@ fn scene() -> Scene {
                 captured_fraction: 0.06,
                 captured_resin_fraction: None,
                 pad_share: 0.5,
-                debris_pool: DebrisPool::Contact,
+                debris: DebrisRule::Contact,
                 formation: true,
                 destruction: true,
             },

@@ -2,7 +2,7 @@
 
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::state::InitialSurfaces;
 
 /// What must come of a case.
@@ -71,7 +71,7 @@ pub fn paper(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters
             captured_fraction: 0.06,
             captured_resin_fraction: None,
             pad_share: 0.5,
-            debris_pool: DebrisPool::Contact,
+            debris: DebrisRule::Contact,
             formation: true,
             destruction: true,
         },

@@ -1,6 +1,6 @@
 //! Every case.
 
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::state::Base;
 
 use super::case::{Case, Expected, paper, with_stiffness_number};
@@ -145,12 +145,12 @@ fn rules() -> Vec<Case> {
         Case::new(name, parameters, rough.clone())
     };
     let mut cases: Vec<Case> = Vec::new();
-    for pool in [DebrisPool::Contact, DebrisPool::Track] {
+    for pool in [DebrisRule::Contact, DebrisRule::Track] {
         for fraction in [0.0, 1.0] {
             let name = format!("captured fraction {fraction}, pool of the {}", format!("{pool:?}").to_lowercase());
             cases.push(case(&name, &|parameters| {
                 parameters.plateaus.captured_fraction = fraction;
-                parameters.plateaus.debris_pool = pool;
+                parameters.plateaus.debris = pool;
             }));
         }
     }

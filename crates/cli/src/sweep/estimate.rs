@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use plateau_core::kernel::InstructionSet;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::memory_estimate;
 use plateau_io::study::plan::Plan;
@@ -41,7 +40,7 @@ impl Estimate {
             let start = std::time::Instant::now();
             let surfaces = surface::load(&scene).map_err(Failure::input)?.surfaces;
             let making = start.elapsed().as_secs_f64();
-            let execution = Execution { workers: 1, instructions: InstructionSet::best(), bands: None, pin: false };
+            let execution = Execution { workers: 1, ..Execution::default() };
             let mut simulation =
                 Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
             let step = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;

@@ -2,7 +2,6 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use plateau_core::kernel::InstructionSet;
 use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
 use plateau_core::scout::Scout;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
@@ -58,7 +57,7 @@ fn finish(
 ) -> Result<Outcome, Ended> {
     let failed = |error: &dyn std::fmt::Display| Ended::Failed(error.to_string());
     let surfaces = surface::load(scene).map_err(|error| failed(&error))?.surfaces;
-    let execution = Execution { workers, instructions: InstructionSet::best(), bands: None, pin: false };
+    let execution = Execution { workers, ..Execution::default() };
     let mut scout = None;
     if let Some(adaptive) = &scene.adaptive {
         let simulation = Simulation::with_execution(scene.parameters.clone(), surfaces.clone(), execution)?;

@@ -9,7 +9,7 @@ use crate::comm::threads::Threads;
 use crate::kernel::InstructionSet;
 use crate::material::{Material, Materials};
 use crate::mesh::Mesh;
-use crate::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use crate::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use crate::sector::Partition;
 use crate::state::{Base, InitialSurfaces};
 use crate::strips::PinStrips;
@@ -93,7 +93,7 @@ fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
             captured_fraction: 0.5,
             captured_resin_fraction: None,
             pad_share: 0.5,
-            debris_pool: DebrisPool::Contact,
+            debris: DebrisRule::Contact,
             formation: true,
             destruction: true,
         },

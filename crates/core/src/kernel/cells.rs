@@ -1,13 +1,15 @@
-//! Wear, destruction and formation in eight cells, whatever happens to them (model 4.2 to 4.4), and their pairs of the
-//! next step (4.1).
+//! Wear and pooled debris in eight cells, whatever happens to them (model 4.2 and 4P), and their pairs of the next step
+//! (4.1).
 
 use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use super::moved::{SeldomEvent, StripMoved, note_seldom};
 use super::pairs::Pairs;
+use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::StripRules;
-use crate::strips::PinStrip;
-use crate::{plateau, wear};
+use super::worn::{Cells, Worn, wear};
+use crate::plateau;
+use crate::strips::{DiscSector, PinStrip, PinStrips};
 
 /// A strip of the columns that are swept.
 #[derive(Debug)]
@@ -33,7 +35,35 @@ pub(super) struct Behind<L: Lanes> {
     pub secondary: L::Mask,
 }
 
-impl Strip<'_> {
+impl<'a> Strip<'a> {
+    /// A strip of a span; `joined` tells whether what lies behind its first column is to be read.
+    #[inline(always)]
+    pub fn new<L: Lanes, const DISTINCT: bool, const FORMS: bool>(
+        index: usize,
+        pin: &'a mut PinStrips,
+        disc: &'a mut DiscSector,
+        Span { first, over, columns }: Span,
+        joined: bool,
+    ) -> Self {
+        let (disc_height, disc_substrate) = disc.strip_mut(index);
+        let mut strip = Self {
+            index,
+            pin: pin.strip_mut(index, first..first + columns + 1),
+            behind_height: if joined { disc_height[over - 1] } else { Chunk([f64::NEG_INFINITY; LANES]) },
+            behind_secondary: 0,
+            disc_height: &mut disc_height[over..][..columns],
+            disc_substrate: &mut [],
+        };
+        if FORMS {
+            let (before, substrate) = disc_substrate.split_at_mut(over);
+            if DISTINCT && let (true, Some(before)) = (joined, before.last()) {
+                strip.behind_secondary = L::load(before).below(L::load(&strip.behind_height)).byte();
+            }
+            strip.disc_substrate = &mut substrate[..columns];
+        }
+        strip
+    }
+
     /// What lies behind a column.
     #[inline(always)]
     pub fn behind<L: Lanes, const DISTINCT: bool>(&self, column: usize) -> Behind<L> {
@@ -66,58 +96,27 @@ pub(super) fn update<
     reading: &mut Reading,
 ) -> Behind<L> {
     let nothing = L::Mask::of_byte(0);
-    let on_resin = L::Mask::of_byte(strip.pin.resin[column]);
     // Statuses are those of the start of the step; the neighbour in the sliding direction is the next column.
     let supported = L::Mask::of_byte(strip.pin.plateau[column + 1]);
-
-    // 4.1 The pair, and how far its cells are apart at the displacement: γ, or −u where they touch.
-    let z_start = L::load(&strip.pin.height[column]);
-    let mut z_p = z_start;
-    let mut b_p = if FORMS { L::load(&strip.pin.substrate[column]) } else { z_p };
-    let mut z_d = L::load(&strip.disc_height[column]);
-    let mut b_d = if FORMS && (DISTINCT || DISC_WEARS) { L::load(&strip.disc_substrate[column]) } else { z_d };
-    let pairs = Pairs::<L> {
-        on_resin,
-        pin_secondary: if FORMS { z_p.below(b_p) } else { nothing },
-        disc_secondary: if DISTINCT { b_d.below(z_d) } else { nothing },
-    };
-    let mut clearance = z_p - z_d - rules.displacement;
-    let touches = clearance.below(rules.zero);
-
-    // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
-    let raw = (clearance * pairs.pick::<DISTINCT>(&rules.pin_loss())).only(touches & !pairs.resin());
+    let fields = [&*strip.pin.height, &*strip.pin.substrate, &*strip.disc_height, &*strip.disc_substrate];
+    let cells = Cells::load::<DISTINCT, DISC_WEARS, FORMS>(fields, strip.pin.resin[column], [column, column]);
+    let worn = wear::<L, DISTINCT, DISC_WEARS, FORMS>(rules, cells);
+    let Worn { mut z_p, mut b_p, mut z_d, b_d, on_resin, mut clearance, touches, build_up, worn_through, .. } = worn;
     if DISTINCT {
-        let below = L::select(on_resin, rules.zero, pairs.pick::<true>(&rules.fibre()));
-        let worn = wear::pin(z_p, b_p, raw, below);
-        z_p = worn.height;
-        moved.spared_pin = moved.spared_pin.plus(rules.loss(worn.spared));
-    } else {
-        z_p = z_p + raw;
-    }
-    z_p = z_p.plus_where(touches & pairs.resin(), rules.wear_height());
-    if DISC_WEARS {
-        let raw = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss())).only(touches);
-        if DISTINCT {
-            let worn = wear::disc(z_d, b_d, raw, pairs.pick::<true>(&rules.coating()));
-            z_d = worn.height;
-            moved.spared_disc = moved.spared_disc.plus(rules.loss(worn.spared));
-        } else {
-            z_d = z_d - raw;
+        moved.spared_pin = moved.spared_pin.plus(rules.loss(worn.spared_pin));
+        if DISC_WEARS {
+            moved.spared_disc = moved.spared_disc.plus(rules.loss(worn.spared_disc));
         }
-        b_d = b_d.lesser(z_d);
     }
 
     if FORMS {
-        // 4.2 and 4.3 Build-up on resin that is worn through, or falls for want of support.
-        let remains = z_p.below(b_p);
-        let build_up = on_resin & pairs.pin_secondary;
-        let falls = if DESTROYS { plateau::falls::<L>(build_up & remains, supported) } else { nothing };
-        let worn_through = build_up & !remains;
+        // 4.2 and 4P Build-up on resin that is worn through, or falls for want of support.
+        let falls = if DESTROYS { plateau::falls::<L>(build_up & !worn_through, supported) } else { nothing };
         if (falls | worn_through).any() {
             let mut heights = Chunk([0.0; LANES]);
             let mut raw_losses = Chunk([0.0; LANES]);
-            (b_p - L::select(falls, z_p, z_start)).store(&mut heights);
-            raw.store(&mut raw_losses);
+            (b_p - L::select(falls, z_p, cells.z_p)).store(&mut heights);
+            worn.raw_pin.store(&mut raw_losses);
             let spared = if DISTINCT { nothing } else { worn_through };
             note_seldom(seldom, &heights, &raw_losses, falls.byte(), spared.byte(), rules.strip);
             z_p = L::select(falls | worn_through, b_p, z_p);
@@ -125,8 +124,9 @@ pub(super) fn update<
         }
         b_p = b_p.greater(z_p);
 
-        // 4.4 Debris at hand fills the clearance of open cells, wholly or in part.
+        // 4P Debris at hand fills the clearance of open cells, wholly or in part.
         let filled = plateau::fill(clearance, rules.share).only(!touches);
+        moved.limited = moved.limited | (filled.below(rules.share) & !touches);
         let on_pin = plateau::on_pin(filled, supported, rules.pad_share());
         let on_disc = filled - on_pin;
         z_p = z_p - on_pin;

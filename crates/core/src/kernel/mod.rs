@@ -4,8 +4,10 @@
 //! the processor has is chosen at start. What they sum up does not depend on the order of the cells.
 
 mod cells;
+mod edge;
 mod instructions;
 pub(crate) mod lanes;
+mod local;
 mod moved;
 mod pairs;
 mod plain;
@@ -13,7 +15,9 @@ mod read;
 mod reading;
 mod rules;
 mod sweep;
+mod worn;
 
+pub use edge::{Edge, WearColumn, wear_column};
 pub use instructions::InstructionSet;
 pub use lanes::{Chunk, IntegerChunk, LANES};
 pub use moved::{Moved, SeldomEvent};

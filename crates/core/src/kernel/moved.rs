@@ -1,29 +1,33 @@
 //! What a sweep moved, row by row.
 
-use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes};
+use std::ops::Range;
+
+use super::lanes::{Chunk, IntegerChunk, Integers, LANES, Lanes, Mask};
 use super::pairs::lanes_of;
 use crate::exact::RowIntegers;
 
 /// What a step took off and put on, as far as it does not follow from its load balance alone.
 ///
-/// Most open cells get the whole share, and those of the pin with a plateau ahead the pad share of it: the even deposit.
-/// Only what differs from that is counted here.
+/// With a pool most open cells get the whole share, and those of the pin with a plateau ahead the pad share of it: the even
+/// deposit. Only what differs from that is counted here. With local debris no deposit is even.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Heights compacted on the pin beyond the even deposit, in quanta of the deposits.
+    /// Heights compacted on the pin beyond the even deposit of a pool, in quanta of the deposits.
     pub deposited_pin: RowIntegers,
-    /// Heights compacted on the disc beyond the even deposit, in quanta of the deposits.
+    /// Heights compacted on the disc beyond the even deposit of a pool, in quanta of the deposits.
     pub deposited_disc: RowIntegers,
     /// What pin cells did not lose of their raw loss because their build-up was worn through, in quanta of the losses;
     /// only where build-up has properties of its own.
     pub spared_pin: RowIntegers,
     /// The same for disc cells.
     pub spared_disc: RowIntegers,
+    /// Rows of each strip, one bit each, in which an open cell had no room for the whole share.
+    pub limited: Vec<u8>,
     /// What happened in few cells.
     pub seldom: Vec<SeldomEvent>,
 }
 
-/// What happened to the build-up of one cell on resin.
+/// What happened to the build-up of one cell on resin, or behind one of resin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeldomEvent {
     /// Row of the cell.
@@ -32,6 +36,15 @@ pub struct SeldomEvent {
     pub returned: f64,
     /// What resin was spared of the raw loss because the build-up on it was worn through, m.
     pub spared: f64,
+    /// What was compacted on pin and disc of what resin ahead lost, m.
+    pub deposited: [f64; 2],
+}
+
+impl SeldomEvent {
+    /// Nothing yet, in a row.
+    fn in_row(row: usize) -> Self {
+        Self { row: row as u32, returned: 0.0, spared: 0.0, deposited: [0.0; 2] }
+    }
 }
 
 impl Moved {
@@ -43,6 +56,7 @@ impl Moved {
             deposited_disc: rows(forms),
             spared_pin: rows(distinct),
             spared_disc: rows(distinct),
+            limited: vec![0; if forms { strips } else { 0 }],
             seldom: Vec::new(),
         }
     }
@@ -52,7 +66,17 @@ impl Moved {
         for rows in [&mut self.deposited_pin, &mut self.deposited_disc, &mut self.spared_pin, &mut self.spared_disc] {
             rows.clear();
         }
+        self.limited.fill(0);
         self.seldom.clear();
+    }
+
+    /// Whether some open cell of these rows had no room for the whole share.
+    pub fn is_limited(&self, rows: Range<usize>) -> bool {
+        (rows.start / LANES..rows.end.div_ceil(LANES)).any(|strip| {
+            let first = strip * LANES;
+            let of_strip = (rows.start.max(first)..rows.end.min(first + LANES)).map(|row| 1_u8 << (row - first));
+            self.limited[strip] != 0 && of_strip.fold(0, |bits, bit| bits | bit) & self.limited[strip] != 0
+        })
     }
 }
 
@@ -63,6 +87,8 @@ pub(super) struct StripMoved<L: Lanes> {
     pub deposited_disc: L::Integers,
     pub spared_pin: L::Integers,
     pub spared_disc: L::Integers,
+    /// Rows in which an open cell had no room for the whole share.
+    pub limited: L::Mask,
 }
 
 impl<L: Lanes> StripMoved<L> {
@@ -70,7 +96,13 @@ impl<L: Lanes> StripMoved<L> {
     #[inline(always)]
     pub fn new() -> Self {
         let zero = L::Integers::splat(0);
-        Self { deposited_pin: zero, deposited_disc: zero, spared_pin: zero, spared_disc: zero }
+        Self {
+            deposited_pin: zero,
+            deposited_disc: zero,
+            spared_pin: zero,
+            spared_disc: zero,
+            limited: L::Mask::of_byte(0),
+        }
     }
 
     /// Adds the sums of the strip to the others.
@@ -79,6 +111,7 @@ impl<L: Lanes> StripMoved<L> {
         if FORMS {
             add::<L>(&mut moved.deposited_pin.0[strip], self.deposited_pin);
             add::<L>(&mut moved.deposited_disc.0[strip], self.deposited_disc);
+            moved.limited[strip] |= self.limited.byte();
         }
         if DISTINCT {
             add::<L>(&mut moved.spared_pin.0[strip], self.spared_pin);
@@ -104,11 +137,18 @@ pub(super) fn note_seldom(
     worn_through: u8,
     strip: usize,
 ) {
-    let row = |lane: usize| (strip * LANES + lane) as u32;
-    seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { row: row(lane), returned: build_up.0[lane], spared: 0.0 }));
-    seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent {
-        row: row(lane),
-        returned: 0.0,
-        spared: raw.0[lane] - build_up.0[lane],
+    let event = |lane: usize| SeldomEvent::in_row(strip * LANES + lane);
+    seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { returned: build_up.0[lane], ..event(lane) }));
+    let spared = |lane: usize| raw.0[lane] - build_up.0[lane];
+    seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent { spared: spared(lane), ..event(lane) }));
+}
+
+/// Notes, for some of eight cells behind resin that lost its wear height, what is compacted of it on pin and disc.
+#[cold]
+#[inline(never)]
+pub(super) fn note_deposits(seldom: &mut Vec<SeldomEvent>, on_pin: &Chunk, on_disc: &Chunk, lanes: u8, strip: usize) {
+    seldom.extend(lanes_of(lanes).map(|lane| SeldomEvent {
+        deposited: [on_pin.0[lane], on_disc.0[lane]],
+        ..SeldomEvent::in_row(strip * LANES + lane)
     }));
 }

@@ -1,5 +1,6 @@
 //! What the kernels must know of a scene and of a step.
 
+use super::edge::Edge;
 use super::lanes::{Chunk, Integers, Lanes};
 use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
@@ -20,11 +21,16 @@ pub struct Rules {
     wear_height: f64,
     /// β.
     pad_share: f64,
+    /// z_ref, m: up to which local debris fills the disc.
+    reference_height: f64,
+    /// η, of plateaus and of resin.
+    captured_fraction: f64,
+    captured_resin_fraction: f64,
 }
 
 impl Rules {
-    /// The rules of a scene.
-    pub fn new(parameters: &Parameters, coefficients: &Coefficients) -> Self {
+    /// The rules of a scene whose disc was at most `reference_height` (m) high at the start.
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, reference_height: f64) -> Self {
         Self {
             pin_loss: ChunkTable::new(&coefficients.pin, -1.0),
             disc_loss: ChunkTable::new(&coefficients.disc, -1.0),
@@ -32,6 +38,9 @@ impl Rules {
             coating: ChunkTable::new(&coefficients.coating, 1.0),
             wear_height: parameters.materials.wear_height,
             pad_share: parameters.plateaus.pad_share,
+            reference_height,
+            captured_fraction: parameters.plateaus.captured_fraction,
+            captured_resin_fraction: parameters.plateaus.captured_of_resin(),
         }
     }
 }
@@ -41,8 +50,10 @@ impl Rules {
 pub struct Conditions<'a> {
     /// δ, m.
     pub displacement: f64,
-    /// s of every row, m.
+    /// s of every row of the mesh, m; 0 without a pool.
     pub share: &'a [Chunk],
+    /// With local debris: what the last column of the span must know of the one ahead of it, if there is one.
+    pub ahead: Option<&'a Edge>,
     /// Of which deposits are counted as multiples.
     pub deposits: Quantum,
     /// Of which losses that were spared are counted as multiples.
@@ -133,6 +144,24 @@ impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
     pub fn beyond(&self, deposit: L, even: L) -> L::Integers {
         (self.deposits + deposit).bits().minus((self.deposits + even).bits())
+    }
+
+    /// z_ref, m.
+    #[inline(always)]
+    pub fn reference_height(&self) -> L {
+        L::splat(self.rules.reference_height)
+    }
+
+    /// What of the losses of eight pairs local debris may compact behind them, m.
+    #[inline(always)]
+    pub fn caught(&self, of_plateaus: L, of_resin: L) -> L {
+        of_plateaus * L::splat(self.rules.captured_fraction) + of_resin * L::splat(self.rules.captured_resin_fraction)
+    }
+
+    /// A deposit in quanta.
+    #[inline(always)]
+    pub fn deposit(&self, height: L) -> L::Integers {
+        (self.deposits + height).bits().minus(self.deposits.bits())
     }
 
     /// A loss in quanta.

@@ -1,5 +1,5 @@
-//! One pass over the pin: wear, destruction and formation of a step, and the pairs of the next step against a bracket
-//! (model 4.2 to 4.4, and 4.1 of the next step).
+//! One pass over the pin: wear, destruction and formation of a step with pooled debris or none, and the pairs of the next
+//! step against a bracket (model 4.2, 4P, and 4.1 of the next step). With local debris: [`super::local`].
 //!
 //! In the next step the disc column under pin column j lies under column j + 1. So when column j + 1 has been updated,
 //! the new heights of that pair are at hand, and are read on the way.
@@ -12,14 +12,15 @@ use std::ops::Range;
 
 use super::cells::{Strip, update};
 use super::instructions::{InstructionSet, kernel};
-use super::lanes::{Chunk, LANES, Lanes, Mask};
+use super::lanes::Lanes;
+use super::local::sweep_locally;
 use super::moved::{Moved, StripMoved};
 use super::plain::sweep_plain;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use crate::parts::Needs;
-use crate::strips::{DiscSector, PinStrip, PinStrips};
+use crate::strips::{DiscSector, PinStrips};
 
 /// Columns of a strip with something out of the ordinary after which it is not looked for any more.
 const MOST_UNUSUAL: usize = 12;
@@ -31,7 +32,10 @@ pub type Sweep =
 
 /// The sweep that does what a scene needs and nothing else; chosen once per run.
 pub fn sweep(needs: Needs) -> Sweep {
-    let Needs { distinct, disc_wears, forms, destroys } = needs;
+    let Needs { distinct, disc_wears, forms, local, destroys } = needs;
+    if local {
+        return sweep_locally(needs);
+    }
     macro_rules! choose {
         ([$($chosen:literal),*]) => { sweep_span::<$($chosen),*> };
         ([$($chosen:literal),*] $flag:ident $($rest:ident)*) => {
@@ -67,25 +71,9 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
     moved: &mut Moved,
     reading: &mut Reading,
 ) {
-    let Span { first, over, columns } = span;
+    let columns = span.columns;
     for index in 0..pin.height.strips() {
-        let PinStrip { height, substrate, resin, plateau } = pin.strip_mut(index, first..first + columns + 1);
-        let (disc_height, disc_substrate) = disc.strip_mut(index);
-        let mut strip = Strip {
-            index,
-            pin: PinStrip { height, substrate, resin, plateau },
-            behind_height: if joined { disc_height[over - 1] } else { Chunk([f64::NEG_INFINITY; LANES]) },
-            behind_secondary: 0,
-            disc_height: &mut disc_height[over..][..columns],
-            disc_substrate: &mut [],
-        };
-        if FORMS {
-            let (before, substrate) = disc_substrate.split_at_mut(over);
-            if DISTINCT && let (true, Some(before)) = (joined, before.last()) {
-                strip.behind_secondary = L::load(before).below(L::load(&strip.behind_height)).byte();
-            }
-            strip.disc_substrate = &mut substrate[..columns];
-        }
+        let mut strip = Strip::new::<L, DISTINCT, FORMS>(index, pin, disc, span, joined);
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
         let (mut column, mut unusual) = (0, 0);
         while column < columns {

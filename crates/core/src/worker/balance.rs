@@ -14,8 +14,9 @@ use crate::state::pin_status;
 const MOST_READINGS: u32 = 200;
 
 impl<C: Communicator> Worker<C> {
-    /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs.
-    pub(super) fn balance(&mut self) -> Result<(), SimulationError> {
+    /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs. Returns a
+    /// bound of the overlaps at it, m.
+    pub(super) fn balance(&mut self) -> Result<f64, SimulationError> {
         let (step, normal_force) = (self.course.steps + 1, self.parameters.normal_force);
         let mut bracket = match self.bracket {
             Some(bracket) => bracket,
@@ -37,7 +38,7 @@ impl<C: Communicator> Worker<C> {
                         self.overlaps = Quantum::of_sum(largest, columns);
                     }
                     self.course.largest_load_residual = self.course.largest_load_residual.max(self.contact.residual());
-                    return Ok(());
+                    return Ok(largest.max(0.0) + (self.contact.displacement() - bracket.low));
                 }
                 Verdict::Between(low, high) => {
                     bracket = Bracket::new(low, high - low, self.overlaps);

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::Worker;
-use crate::checkpoint::{Checkpoint, Memory};
+use crate::checkpoint::{Checkpoint, EngineMemory, Memory};
 use crate::comm::Communicator;
 use crate::parameters::Parameters;
-use crate::simulation::SimulationError;
+use crate::simulation::{Engine, SimulationError};
 
 impl<C: Communicator> Worker<C> {
     /// What all workers know alike.
@@ -15,19 +15,23 @@ impl<C: Communicator> Worker<C> {
             course: self.course,
             clock: self.clock,
             time_acceleration: self.parameters.time_acceleration,
-            contact: self.contact.clone(),
             account: self.debris.account(),
             history: self.history.clone(),
-            forecast: self.forecast.clone(),
-            bracket: self.bracket,
-            overlaps: self.overlaps,
+            engine: Some(EngineMemory {
+                contact: self.contact.clone(),
+                forecast: self.forecast.clone(),
+                bracket: self.bracket,
+                overlaps: self.overlaps,
+            }),
         }
     }
 
     /// Takes over the state of a simulation of the same parameters and surfaces.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
-        let Memory { course, clock, time_acceleration, contact, account, history, forecast, bracket, overlaps } =
-            checkpoint.memory.clone();
+        let Memory { course, clock, time_acceleration, account, history, engine } = checkpoint.memory.clone();
+        let Some(EngineMemory { contact, forecast, bracket, overlaps }) = engine else {
+            return Err(SimulationError::OtherEngine { found: Engine::Plain, expected: Engine::Fast });
+        };
         self.accept_coefficients(&Parameters { time_acceleration, ..Parameters::clone(&self.parameters) });
         let rows = self.parameters.mesh.rows();
         let own = self.rows.clone();
@@ -57,7 +61,7 @@ impl<C: Communicator> Worker<C> {
     /// Makes everything that depends on the acceleration anew.
     pub(super) fn accept_coefficients(&mut self, parameters: &Parameters) {
         self.coefficients = crate::pair::Coefficients::new(parameters);
-        self.rules = crate::kernel::Rules::new(parameters, &self.coefficients);
+        self.rules = crate::kernel::Rules::new(parameters, &self.coefficients, self.filling.reference_height());
         self.weights = crate::sums::RowWeights::new(parameters, &self.coefficients, self.rows.clone());
         self.debris.set_coefficients(&self.coefficients);
         self.parameters = Arc::new(parameters.clone());

@@ -7,6 +7,7 @@ mod balance;
 mod checkpoint;
 mod columns;
 mod gather;
+mod local;
 mod report;
 
 use serde::{Deserialize, Serialize};
@@ -21,7 +22,9 @@ use crate::exact::Quantum;
 use crate::filling::Filling;
 use crate::forecast::Forecast;
 use crate::history::History;
-use crate::kernel::{Bracket, InstructionSet, Moved, Read, Reading, Rules, Sweep, read, sweep};
+use crate::kernel::{
+    Bracket, Edge, InstructionSet, Moved, Read, Reading, Rules, Sweep, WearColumn, read, sweep, wear_column,
+};
 use crate::pair::Coefficients;
 use crate::parameters::Parameters;
 use crate::parts::Needs;
@@ -30,6 +33,8 @@ use crate::simulation::SimulationError;
 use crate::state::InitialSurfaces;
 use crate::strips::{DiscSector, PinStrips, strips};
 use crate::sums::{RowWeights, Sums};
+
+pub(crate) use columns::halo_words;
 
 /// What the steps so far were like.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -57,6 +62,7 @@ pub(crate) struct Worker<C> {
     instructions: InstructionSet,
     sweep: Sweep,
     read: Read,
+    wear_column: WearColumn,
     rules: Rules,
     coefficients: Coefficients,
     /// Of which losses are counted as multiples: the quantum of the largest overlap that the load allows.
@@ -80,6 +86,8 @@ pub(crate) struct Worker<C> {
     weights: RowWeights,
     /// What all workers read and moved.
     sums: Sums,
+    /// With local debris: the first pin column over each sector after wear.
+    edges: Vec<Edge>,
     message: Vec<u64>,
     halo: Vec<u64>,
     /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
@@ -119,13 +127,15 @@ impl<C: Communicator> Worker<C> {
         };
         let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
         let strips = strips(rows.len());
+        let filling = Filling::new(mesh, rows.clone(), surfaces, sectors.iter().flatten());
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
         let quantum = Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns());
         Self {
             instructions,
             sweep: sweep(needs),
             read: read(needs),
-            rules: Rules::new(&parameters, &coefficients),
+            wear_column: wear_column(needs),
+            rules: Rules::new(&parameters, &coefficients, filling.reference_height()),
             contact: Contact::new(&weights),
             quantum,
             overlaps: quantum,
@@ -133,7 +143,8 @@ impl<C: Communicator> Worker<C> {
             forecast: Forecast::new(mesh.disc_columns()),
             debris: Debris::new(&parameters, &coefficients, &weights),
             history: History::new(mesh.disc_columns()),
-            filling: Filling::new(mesh, rows.clone(), surfaces, sectors.iter().flatten()),
+            filling,
+            edges: vec![Edge::default(); if needs.local { partition.sectors() } else { 0 }],
             bracket: None,
             reading: Reading::new(rows.start, strips, needs.distinct),
             moved: Moved::new(strips, needs.forms, needs.distinct),
@@ -176,17 +187,17 @@ impl<C: Communicator> Worker<C> {
     /// | model | what happens | where |
     /// |---|---|---|
     /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
-    /// | 4.4 | debris at hand for each open cell | [`Debris::spread`] |
-    /// | 4.2 to 4.4 | wear, destruction and formation in every cell | [`crate::wear`], [`crate::plateau`] |
+    /// | 4P | debris at hand for each open cell | [`Debris::prepare`] |
+    /// | 4.2, 4L, 4P | wear, destruction and formation in every cell | [`crate::wear`], [`crate::plateau`], [`crate::kernel`] |
     /// | 4.1 | the pairs of the next step against where its displacement is expected | [`crate::kernel`] |
-    /// | 4.5 | debris balance | [`Debris::settle`] |
+    /// | 4L, 4P | debris balance | [`Debris::settle`] |
     /// | 4.6 | the disc turns by one column | |
     fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
-        self.balance()?;
+        let largest_overlap = self.balance()?;
         if watched {
             self.record_pressures();
         }
-        self.debris.spread(&self.contact);
+        self.debris.prepare(&self.contact, largest_overlap);
         self.forecast.record(self.contact.displacement());
         let bracket = self.sweep_columns()?;
         self.gather_sweep(&bracket)?;

@@ -42,7 +42,7 @@ impl<C: Communicator> Worker<C> {
             worn_pin: totals.worn_pin.value(),
             worn_resin: totals.worn_resin.value(),
             worn_disc: totals.worn_disc.value(),
-            // Rounding may leave a trace of debt in an emptied pool; the balance residual takes it as it is.
+            // Rounding may leave a trace of debt in a pool that has given nearly all; the balance residual takes it as it is.
             pool: self.debris.pool().max(0.0),
             emitted: totals.emitted.value(),
             deposited_pin: totals.deposited_pin.value(),

@@ -6,7 +6,7 @@ use plateau_core::acceleration::Adaptive;
 use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::{Mesh, MeshError};
 use plateau_core::observe::Extras;
-use plateau_core::parameters::{DebrisPool, Integrator, Parameters, PlateauRules};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::schedule::SampleEvery;
 use plateau_core::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
@@ -186,9 +186,9 @@ fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
         captured_fraction: settings.number("plateaus.captured_fraction")?,
         captured_resin_fraction: settings.optional_number("plateaus.captured_resin_fraction")?,
         pad_share: settings.number("plateaus.pad_share")?,
-        debris_pool: match settings.text("plateaus.debris_pool")? {
-            "track" => DebrisPool::Track,
-            _ => DebrisPool::Contact,
+        debris: match settings.text("plateaus.debris_pool")? {
+            "track" => DebrisRule::Track,
+            _ => DebrisRule::Contact,
         },
         formation: settings.bool("plateaus.formation")?,
         destruction: settings.bool("plateaus.destruction")?,

@@ -1,0 +1,104 @@
+//! The model as it is read: state (section 2) and one step (section 4), on plain arrays, cell by cell, in the order of the text.
+//!
+//! Nothing here is fast, and nothing is done twice for speed: [`step`] is what the engine ([`crate::simulation`]) is held
+//! against, step by step. [`plain`] drives it in place of the engine, as `plateau run --engine plain` does.
+//!
+//! | model | rule | function |
+//! |---|---|---|
+//! | 1, 2 | which cells face each other, and their statuses | [`step::pairs`] |
+//! | 4.1 | the displacement that carries the load | [`step::balance`] |
+//! | 4.2 | wear, build-up first | [`step::wear`] |
+//! | 4L | local debris: what wears ahead fills the gap behind it | [`step::deposit_locally`] |
+//! | 4P | loss of support | [`step::destroy`] |
+//! | 4P | pooled debris fills open cells | [`step::form`] |
+//! | 4.6 | all of these, once | [`step::advance`] |
+
+pub(crate) mod plain;
+pub mod step;
+
+use std::ops::Add;
+
+use crate::parameters::{DebrisRule, Parameters};
+use crate::state::{Disc, InitialSurfaces, Pin};
+
+/// The state of disc, pin and debris between two steps (model 2).
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// z_d and b_d.
+    pub disc: Disc,
+    /// z_p, b_p and base.
+    pub pin: Pin,
+    /// z_ref, m: the highest initial height of the disc.
+    pub reference_height: f64,
+    /// M, m³: one pool for the contact, one for each row, or none with local debris.
+    pub pools: Vec<f64>,
+    /// n: steps done.
+    pub steps: u64,
+}
+
+impl State {
+    /// n = 0: b = z in every cell, M = 0.
+    pub fn new(parameters: &Parameters, surfaces: InitialSurfaces) -> Self {
+        let InitialSurfaces { disc_height, pin_height, pin_base } = surfaces;
+        let pools = match parameters.plateaus.debris {
+            DebrisRule::Local => 0,
+            DebrisRule::Contact => 1,
+            DebrisRule::Track => parameters.mesh.rows(),
+        };
+        Self {
+            reference_height: disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            disc: Disc { substrate: disc_height.clone(), height: disc_height },
+            pin: Pin { substrate: pin_height.clone(), height: pin_height, base: pin_base },
+            pools: vec![0.0; pools],
+            steps: 0,
+        }
+    }
+}
+
+/// What a step found and did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// δ, m.
+    pub displacement: f64,
+    /// p of every pin cell, Pa; 0 where it does not touch.
+    pub pressure: Vec<f64>,
+    /// Whether a pin cell touches.
+    pub contact: Vec<bool>,
+    /// What was moved.
+    pub moved: Volumes,
+}
+
+/// Volumes that one step moves, m³.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Volumes {
+    /// Worn off plateaus of the pin.
+    pub worn_pin: f64,
+    /// Worn off resin.
+    pub worn_resin: f64,
+    /// Worn off the disc.
+    pub worn_disc: f64,
+    /// Build-up that lost its support.
+    pub returned: f64,
+    /// Compacted on the pin.
+    pub deposited_pin: f64,
+    /// Compacted on the disc.
+    pub deposited_disc: f64,
+    /// Left the contact.
+    pub emitted: f64,
+}
+
+impl Add for Volumes {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            worn_pin: self.worn_pin + other.worn_pin,
+            worn_resin: self.worn_resin + other.worn_resin,
+            worn_disc: self.worn_disc + other.worn_disc,
+            returned: self.returned + other.returned,
+            deposited_pin: self.deposited_pin + other.deposited_pin,
+            deposited_disc: self.deposited_disc + other.deposited_disc,
+            emitted: self.emitted + other.emitted,
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! One step (model 4).
+//!
+//! Fields are column by column: the pin cell in row i and column j is number j · rows + i, and its neighbour in the sliding
+//! direction is number (j + 1) · rows + i.
+
+use super::{State, Step, Volumes};
+use crate::contact::ContactError;
+use crate::material::Status;
+use crate::parameters::{DebrisRule, Integrator, Parameters};
+use crate::state::disc_status;
+
+/// A pin cell and the disc cell under it, as they are at the start of a step.
+#[derive(Debug, Clone, Copy)]
+pub struct Pair {
+    /// i.
+    pub row: usize,
+    /// A_i, m².
+    pub area: f64,
+    /// Number of the disc cell.
+    pub disc: usize,
+    /// Status of the pin cell.
+    pub pin_status: Status,
+    /// Status of the disc cell.
+    pub disc_status: Status,
+    /// g = z_p − z_d, m.
+    pub gap: f64,
+    /// k, Pa/m.
+    pub stiffness: f64,
+    /// Whether the neighbour in the sliding direction is a plateau; the last column has none.
+    pub plateau_ahead: bool,
+}
+
+/// What a pair really loses in a step, m.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Loss {
+    /// Δh_p of a plateau.
+    pub pin: f64,
+    /// Δh_p of resin.
+    pub resin: f64,
+    /// Δh_d.
+    pub disc: f64,
+}
+
+/// One step: every rule sees the statuses, gaps and contact of its start.
+///
+/// # Errors
+/// [`ContactError`] when no displacement carries the load.
+pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, ContactError> {
+    let pairs = pairs(parameters, state);
+    let displacement = balance(parameters.normal_force, &pairs)?;
+    let overlaps = pairs.iter().map(|pair| (displacement - pair.gap).max(0.0));
+    let losses: Vec<Loss> =
+        overlaps.clone().enumerate().map(|(pin, overlap)| wear(parameters, state, pin, &pairs[pin], overlap)).collect();
+    let step = Step {
+        displacement,
+        pressure: overlaps.clone().zip(&pairs).map(|(overlap, pair)| pair.stiffness * overlap).collect(),
+        contact: overlaps.map(|overlap| overlap > 0.0).collect(),
+        moved: match parameters.plateaus.debris {
+            DebrisRule::Local => deposit_locally(parameters, state, &pairs, displacement, &losses),
+            DebrisRule::Contact | DebrisRule::Track => pool(parameters, state, &pairs, displacement, &losses),
+        },
+    };
+    state.steps += 1;
+    Ok(step)
+}
+
+/// Model 1 and 2: each pin cell with the disc cell that the coming step turns under it, and their statuses.
+pub fn pairs(parameters: &Parameters, state: &State) -> Vec<Pair> {
+    let Parameters { mesh, materials, foundation_height, .. } = parameters;
+    let State { disc, pin, steps, .. } = state;
+    let statuses: Vec<Status> = pin.statuses().collect();
+    let pair = |cell: usize| {
+        let (column, row) = (cell / mesh.rows(), cell % mesh.rows());
+        let below = mesh.column(mesh.disc_column(column, *steps)).start + row;
+        let (pin_status, disc_status) = (statuses[cell], disc_status(disc.height[below], disc.substrate[below]));
+        Pair {
+            row,
+            area: mesh.area()[row],
+            disc: below,
+            pin_status,
+            disc_status,
+            gap: pin.height[cell] - disc.height[below],
+            stiffness: materials.combined_modulus(pin_status, disc_status == Status::Secondary) / foundation_height,
+            plateau_ahead: statuses.get(cell + mesh.rows()).is_some_and(|ahead| *ahead != Status::None),
+        }
+    };
+    (0..mesh.pin_cells()).map(pair).collect()
+}
+
+/// Model 4.1: δ, m, with Σ k A (δ − g)₊ = F_N.
+///
+/// The load is piecewise linear in δ and rises from gap to gap: with the gaps in order, the solution is found on the first
+/// piece on which it lies.
+///
+/// # Errors
+/// [`ContactError::NotFinite`] when heights, stiffness or load are not finite.
+pub fn balance(normal_force: f64, pairs: &[Pair]) -> Result<f64, ContactError> {
+    let mut in_order: Vec<&Pair> = pairs.iter().collect();
+    in_order.sort_by(|a, b| a.gap.total_cmp(&b.gap));
+    let lowest = in_order[0].gap;
+    // Σ k A and Σ k A (g − lowest) over the pairs that touch.
+    let (mut slope, mut moment) = (0.0, 0.0);
+    let mut displacement = lowest;
+    for (pair, next) in in_order.iter().zip(in_order.iter().skip(1).map(|pair| pair.gap).chain([f64::INFINITY])) {
+        slope += pair.stiffness * pair.area;
+        moment += pair.stiffness * pair.area * (pair.gap - lowest);
+        displacement = lowest + (normal_force + moment) / slope;
+        if displacement <= next {
+            break;
+        }
+    }
+    if !(displacement.is_finite() && normal_force.is_finite()) {
+        return Err(ContactError::NotFinite { displacement, load: slope * (displacement - lowest), normal_force });
+    }
+    Ok(displacement)
+}
+
+/// Model 4.2: wears a pair, if it overlaps, and tells what its two cells lost.
+pub fn wear(parameters: &Parameters, state: &mut State, cell: usize, pair: &Pair, overlap: f64) -> Loss {
+    if overlap == 0.0 {
+        return Loss::default();
+    }
+    let Parameters { mesh, materials, time_acceleration, .. } = parameters;
+    let sliding = time_acceleration * mesh.radius()[pair.row] * mesh.column_angle();
+    // Δh, m, of a cell with the wear rate `own` that faces one with `other`.
+    let raw = |own: f64, other: f64| match parameters.integrator {
+        Integrator::Explicit => own * (pair.stiffness * overlap) * sliding,
+        Integrator::Exponential if own == 0.0 => 0.0,
+        Integrator::Exponential => {
+            let decayed = -libm::expm1(-(own + other) * pair.stiffness * sliding);
+            overlap * decayed * (own / (own + other))
+        }
+    };
+    let State { disc, pin, .. } = state;
+    let on_resin = pin.base[cell].is_resin();
+    let rate_of_disc = materials.disc(pair.disc_status == Status::Secondary).specific_wear_rate;
+    let rate_of_pin = match pair.pin_status {
+        Status::None => 0.0,
+        plateau => materials.pin(plateau).specific_wear_rate,
+    };
+
+    let build_up = pin.substrate[cell] - pin.height[cell];
+    let fibre = if on_resin { 0.0 } else { raw(materials.pin_primary.specific_wear_rate, rate_of_disc) };
+    let of_pin = match pair.pin_status {
+        Status::None => [0.0, materials.wear_height],
+        _ => build_up_first(build_up, raw(rate_of_pin, rate_of_disc), fibre),
+    };
+    pin.height[cell] = after(of_pin, build_up, pin.height[cell], pin.substrate[cell], 1.0);
+    pin.substrate[cell] = pin.substrate[cell].max(pin.height[cell]);
+
+    let build_up = disc.height[pair.disc] - disc.substrate[pair.disc];
+    let coating = raw(materials.disc_primary.specific_wear_rate, rate_of_pin);
+    let of_disc = build_up_first(build_up, raw(rate_of_disc, rate_of_pin), coating);
+    disc.height[pair.disc] = after(of_disc, build_up, disc.height[pair.disc], disc.substrate[pair.disc], -1.0);
+    disc.substrate[pair.disc] = disc.substrate[pair.disc].min(disc.height[pair.disc]);
+
+    let [pin, disc] = [of_pin, of_disc].map(|[build_up, substrate]| build_up + substrate);
+    if pair.pin_status == Status::None { Loss { resin: pin, disc, pin: 0.0 } } else { Loss { pin, disc, resin: 0.0 } }
+}
+
+/// What a cell loses of its build-up t and of its substrate, m: t first, then (1 − t/Δh) of the substrate's own raw loss.
+fn build_up_first(build_up: f64, raw: f64, raw_of_substrate: f64) -> [f64; 2] {
+    match build_up {
+        0.0 => [0.0, raw],
+        t if raw < t => [raw, 0.0],
+        t => [t, (1.0 - t / raw) * raw_of_substrate],
+    }
+}
+
+/// The height of a cell that lost so much of its build-up and substrate; `direction` is that in which wear moves it.
+fn after([of_build_up, of_substrate]: [f64; 2], build_up: f64, height: f64, substrate: f64, direction: f64) -> f64 {
+    // A build-up that is worn through leaves exactly the substrate.
+    if build_up > 0.0 && of_build_up == build_up {
+        substrate + direction * of_substrate
+    } else {
+        height + direction * (of_build_up + of_substrate)
+    }
+}
+
+/// What of a loss is captured, m: η of it, with an η of its own for resin if it is given.
+fn captured(parameters: &Parameters, loss: &Loss) -> f64 {
+    let rules = &parameters.plateaus;
+    rules.captured_fraction * (loss.pin + loss.disc) + rules.captured_of_resin() * loss.resin
+}
+
+/// Σ A Δh over some pairs, by what wore, m³.
+fn worn<'a>(worn: impl Iterator<Item = (&'a Pair, &'a Loss)>) -> Volumes {
+    worn.fold(Volumes::default(), |sum, (pair, loss)| Volumes {
+        worn_pin: sum.worn_pin + pair.area * loss.pin,
+        worn_resin: sum.worn_resin + pair.area * loss.resin,
+        worn_disc: sum.worn_disc + pair.area * loss.disc,
+        ..sum
+    })
+}
+
+/// Model 4L, local debris: what the pair ahead lost fills the gap behind it, and the rest leaves the contact.
+pub fn deposit_locally(
+    parameters: &Parameters,
+    state: &mut State,
+    pairs: &[Pair],
+    displacement: f64,
+    losses: &[Loss],
+) -> Volumes {
+    let State { disc, pin, reference_height, .. } = state;
+    let mut moved = worn(pairs.iter().zip(losses));
+    let rows = parameters.mesh.rows();
+    for (cell, pair) in pairs.iter().enumerate() {
+        // The neighbour's own deposit comes after: columns are in order, so its height is that after wear.
+        let (ahead, touches) = (cell + rows, displacement > pair.gap);
+        if !parameters.plateaus.formation || ahead >= pairs.len() || touches {
+            continue;
+        }
+        let (z_p, z_d) = (pin.height[cell], disc.height[pair.disc]);
+        let clearance = z_p - z_d - displacement;
+        let to_plateau = if pair.plateau_ahead { (z_p - pin.height[ahead]).max(0.0) } else { 0.0 };
+        let to_reference = (*reference_height - z_d).max(0.0);
+        let deposit = clearance.min(to_plateau + to_reference).min(captured(parameters, &losses[ahead]));
+        let on_pin = deposit.min(to_plateau);
+        pin.height[cell] -= on_pin;
+        disc.height[pair.disc] += deposit - on_pin;
+        moved.deposited_pin += pair.area * on_pin;
+        moved.deposited_disc += pair.area * (deposit - on_pin);
+    }
+    moved.emitted = moved.worn_pin + moved.worn_resin + moved.worn_disc - moved.deposited_pin - moved.deposited_disc;
+    moved
+}
+
+/// Model 4P, pooled debris: destruction, formation and balance of each pool.
+pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displacement: f64, losses: &[Loss]) -> Volumes {
+    let mut all = Volumes::default();
+    for pool in 0..state.pools.len() {
+        let is_of_pool = |row| parameters.plateaus.debris == DebrisRule::Contact || row == pool;
+        let cells: Vec<usize> = (0..pairs.len()).filter(|cell| is_of_pool(pairs[*cell].row)).collect();
+        let mut moved = worn(cells.iter().map(|cell| (&pairs[*cell], &losses[*cell])));
+        let captured = cells.iter().map(|cell| pairs[*cell].area * captured(parameters, &losses[*cell])).sum::<f64>();
+        if parameters.plateaus.destruction {
+            moved.returned = destroy(state, pairs, &cells);
+        }
+        let mut is_emptied = false;
+        if parameters.plateaus.formation {
+            let volume = state.pools[pool];
+            ([moved.deposited_pin, moved.deposited_disc], is_emptied) =
+                form(parameters.plateaus.pad_share, volume, state, pairs, &cells, displacement);
+        }
+        let rest = if is_emptied { 0.0 } else { state.pools[pool] - moved.deposited_pin - moved.deposited_disc };
+        state.pools[pool] = rest + captured + moved.returned;
+        moved.emitted = moved.worn_pin + moved.worn_resin + moved.worn_disc - captured;
+        all = all + moved;
+    }
+    all
+}
+
+/// Model 4P, destruction: build-up on resin that no plateau ahead supported falls; its volume, m³.
+pub fn destroy(state: &mut State, pairs: &[Pair], cells: &[usize]) -> f64 {
+    let pin = &mut state.pin;
+    let mut returned = 0.0;
+    for (cell, pair) in cells.iter().map(|cell| (*cell, &pairs[*cell])) {
+        if pin.base[cell].is_resin() && pin.height[cell] < pin.substrate[cell] && !pair.plateau_ahead {
+            returned += pair.area * (pin.substrate[cell] - pin.height[cell]);
+            pin.height[cell] = pin.substrate[cell];
+        }
+    }
+    returned
+}
+
+/// Model 4P, formation: spreads a pool (m³) evenly over the cells that do not touch; the volumes on pin and disc, m³, and
+/// whether every cell got its whole share.
+pub fn form(
+    pad_share: f64,
+    pool: f64,
+    state: &mut State,
+    pairs: &[Pair],
+    cells: &[usize],
+    displacement: f64,
+) -> ([f64; 2], bool) {
+    let State { disc, pin, .. } = state;
+    let open = || cells.iter().map(|cell| (*cell, &pairs[*cell])).filter(|(_, pair)| displacement <= pair.gap);
+    let open_area: f64 = open().map(|(_, pair)| pair.area).sum();
+    if open_area == 0.0 {
+        return ([0.0, 0.0], false);
+    }
+    // Rounding may leave a trace of debt in a pool that has given nearly all.
+    let share = (pool / open_area).max(0.0);
+    let (mut deposited, mut is_emptied) = ([0.0, 0.0], true);
+    for (cell, pair) in open() {
+        let clearance = pin.height[cell] - disc.height[pair.disc] - displacement;
+        let deposit = clearance.max(0.0).min(share);
+        let on_pin = if pair.plateau_ahead { pad_share * deposit } else { 0.0 };
+        pin.height[cell] -= on_pin;
+        disc.height[pair.disc] += deposit - on_pin;
+        deposited = [deposited[0] + pair.area * on_pin, deposited[1] + pair.area * (deposit - on_pin)];
+        is_emptied &= deposit == share;
+    }
+    (deposited, is_emptied)
+}

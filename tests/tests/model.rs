@@ -1,0 +1,138 @@
+//! The engine takes the steps of the plain model, in thousands of random small scenes with every option.
+
+use plateau_core::kernel::InstructionSet;
+use plateau_core::observe::Sample;
+use plateau_core::parameters::{DebrisRule, Parameters};
+use plateau_core::simulation::{Engine, Execution, Simulation};
+use plateau_core::state::{Disc, Pin};
+use plateau_tests::scenes::{random_scene, random_surfaces};
+
+/// Scenes of each debris rule.
+const SCENES: u64 = 1000;
+/// Accepted deviation of heights, m.
+const HEIGHT: f64 = 1e-12;
+/// Accepted relative deviation of everything else.
+const RELATIVE: f64 = 1e-9;
+
+fn start(parameters: &Parameters, seed: u64, execution: Execution) -> Simulation {
+    let surfaces = random_surfaces(&parameters.mesh, seed);
+    Simulation::with_execution(parameters.clone(), surfaces, execution).expect("surfaces that fit")
+}
+
+/// What two samples differ in: name, both values, and how much is accepted.
+fn differences(plain: &Sample, fast: &Sample, parameters: &Parameters) -> Vec<String> {
+    let worn = plain.worn_pin + plain.worn_resin + plain.worn_disc + plain.returned;
+    let pressure = parameters.normal_force / parameters.mesh.pin_area();
+    let quantities = [
+        ("displacement", plain.displacement, fast.displacement, HEIGHT / RELATIVE),
+        ("contact area", plain.contact_area, fast.contact_area, parameters.mesh.pin_area()),
+        ("largest pressure", plain.max_pressure, fast.max_pressure, pressure.max(plain.max_pressure)),
+        ("mean pressure", plain.mean_pressure, fast.mean_pressure, plain.mean_pressure),
+        ("worn pin", plain.worn_pin, fast.worn_pin, worn),
+        ("worn resin", plain.worn_resin, fast.worn_resin, worn),
+        ("worn disc", plain.worn_disc, fast.worn_disc, worn),
+        ("returned", plain.returned, fast.returned, worn),
+        ("pool", plain.pool, fast.pool, worn),
+        ("emitted", plain.emitted, fast.emitted, worn),
+        ("deposited on the pin", plain.deposited_pin, fast.deposited_pin, worn),
+        ("deposited on the disc", plain.deposited_disc, fast.deposited_disc, worn),
+        ("pin secondary", plain.pin_secondary, fast.pin_secondary, 1.0),
+        ("disc secondary", plain.disc_secondary, fast.disc_secondary, 1.0),
+        ("filled fraction", plain.filled_fraction, fast.filled_fraction, 1.0),
+        ("contact area, mean", plain.contact_area_mean, fast.contact_area_mean, parameters.mesh.pin_area()),
+    ];
+    let differ = quantities.into_iter().filter(|(_, plain, fast, scale)| !((plain - fast).abs() <= RELATIVE * scale));
+    differ.map(|(name, plain, fast, _)| format!("{name}: plain {plain:e}, fast {fast:e}")).collect()
+}
+
+fn largest_deviation(plain: &[f64], fast: &[f64]) -> f64 {
+    plain.iter().zip(fast).map(|(plain, fast)| (plain - fast).abs()).fold(0.0, f64::max)
+}
+
+/// How a comparison ends.
+enum End {
+    /// Both took the same steps.
+    Equal,
+    /// A build-up was worn through to the last bit, as where one cell carries all the load and loses what the cell ahead
+    /// of it lost and left there: on which side of nothing rounding leaves it, is chance.
+    Tie,
+    /// They differ.
+    Different(String),
+}
+
+/// Whether some build-up is no more than what rounding leaves.
+fn is_tie(heights: &[f64], substrates: &[f64]) -> bool {
+    heights.iter().zip(substrates).map(|(height, substrate)| (height - substrate).abs()).any(|t| t > 0.0 && t < 1e-19)
+}
+
+/// Takes the steps of one scene with both engines, up to the first in which they differ.
+fn compare(parameters: &Parameters, seed: u64, execution: Execution) -> End {
+    let mut plain = start(parameters, seed, Execution { engine: Engine::Plain, ..Execution::default() });
+    let mut fast = start(parameters, seed, execution);
+    for step in 1..=2 * parameters.mesh.disc_columns() as u64 + 20 {
+        if let (Err(_), Err(_)) = (plain.advance(), fast.advance()) {
+            return End::Equal;
+        }
+        let mut differences = differences(&plain.sample().unwrap(), &fast.sample().unwrap(), parameters);
+        let (pins, discs) = (
+            [&mut plain, &mut fast].map(|each| each.pin().unwrap()),
+            [&mut plain, &mut fast].map(|each| each.disc().unwrap()),
+        );
+        for (name, [plain, fast]) in [
+            ("z_p", pins.each_ref().map(|pin| &pin.height)),
+            ("b_p", pins.each_ref().map(|pin| &pin.substrate)),
+            ("z_d", discs.each_ref().map(|disc| &disc.height)),
+            ("b_d", discs.each_ref().map(|disc| &disc.substrate)),
+        ] {
+            let deviation = largest_deviation(plain, fast);
+            if deviation > HEIGHT || !deviation.is_finite() {
+                differences.push(format!("{name} by up to {deviation:e} m"));
+            }
+        }
+        let tie = |pin: &Pin, disc: &Disc| is_tie(&pin.height, &pin.substrate) || is_tie(&disc.height, &disc.substrate);
+        if pins.iter().zip(&discs).any(|(pin, disc)| tie(pin, disc)) {
+            return End::Tie;
+        }
+        if !differences.is_empty() {
+            return End::Different(format!("seed {seed}, step {step}: {differences:#?}\n{parameters:#?}"));
+        }
+    }
+    End::Equal
+}
+
+/// Scenes with a rule; the instruction set and number of workers change from scene to scene.
+fn agrees(debris: DebrisRule) {
+    let sets: Vec<InstructionSet> = InstructionSet::available().collect();
+    let mut ties = 0;
+    for seed in 0..SCENES {
+        let parameters = random_scene(seed, debris);
+        let instructions = sets[seed as usize % sets.len()];
+        let execution = Execution {
+            instructions,
+            workers: 1 + seed as usize / 3 % 4,
+            bands: (seed % 2 == 0).then_some(1),
+            ..Execution::default()
+        };
+        match compare(&parameters, seed, execution) {
+            End::Equal => {}
+            End::Tie => ties += 1,
+            End::Different(difference) => panic!("{execution:?}, {difference}"),
+        }
+    }
+    assert!(ties <= SCENES / 20, "{ties} of {SCENES} scenes have a tie");
+}
+
+#[test]
+fn the_engine_agrees_with_the_plain_model_with_local_debris() {
+    agrees(DebrisRule::Local);
+}
+
+#[test]
+fn the_engine_agrees_with_the_plain_model_with_one_pool() {
+    agrees(DebrisRule::Contact);
+}
+
+#[test]
+fn the_engine_agrees_with_the_plain_model_with_a_pool_for_each_track() {
+    agrees(DebrisRule::Track);
+}
