@@ -245,7 +245,7 @@ impl Debris {
     /// What of the worn volume stays in the contact and what leaves it, m³: η and 1 − η of it, each for resin and plateaus.
     fn part(&self, worn_pin: f64, worn_resin: f64, worn_disc: f64) -> [f64; 2] {
         let (of_plateaus, of_resin) = (self.captured_fraction, self.captured_resin_fraction);
-        // Summed first, as model 4.5 has it: apart, a scene without the second fraction would get other bits.
+        // Summed first, as model 4P has it: apart, a scene without the second fraction would get other bits.
         if of_plateaus == of_resin {
             let worn = worn_pin + worn_resin + worn_disc;
             return [of_plateaus * worn, (1.0 - of_plateaus) * worn];

@@ -19,13 +19,15 @@
 //! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pair::Coefficients`] |
 //! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
 //! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`], [`wear`] |
-//! | 4.3 destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`] |
-//! | 4.4 formation | d = min(γ, s), s = M/S | [`debris::Debris::spread`], [`plateau`] |
-//! | 4.5 debris balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
+//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | `kernel::local` |
+//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`] |
+//! | 4P formation | d = min(γ, s), s = M/S | [`debris::Debris::prepare`], [`plateau`] |
+//! | 4P balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
 //! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance_to`] |
 //! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::roughness`] |
 //!
-//! `worker` takes these in turn. Rules 4.2 to 4.4 of eight cells are one function, `kernel::cells::update`.
+//! [`model::step`] is all of it as it is read, cell by cell. The engine takes the same steps: `worker` takes the rules in turn,
+//! those of eight cells are `kernel::worn` (4.2), `kernel::local` (4L) and `kernel::cells` (4P).
 //!
 //! # How a step is carried out
 //! - One pass over the pin a step. In the next step the disc column under pin column j lies under column j + 1, so the

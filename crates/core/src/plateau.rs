@@ -1,21 +1,21 @@
-//! Destruction and formation of secondary plateaus (model 4.3 and 4.4; paper 2.4, Figs. 2 to 4), eight cells at a time.
+//! Destruction and formation of secondary plateaus with a pool of debris (model 4P; paper 2.4, Figs. 2 to 4), eight cells at a time.
 
 use crate::kernel::lanes::Lanes;
 
-/// Rule 4.3(b): a plateau of debris on resin that nothing supports in the sliding direction falls apart.
+/// A plateau of debris on resin that nothing supports in the sliding direction falls apart.
 #[inline(always)]
 pub(crate) fn falls<L: Lanes>(secondary_on_resin: L::Mask, supported: L::Mask) -> L::Mask {
     secondary_on_resin & !supported
 }
 
-/// Rule 4.4: height of debris (m) that fills the clearance γ ≥ 0 (m) of an open cell, wholly or as far as the share s
+/// Height of debris (m) that fills the clearance γ ≥ 0 (m) of an open cell, wholly or as far as the share s
 /// (m) reaches.
 #[inline(always)]
 pub(crate) fn fill<L: Lanes>(clearance: L, share: L) -> L {
     clearance.lesser(share)
 }
 
-/// Rule 4.4: the pin's part of what is filled, the fraction `pad_share` = β against a plateau ahead, else nothing.
+/// The pin's part of what is filled, the fraction `pad_share` = β against a plateau ahead, else nothing.
 #[inline(always)]
 pub(crate) fn on_pin<L: Lanes>(filled: L, supported: L::Mask, pad_share: L) -> L {
     (filled * pad_share).only(supported)

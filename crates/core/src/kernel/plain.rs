@@ -105,7 +105,7 @@ impl<L: Lanes> Plain<'_, L> {
             b_d = if FORMS { L::load(&self.disc_substrate[column]).lesser(z_worn) } else { z_worn };
         }
 
-        // 4.4
+        // 4P
         let (b_p, new_z_p, new_z_d, mut unusual);
         let (mut deposited_pin, mut deposited_disc) = (self.moved.deposited_pin, self.moved.deposited_disc);
         if !FORMS {

@@ -21,7 +21,7 @@ pub(crate) fn halo_words(rows: usize, is_local: bool) -> usize {
 }
 
 impl<C: Communicator> Worker<C> {
-    /// Wear, destruction and formation in every own column (model 4.2 to 4.4), and the pairs of the next step against
+    /// Wear, destruction and formation in every own column (model 4.2, 4L and 4P), and the pairs of the next step against
     /// where its displacement is expected: the bracket that is returned.
     ///
     /// The pin column over the first disc column of a sector lies over the sector before in the next step. It is swept
