@@ -16,7 +16,7 @@ pub(super) struct Place {
 
 impl Place {
     /// Checks that a file may be written at `path` and starts the temporary with the given bytes.
-    pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
+    pub(super) fn prepare(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
         let path = resolve(path, overwrite)?;
         let temporary = Temporary::beside(&path);
         fs::write(temporary.path(), start).map_err(|error| match error.kind() {

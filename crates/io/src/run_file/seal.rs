@@ -36,7 +36,7 @@ impl Seal<'_> {
     /// killed at whatever moment, the program leaves a file that can be read. Where there is no room for a second file, it is
     /// put on the file itself, if there is room for that.
     pub(super) fn put_on(&self, path: &Path) -> Result<(), RunFileError> {
-        let anew = Place::claim(path, true, EMPTY_FILE).and_then(|place| {
+        let anew = Place::prepare(path, true, EMPTY_FILE).and_then(|place| {
             self.make(path, &place).map_err(not_anew(path))?;
             place.publish_durably()
         });

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
+use plateau_io::claim::{Claim, ClaimError};
 use plateau_io::run_file::{Header, RunFile, RunWriter, State};
 use plateau_io::temporary::Temporary;
 use plateau_io::writer::writer_of;
@@ -15,6 +16,8 @@ use crate::{message, number, resume};
 
 /// What a run begins with.
 pub(super) struct Beginning {
+    /// To be held until nothing more is written. None in a process that does not lead.
+    pub(super) claim: Option<Claim>,
     /// None in a process that does not lead.
     pub(super) writer: Option<RunWriter>,
     /// What it goes on from.
@@ -22,7 +25,7 @@ pub(super) struct Beginning {
 }
 
 impl Beginning {
-    /// Makes the run file, or finds out what to go on from and goes on with it; nothing where all is done already, which is
+    /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done already, which is
     /// said. All processes of a job do this together.
     ///
     /// # Errors
@@ -35,7 +38,11 @@ impl Beginning {
         end: f64,
         job: &mut Job,
     ) -> Result<Option<Self>, Failure> {
+        let claim = if job.leads() { Some(Claim::of(path).map_err(not_claimed)?) } else { None };
+        // No process looks at what is there before that is done.
+        job.sum(0, 0)?;
         if job.leads() {
+            refuse_if_written(path)?;
             for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
                 Temporary::remove_abandoned(target);
             }
@@ -66,7 +73,7 @@ impl Beginning {
         // The first rank has seen which of the states holds.
         let (place, _) = job.sum(place, 0)?;
         let state = (!states.is_empty()).then(|| states.swap_remove(place));
-        Ok(Some(Self { writer, state }))
+        Ok(Some(Self { claim, writer, state }))
     }
 }
 
@@ -77,7 +84,6 @@ fn lead(
     arguments: &RunArguments,
     states: &[RunState],
 ) -> Result<(Option<RunWriter>, usize), Failure> {
-    refuse_if_written(path)?;
     if !states.is_empty() {
         return resume::writer(path, header, states).map(|(writer, place)| (Some(writer), place));
     }
@@ -120,7 +126,12 @@ fn look(path: &Path, about: &About, extends: bool) -> Result<Option<State>, Fail
     resume::compare_scenes(path, &scene, about, extends).map(|()| Some(there.state()))
 }
 
-/// Refuses to replace, or to go on with, a file that another run is writing.
+/// Whose fault it is that a run file is not claimed.
+pub(super) fn not_claimed(error: ClaimError) -> Failure {
+    if error.lacks_space() { Failure::run(error) } else { Failure::input(error) }
+}
+
+/// Refuses a file that another program is writing, or an earlier version of this one, which made no locks.
 fn refuse_if_written(path: &Path) -> Result<(), Failure> {
     let Some(process) = writer_of(path) else { return Ok(()) };
     Err(Failure::input(format_args!(

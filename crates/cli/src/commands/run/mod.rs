@@ -10,11 +10,12 @@ use std::time::Instant;
 use plateau_core::scout::{Idle, Scout};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
+use plateau_io::claim::Claim;
 use plateau_io::run_file::{End, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
-use self::beginning::Beginning;
+use self::beginning::{Beginning, not_claimed};
 use self::header::header;
 use self::recorder::{Recorder, RunFailure};
 use super::load_scene;
@@ -50,6 +51,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
     if job.leads() {
         check_place(&path, arguments.force || arguments.resumes()).map_err(Failure::input)?;
+        Claim::check(&path).map_err(not_claimed)?;
     }
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
@@ -68,7 +70,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let about = About { program: version::build(), scene: scene.resolved.clone(), inputs };
     stop_if_told(&interrupt, job)?;
     let beginning = Beginning::of(&path, &header, &about, arguments, schedule.end_time(), job)?;
-    let Some(Beginning { writer, state }) = beginning else {
+    // In this order: the claim goes last.
+    let Some(Beginning { claim: _claim, writer, state }) = beginning else {
         return Ok(());
     };
     if let Some(state) = &state {
