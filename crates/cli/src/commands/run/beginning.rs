@@ -4,7 +4,7 @@ use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::{Claim, ClaimError};
-use plateau_io::run_file::{Header, RunFile, RunWriter, State};
+use plateau_io::run_file::{Damage, Header, RunFile, RunWriter, State, verify};
 use plateau_io::temporary::Temporary;
 use plateau_io::writer::writer_of;
 
@@ -49,20 +49,31 @@ impl Beginning {
         }
         let extends = arguments.extend_to.is_some();
         let mut states = if arguments.resumes() { resume::states(path, about, extends)? } else { Vec::new() };
-        let there = if arguments.resumes() && !arguments.force { look(path, about, extends)? } else { None };
-        let finished = match (states.first().filter(|newest| newest.finished), there) {
-            (Some(_), None) if !arguments.force => {
-                return Err(refused(path, "is gone, though its checkpoint says that the run is finished"));
-            }
-            (Some(newest), _) => !extends || has_come_to(path, newest, end)?,
-            (None, Some(State::Finished)) if extends && states.is_empty() => {
+        let there = if arguments.resumes() { look(path, about, arguments)? } else { None };
+        let is_finished = there.as_ref().is_some_and(|there| there.state == State::Finished);
+        let finished = match states.first() {
+            // What a checkpoint says counts only for the file that it was left beside.
+            Some(newest) if newest.finished => match &there {
+                None if !arguments.force => {
+                    return Err(refused(path, "is gone, though its checkpoint says that the run is finished"));
+                }
+                Some(there) if is_finished && there.holds == [newest.samples, newest.snapshots] => {
+                    !extends || has_come_to(path, newest, end)?
+                }
+                _ => false,
+            },
+            Some(_) => false,
+            None if is_finished && extends => {
                 return Err(refused(path, "is finished and has no checkpoint to go on from"));
             }
-            (None, there) => there == Some(State::Finished) && states.is_empty(),
+            None => is_finished,
         };
         let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
         job.compare(&format!("{finished} {steps:?}"))?;
         if finished {
+            if job.leads() {
+                check_that_it_is_whole(path)?;
+            }
             message::note(format_args!("{} is finished; --extend-to TIME goes on beyond its end", path.display()));
             return Ok(None);
         }
@@ -115,15 +126,38 @@ fn refused(path: &Path, what: &str) -> Failure {
     Failure::input(format_args!("{} {what}; without --resume, --force begins again", path.display()))
 }
 
-/// The state of the file that is to be gone on with, if there is one; it must be of this run.
-fn look(path: &Path, about: &About, extends: bool) -> Result<Option<State>, Failure> {
+/// The file that is to be gone on with.
+struct There {
+    state: State,
+    /// Samples, and moments of which there are maps.
+    holds: [usize; 2],
+}
+
+/// Looks at the file that is to be gone on with, if there is one; it must be of this run, unless it may be replaced.
+fn look(path: &Path, about: &About, arguments: &RunArguments) -> Result<Option<There>, Failure> {
     if !path.exists() {
         return Ok(None);
     }
-    let there = RunFile::open(path)
-        .map_err(|error| Failure::input(format_args!("{error}; without --resume, --force begins again")))?;
+    let there = match RunFile::open(path) {
+        Err(_) if arguments.force => return Ok(None),
+        there => {
+            there.map_err(|error| Failure::input(format_args!("{error}; without --resume, --force begins again")))?
+        }
+    };
     let scene = there.attribute("scene").unwrap_or_default();
-    resume::compare_scenes(path, &scene, about, extends).map(|()| Some(there.state()))
+    match resume::compare_scenes(path, &scene, about, arguments.extend_to.is_some()) {
+        Err(_) if arguments.force => Ok(None),
+        compared => {
+            compared.map(|()| Some(There { state: there.state(), holds: [there.time().len(), there.map_time().len()] }))
+        }
+    }
+}
+
+/// Nothing more will be done about a finished file: it must hold what was written.
+fn check_that_it_is_whole(path: &Path) -> Result<(), Failure> {
+    let verification = verify(path).map_err(Failure::input)?;
+    let Some(Damage { place, problem }) = verification.damage.first() else { return Ok(()) };
+    Err(refused(path, &format!("is finished, and damaged: {place}: {problem}")))
 }
 
 /// Whose fault it is that a run file is not claimed.
