@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
+use crate::regular;
 use crate::temporary::Temporary;
 
 /// How every checkpoint begins.
@@ -136,7 +137,7 @@ fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
 /// # Errors
 /// [`CheckpointError`].
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointError> {
-    let mut file = match File::open(path) {
+    let mut file = match regular::open(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,
     };

@@ -50,7 +50,8 @@ impl Seal<'_> {
 
     /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
     pub(super) fn make(&self, path: &Path, place: &Place) -> hdf5::Result<()> {
-        let (old, new) = (hdf5_file::open(path)?, open(place.temporary())?);
+        let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
+        let new = open(place.temporary())?;
         lay_out(&new, self.header, self.start_time, Some(&old))?;
         self.write(new)
     }
