@@ -8,7 +8,7 @@
 //! the right to do so in the same way, with a file named by the number that only this lock has; then it looks whether that
 //! lock still is there, and replaces it. So of several that find a lock left over one gets it, and nobody takes a new one for it.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -132,8 +132,7 @@ impl Claim {
         let owner = Owner::this();
         let text = serde_json::to_string(&owner).map_err(|error| system(error.into()))? + "\n";
         loop {
-            let temporary = Temporary::beside(lock);
-            let mut file = OpenOptions::new().write(true).create_new(true).open(temporary.path()).map_err(system)?;
+            let (temporary, mut file) = Temporary::create(lock).map_err(system)?;
             // After a power failure, too, it is complete or not there.
             file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(system)?;
             if make(temporary.path(), lock, &text).map_err(system)? {
@@ -219,7 +218,7 @@ fn make(complete: &Path, lock: &Path, text: &str) -> io::Result<bool> {
         return Ok(false);
     }
     // Some file systems have no hard links.
-    let mut file = match OpenOptions::new().write(true).create_new(true).open(lock) {
+    let mut file = match File::create_new(lock) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => return Ok(false),
         file => file?,
     };
@@ -242,7 +241,7 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
             Ok(_) => {}
         }
         let mut text = String::new();
-        match fs::File::open(lock).and_then(|file| file.take(LARGEST).read_to_string(&mut text)) {
+        match File::open(lock).and_then(|file| file.take(LARGEST).read_to_string(&mut text)) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             Err(error) if error.kind() == ErrorKind::InvalidData => return Err(foreign()),
             read => read.map_err(system)?,

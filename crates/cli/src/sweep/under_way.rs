@@ -93,8 +93,9 @@ impl UnderWay {
         if self.claim.is_none() && !self.refused {
             let folder = self.path.parent().map_or(Ok(()), fs::create_dir_all);
             let claim = folder.map_err(|error| error.to_string()).and_then(|()| {
-                let claim = Claim::of(&self.path);
-                claim.map_err(|error| error.to_string())
+                let claim = Claim::of(&self.path).map_err(|error| error.to_string())?;
+                checkpoint::refuse_one_foreign(&self.path, false).map_err(|error| error.to_string())?;
+                Ok(claim)
             });
             match claim {
                 Ok(claim) => {

@@ -1,6 +1,6 @@
 //! Run files of runs that were killed, made such that every program reads them.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -133,8 +133,16 @@ fn keep(path: &Path) -> Result<PathBuf, RepairError> {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             Ok(()) => return Ok(copy),
             Err(_) => {
-                let copied = fs::copy(path, &copy).map(|_| copy.clone());
-                return copied.map_err(|error| RepairError::Copy { path: path.into(), copy, error });
+                let made = File::create_new(&copy);
+                if made.as_ref().is_err_and(|error| error.kind() == ErrorKind::AlreadyExists) {
+                    continue;
+                }
+                let copied = made.and_then(|mut made| io::copy(&mut File::open(path)?, &mut made));
+                return copied.map(|_| copy.clone()).map_err(|error| RepairError::Copy {
+                    path: path.into(),
+                    copy,
+                    error,
+                });
             }
         }
     }

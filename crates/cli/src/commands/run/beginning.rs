@@ -43,6 +43,7 @@ impl Beginning {
         job.sum(0, 0)?;
         if job.leads() {
             refuse_if_written(path)?;
+            checkpoint::refuse_foreign(path, arguments.force).map_err(Failure::input)?;
             for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
                 Temporary::remove_abandoned(target);
             }
