@@ -86,13 +86,14 @@ fn let_race(whole: &BTreeMap<String, Content>, race: usize, random: &mut Stream)
             child
         })
         .collect();
+    let folder = directory.path("").canonicalize().unwrap();
     let numbers: Vec<u32> = racers.iter().map(Child::id).collect();
     while racers.iter_mut().any(|child| child.try_wait().unwrap().is_none()) {
         for (place, one) in numbers.iter().enumerate() {
             for other in &numbers[..place] {
-                // Who wrote before the other and still does has written at the same time.
-                let both = writes(*one, &folder(&directory)) && writes(*other, &folder(&directory));
-                assert!(!both || !writes(*one, &folder(&directory)), "race {race}: two processes write");
+                // Who writes before the other does and after it writes at the same time.
+                let [one, other] = [one, other].map(|process| || writes(*process, &folder));
+                assert!(!(one() && other() && one()), "race {race}: two processes write");
             }
         }
     }
@@ -120,10 +121,6 @@ fn let_race(whole: &BTreeMap<String, Content>, race: usize, random: &mut Stream)
     refused
 }
 
-fn folder(directory: &WorkingDirectory) -> std::path::PathBuf {
-    directory.path("").canonicalize().unwrap()
-}
-
 #[test]
 fn a_lock_goes_with_its_run_however_that_ends() {
     let directory = WorkingDirectory::new();
@@ -144,7 +141,6 @@ fn a_lock_goes_with_its_run_however_that_ends() {
         assert_eq!(child.wait().unwrap().code(), Some(status));
         assert!(!directory.path("run.h5.lock").exists(), "after {signal}");
     }
-    // The folder gives no room for another file.
     let child = start(&directory, endless("--resume"), "said");
     assert!(wait_until(|| directory.path("run.h5.lock").exists()));
     kill(child);

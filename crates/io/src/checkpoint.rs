@@ -140,7 +140,8 @@ pub fn refuse_one_foreign(path: &Path, replace: bool) -> Result<(), CheckpointEr
 pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     let [last, before] = paths(run_file);
     let temporary = fill(&last, state)?;
-    temporary.permit_as(&last);
+    // Who may not read the run file may not read what it is made of.
+    temporary.permit_as(if last.exists() { &last } else { run_file });
     match fs::rename(&last, &before) {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         _ => {}

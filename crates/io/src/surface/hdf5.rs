@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use hdf5::Dataset;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
-use hdf5::{Dataset, Group};
 use ndarray::ArrayView2;
 use plateau_core::state::Base;
 use plateau_core::surface::Patch;
