@@ -27,7 +27,7 @@ fn a_killed_run_is_still_running_to_its_readers() {
 
     // The next run does not touch it unless told to.
     let left = directory.content();
-    assert_eq!(directory.names(), ["run.h5"]);
+    assert_eq!(directory.names(), ["run.h5", "run.h5.lock"]);
     let short = ["run", &scene, "-o", "run.h5", "--set", "operation.duration=0.5 s", "--set", "output.maps_at=[]"];
     let refused = directory.plateau(short);
     assert_eq!(refused.status, Some(2));

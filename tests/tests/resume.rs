@@ -173,6 +173,40 @@ fn what_cannot_be_gone_on_with_is_refused_and_stays() {
 }
 
 #[test]
+fn a_checkpoint_of_the_end_is_believed_only_beside_the_file_of_the_end() {
+    let directory = WorkingDirectory::new();
+    let [file, kept, damaged] = ["run.h5", "kept.h5", "damaged.h5"].map(|name| directory.path(name));
+    start_and_kill(&directory, &["--resume"], &mut Stream(11));
+    fs::copy(&file, &kept).unwrap();
+    assert_eq!(run(&directory, "run.h5", &["--resume"]).status, Some(0));
+    let whole = RunFile::open(&file).content();
+    fs::copy(&file, &damaged).unwrap();
+
+    // The file of an earlier moment: less than any checkpoint says, or what the one before goes on from.
+    fs::copy(&kept, &file).unwrap();
+    let before = directory.content();
+    let outcome = run(&directory, "run.h5", &["--resume"]);
+    assert!(!outcome.stderr.contains("is finished"), "{outcome:?}");
+    match outcome.status {
+        Some(0) => assert_eq!(differences(&whole, &RunFile::open(&file).content()), [""; 0]),
+        Some(2) => {
+            assert!(outcome.stderr.contains("samples") && outcome.stderr.contains("expected"), "{outcome:?}");
+            assert!(directory.content() == before);
+        }
+        _ => panic!("{outcome:?}"),
+    }
+
+    // A finished file that was damaged since.
+    let mut bytes = fs::read(&damaged).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle..middle + 64].fill(0x5a);
+    fs::write(&file, &bytes).unwrap();
+    let outcome = run(&directory, "run.h5", &["--resume"]);
+    assert!(outcome.status == Some(2) && outcome.stderr.contains("damaged"), "{outcome:?}");
+    assert!(fs::read(&file).unwrap() == bytes);
+}
+
+#[test]
 fn a_finished_run_goes_on_beyond_its_end() {
     let directory = WorkingDirectory::new();
     assert_eq!(run(&directory, "run.h5", &["--set", "operation.duration=50 s"]).status, Some(0));

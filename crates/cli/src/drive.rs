@@ -118,6 +118,7 @@ pub fn drive<S: Sink>(
         }
         sink.rest(simulation, scout.as_deref_mut())?;
     }
+    simulation.check_heights()?;
     Ok(())
 }
 

@@ -124,6 +124,13 @@ impl Keeper {
     }
 }
 
+impl Drop for Keeper {
+    /// Nothing is written when the claim on the run file ends.
+    fn drop(&mut self) {
+        self.wait();
+    }
+}
+
 fn warn(error: io::Error) {
     message::warning(format_args!(
         "cannot write a checkpoint: {error}; the run file is not touched by that, the last checkpoint still holds"

@@ -2,15 +2,7 @@
 
 use std::fs;
 
-/// Name of the machine.
-pub fn host() -> String {
-    fs::read_to_string("/proc/sys/kernel/hostname")
-        .map(|name| name.trim().to_owned())
-        .ok()
-        .filter(|name| !name.is_empty())
-        .or_else(|| std::env::var("HOSTNAME").ok())
-        .unwrap_or_else(|| "unknown".into())
-}
+pub use plateau_io::process::host;
 
 /// Name of the processor.
 pub fn processor() -> String {

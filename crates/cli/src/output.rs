@@ -51,9 +51,8 @@ pub fn fill(
 ) -> Result<(), Failure> {
     // The target of a link is replaced, not the link.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
-    let temporary = Temporary::beside(&target);
-    let file = File::create(temporary.path()).map(BufWriter::new).map_err(|error| unwritable(path, &error))?;
-    let written = fill(file).and_then(|()| Ok(temporary.publish(force)?));
+    let (temporary, file) = Temporary::create(&target).map_err(|error| unwritable(path, &error))?;
+    let written = fill(BufWriter::new(file)).and_then(|()| Ok(temporary.publish(force)?));
     written.map_err(|error| match error {
         ExportError::Write(error) if error.kind() == ErrorKind::AlreadyExists => exists(path),
         ExportError::Write(error) => Failure::run(format_args!("cannot write {}: {error}", path.display())),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plateau_io::checkpoint::{self, CheckpointError, RunState};
+use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
 use plateau_io::scene::differences;
 
@@ -24,7 +24,7 @@ pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunSt
     for path in checkpoint::paths(run_file) {
         match checkpoint::read::<RunState>(&path) {
             Ok(state) => states.extend(state),
-            Err(error @ (CheckpointError::Damaged { .. } | CheckpointError::Read { .. })) => {
+            Err(error) => {
                 message::warning(&error);
                 trouble.push(error.to_string());
             }

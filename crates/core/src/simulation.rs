@@ -16,7 +16,7 @@ use crate::crew::Crew;
 use crate::kernel::InstructionSet;
 use crate::mesh::Mesh;
 use crate::model::plain::Plain;
-use crate::observe::{Map, MapValues, Sample, Snapshot};
+use crate::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
 use crate::parameters::Parameters;
 use crate::parts::Needs;
 use crate::pressure_spread::PressureSpread;
@@ -52,6 +52,19 @@ pub enum SimulationError {
         step: u64,
         /// What went wrong.
         source: ContactError,
+    },
+    /// What the steps have come to is no number any more.
+    #[error(
+        "after step {step} {what} is {found}: no number holds what this scene asks for; look for a wrong unit among its moduli, \
+         wear rates and lengths, or accelerate less"
+    )]
+    NotFinite {
+        /// Steps done when that was seen.
+        step: u64,
+        /// What it is.
+        what: String,
+        /// Infinite, or not a number.
+        found: f64,
     },
     /// Pressures are asked for that were not kept.
     #[error("the pressures of step {step} were not kept: take it with `advance_to`")]
@@ -301,7 +314,7 @@ impl Simulation {
     /// The complete state, to go on from later.
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotFinite`] when a height is no number.
     pub fn checkpoint(&mut self) -> Result<Checkpoint, SimulationError> {
         let [disc_height, disc_substrate] = self.fields([Map::DiscHeight, Map::DiscSubstrate])?;
         let [pin_height, pin_substrate] = self.fields([Map::PinHeight, Map::PinSubstrate])?;
@@ -312,7 +325,41 @@ impl Simulation {
             #[cfg(feature = "mpi")]
             Team::Rank(worker) => worker.memory(),
         };
+        let rows = self.parameters.mesh.rows();
+        let fields = [
+            ("height of the disc", &disc_height),
+            ("substrate of the disc", &disc_substrate),
+            ("height of the pin", &pin_height),
+            ("substrate of the pin", &pin_substrate),
+        ];
+        for (name, values) in fields {
+            let name = |cell| format!("the {name} at (column {}, row {})", cell / rows, cell % rows);
+            self.refuse_not_finite(values.iter().copied(), name)?;
+        }
         Ok(Checkpoint { disc_height, disc_substrate, pin_height, pin_substrate, memory })
+    }
+
+    /// Looks at all heights: one that is no number is followed by others, and shows in no series for a while.
+    ///
+    /// # Errors
+    /// [`SimulationError::NotFinite`], and [`SimulationError::Worker`] when a worker failed.
+    pub fn check_heights(&mut self) -> Result<(), SimulationError> {
+        self.checkpoint().map(drop)
+    }
+
+    /// Refuses what is no number, which `name` names by its place.
+    fn refuse_not_finite(
+        &self,
+        mut values: impl Iterator<Item = f64>,
+        name: impl Fn(usize) -> String,
+    ) -> Result<(), SimulationError> {
+        let mut place = 0;
+        let found = values.find(|value| {
+            place += 1;
+            !value.is_finite()
+        });
+        let error = |found| SimulationError::NotFinite { step: self.steps_done(), what: name(place - 1), found };
+        found.map_or(Ok(()), |found| Err(error(found)))
     }
 
     /// Goes on from a checkpoint of a simulation with the same parameters, time acceleration apart, and the same initial
@@ -330,18 +377,31 @@ impl Simulation {
     /// The reported quantities after the last step.
     ///
     /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`].
+    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`],
+    /// [`SimulationError::NotFinite`] when an amount is no number.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
-        team!(self, team => team.sample())
+        let sample = team!(self, team => team.sample())?;
+        // A ratio may have nothing to be a ratio of.
+        let amounts = || QUANTITIES.iter().filter(|quantity| quantity.unit != "1");
+        let name = |place| format!("the {}", amounts().nth(place).map_or("", |quantity| quantity.long_name));
+        self.refuse_not_finite(amounts().map(|quantity| (quantity.value)(&sample)), name)?;
+        Ok(sample)
     }
 
     /// The maps asked for, as they are now.
     ///
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
-    /// [`Simulation::pass_to`].
+    /// [`Simulation::pass_to`], [`SimulationError::NotFinite`] when a value is no number.
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
-        team!(self, team => team.snapshot(maps))
+        let snapshot = team!(self, team => team.snapshot(maps))?;
+        for (map, values) in &snapshot.maps {
+            if let MapValues::Float(values) = values {
+                let name = |place| format!("cell {place} of {}", map.name());
+                self.refuse_not_finite(values.iter().copied(), name)?;
+            }
+        }
+        Ok(snapshot)
     }
 
     /// The disc as it is now.

@@ -10,7 +10,7 @@
 //! digest   32 bytes: SHA-256 of the content
 //! ```
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -23,10 +23,13 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
+use crate::regular;
 use crate::temporary::Temporary;
 
 /// How every checkpoint begins.
 const MAGIC: &[u8; 16] = b"plateau state 2\n";
+/// How those of every version do.
+const OWN: &[u8] = b"plateau state ";
 /// Bytes of what is not of every cell, at most: scene, sums, and what is known of a revolution.
 const BESIDES: u64 = 16 * 1024;
 /// No mesh that fits into memory needs more, bytes.
@@ -76,6 +79,12 @@ pub enum CheckpointError {
         /// How it shows.
         reason: &'static str,
     },
+    /// Something that no run left has its name.
+    #[error("{} is no checkpoint of plateau, but is where one would be; move it away, or write elsewhere with -o FILE", path.display())]
+    Foreign {
+        /// What is there.
+        path: PathBuf,
+    },
 }
 
 /// Bytes of a checkpoint, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
@@ -96,6 +105,34 @@ pub fn paths(run_file: &Path) -> [PathBuf; 2] {
     })
 }
 
+/// Refuses what has the name of a checkpoint of a run file and is none. Such a file, or link, is replaced only where
+/// `replace` says so; a folder, pipe or device never.
+///
+/// # Errors
+/// [`CheckpointError::Foreign`], and [`CheckpointError::Read`] where that cannot be told.
+pub fn refuse_foreign(run_file: &Path, replace: bool) -> Result<(), CheckpointError> {
+    paths(run_file).iter().try_for_each(|path| refuse_one_foreign(path, replace))
+}
+
+/// The same for the file of a single state.
+///
+/// # Errors
+/// As [`refuse_foreign`].
+pub fn refuse_one_foreign(path: &Path, replace: bool) -> Result<(), CheckpointError> {
+    let foreign = || CheckpointError::Foreign { path: path.to_owned() };
+    let Ok(there) = fs::symlink_metadata(path) else { return Ok(()) };
+    if replace && (there.is_file() || there.is_symlink()) {
+        return Ok(());
+    }
+    if !there.is_file() {
+        return Err(foreign());
+    }
+    let mut start = Vec::new();
+    let read = regular::open(path).and_then(|file| file.take(OWN.len() as u64).read_to_end(&mut start));
+    read.map_err(|error| CheckpointError::Read { path: path.to_owned(), error })?;
+    if start == OWN { Ok(()) } else { Err(foreign()) }
+}
+
 /// Writes the state beside its run file. When this returns, it is on the disk under its name.
 ///
 /// # Errors
@@ -103,6 +140,8 @@ pub fn paths(run_file: &Path) -> [PathBuf; 2] {
 pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     let [last, before] = paths(run_file);
     let temporary = fill(&last, state)?;
+    // Who may not read the run file may not read what it is made of.
+    temporary.permit_as(if last.exists() { &last } else { run_file });
     match fs::rename(&last, &before) {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
         _ => {}
@@ -121,8 +160,7 @@ pub fn keep(path: &Path, state: &impl Serialize) -> io::Result<()> {
 /// A temporary file beside `path` with a state in it, on the disk: what it replaces may go only then.
 fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
     let content = postcard::to_stdvec(state).map_err(io::Error::other)?;
-    let temporary = Temporary::beside(path);
-    let mut file = File::create(temporary.path())?;
+    let (temporary, mut file) = Temporary::create(path)?;
     file.write_all(MAGIC)?;
     file.write_all(&(content.len() as u64).to_le_bytes())?;
     file.write_all(&content)?;
@@ -136,7 +174,7 @@ fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
 /// # Errors
 /// [`CheckpointError`].
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointError> {
-    let mut file = match File::open(path) {
+    let mut file = match regular::open(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,
     };
@@ -177,8 +215,8 @@ pub struct Aside {
 /// What the system says; they are then where they were.
 pub fn set_aside(run_file: &Path) -> io::Result<Aside> {
     let mut aside = Aside { moved: Vec::new() };
-    for path in paths(run_file).into_iter().filter(|path| path.is_file()) {
-        let temporary = Temporary::beside(&path);
+    for path in paths(run_file).into_iter().filter(|path| path.is_file() || path.is_symlink()) {
+        let (temporary, _) = Temporary::create(&path)?;
         match fs::rename(&path, temporary.path()) {
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             Err(error) => return Err(error),

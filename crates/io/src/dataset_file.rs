@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::SystemTime;
@@ -118,8 +118,11 @@ pub fn write_rows<E: From<DatasetFileError>>(
     let failed = |reason: String| DatasetFileError { path: path.into(), reason };
     // The target of a link is replaced, not the link.
     let target = if replace { path.canonicalize().unwrap_or_else(|_| path.into()) } else { path.into() };
-    let temporary = Temporary::beside(&target);
-    fs::write(temporary.path(), EMPTY_FILE).map_err(|error| failed(error.to_string()))?;
+    let started = Temporary::create(&target).and_then(|(temporary, mut file)| {
+        file.write_all(EMPTY_FILE)?;
+        Ok(temporary)
+    });
+    let temporary = started.map_err(|error| failed(error.to_string()))?;
     let file = create(temporary.path(), content).map_err(|error| failed(error.to_string()))?;
     give(&Rows { file: &file, path })?;
     file.close().map_err(|error| failed(error.to_string()))?;
@@ -224,6 +227,8 @@ fn describe(dataset: &Dataset, unit: &str, long_name: &str) -> hdf5::Result<()> 
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn content() -> Content {

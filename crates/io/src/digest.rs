@@ -1,10 +1,11 @@
 //! Digests of the files that a run reads.
 
-use std::fs::File;
 use std::io;
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
+
+use crate::regular;
 
 /// SHA-256 of a file's content, 64 hexadecimal digits.
 ///
@@ -12,6 +13,6 @@ use sha2::{Digest, Sha256};
 /// What the system says when the file cannot be read.
 pub(crate) fn sha256(path: &Path) -> io::Result<String> {
     let mut hasher = Sha256::new();
-    io::copy(&mut File::open(path)?, &mut hasher)?;
+    io::copy(&mut regular::open(path)?, &mut hasher)?;
     Ok(format!("{:x}", hasher.finalize()))
 }

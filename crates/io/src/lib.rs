@@ -10,14 +10,21 @@
 //! | what a stopped run goes on from | [`checkpoint`] |
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | HDF5 files of named results | [`dataset_file`] |
+//! | who may write a run file and its checkpoints | [`claim`] |
+//! | regular files, and nothing else | [`regular`] |
 //! | files that appear when they are complete | [`temporary`] |
+//! | processes, told from later ones | [`process`] |
 //! | who has a file open for writing | [`writer`] |
 
 pub mod checkpoint;
+pub mod claim;
 pub mod dataset_file;
 mod digest;
 pub mod export;
 mod hdf5_file;
+pub mod process;
+mod random;
+pub mod regular;
 pub mod run_file;
 pub mod scene;
 pub mod study;

@@ -3,9 +3,10 @@
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
 
-/// The name of a file beside the one that it becomes. Whatever is there is removed when this is dropped.
+use crate::random;
+
+/// A file beside the one that it becomes. It is removed when this is dropped, unless it has got its name.
 #[derive(Debug)]
 pub struct Temporary {
     path: PathBuf,
@@ -13,25 +14,30 @@ pub struct Temporary {
 }
 
 impl Temporary {
-    /// A name beside `target` that nobody else has.
-    pub fn beside(target: &Path) -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!("{}{}-{number}.tmp", start_of_name(target), std::process::id());
-        Self { path: target.with_file_name(name), target: target.to_owned() }
+    /// A new file beside `target`, empty and open for writing, of a name that nobody knows beforehand.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn create(target: &Path) -> io::Result<(Self, File)> {
+        loop {
+            let name = format!("{}{}-{}.tmp", start_of_name(target), std::process::id(), random::word());
+            let path = target.with_file_name(name);
+            match File::create_new(&path) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                file => return Ok((Self { path, target: target.to_owned() }, file?)),
+            }
+        }
     }
 
-    /// Removes what processes that were killed left beside a target. Those of living ones of this machine stay; where the
-    /// system does not tell who lives, all do.
+    /// Removes what processes that were killed left beside a target that is claimed. Those of living ones of this machine
+    /// stay; where the system does not tell who lives, all do.
     pub fn remove_abandoned(target: &Path) {
-        let folder = folder(target);
         let (start, processes) = (start_of_name(target), Path::new("/proc"));
-        let Ok(entries) = fs::read_dir(folder).map(Iterator::flatten) else { return };
+        let Ok(entries) = fs::read_dir(folder(target)).map(Iterator::flatten) else { return };
         for entry in entries.filter(|_| processes.join("self").exists()) {
             let name = entry.file_name().to_string_lossy().into_owned();
-            let process = name.strip_prefix(&start).and_then(|rest| rest.split_once('-')).map(|(process, _)| process);
-            let is_number = |process: &&str| !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit());
-            if process.filter(is_number).is_some_and(|process| !processes.join(process).exists()) {
+            let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
+            if is_file && process_of(&name, &start).is_some_and(|process| !processes.join(process).exists()) {
                 // Somebody else may have been quicker.
                 let _ = fs::remove_file(entry.path());
             }
@@ -43,12 +49,13 @@ impl Temporary {
         &self.path
     }
 
-    /// Gives the file its name; takes the place of another only with `replace`.
+    /// Gives the file its name; takes the place of another, whose permissions it gets, only with `replace`.
     ///
     /// # Errors
     /// What the system says; [`ErrorKind::AlreadyExists`] when there is a file that is not to be replaced.
     pub fn publish(self, replace: bool) -> io::Result<()> {
         if replace {
+            self.permit_as(&self.target);
             return fs::rename(&self.path, &self.target);
         }
         // A link fails where a file has appeared meanwhile; a rename would replace it.
@@ -57,6 +64,16 @@ impl Temporary {
             // Some file systems have no hard links.
             Err(_) => fs::rename(&self.path, &self.target),
             Ok(()) => Ok(()),
+        }
+    }
+
+    /// Gives the file the permissions of another, if there is that.
+    pub fn permit_as(&self, other: &Path) {
+        if let Ok(there) = fs::symlink_metadata(other)
+            && there.is_file()
+        {
+            // Some file systems have none.
+            let _ = fs::set_permissions(&self.path, there.permissions());
         }
     }
 
@@ -84,9 +101,61 @@ fn start_of_name(target: &Path) -> String {
     format!(".{}.plateau-", target.file_name().unwrap_or_default().to_string_lossy())
 }
 
+/// The process in the name of a temporary file.
+fn process_of<'a>(name: &'a str, start: &str) -> Option<&'a str> {
+    let (process, rest) = name.strip_prefix(start)?.strip_suffix(".tmp")?.split_once('-')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    // Earlier versions had a count for the word.
+    (is_number(process) && (random::is_word(rest) || is_number(rest))).then_some(process)
+}
+
 impl Drop for Temporary {
     fn drop(&mut self) {
         // Gone already where it was renamed; otherwise there is nobody left to tell.
         let _ = fs::remove_file(&self.path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_replaced_keeps_its_permissions() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.h5");
+        let mode = || fs::metadata(&path).unwrap().permissions().mode() & 0o777;
+        fs::write(&path, "old").unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o604)).unwrap();
+        for durably in [false, true] {
+            let (temporary, _) = Temporary::create(&path).unwrap();
+            if durably { temporary.publish_durably() } else { temporary.publish(true) }.unwrap();
+            assert_eq!((mode(), fs::read(&path).unwrap().len()), (0o604, 0));
+        }
+    }
+
+    #[test]
+    fn only_what_a_dead_process_left_is_removed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.h5");
+        let dead = u32::MAX;
+        let word = random::word();
+        let left = format!(".run.h5.plateau-{dead}-{word}.tmp");
+        let kept = [
+            format!(".run.h5.plateau-{}-{word}.tmp", std::process::id()),
+            format!(".run.h5.plateau-{dead}-notes.tmp"),
+            format!(".run.h5.plateau-{dead}-{word}"),
+            format!(".other.h5.plateau-{dead}-{word}.tmp"),
+        ];
+        for name in kept.iter().chain([&left]) {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        let link = folder.path().join(format!(".run.h5.plateau-{dead}-0.tmp"));
+        symlink("elsewhere", &link).unwrap();
+        Temporary::remove_abandoned(&path);
+        assert!(!folder.path().join(left).exists());
+        assert!(kept.iter().all(|name| folder.path().join(name).exists()) && link.is_symlink());
     }
 }

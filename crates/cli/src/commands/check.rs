@@ -10,6 +10,7 @@ use plateau_core::scout::Idle;
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::smoothness::Smoothness;
 use plateau_io::checkpoint;
+use plateau_io::claim::lock_of;
 use plateau_io::run_file::{resolve, size_estimate};
 use plateau_io::scene::{memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
@@ -117,7 +118,7 @@ impl File {
     }
 }
 
-/// Every file that a run of the scene reads, and the one that it writes, with where they really are.
+/// Every file that a run of the scene reads, and those that it writes, with where they really are.
 fn files(scene: &Scene, inputs: &[(PathBuf, String)]) -> Vec<File> {
     let read = scene.files.iter().chain(inputs.iter().map(|(path, _)| path));
     let mut files: Vec<File> = Vec::new();
@@ -131,11 +132,18 @@ fn files(scene: &Scene, inputs: &[(PathBuf, String)]) -> Vec<File> {
     }
     let path = &scene.output.file;
     match resolve(path, true) {
-        Ok(resolved) => files.push(File {
-            access: "writes",
-            path: path.display().to_string(),
-            resolved: resolved.display().to_string(),
-        }),
+        Ok(resolved) => {
+            let lists = [path, &resolved].map(|path| {
+                let [last, before] = checkpoint::paths(path);
+                [path.clone(), last, before, lock_of(path)]
+            });
+            let [paths, resolved] = lists.map(|list| list.map(|path| path.display().to_string()));
+            let written = paths.into_iter().zip(resolved);
+            files.extend(written.map(|(path, resolved)| File { access: "writes", path, resolved }));
+            if let Err(error) = checkpoint::refuse_foreign(path, false) {
+                message::warning(error);
+            }
+        }
         Err(error) => message::warning(error),
     }
     files

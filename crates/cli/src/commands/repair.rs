@@ -5,12 +5,14 @@ use std::path::Path;
 use std::time::Duration;
 
 use plateau_io::checkpoint;
+use plateau_io::claim::Claim;
 use plateau_io::run_file::{self, Repair, RepairError, RunFile};
 use plateau_io::units::{self, Dimension};
 use plateau_io::writer::writer_of;
 
 use crate::arguments::RepairArguments;
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::table::print;
 use crate::{machine, message, number};
 
@@ -19,6 +21,8 @@ const SILENCE: Duration = Duration::from_secs(150);
 
 /// Repairs all files that can be before it fails because of one.
 pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
+    // A file that is begun is repaired to its end, and left without a lock.
+    let interrupt = Interrupt::listen().map_err(Failure::run)?;
     let mut last = None;
     for path in &arguments.runs {
         match repair_one(path, arguments.force) {
@@ -28,6 +32,10 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
                     earlier.say();
                 }
             }
+        }
+        if let Some(signal) = interrupt.signal() {
+            let message = format!("stopped by signal {signal} after {}", path.display());
+            return Err(Failure::Stopped { signal, message: Some(message) });
         }
     }
     last.map_or(Ok(()), Err)
@@ -47,6 +55,7 @@ fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
             number::count(moments, "moment"),
             copy.display()
         )),
+        Err(RepairError::Claimed(error)) if !error.lacks_space() => Err(Failure::input(error)),
         Err(error @ (RepairError::Read(_) | RepairError::Unknown { .. })) => Err(Failure::input(error)),
         Err(error) => Err(Failure::run(error)),
     }
@@ -61,6 +70,7 @@ fn silence(run: &RunFile) -> Duration {
 
 /// Refuses a file whose run goes on, or may.
 fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
+    Claim::check(path).map_err(Failure::input)?;
     let file = path.display();
     if let Some(process) = writer_of(path) {
         return Err(Failure::input(format_args!("{file} is being written by process {process}; stop it first")));

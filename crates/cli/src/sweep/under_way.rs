@@ -8,6 +8,7 @@ use plateau_core::checkpoint::Checkpoint;
 use plateau_core::scout::{Scout, ScoutCheckpoint};
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::checkpoint;
+use plateau_io::claim::Claim;
 use plateau_io::temporary::Temporary;
 use serde::{Deserialize, Serialize};
 
@@ -33,15 +34,21 @@ pub struct UnderWay {
     path: PathBuf,
     every: Duration,
     last: Instant,
+    /// Held from the first state that is kept on. Another process may be making the same run, and keep its states there.
+    claim: Option<Claim>,
+    refused: bool,
 }
 
 impl UnderWay {
-    /// For a run of that identity; `every` is in seconds.
-    pub fn new(results: &Path, identity: &str, every: f64) -> Self {
-        let every = Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX);
+    /// For a run of that identity, whose state is never due until [`keep_every`](Self::keep_every) says when.
+    pub fn new(results: &Path, identity: &str) -> Self {
         let path = results.join("under-way").join(identity);
-        Temporary::remove_abandoned(&path);
-        Self { path, every, last: Instant::now() }
+        Self { path, every: Duration::MAX, last: Instant::now(), claim: None, refused: false }
+    }
+
+    /// Says how often the state is to be kept, in seconds.
+    pub fn keep_every(&mut self, every: f64) {
+        self.every = Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX);
     }
 
     /// What was kept, if there is something that holds and has these series.
@@ -72,19 +79,48 @@ impl UnderWay {
         self.last = Instant::now();
         let run = simulation.checkpoint()?;
         let scout = scout.map(Scout::checkpoint).transpose()?;
-        let folder = self.path.parent().map_or(Ok(()), fs::create_dir_all);
         let state = State { run, scout, columns: columns.to_vec(), names };
-        if let Err(error) = folder.and_then(|()| checkpoint::keep(&self.path, &state)) {
-            message::warning(format_args!("cannot keep the state of a run: {error}; the run goes on"));
+        if self.claims()
+            && let Err(error) = checkpoint::keep(&self.path, &state)
+        {
+            not_kept(&error);
         }
         Ok(())
     }
 
+    /// Whether the state is this process's to keep; says once why not.
+    fn claims(&mut self) -> bool {
+        if self.claim.is_none() && !self.refused {
+            let folder = self.path.parent().map_or(Ok(()), fs::create_dir_all);
+            let claim = folder.map_err(|error| error.to_string()).and_then(|()| {
+                let claim = Claim::of(&self.path).map_err(|error| error.to_string())?;
+                checkpoint::refuse_one_foreign(&self.path, false).map_err(|error| error.to_string())?;
+                Ok(claim)
+            });
+            match claim {
+                Ok(claim) => {
+                    Temporary::remove_abandoned(&self.path);
+                    self.claim = Some(claim);
+                }
+                Err(error) => {
+                    not_kept(&error);
+                    self.refused = true;
+                }
+            }
+        }
+        self.claim.is_some()
+    }
+
     /// Forgets the state of a run whose result is kept.
-    pub fn forget(&self) {
+    pub fn forget(&mut self) {
         // Most runs are too short to have left any; the folder goes with its last file.
-        if fs::remove_file(&self.path).is_ok() {
+        if self.path.exists() && self.claims() && fs::remove_file(&self.path).is_ok() {
+            self.claim = None;
             let _ = self.path.parent().map(fs::remove_dir);
         }
     }
+}
+
+fn not_kept(error: &dyn std::fmt::Display) {
+    message::warning(format_args!("cannot keep the state of a run: {error}; the run goes on"));
 }

@@ -3,15 +3,14 @@
 //! each takes and does not notice that it stays where it is (HDF5 2.2, `H5HG__cache_heap_deserialize`).
 
 use std::fs::File;
-use std::io::{self, Read, Seek};
+use std::io;
 use std::os::unix::fs::FileExt;
 
 use memchr::memmem;
 
 use super::Superblock;
+use super::blocks::for_each_block;
 
-/// Bytes that are looked through at a time.
-const BLOCK: usize = 1 << 20;
 /// What a collection of objects starts with: its signature and its version.
 const COLLECTION: &[u8] = b"GCOL\x01";
 /// Bytes of the header of a collection, and of each object in it, for every width of lengths.
@@ -54,27 +53,6 @@ fn endless_object_of(file: &File, start: u64, width: usize) -> io::Result<Option
         at = at.saturating_add(room);
     }
     Ok(None)
-}
-
-/// Calls `look` with the file block by block, and where each block starts, until it gives `false`. Blocks overlap, so that
-/// whatever has `width` bytes is whole in one of them.
-fn for_each_block(
-    mut file: &File,
-    width: usize,
-    mut look: impl FnMut(u64, &[u8]) -> io::Result<bool>,
-) -> io::Result<()> {
-    file.rewind()?;
-    let mut block = Vec::with_capacity(BLOCK + width);
-    let mut start = 0;
-    while file.by_ref().take(BLOCK as u64).read_to_end(&mut block)? > 0 {
-        if !look(start, &block)? {
-            break;
-        }
-        let done = block.len().saturating_sub(width - 1);
-        block.drain(..done);
-        start += done as u64;
-    }
-    Ok(())
 }
 
 /// A number with its lowest byte first, of at most 8 bytes.

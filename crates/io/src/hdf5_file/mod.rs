@@ -1,5 +1,7 @@
 //! HDF5 files that somebody else made, or that were damaged since: opened only if the library comes back from them.
 
+mod blocks;
+mod elsewhere;
 mod global_heap;
 mod memory;
 
@@ -10,34 +12,87 @@ use std::path::Path;
 
 use hdf5::file::FileBuilder;
 use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenUnicode};
-use hdf5::{Location, OpenMode};
+use hdf5::{Dataset, Location, OpenMode};
+use thiserror::Error;
+
+use crate::regular;
 
 /// How often the library tries to read an object of a file that is being written and is not whole yet. It waits 1 ns, then
 /// twice as long each time: 33 ms in all. Left to itself it tries a hundred times, which no one lives to see.
 const READ_ATTEMPTS: u32 = 25;
 /// Bytes that everything but the data may take: names, attributes, and what the library keeps of a file.
 const STRUCTURE: u64 = 256 << 20;
+/// Bytes that deflate makes of one at most (RFC 1951), and other filters hardly ever.
+const MOST_INFLATED: u64 = 1032;
+/// Bytes of a dataset of which nothing need be in the file, for a value of its own may fill it.
+const MADE_UP: u64 = 64 << 20;
 /// What an HDF5 file starts with, at byte 0 or at 512, 1024 and so on.
 const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// Opens a file for reading, also one that another program is writing, or was writing when it was killed.
+/// Why a file is not opened.
+#[derive(Debug, Error)]
+pub(crate) enum OpenError {
+    /// What the system or the library says.
+    #[error(transparent)]
+    Hdf5(#[from] hdf5::Error),
+    /// Some of it is in other files.
+    #[error("it is not complete in itself: {0}")]
+    Elsewhere(String),
+}
+
+/// Opens a file for reading, also one that another program is writing, or was writing when it was killed. All that is read
+/// of it is in it.
 ///
 /// Locks are not asked for: many network file systems have none, and a reader needs none.
 ///
 /// # Errors
-/// What the system or the library says, and a message when the library would not come back: see [`global_heap`].
-pub(crate) fn open(path: &Path) -> hdf5::Result<hdf5::File> {
+/// What the system or the library says, and a message when the library would not come back: see [`global_heap`]; and where
+/// else something of it is: see [`elsewhere`].
+pub(crate) fn open(path: &Path) -> Result<hdf5::File, OpenError> {
+    open_with(path, &mut drop)
+}
+
+/// Opens a file as [`open`] does, and gives its datasets besides, each once.
+///
+/// # Errors
+/// As [`open`].
+pub(crate) fn open_with_datasets(path: &Path) -> Result<(hdf5::File, Vec<Dataset>), OpenError> {
+    let mut datasets = Vec::new();
+    let file = open_with(path, &mut |dataset| datasets.push(dataset))?;
+    Ok((file, datasets))
+}
+
+fn open_with(path: &Path, visit: &mut dyn FnMut(Dataset)) -> Result<hdf5::File, OpenError> {
     let system = |error: io::Error| hdf5::Error::from(error.to_string());
-    let file = File::open(path).map_err(system)?;
-    if let Some(superblock) = superblock(&file).map_err(system)?
-        && let Some(at) = global_heap::endless_object(&file, &superblock).map_err(system)?
+    let bytes = regular::open(path).map_err(system)?;
+    if let Some(superblock) = superblock(&bytes).map_err(system)?
+        && let Some(at) = global_heap::endless_object(&bytes, &superblock).map_err(system)?
     {
-        return Err(format!("the global heap is damaged at byte {at}").into());
+        return Err(hdf5::Error::from(format!("the global heap is damaged at byte {at}")).into());
     }
-    let mode = if is_being_written(&file).map_err(system)? { OpenMode::ReadSWMR } else { OpenMode::Read };
+    let mode = if is_being_written(&bytes).map_err(system)? { OpenMode::ReadSWMR } else { OpenMode::Read };
     let mut builder = FileBuilder::new();
     builder.with_fapl(|list| list.file_locking(false).metadata_read_attempts(READ_ATTEMPTS));
-    builder.open_as(path, mode)
+    let file = builder.open_as(path, mode)?;
+    match elsewhere::for_each_dataset(&file, &bytes, visit)? {
+        Some(what) => Err(OpenError::Elsewhere(what)),
+        None => Ok(file),
+    }
+}
+
+/// Refuses a dataset of a shape for which there is nothing like enough in the file: all of it would be made up.
+///
+/// # Errors
+/// A message that tells both.
+pub(crate) fn refuse_hollow(dataset: &Dataset) -> hdf5::Result<()> {
+    let shape = dataset.shape();
+    let width = dataset.dtype()?.size() as u64;
+    let declared = shape.iter().try_fold(width, |bytes, length| bytes.checked_mul(*length as u64));
+    let there = dataset.storage_size();
+    if declared.is_some_and(|bytes| bytes <= MADE_UP || bytes / MOST_INFLATED <= there) {
+        return Ok(());
+    }
+    Err(format!("{} has shape {shape:?}, and {there} bytes in the file", dataset.name()).into())
 }
 
 /// Does `work` on a file, for `data` bytes of data, with no more memory than that needs.
@@ -51,12 +106,12 @@ pub(crate) fn guarded<T>(data: usize, work: impl FnOnce() -> T) -> T {
 
 /// Whether a file has a superblock, which is where an HDF5 file begins.
 pub(crate) fn is_hdf5(path: &Path) -> io::Result<bool> {
-    Ok(superblock(&File::open(path)?)?.is_some())
+    Ok(superblock(&regular::open(path)?)?.is_some())
 }
 
 /// Whether a file is marked as being written, or was when its writer was killed: then plain readers refuse it.
 pub(crate) fn is_marked(path: &Path) -> io::Result<bool> {
-    is_being_written(&File::open(path)?)
+    is_being_written(&regular::open(path)?)
 }
 
 /// An attribute that is one text of any kind, if there is one.

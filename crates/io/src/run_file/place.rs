@@ -1,7 +1,7 @@
 //! The place of a run file: a new file appears there complete, or not at all.
 
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::RunFileError;
@@ -16,10 +16,13 @@ pub(super) struct Place {
 
 impl Place {
     /// Checks that a file may be written at `path` and starts the temporary with the given bytes.
-    pub(super) fn claim(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
+    pub(super) fn prepare(path: &Path, overwrite: bool, start: &[u8]) -> Result<Self, RunFileError> {
         let path = resolve(path, overwrite)?;
-        let temporary = Temporary::beside(&path);
-        fs::write(temporary.path(), start).map_err(|error| match error.kind() {
+        let started = Temporary::create(&path).and_then(|(temporary, mut file)| {
+            file.write_all(start)?;
+            Ok(temporary)
+        });
+        let temporary = started.map_err(|error| match error.kind() {
             // That is not the user's mistake, and nothing that writing elsewhere in the folder would mend.
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
                 RunFileError::not_made(path.clone(), error.to_string())

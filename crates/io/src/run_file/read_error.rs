@@ -41,6 +41,14 @@ pub enum ReadError {
         /// The version of this program.
         expected: i32,
     },
+    /// Some of it is in other files.
+    #[error("{} is no run file of plateau: {reason}; such a file is read only when all of it is in it", path.display())]
+    Elsewhere {
+        /// The file.
+        path: PathBuf,
+        /// What is where.
+        reason: String,
+    },
     /// A part of it is missing, cut off or changed.
     #[error("{} is damaged: {reason}; if it is being written or copied try again, else run its scene again", path.display())]
     Damaged {

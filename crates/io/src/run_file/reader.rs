@@ -1,7 +1,5 @@
 //! Run files, read: also such that are still written, or whose run was killed.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -13,7 +11,7 @@ use plateau_core::observe::{Extras, Map, MapValues, quantities};
 
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
 use super::read_error::ReadError;
-use crate::hdf5_file;
+use crate::hdf5_file::{self, OpenError};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
 
@@ -77,15 +75,16 @@ impl RunFile {
     /// [`ReadError`] when there is no file, it is no run file, or it is damaged.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let system = |error: std::io::Error| ReadError::System { path: path.into(), reason: error.to_string() };
-        // Opening a folder succeeds; reading from it does not.
-        File::open(path).and_then(|mut file| file.read(&mut [0])).map_err(system)?;
         let is_hdf5 = hdf5_file::is_hdf5(path).map_err(system)?;
         if !is_hdf5 {
             return Err(ReadError::NotHdf5 { path: path.into() });
         }
         let damaged = |error: hdf5::Error| ReadError::Damaged { path: path.into(), reason: reason(&error) };
         hdf5_file::guarded(0, || {
-            let file = hdf5_file::open(path).map_err(damaged)?;
+            let file = hdf5_file::open(path).map_err(|error| match error {
+                OpenError::Hdf5(error) => damaged(error),
+                elsewhere => ReadError::Elsewhere { path: path.into(), reason: elsewhere.to_string() },
+            })?;
             Opening { path, file: &file }.read()
         })
     }
@@ -311,7 +310,11 @@ impl Opening<'_> {
         if !self.file.link_exists(path) {
             return Err(ReadError::Foreign { path: self.path.into(), missing: format!("dataset /{path}") });
         }
-        self.file.dataset(path).map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
+        let dataset = self.file.dataset(path).and_then(|dataset| {
+            hdf5_file::refuse_hollow(&dataset)?;
+            Ok(dataset)
+        });
+        dataset.map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
     }
 
     fn all(&self, path: &str) -> Result<Vec<f64>, ReadError> {

@@ -1,6 +1,6 @@
 //! Run files of runs that were killed, made such that every program reads them.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
@@ -9,10 +9,11 @@ use plateau_core::observe::quantities;
 use thiserror::Error;
 
 use super::dimension::EMPTY_FILE;
-use super::place::Place;
+use super::place::{Place, resolve};
 use super::seal::Seal;
 use super::store::{not_anew, set_up};
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
+use crate::claim::{Claim, ClaimError};
 use crate::hdf5_file;
 use crate::temporary::Temporary;
 
@@ -38,6 +39,9 @@ pub enum RepairError {
     /// It cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// Another process writes it.
+    #[error(transparent)]
+    Claimed(#[from] ClaimError),
     /// Something in it would be lost.
     #[error("{} has /series/{name}, which this program does not know; repair it with the program that wrote it, {program}", path.display())]
     Unknown {
@@ -77,7 +81,7 @@ pub fn is_healthy(path: &Path) -> Result<bool, ReadError> {
 /// Makes the file of a run that was killed anew: closed, `interrupted`, with all samples and maps that are complete, and
 /// with their digests. What was there is kept beside it, as `NAME.before-repair`.
 ///
-/// Nobody may be writing it.
+/// The file is claimed meanwhile.
 ///
 /// # Errors
 /// [`RepairError`]; the file is then as it was.
@@ -85,7 +89,11 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     if is_healthy(path)? {
         return Ok(Repair::Healthy);
     }
-    Temporary::remove_abandoned(path);
+    let _claim = Claim::of(path)?;
+    if is_healthy(path)? {
+        return Ok(Repair::Healthy);
+    }
+    Temporary::remove_abandoned(&resolve(path, true)?);
     let old = RunFile::open(path)?;
     let header = Header::of(&old)?;
     let known = |name: &str| quantities(header.extras).any(|quantity| quantity.name == name);
@@ -93,7 +101,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
         let program = old.attribute("program").unwrap_or_default();
         return Err(RepairError::Unknown { path: path.into(), name: unknown.name.clone(), program });
     }
-    let place = Place::claim(path, true, EMPTY_FILE)?;
+    let place = Place::prepare(path, true, EMPTY_FILE)?;
     // The run ended when it was last heard of.
     let end_time = fs::metadata(path).and_then(|file| file.modified()).unwrap_or_else(|_| SystemTime::now());
     let start_time = old.start_time().unwrap_or(end_time);
@@ -104,7 +112,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     file.flush().map_err(not_anew(path))?;
     let digests = datasets.into_digests();
     let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests };
-    let sealed = Place::claim(path, true, EMPTY_FILE)?;
+    let sealed = Place::prepare(path, true, EMPTY_FILE)?;
     let closed = file.close().and_then(|()| seal.make(place.temporary(), &sealed));
     closed.map_err(not_anew(path))?;
     drop(old);
@@ -125,8 +133,16 @@ fn keep(path: &Path) -> Result<PathBuf, RepairError> {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             Ok(()) => return Ok(copy),
             Err(_) => {
-                let copied = fs::copy(path, &copy).map(|_| copy.clone());
-                return copied.map_err(|error| RepairError::Copy { path: path.into(), copy, error });
+                let made = File::create_new(&copy);
+                if made.as_ref().is_err_and(|error| error.kind() == ErrorKind::AlreadyExists) {
+                    continue;
+                }
+                let copied = made.and_then(|mut made| io::copy(&mut File::open(path)?, &mut made));
+                return copied.map(|_| copy.clone()).map_err(|error| RepairError::Copy {
+                    path: path.into(),
+                    copy,
+                    error,
+                });
             }
         }
     }

@@ -36,7 +36,7 @@ impl Seal<'_> {
     /// killed at whatever moment, the program leaves a file that can be read. Where there is no room for a second file, it is
     /// put on the file itself, if there is room for that.
     pub(super) fn put_on(&self, path: &Path) -> Result<(), RunFileError> {
-        let anew = Place::claim(path, true, EMPTY_FILE).and_then(|place| {
+        let anew = Place::prepare(path, true, EMPTY_FILE).and_then(|place| {
             self.make(path, &place).map_err(not_anew(path))?;
             place.publish_durably()
         });
@@ -50,7 +50,8 @@ impl Seal<'_> {
 
     /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
     pub(super) fn make(&self, path: &Path, place: &Place) -> hdf5::Result<()> {
-        let (old, new) = (hdf5_file::open(path)?, open(place.temporary())?);
+        let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
+        let new = open(place.temporary())?;
         lay_out(&new, self.header, self.start_time, Some(&old))?;
         self.write(new)
     }

@@ -24,7 +24,7 @@ const CHUNK_CACHE: (usize, usize, f64) = (31, 16 * 1024, 1.0);
 /// A run file while it is written. Only one thread uses it.
 pub(super) struct Store {
     path: PathBuf,
-    /// Device and inode: the path may come to mean another file while a run goes on.
+    /// Device and inode, from before the file got its name: the path may come to mean another one at any time.
     identity: Option<(u64, u64)>,
     header: Header,
     start_time: SystemTime,
@@ -46,11 +46,12 @@ impl Store {
     pub(super) fn create(path: &Path, overwrite: bool, header: &Header) -> Result<Self, RunFileError> {
         header.check()?;
         let (started, start_time) = (Instant::now(), SystemTime::now());
-        let place = Place::claim(path, overwrite, EMPTY_FILE)?;
+        let place = Place::prepare(path, overwrite, EMPTY_FILE)?;
         let set_up = set_up(&place, header, start_time);
         let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), reason(&error)))?;
+        let identity = identity(place.temporary());
         let path = place.publish()?;
-        Ok(Self { identity: identity(&path), path, header: header.clone(), start_time, started, file, datasets })
+        Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets })
     }
 
     /// Makes the file anew with the first samples and maps of the one that is there, of a run that was stopped, and takes
@@ -58,7 +59,7 @@ impl Store {
     pub(super) fn resume(path: &Path, header: &Header, earlier: Earlier) -> Result<Self, RunFileError> {
         header.check()?;
         let started = Instant::now().checked_sub(earlier.wall_time).unwrap_or_else(Instant::now);
-        let place = Place::claim(path, true, EMPTY_FILE)?;
+        let place = Place::prepare(path, true, EMPTY_FILE)?;
         let old = RunFile::open(path)
             .map_err(|error| RunFileError::Earlier { path: path.into(), reason: error.to_string() })?;
         let there = [old.time().len(), old.map_time().len()];
@@ -75,8 +76,9 @@ impl Store {
         drop(old);
         // What is there may be all that there is of a long run.
         file.flush().map_err(not_anew(path))?;
+        let identity = identity(place.temporary());
         let path = place.publish_durably()?;
-        Ok(Self { identity: identity(&path), path, header: header.clone(), start_time, started, file, datasets })
+        Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets })
     }
 
     /// Hands all that was appended to the disk. A run whose file was replaced must not leave a checkpoint beside the other.

@@ -160,6 +160,7 @@ impl Check<'_> {
     /// Does `work` on a dataset with no more memory than it needs.
     fn guarded<T>(&self, path: &str, work: impl FnOnce(&Dataset) -> hdf5::Result<T>) -> hdf5::Result<T> {
         let dataset = self.run.file.dataset(path)?;
+        hdf5_file::refuse_hollow(&dataset)?;
         hdf5_file::guarded(dataset.size().saturating_mul(size_of::<f64>()), || work(&dataset))
     }
 }

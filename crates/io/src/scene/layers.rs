@@ -1,6 +1,5 @@
 //! The layers of a scene: the scenes it extends, the scene itself, `--set` arguments; later ones override earlier ones.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,6 +7,7 @@ use std::sync::Arc;
 use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem, SceneError};
 use super::schema::{self, Group};
+use crate::regular;
 
 /// The newest version of the scene format that this program reads.
 const VERSION: i128 = 1;
@@ -106,7 +106,7 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>,
 
 fn read_text(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    regular::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     let refuse = |message: &str| Err(io::Error::new(io::ErrorKind::InvalidData, message));
     if bytes.starts_with(b"\x89HDF") {
         return refuse("this is an HDF5 file, expected a scene in TOML");

@@ -21,13 +21,13 @@ mod points_of_file;
 pub mod record;
 pub mod response;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use plateau_study::design::Kind;
 use thiserror::Error;
 
+use crate::regular;
 use crate::scene::{Origin, Problem};
 use document::Document;
 use factor::Factor;
@@ -105,7 +105,7 @@ impl Study {
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let file: Arc<Path> = path.into();
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
-        let text = fs::read_to_string(path)
+        let text = regular::read_to_string(path)
             .map_err(|error| at(Origin::File(file.clone()), format!("cannot read the study: {error}")))?;
         let place = build::Place { file: file.clone(), text: &text };
         let document: Document = toml::from_str(&text).map_err(|error| {

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::factor::{Factor, Level};
+use crate::regular;
 
 /// Points of a study, each with one level for every factor.
 pub type Points = Vec<Vec<Level>>;
@@ -13,11 +14,8 @@ pub type Points = Vec<Vec<Level>>;
 /// What is wrong with the file, and in which line.
 pub fn read(path: &Path, factors: &[Factor]) -> Result<Points, String> {
     let shown = path.display();
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_path(path)
-        .map_err(|error| format!("cannot read {shown}: {error}"))?;
+    let file = regular::open(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(file);
     let header = reader.headers().map_err(|error| format!("{shown}: {error}"))?.clone();
     let column = |factor: &Factor| {
         let named = |name: &str| name == factor.name || factor.keys.iter().any(|key| key == name);

@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
+use hdf5::Dataset;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
-use hdf5::{Dataset, Group};
 use ndarray::ArrayView2;
 use plateau_core::state::Base;
 use plateau_core::surface::Patch;
 use thiserror::Error;
 
 use super::limits::MOST_POINTS;
-use crate::hdf5_file::{self, text_attribute};
+use crate::hdf5_file::{self, OpenError, text_attribute};
 
 /// Why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
@@ -18,6 +18,9 @@ pub enum Hdf5Error {
     /// The library cannot make sense of it.
     #[error("cannot be read as HDF5: {0}")]
     Library(#[from] hdf5::Error),
+    /// Some of it is in other files.
+    #[error("{0}; copy what it points to into this file, for only files that are read whole are named in results")]
+    Elsewhere(String),
     /// The dataset is not there.
     #[error("the file has no dataset \"{dataset}\"; {present}")]
     Missing {
@@ -90,10 +93,17 @@ pub enum Hdf5Error {
     },
 }
 
-/// How deep groups are searched, for links may run in a circle.
-const DEPTH: usize = 8;
 /// Datasets named in a message.
 const NAMED: usize = 12;
+
+impl From<OpenError> for Hdf5Error {
+    fn from(error: OpenError) -> Self {
+        match error {
+            OpenError::Hdf5(error) => Self::Library(error),
+            elsewhere => Self::Elsewhere(elsewhere.to_string()),
+        }
+    }
+}
 
 /// What is looked for.
 #[derive(Clone, Copy)]
@@ -155,6 +165,7 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf
         Ok::<_, Hdf5Error>((dataset, pitch))
     })?;
     let (name, (columns, rows)) = (dataset.name(), bounded_shape(&dataset)?);
+    hdf5_file::refuse_hollow(&dataset)?;
     let heights = hdf5_file::guarded(columns * rows * size_of::<f64>(), || dataset.read_raw::<f64>())?;
     let count = heights.iter().filter(|height| height.is_infinite()).count();
     if count > 0 {
@@ -227,6 +238,7 @@ pub(super) fn base(
     shape: (usize, usize),
 ) -> Result<(String, Vec<Base>), Hdf5Error> {
     let dataset = hdf5_file::guarded(0, || find(path, dataset, Wanted::Base(shape)))?;
+    hdf5_file::refuse_hollow(&dataset)?;
     let name = dataset.name();
     let numbers = hdf5_file::guarded(shape.0 * shape.1 * size_of::<i64>(), || dataset.read_raw::<i64>())?;
     let base = numbers.into_iter().enumerate().map(|(cell, number)| match number {
@@ -240,9 +252,9 @@ pub(super) fn base(
 
 /// The dataset of that name, or the only suitable one.
 fn find(path: &Path, dataset: Option<&str>, wanted: Wanted) -> Result<Dataset, Hdf5Error> {
-    let file = hdf5_file::open(path)?;
+    let (file, mut all) = hdf5_file::open_with_datasets(path)?;
+    all.sort_by_key(|dataset| dataset.name());
     let Some(name) = dataset else {
-        let all = all_datasets(&file)?;
         let mut suitable: Vec<&Dataset> = all.iter().filter(|dataset| wanted.fits(dataset)).collect();
         return match (suitable.pop(), suitable.len()) {
             (Some(only), 0) => Ok(only.clone()),
@@ -254,27 +266,13 @@ fn find(path: &Path, dataset: Option<&str>, wanted: Wanted) -> Result<Dataset, H
         };
     };
     let Ok(dataset) = file.dataset(name) else {
-        return Err(Hdf5Error::Missing { dataset: name.to_owned(), present: list(&all_datasets(&file)?) });
+        return Err(Hdf5Error::Missing { dataset: name.to_owned(), present: list(&all) });
     };
     if wanted.fits(&dataset) {
         Ok(dataset)
     } else {
         Err(Hdf5Error::Unsuitable { dataset: dataset.name(), found: describe(&dataset), wanted: wanted.describe() })
     }
-}
-
-fn all_datasets(file: &Group) -> hdf5::Result<Vec<Dataset>> {
-    let mut found = Vec::new();
-    let mut groups = vec![(file.clone(), 0)];
-    while let Some((group, depth)) = groups.pop() {
-        found.extend(group.datasets()?);
-        if depth < DEPTH {
-            groups.extend(group.groups()?.into_iter().map(|inner| (inner, depth + 1)));
-        }
-    }
-    found.sort_by_key(|dataset| dataset.name());
-    found.dedup_by_key(|dataset| dataset.name());
-    Ok(found)
 }
 
 fn list(datasets: &[Dataset]) -> String {

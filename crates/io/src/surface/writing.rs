@@ -146,8 +146,7 @@ fn place(path: &Path, replace: bool, fill: impl FnOnce(&Path) -> io::Result<()>)
     if fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
         return Err(WriteError::NotAFile { path: path.into() });
     }
-    let temporary = Temporary::beside(&target);
-    File::create_new(temporary.path()).map_err(system)?;
+    let (temporary, _) = Temporary::create(&target).map_err(system)?;
     fill(temporary.path()).map_err(system)?;
     temporary.publish(replace).map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists if !replace => exists(),

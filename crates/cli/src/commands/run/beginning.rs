@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
-use plateau_io::run_file::{Header, RunFile, RunWriter, State};
+use plateau_io::claim::{Claim, ClaimError};
+use plateau_io::run_file::{Damage, Header, RunFile, RunWriter, State, verify};
 use plateau_io::temporary::Temporary;
 use plateau_io::writer::writer_of;
 
@@ -15,6 +16,8 @@ use crate::{message, number, resume};
 
 /// What a run begins with.
 pub(super) struct Beginning {
+    /// To be held until nothing more is written. None in a process that does not lead.
+    pub(super) claim: Option<Claim>,
     /// None in a process that does not lead.
     pub(super) writer: Option<RunWriter>,
     /// What it goes on from.
@@ -22,7 +25,7 @@ pub(super) struct Beginning {
 }
 
 impl Beginning {
-    /// Makes the run file, or finds out what to go on from and goes on with it; nothing where all is done already, which is
+    /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done already, which is
     /// said. All processes of a job do this together.
     ///
     /// # Errors
@@ -35,27 +38,43 @@ impl Beginning {
         end: f64,
         job: &mut Job,
     ) -> Result<Option<Self>, Failure> {
+        let claim = if job.leads() { Some(Claim::of(path).map_err(not_claimed)?) } else { None };
+        // No process looks at what is there before that is done.
+        job.sum(0, 0)?;
         if job.leads() {
+            refuse_if_written(path)?;
+            checkpoint::refuse_foreign(path, arguments.force).map_err(Failure::input)?;
             for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
                 Temporary::remove_abandoned(target);
             }
         }
         let extends = arguments.extend_to.is_some();
         let mut states = if arguments.resumes() { resume::states(path, about, extends)? } else { Vec::new() };
-        let there = if arguments.resumes() && !arguments.force { look(path, about, extends)? } else { None };
-        let finished = match (states.first().filter(|newest| newest.finished), there) {
-            (Some(_), None) if !arguments.force => {
-                return Err(refused(path, "is gone, though its checkpoint says that the run is finished"));
-            }
-            (Some(newest), _) => !extends || has_come_to(path, newest, end)?,
-            (None, Some(State::Finished)) if extends && states.is_empty() => {
+        let there = if arguments.resumes() { look(path, about, arguments)? } else { None };
+        let is_finished = there.as_ref().is_some_and(|there| there.state == State::Finished);
+        let finished = match states.first() {
+            // What a checkpoint says counts only for the file that it was left beside.
+            Some(newest) if newest.finished => match &there {
+                None if !arguments.force => {
+                    return Err(refused(path, "is gone, though its checkpoint says that the run is finished"));
+                }
+                Some(there) if is_finished && there.holds == [newest.samples, newest.snapshots] => {
+                    !extends || has_come_to(path, newest, end)?
+                }
+                _ => false,
+            },
+            Some(_) => false,
+            None if is_finished && extends => {
                 return Err(refused(path, "is finished and has no checkpoint to go on from"));
             }
-            (None, there) => there == Some(State::Finished) && states.is_empty(),
+            None => is_finished,
         };
         let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
         job.compare(&format!("{finished} {steps:?}"))?;
         if finished {
+            if job.leads() {
+                check_that_it_is_whole(path)?;
+            }
             message::note(format_args!("{} is finished; --extend-to TIME goes on beyond its end", path.display()));
             return Ok(None);
         }
@@ -66,7 +85,7 @@ impl Beginning {
         // The first rank has seen which of the states holds.
         let (place, _) = job.sum(place, 0)?;
         let state = (!states.is_empty()).then(|| states.swap_remove(place));
-        Ok(Some(Self { writer, state }))
+        Ok(Some(Self { claim, writer, state }))
     }
 }
 
@@ -77,7 +96,6 @@ fn lead(
     arguments: &RunArguments,
     states: &[RunState],
 ) -> Result<(Option<RunWriter>, usize), Failure> {
-    refuse_if_written(path)?;
     if !states.is_empty() {
         return resume::writer(path, header, states).map(|(writer, place)| (Some(writer), place));
     }
@@ -109,18 +127,46 @@ fn refused(path: &Path, what: &str) -> Failure {
     Failure::input(format_args!("{} {what}; without --resume, --force begins again", path.display()))
 }
 
-/// The state of the file that is to be gone on with, if there is one; it must be of this run.
-fn look(path: &Path, about: &About, extends: bool) -> Result<Option<State>, Failure> {
+/// The file that is to be gone on with.
+struct There {
+    state: State,
+    /// Samples, and moments of which there are maps.
+    holds: [usize; 2],
+}
+
+/// Looks at the file that is to be gone on with, if there is one; it must be of this run, unless it may be replaced.
+fn look(path: &Path, about: &About, arguments: &RunArguments) -> Result<Option<There>, Failure> {
     if !path.exists() {
         return Ok(None);
     }
-    let there = RunFile::open(path)
-        .map_err(|error| Failure::input(format_args!("{error}; without --resume, --force begins again")))?;
+    let there = match RunFile::open(path) {
+        Err(_) if arguments.force => return Ok(None),
+        there => {
+            there.map_err(|error| Failure::input(format_args!("{error}; without --resume, --force begins again")))?
+        }
+    };
     let scene = there.attribute("scene").unwrap_or_default();
-    resume::compare_scenes(path, &scene, about, extends).map(|()| Some(there.state()))
+    match resume::compare_scenes(path, &scene, about, arguments.extend_to.is_some()) {
+        Err(_) if arguments.force => Ok(None),
+        compared => {
+            compared.map(|()| Some(There { state: there.state(), holds: [there.time().len(), there.map_time().len()] }))
+        }
+    }
 }
 
-/// Refuses to replace, or to go on with, a file that another run is writing.
+/// Nothing more will be done about a finished file: it must hold what was written.
+fn check_that_it_is_whole(path: &Path) -> Result<(), Failure> {
+    let verification = verify(path).map_err(Failure::input)?;
+    let Some(Damage { place, problem }) = verification.damage.first() else { return Ok(()) };
+    Err(refused(path, &format!("is finished, and damaged: {place}: {problem}")))
+}
+
+/// Whose fault it is that a run file is not claimed.
+pub(super) fn not_claimed(error: ClaimError) -> Failure {
+    if error.lacks_space() { Failure::run(error) } else { Failure::input(error) }
+}
+
+/// Refuses a file that another program is writing, or an earlier version of this one, which made no locks.
 fn refuse_if_written(path: &Path) -> Result<(), Failure> {
     let Some(process) = writer_of(path) else { return Ok(()) };
     Err(Failure::input(format_args!(

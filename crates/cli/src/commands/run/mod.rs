@@ -10,11 +10,13 @@ use std::time::Instant;
 use plateau_core::scout::{Idle, Scout};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
+use plateau_io::checkpoint;
+use plateau_io::claim::Claim;
 use plateau_io::run_file::{End, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
-use self::beginning::Beginning;
+use self::beginning::{Beginning, not_claimed};
 use self::header::header;
 use self::recorder::{Recorder, RunFailure};
 use super::load_scene;
@@ -50,6 +52,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
     if job.leads() {
         check_place(&path, arguments.force || arguments.resumes()).map_err(Failure::input)?;
+        Claim::check(&path).map_err(not_claimed)?;
     }
     stability::warn(&scene.parameters);
     let loaded = surface::load(&scene).map_err(Failure::input)?;
@@ -68,7 +71,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let about = About { program: version::build(), scene: scene.resolved.clone(), inputs };
     stop_if_told(&interrupt, job)?;
     let beginning = Beginning::of(&path, &header, &about, arguments, schedule.end_time(), job)?;
-    let Some(Beginning { writer, state }) = beginning else {
+    // In this order: the claim goes last.
+    let Some(Beginning { claim: _claim, writer, state }) = beginning else {
         return Ok(());
     };
     if let Some(state) = &state {
@@ -175,15 +179,18 @@ pub fn warn_of(idle: Idle) {
     message::warning(format_args!("numerics.time_acceleration: {idle}; see docs/accuracy.md"));
 }
 
-/// Refuses an output that is a file which the run reads: not even `--force` is meant like that.
+/// Refuses an output, or a checkpoint of it, that is a file which the run reads: not even `--force` is meant like that.
 fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Result<(), Failure> {
-    let Ok(existing) = output.canonicalize() else { return Ok(()) };
-    let mut inputs = scene.files.iter().chain(loaded.inputs.iter().map(|(path, _)| path));
-    if inputs.any(|input| input.canonicalize().is_ok_and(|input| input == existing)) {
-        let output = output.display();
-        return Err(Failure::input(format_args!(
-            "the output file {output} is an input of this run and is not replaced; write elsewhere with -o FILE"
-        )));
+    let inputs = scene.files.iter().chain(loaded.inputs.iter().map(|(path, _)| path));
+    let inputs: Vec<_> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
+    let [last, before] = checkpoint::paths(output);
+    for (what, path) in [("output file", output), ("checkpoint", &last), ("checkpoint", &before)] {
+        if path.canonicalize().is_ok_and(|path| inputs.contains(&path)) {
+            let path = path.display();
+            return Err(Failure::input(format_args!(
+                "the {what} {path} is an input of this run and is not replaced; write elsewhere with -o FILE"
+            )));
+        }
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! `plateau sweep collect`: all results of a study in one HDF5 file and a table.
 
 use plateau_io::dataset_file::{Attribute, now};
+use plateau_io::regular;
 use plateau_io::study::collected::{CollectError, Collected, State, plain};
 use plateau_io::study::plan::Plan;
 use serde::Serialize;
@@ -65,7 +66,7 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     let study = plan.study();
     let text = |text: &str| Attribute::Text(text.to_owned());
     let read = |path: &std::path::Path| {
-        std::fs::read_to_string(path).map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
+        regular::read_to_string(path).map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
     };
     let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
     Ok(vec![

@@ -159,9 +159,12 @@ impl Floor<'_> {
         let start = Instant::now();
         let run = self.plan.run(number);
         let (study, identity) = (self.plan.study(), &self.resolved.identities[number - 1]);
-        let under_way = |every| UnderWay::new(&study.directory, identity, every);
+        let mut under_way = UnderWay::new(&study.directory, identity);
         let outcome = match self.plan.scene(&run) {
-            Ok(scene) => make(study, &scene, self.workers, self, &mut under_way(scene.output.checkpoint_every)),
+            Ok(scene) => {
+                under_way.keep_every(scene.output.checkpoint_every);
+                make(study, &scene, self.workers, self, &mut under_way)
+            }
             // It could be built a moment ago.
             Err(error) => Ok(Outcome::Failed { error: error.to_string() }),
         };
@@ -181,7 +184,7 @@ impl Floor<'_> {
             *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(Failure::run(message));
             return Went::Stopped;
         }
-        under_way(0.0).forget();
+        under_way.forget();
         self.progress.ended(failure.is_some());
         match failure {
             None => {

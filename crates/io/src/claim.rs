@@ -1,0 +1,392 @@
+//! Who may write a run file and its checkpoints: one process at a time.
+//!
+//! Whoever begins to write `run.h5` first makes `run.h5.lock` beside it, which says who that is, and removes it in the end.
+//! The file is made complete under another name and then linked, which fails where there is one; where a file system has no
+//! links it is made by an open that fails where there is one. So no locks of the system are needed, which network file systems may lack.
+//!
+//! A process that was killed leaves its lock. Another process of the same machine sees that, and takes it over: it first claims
+//! the right to do so in the same way, with a file named by the number that only this lock has; then it looks whether that
+//! lock still is there, and replaces it. So of several that find a lock left over one gets it, and nobody takes a new one for it.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read, Write};
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::process::{Life, Process};
+use crate::random;
+use crate::temporary::Temporary;
+use crate::timestamp::iso_8601;
+
+/// How every lock begins.
+const START: &str = "{\"plateau_lock\":";
+/// More bytes than any lock has.
+const LARGEST: u64 = 4096;
+/// How often a lock that is not complete is read, and how long is waited before: without links it is made and filled in turn.
+const LOOKS: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(50);
+/// Processes killed one after the other while each took over the lock of the one before: more is something else.
+const DEPTH: usize = 6;
+
+/// The right to write a run file and what lies beside it, until it is dropped.
+#[derive(Debug)]
+#[must_use]
+pub struct Claim {
+    lock: PathBuf,
+    owner: Owner,
+}
+
+/// What a lock says.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Owner {
+    /// Version of the format.
+    plateau_lock: u32,
+    writer: Process,
+    /// ISO 8601.
+    since: String,
+    /// Only this lock has it.
+    number: String,
+}
+
+/// Why a file is not claimed.
+#[derive(Debug, Error)]
+pub enum ClaimError {
+    /// A living process of this machine has it.
+    #[error("{} is being written by process {process}, since {since}; stop that first, or write elsewhere", path.display())]
+    Here {
+        /// What was to be claimed.
+        path: PathBuf,
+        /// The process.
+        process: u32,
+        /// Since when, ISO 8601.
+        since: String,
+    },
+    /// Nobody here can tell whether the process that has it lives.
+    #[error(
+        "{} is being written by process {process} on the machine {host}, since {since}; if that process has ended, remove {}",
+        path.display(), lock.display()
+    )]
+    Elsewhere {
+        /// What was to be claimed.
+        path: PathBuf,
+        /// The file that says so.
+        lock: PathBuf,
+        /// The process.
+        process: u32,
+        /// Its machine.
+        host: String,
+        /// Since when, ISO 8601.
+        since: String,
+    },
+    /// Something else has the name of the lock.
+    #[error(
+        "{} is no complete lock of plateau, but is where that of {} would be; move it away, or write elsewhere",
+        lock.display(), path.display()
+    )]
+    Foreign {
+        /// What was to be claimed.
+        path: PathBuf,
+        /// What is in the way.
+        lock: PathBuf,
+    },
+    /// The system does not give it.
+    #[error("cannot make {}: {error}; make its folder writable, or write elsewhere", lock.display())]
+    System {
+        /// The lock.
+        lock: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+}
+
+impl ClaimError {
+    /// Whether the disk is full: nothing that another name would mend.
+    pub fn lacks_space(&self) -> bool {
+        let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded, ErrorKind::FileTooLarge];
+        matches!(self, Self::System { error, .. } if full.contains(&error.kind()))
+    }
+}
+
+impl Claim {
+    /// Claims a file, which need not be there. Its folder must be. Where it is a link, what that points to is claimed.
+    ///
+    /// # Errors
+    /// [`ClaimError`] when another process has it, or this one, or no lock can be made.
+    pub fn of(path: &Path) -> Result<Self, ClaimError> {
+        let lock = lock_of(path);
+        let claim = Self::take(path, &lock, 0)?;
+        remove_rights(&lock);
+        Temporary::remove_abandoned(&lock);
+        Ok(claim)
+    }
+
+    /// Makes a lock.
+    fn take(path: &Path, lock: &Path, depth: usize) -> Result<Self, ClaimError> {
+        let system = |error| ClaimError::System { lock: lock.to_owned(), error };
+        let owner = Owner::this();
+        let text = serde_json::to_string(&owner).map_err(|error| system(error.into()))? + "\n";
+        loop {
+            let (temporary, mut file) = Temporary::create(lock).map_err(system)?;
+            // After a power failure, too, it is complete or not there.
+            file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(system)?;
+            if make(temporary.path(), lock, &text).map_err(system)? {
+                return Ok(Self { lock: lock.to_owned(), owner });
+            }
+            let Some(there) = read(path, lock)? else { continue };
+            if there.writer.life() != Life::Ended || depth == DEPTH {
+                return Err(there.refusal(path, lock));
+            }
+            let right = Self::take(path, &right_to(lock, &there.number), depth + 1)?;
+            // Only who has the right replaces that lock, and nobody else would remove it.
+            if read(path, lock)?.is_some_and(|now| now == there) {
+                fs::rename(temporary.path(), lock).map_err(system)?;
+                drop(right);
+                return Ok(Self { lock: lock.to_owned(), owner });
+            }
+        }
+    }
+
+    /// Whether a file could be claimed now, for a quick answer; touches nothing.
+    ///
+    /// # Errors
+    /// [`ClaimError`] when another process has it.
+    pub fn check(path: &Path) -> Result<(), ClaimError> {
+        let lock = lock_of(path);
+        match read(path, &lock)? {
+            Some(there) if there.writer.life() != Life::Ended => Err(there.refusal(path, &lock)),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        // Somebody may have removed the lock, and another process made its own. Nobody is left to tell what fails.
+        if read(&self.lock, &self.lock).is_ok_and(|there| there.as_ref() == Some(&self.owner)) {
+            let _ = fs::remove_file(&self.lock);
+        }
+    }
+}
+
+impl Owner {
+    fn this() -> Self {
+        Self { plateau_lock: 1, writer: Process::this(), since: iso_8601(SystemTime::now()), number: random::word() }
+    }
+
+    fn refusal(self, path: &Path, lock: &Path) -> ClaimError {
+        let (path, lock, since) = (path.to_owned(), lock.to_owned(), self.since);
+        let Process { host, number: process, .. } = self.writer.clone();
+        match self.writer.life() {
+            Life::Unknown => ClaimError::Elsewhere { path, lock, process, host, since },
+            _ => ClaimError::Here { path, process, since },
+        }
+    }
+}
+
+/// Where the lock of a file is.
+pub fn lock_of(path: &Path) -> PathBuf {
+    let real = if path.is_symlink() { path.canonicalize().ok() } else { None };
+    let path = real.as_deref().unwrap_or(path);
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".lock");
+    path.with_file_name(name)
+}
+
+/// The lock of the right to take over the lock of that number.
+fn right_to(lock: &Path, number: &str) -> PathBuf {
+    let mut name = lock.file_name().unwrap_or_default().to_owned();
+    name.push(".");
+    name.push(number);
+    lock.with_file_name(name)
+}
+
+/// Gives a complete file the name of a lock; whether that was free.
+fn make(complete: &Path, lock: &Path, text: &str) -> io::Result<bool> {
+    let Err(error) = fs::hard_link(complete, lock) else { return Ok(true) };
+    let identity = |path: &Path| fs::symlink_metadata(path).ok().map(|file| (file.dev(), file.ino()));
+    // A network file system may have done it, and lost the answer.
+    if identity(lock).is_some_and(|there| Some(there) == identity(complete)) {
+        return Ok(true);
+    }
+    if error.kind() == ErrorKind::AlreadyExists {
+        return Ok(false);
+    }
+    // Some file systems have no hard links.
+    let mut file = match File::create_new(lock) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => return Ok(false),
+        file => file?,
+    };
+    let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
+    if written.is_err() {
+        let _ = fs::remove_file(lock);
+    }
+    written.map(|()| true)
+}
+
+/// What a lock says, if there is one.
+fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
+    let system = |error| ClaimError::System { lock: lock.to_owned(), error };
+    let foreign = || ClaimError::Foreign { path: path.to_owned(), lock: lock.to_owned() };
+    for _ in 0..LOOKS {
+        match fs::symlink_metadata(lock) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(system(error)),
+            Ok(there) if !there.is_file() || there.len() > LARGEST => return Err(foreign()),
+            Ok(_) => {}
+        }
+        let mut text = String::new();
+        match File::open(lock).and_then(|file| file.take(LARGEST).read_to_string(&mut text)) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == ErrorKind::InvalidData => return Err(foreign()),
+            read => read.map_err(system)?,
+        };
+        if text.ends_with('\n') || !(text.starts_with(START) || START.starts_with(&text)) {
+            return serde_json::from_str(&text).map(Some).map_err(|_| foreign());
+        }
+        thread::sleep(PAUSE);
+    }
+    Err(foreign())
+}
+
+/// Removes what processes left that were killed while they took over a lock. Who has the lock needs nobody's right to it.
+fn remove_rights(lock: &Path) {
+    let start = format!("{}.", lock.file_name().unwrap_or_default().to_string_lossy());
+    let is_right = |name: &str| {
+        let numbers = name.strip_prefix(&start);
+        numbers.is_some_and(|numbers| numbers.split('.').all(random::is_word))
+    };
+    let folder = lock.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten().filter(|entry| is_right(&entry.file_name().to_string_lossy())) {
+        // Somebody else may have been quicker.
+        let _ = fs::remove_file(entry.path());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::process::Command;
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    /// A lock that a process left which was killed.
+    fn leave(lock: &Path) -> Owner {
+        let mut child = Command::new("true").spawn().unwrap();
+        let mut owner = Owner::this();
+        owner.writer = serde_json::from_value(serde_json::json!({
+            "host": owner.writer.host, "process": child.id(), "started": 1, "boot": "before", "numbers": "", "user": 0,
+        }))
+        .unwrap();
+        child.wait().unwrap();
+        fs::write(lock, serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+        owner
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_claim_is_one_process_s_until_it_ends() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.h5");
+        let claim = Claim::of(&path).unwrap();
+        assert_eq!(names(folder.path()), ["run.h5.lock"]);
+        for refused in [Claim::of(&path).map(drop), Claim::check(&path)] {
+            let message = refused.unwrap_err().to_string();
+            assert!(
+                message.contains(&format!("being written by process {}, since 20", std::process::id())),
+                "{message}"
+            );
+        }
+        assert_eq!(names(folder.path()), ["run.h5.lock"]);
+        drop(claim);
+        Claim::check(&path).unwrap();
+        drop(Claim::of(&path).unwrap());
+        assert_eq!(names(folder.path()), [""; 0]);
+    }
+
+    #[test]
+    fn a_link_is_claimed_where_it_points_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let [real, link] = ["run.h5", "link.h5"].map(|name| folder.path().join(name));
+        fs::write(&real, "").unwrap();
+        std::os::unix::fs::symlink(&real, &link).unwrap();
+        let _claim = Claim::of(&link).unwrap();
+        assert!(matches!(Claim::of(&real), Err(ClaimError::Here { .. })));
+    }
+
+    #[test]
+    fn of_many_that_find_a_lock_left_over_one_has_it_at_a_time() {
+        const MANY: usize = 8;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.h5");
+        let (holders, taken, start) = (AtomicUsize::new(0), AtomicUsize::new(0), Barrier::new(MANY));
+        for round in 0..100 {
+            let left = leave(&lock_of(&path));
+            // In some rounds one was killed that was about to take it over.
+            if round % 3 == 0 {
+                leave(&right_to(&lock_of(&path), &left.number));
+            }
+            thread::scope(|scope| {
+                for _ in 0..MANY {
+                    scope.spawn(|| {
+                        start.wait();
+                        let Ok(claim) = Claim::of(&path) else { return };
+                        assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0, "round {round}");
+                        taken.fetch_add(1, Ordering::SeqCst);
+                        thread::yield_now();
+                        holders.fetch_sub(1, Ordering::SeqCst);
+                        drop(claim);
+                    });
+                }
+            });
+            assert!(taken.swap(0, Ordering::SeqCst) > 0, "round {round}: nobody got it");
+            assert_eq!(names(folder.path()), [""; 0], "round {round}");
+        }
+    }
+
+    #[test]
+    fn who_may_live_elsewhere_is_named_with_the_file_to_remove() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.h5");
+        let mut owner = leave(&lock_of(&path));
+        owner.writer.host = "node17".into();
+        let text = serde_json::to_string(&owner).unwrap() + "\n";
+        fs::write(lock_of(&path), &text).unwrap();
+        let message = Claim::of(&path).unwrap_err().to_string();
+        assert!(message.contains("on the machine node17"), "{message}");
+        assert!(message.ends_with(&format!("remove {}", lock_of(&path).display())), "{message}");
+        assert_eq!(fs::read_to_string(lock_of(&path)).unwrap(), text);
+    }
+
+    #[test]
+    fn what_is_no_lock_is_named_and_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.h5");
+        let lock = lock_of(&path);
+        for content in [b"notes".as_slice(), b"{}\n", b"\xff\xfe", &[b'a'; 5000], b"{\"plateau_lock\":1,"] {
+            fs::write(&lock, content).unwrap();
+            let refused = Claim::of(&path).unwrap_err();
+            assert!(matches!(refused, ClaimError::Foreign { .. }), "{refused}");
+            assert_eq!(fs::read(&lock).unwrap(), content);
+        }
+        fs::remove_file(&lock).unwrap();
+        assert!(Command::new("mkfifo").arg(&lock).status().unwrap().success());
+        assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })));
+        fs::remove_file(&lock).unwrap();
+        fs::create_dir(&lock).unwrap();
+        assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })));
+    }
+}

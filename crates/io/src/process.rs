@@ -1,0 +1,123 @@
+//! Processes, told from later ones of the same number and from those of other machines.
+
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+
+use serde::{Deserialize, Serialize};
+
+/// Who a process is. What the system does not tell is empty or 0.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Process {
+    /// Name of its machine.
+    pub host: String,
+    /// Its number.
+    #[serde(rename = "process")]
+    pub number: u32,
+    /// When it was started, in ticks of the system's clock since the machine was.
+    started: u64,
+    /// Which start of the machine that is.
+    boot: String,
+    /// Where its number holds: a container may have numbers of its own.
+    numbers: String,
+    /// Number of its user.
+    user: u32,
+}
+
+/// What is known of a process.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Life {
+    /// It lives.
+    Lives,
+    /// It has ended.
+    Ended,
+    /// This machine cannot tell, for it runs, or ran, elsewhere.
+    Unknown,
+}
+
+impl Process {
+    /// This process.
+    pub fn this() -> Self {
+        let number = std::process::id();
+        Self {
+            host: host(),
+            number,
+            started: state_and_start(number).map_or(0, |(_, started)| started),
+            boot: fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default().trim().to_owned(),
+            numbers: fs::read_link("/proc/self/ns/pid").unwrap_or_default().to_string_lossy().into_owned(),
+            user: fs::metadata("/proc/self").map_or(0, |process| process.uid()),
+        }
+    }
+
+    /// Whether it lives.
+    pub fn life(&self) -> Life {
+        let this = Self::this();
+        if self.host != this.host || this.started == 0 {
+            return Life::Unknown;
+        }
+        if self.boot != this.boot {
+            return Life::Ended;
+        }
+        if self.numbers != this.numbers {
+            return Life::Unknown;
+        }
+        match state_and_start(self.number) {
+            Some((state, started)) if started == self.started && !['Z', 'X'].contains(&state) => Life::Lives,
+            Some(_) => Life::Ended,
+            // A system may hide the processes of other users.
+            None if self.user != this.user && !fs::exists("/proc/1").unwrap_or(false) => Life::Unknown,
+            None => Life::Ended,
+        }
+    }
+}
+
+/// Name of this machine.
+pub fn host() -> String {
+    fs::read_to_string("/proc/sys/kernel/hostname")
+        .map(|name| name.trim().to_owned())
+        .ok()
+        .filter(|name| !name.is_empty())
+        .or_else(|| std::env::var("HOSTNAME").ok())
+        .unwrap_or_else(|| "unknown".into())
+}
+
+/// State of a process of this machine, and when it was started: fields 3 and 22 of `/proc/PID/stat` (proc(5)).
+fn state_and_start(number: u32) -> Option<(char, u64)> {
+    let status = fs::read_to_string(format!("/proc/{number}/stat")).ok()?;
+    // Field 2 is the name of the program in parentheses, and may hold anything.
+    let (_, fields) = status.rsplit_once(')')?;
+    let mut fields = fields.split_whitespace();
+    let state = fields.next()?.chars().next()?;
+    Some((state, fields.nth(22 - 4)?.parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::process::Command;
+
+    use super::*;
+
+    #[test]
+    fn a_process_is_told_from_a_later_one_and_from_those_elsewhere() {
+        let this = Process::this();
+        assert_eq!(this.life(), Life::Lives);
+        assert_eq!(Process { started: this.started + 1, ..this.clone() }.life(), Life::Ended);
+        assert_eq!(Process { boot: "before".into(), ..this.clone() }.life(), Life::Ended);
+        assert_eq!(Process { host: "elsewhere".into(), ..this.clone() }.life(), Life::Unknown);
+        assert_eq!(Process { numbers: "pid:[1]".into(), ..this }.life(), Life::Unknown);
+    }
+
+    #[test]
+    fn a_process_that_nobody_has_waited_for_has_ended() {
+        let mut child = Command::new("sleep").arg("60").spawn().unwrap();
+        let (_, started) = state_and_start(child.id()).unwrap();
+        let process = Process { number: child.id(), started, ..Process::this() };
+        assert_eq!(process.life(), Life::Lives);
+        child.kill().unwrap();
+        while process.life() == Life::Lives {
+            std::thread::yield_now();
+        }
+        assert!(state_and_start(child.id()).is_some(), "it is still listed");
+        child.wait().unwrap();
+        assert_eq!(process.life(), Life::Ended);
+    }
+}

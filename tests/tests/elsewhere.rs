@@ -1,0 +1,176 @@
+//! What is read is in the file that is named, so that its digest is that of all that was read; and what is no such file is
+//! refused at once.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use hdf5::File;
+use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, run, scene};
+
+const SHAPE: (usize, usize) = (690, 20);
+
+/// Makes an HDF5 file.
+fn hdf5_file(path: &Path, fill: impl FnOnce(&File) -> hdf5::Result<()>) {
+    let _writing = no_open_hdf5_file();
+    let file = File::create(path).unwrap();
+    fill(&file).unwrap();
+    file.close().unwrap();
+}
+
+fn heights(file: &File, name: &str) -> hdf5::Result<()> {
+    file.new_dataset::<f64>().shape(SHAPE).create(name)?.write_raw(&vec![1e-6; SHAPE.0 * SHAPE.1])
+}
+
+/// Every command that reads a surface, told to read this one.
+fn read_as_surface(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
+    let text = fs::read_to_string(scene("quick.toml")).unwrap();
+    let start = text.find("[disc.surface]").unwrap();
+    let end = start + text[start..].find("\n[").unwrap();
+    let disc = format!("[disc.surface]\nfile = \"{file}\"\n");
+    directory.write("scene.toml", [&text[..start], &disc, &text[end..]].concat());
+    let commands: [&[&str]; 3] = [&["surface", file], &["check", "scene.toml"], &["run", "scene.toml", "-o", "out.h5"]];
+    commands.map(|command| limited(directory, command)).into()
+}
+
+/// Every command that reads a run file.
+fn read_as_run(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
+    let commands: [&[&str]; 4] = [
+        &["verify", file],
+        &["repair", file],
+        &["report", file, "-o", "page.html"],
+        &["export", file, "--to", "csv", "-o", "table.csv"],
+    ];
+    commands.map(|command| limited(directory, command)).into()
+}
+
+/// With 1 GB of address space: enough for the program, and not for what some files declare.
+fn limited(directory: &WorkingDirectory, command: &[&str]) -> Outcome {
+    run(directory.command_after("ulimit -c 0; ulimit -v 1000000", command))
+}
+
+fn assert_refused(outcomes: Vec<Outcome>, status: &[i32], said: &str) {
+    for outcome in outcomes {
+        let text = [outcome.stderr.as_str(), &outcome.stdout].concat();
+        assert!(
+            outcome.status.is_some_and(|found| status.contains(&found)) && text.contains(said),
+            "{said}: {outcome:?}"
+        );
+    }
+}
+
+#[test]
+fn surfaces_that_are_in_other_files_are_refused_with_what_they_point_to() {
+    let directory = WorkingDirectory::new();
+    hdf5_file(&directory.path("other.h5"), |file| heights(file, "height"));
+    hdf5_file(&directory.path("link.h5"), |file| file.link_external("other.h5", "/height", "height"));
+    let fifo = directory.path("fifo");
+    assert!(Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    hdf5_file(&directory.path("deep.h5"), |file| {
+        heights(file, "mine")?;
+        file.create_group("deep")?.link_external("fifo", "/height", "height")
+    });
+    for (name, source) in [("virtual.h5", "other.h5"), ("waits.h5", "fifo"), ("circle.h5", "circle.h5")] {
+        hdf5_file(&directory.path(name), |file| {
+            let made = file.new_dataset::<f64>().shape(SHAPE);
+            made.with_dcpl(|list| list.virtual_map(source, "height", SHAPE, (.., ..), SHAPE, (.., ..)))
+                .create("height")?;
+            Ok(())
+        });
+    }
+    fs::write(directory.path("raw.bin"), vec![0; 8 * SHAPE.0 * SHAPE.1]).unwrap();
+    hdf5_file(&directory.path("raw.h5"), |file| {
+        let made = file.new_dataset::<f64>().shape(SHAPE);
+        made.with_dcpl(|list| list.external("raw.bin", 0, 8 * SHAPE.0 * SHAPE.1)).create("height")?;
+        Ok(())
+    });
+    for (file, said) in [
+        ("link.h5", "/height links to /height in other.h5"),
+        ("deep.h5", "/deep/height links to /height in fifo"),
+        ("virtual.h5", "/height is a virtual dataset, made of height in other.h5"),
+        ("waits.h5", "/height is a virtual dataset, made of height in fifo"),
+        ("circle.h5", "/height is a virtual dataset, made of height in circle.h5"),
+        ("raw.h5", "/height has its data in raw.bin"),
+    ] {
+        assert_refused(read_as_surface(&directory, file), &[2], said);
+    }
+    // What they point to is read.
+    for outcome in read_as_surface(&directory, "other.h5") {
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    }
+}
+
+#[test]
+fn links_in_a_circle_and_shapes_without_data_do_no_harm() {
+    let directory = WorkingDirectory::new();
+    hdf5_file(&directory.path("circle.h5"), |file| {
+        heights(file, "height")?;
+        let inner = file.create_group("inner")?;
+        for number in 0..30 {
+            inner.link_hard("/inner", &format!("again{number}"))?;
+            inner.link_soft(&format!("/inner/soft{}", number + 1), &format!("soft{number}"))?;
+        }
+        inner.link_soft("/height", "soft30")
+    });
+    for outcome in read_as_surface(&directory, "circle.h5") {
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    }
+    let far = limited(&directory, &["surface", "circle.h5", "--dataset", "/inner/soft0"]);
+    assert_eq!(far.status, Some(2), "{far:?}");
+    let near = limited(&directory, &["surface", "circle.h5", "--dataset", "/inner/soft30"]);
+    assert_eq!(near.status, Some(0), "{near:?}");
+    // As many points as are read at most, 2 GiB of them, in a file of some kilobytes.
+    hdf5_file(&directory.path("hollow.h5"), |file| {
+        file.new_dataset::<f64>().chunk((64, 64)).shape((1 << 14, 1 << 14)).create("height")?;
+        Ok(())
+    });
+    assert_refused(read_as_surface(&directory, "hollow.h5"), &[2], "bytes in the file");
+}
+
+#[test]
+fn run_files_must_be_whole_too() {
+    let directory = WorkingDirectory::new();
+    let arguments = ["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.duration=2 s"];
+    assert_eq!(directory.plateau(arguments).status, Some(0));
+    let changed = |name: &str, change: fn(&File) -> hdf5::Result<()>| {
+        fs::copy(directory.path("run.h5"), directory.path(name)).unwrap();
+        let _writing = no_open_hdf5_file();
+        let file = File::open_rw(directory.path(name)).unwrap();
+        change(&file).unwrap();
+        file.close().unwrap();
+    };
+    changed("link.h5", |file| {
+        file.unlink("time")?;
+        file.link_external("run.h5", "/time", "time")
+    });
+    assert_refused(read_as_run(&directory, "link.h5"), &[2], "/time links to /time in run.h5");
+    changed("hollow.h5", |file| {
+        file.unlink("time")?;
+        file.new_dataset::<f64>().chunk(1024).shape(1_usize << 40).create("time")?;
+        Ok(())
+    });
+    assert_refused(read_as_run(&directory, "hollow.h5"), &[1, 2], "bytes in the file");
+}
+
+#[test]
+fn pipes_and_devices_are_refused_and_not_waited_for() {
+    let directory = WorkingDirectory::new();
+    assert!(Command::new("mkfifo").arg(directory.path("fifo")).status().unwrap().success());
+    for file in ["fifo", "/dev/zero"] {
+        let text = "regular file";
+        assert_refused(read_as_run(&directory, file), &[2], text);
+        assert_refused(read_as_surface(&directory, file), &[2], text);
+        for command in [&["run", file][..], &["check", file], &["sweep", "run", file]] {
+            assert_refused(vec![limited(&directory, command)], &[2], text);
+        }
+    }
+    // Where a checkpoint or the lock would be.
+    for name in ["run.h5.checkpoint", "run.h5.lock"] {
+        fs::rename(directory.path("fifo"), directory.path(name)).unwrap();
+        for more in ["--force", "--resume"] {
+            let outcome = limited(&directory, &["run", &scene("quick.toml"), "-o", "run.h5", more]);
+            assert!(outcome.status == Some(2) && outcome.stderr.contains(name), "{outcome:?}");
+        }
+        fs::rename(directory.path(name), directory.path("fifo")).unwrap();
+    }
+}

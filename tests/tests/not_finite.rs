@@ -1,0 +1,50 @@
+//! A run whose numbers have left what numbers can hold has failed, and says where.
+
+use std::fs;
+
+use plateau_tests::program::{WorkingDirectory, scene};
+use plateau_tests::run_file::RunFile;
+
+/// Legal scenes that ask for more wear than a number holds.
+const ENDLESS: [&str; 2] = ["materials.pin_primary.specific_wear_rate=1e300 1/Pa", "numerics.time_acceleration=1e300"];
+
+#[test]
+fn a_run_without_finite_numbers_has_failed() {
+    for set in ENDLESS {
+        // With a sample at every step, with none before the end, and with a checkpoint before any sample.
+        for every in ["1", "100000"] {
+            let directory = WorkingDirectory::new();
+            let every = format!("output.sample_every_steps={every}");
+            let more = ["--set", set, "--set", &every, "--set", "output.checkpoint_every=0.001 s"];
+            let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];
+            let failed = directory.plateau(arguments.iter().chain(&more));
+            assert_eq!(failed.status, Some(1), "{failed:?}");
+            assert!(failed.stderr.contains("after step ") && failed.stderr.contains("no number holds"), "{failed:?}");
+            let run = RunFile::open(directory.path("run.h5"));
+            assert_eq!(run.text("state"), "failed", "{set}, {every}");
+            assert!(failed.stderr.contains(&run.text("error")), "{}", run.text("error"));
+            let heights = run.content();
+            let finite = |bits: &u64| f64::from_bits(*bits).is_finite();
+            assert!(heights["/series/worn_pin"].bits.iter().all(finite), "{set}, {every}");
+            assert!(heights["/pin/height"].bits.iter().all(finite), "{set}, {every}");
+            drop(run);
+            let again = directory.plateau(arguments.iter().chain(&more).chain(&["--resume"]));
+            assert_eq!(again.status, Some(1), "{again:?}");
+        }
+    }
+}
+
+#[test]
+fn such_a_run_of_a_study_has_failed_too() {
+    let directory = WorkingDirectory::new();
+    fs::copy(scene("quick.toml"), directory.path("scene.toml")).unwrap();
+    directory.write(
+        "study.toml",
+        "version = 1\ntitle = \"wear\"\nbase = \"scene.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
+         [[factor]]\nname = \"wear rate\"\nkey = \"materials.pin_primary.specific_wear_rate\"\n\
+         levels = [\"5e-14 1/Pa\", \"1e300 1/Pa\"]\n",
+    );
+    let outcome = directory.plateau(["sweep", "run", "study.toml"]);
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("1 of 2 runs failed") && outcome.stderr.contains("no number holds"), "{outcome:?}");
+}
