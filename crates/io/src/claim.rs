@@ -20,7 +20,7 @@ use thiserror::Error;
 
 use crate::process::{Life, Process};
 use crate::random;
-use crate::temporary::Temporary;
+use crate::temporary::{Temporary, folder};
 use crate::timestamp::iso_8601;
 
 /// How every lock begins.
@@ -95,11 +95,21 @@ pub enum ClaimError {
         /// What is in the way.
         lock: PathBuf,
     },
-    /// The system does not give it.
-    #[error("cannot make {}: {error}; make its folder writable, or write elsewhere", lock.display())]
-    System {
-        /// The lock.
+    /// Nobody can tell who has it.
+    #[error("cannot read {}, which says who writes {}: {error}", lock.display(), path.display())]
+    Unreadable {
+        /// What was to be claimed.
+        path: PathBuf,
+        /// The file that says so.
         lock: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// No lock can be made.
+    #[error("cannot make a file in {}: {error}; make the directory writable, or write elsewhere with -o FILE", directory.display())]
+    System {
+        /// The directory.
+        directory: PathBuf,
         /// What the system says.
         error: io::Error,
     },
@@ -128,7 +138,7 @@ impl Claim {
 
     /// Makes a lock.
     fn take(path: &Path, lock: &Path, depth: usize) -> Result<Self, ClaimError> {
-        let system = |error| ClaimError::System { lock: lock.to_owned(), error };
+        let system = |error| ClaimError::System { directory: folder(lock).to_owned(), error };
         let owner = Owner::this();
         let text = serde_json::to_string(&owner).map_err(|error| system(error.into()))? + "\n";
         loop {
@@ -142,11 +152,10 @@ impl Claim {
             if there.writer.life() != Life::Ended || depth == DEPTH {
                 return Err(there.refusal(path, lock));
             }
-            let right = Self::take(path, &right_to(lock, &there.number), depth + 1)?;
+            let _right = Self::take(path, &right_to(lock, &there.number), depth + 1)?;
             // Only who has the right replaces that lock, and nobody else would remove it.
             if read(path, lock)?.is_some_and(|now| now == there) {
                 fs::rename(temporary.path(), lock).map_err(system)?;
-                drop(right);
                 return Ok(Self { lock: lock.to_owned(), owner });
             }
         }
@@ -231,12 +240,12 @@ fn make(complete: &Path, lock: &Path, text: &str) -> io::Result<bool> {
 
 /// What a lock says, if there is one.
 fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
-    let system = |error| ClaimError::System { lock: lock.to_owned(), error };
+    let unreadable = |error| ClaimError::Unreadable { path: path.to_owned(), lock: lock.to_owned(), error };
     let foreign = || ClaimError::Foreign { path: path.to_owned(), lock: lock.to_owned() };
     for _ in 0..LOOKS {
         match fs::symlink_metadata(lock) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(system(error)),
+            Err(error) => return Err(unreadable(error)),
             Ok(there) if !there.is_file() || there.len() > LARGEST => return Err(foreign()),
             Ok(_) => {}
         }
@@ -244,10 +253,11 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
         match File::open(lock).and_then(|file| file.take(LARGEST).read_to_string(&mut text)) {
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             Err(error) if error.kind() == ErrorKind::InvalidData => return Err(foreign()),
-            read => read.map_err(system)?,
+            read => read.map_err(unreadable)?,
         };
         if text.ends_with('\n') || !(text.starts_with(START) || START.starts_with(&text)) {
-            return serde_json::from_str(&text).map(Some).map_err(|_| foreign());
+            let owner = serde_json::from_str::<Owner>(&text).ok().filter(|owner| random::is_word(&owner.number));
+            return owner.map(Some).ok_or_else(foreign);
         }
         thread::sleep(PAUSE);
     }
@@ -261,8 +271,7 @@ fn remove_rights(lock: &Path) {
         let numbers = name.strip_prefix(&start);
         numbers.is_some_and(|numbers| numbers.split('.').all(random::is_word))
     };
-    let folder = lock.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let Ok(entries) = fs::read_dir(folder) else { return };
+    let Ok(entries) = fs::read_dir(folder(lock)) else { return };
     for entry in entries.flatten().filter(|entry| is_right(&entry.file_name().to_string_lossy())) {
         // Somebody else may have been quicker.
         let _ = fs::remove_file(entry.path());

@@ -41,15 +41,18 @@ pub(super) fn for_each_dataset(
             if link.link_type != LinkType::Hard || found.is_some() {
                 return Ok(());
             }
-            let info = group.loc_info_by_name(name)?;
-            // There is no other way to compare tokens than by how they show.
-            if !seen.insert(hasher.hash_one(format!("{:?}", info.token))) {
-                return Ok(());
-            }
-            match info.loc_type {
-                LocationType::Group => groups.push(group.group(name)?),
+            // An object that is damaged cannot be opened, nor read then; who wants it will say so.
+            let kind = match group.loc_info_by_name(name) {
+                // There is no other way to compare tokens than by how they show.
+                Ok(info) if !seen.insert(hasher.hash_one(format!("{:?}", info.token))) => return Ok(()),
+                Ok(info) => info.loc_type,
+                Err(error) if group.group(name).is_ok() => return Err(error),
+                Err(_) => LocationType::Dataset,
+            };
+            match kind {
+                LocationType::Group => groups.extend(group.group(name)),
                 LocationType::Dataset => {
-                    let dataset = group.dataset(name)?;
+                    let Ok(dataset) = group.dataset(name) else { return Ok(()) };
                     found = data_elsewhere(&dataset)?.map(|what| format!("{} {what}", path_in(&group, name)));
                     visit(dataset);
                 }

@@ -22,7 +22,8 @@ const LATENCY: Duration = Duration::from_millis(500);
 /// How long samples gather in the queue before they are taken out, at least.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// Writes a run file from a thread of its own.
+/// Writes a run file from a thread of its own. Who makes one holds the [`Claim`](crate::claim::Claim) of its path, and of the
+/// checkpoints beside it, until both are complete.
 ///
 /// A writer that is dropped without [`finish`](Self::finish) leaves a file whose state is `failed`.
 #[derive(Debug)]
