@@ -16,7 +16,8 @@ arguments = parser.parse_args()
 
 with h5py.File(arguments.run, swmr=True) as run:
     time = pandas.Index(run["time"][:], name="time")
-    table = pandas.DataFrame({name: series[: len(time)] for name, series in run["series"].items()}, index=time)
+    series = {name: series[: len(time)] for name, series in run["series"].items() if name != "time"}
+    table = pandas.DataFrame(series, index=time)
 
 edges = [table.index[-1] * part / arguments.parts for part in range(arguments.parts + 1)]
 parts = table.groupby(pandas.cut(table.index, edges), observed=True)

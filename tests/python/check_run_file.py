@@ -143,6 +143,22 @@ def check_h5py(file, datasets):
         same(sorted(users), sorted(expected), f"users of the scale {name}")
 
 
+def check_time_of_series(path, file):
+    """The series alone have their time: a link to that of the root, and so the coordinate of their dimension."""
+    link = file.get("series/time", getlink=True)
+    check(isinstance(link, h5py.SoftLink) and link.path == "/time", "series/time is no link to /time")
+    for engine in ("h5netcdf", "netcdf4"):
+        with xarray.open_dataset(path, group="series", engine=engine) as series:
+            same(list(series.coords), ["time"], f"{engine}: coordinates of the series")
+            check(np.array_equal(series.time, file["time"][...]), f"{engine}: times of the series")
+            same(set(series.data_vars), set(file["series"]) - {"time"}, f"{engine}: series")
+            last = series.contact_area.sel(time=float(file["time"][-1]))
+            same(float(last), float(file["series/contact_area"][-1]), f"{engine}: selection by time")
+    with netCDF4.Dataset(path) as netcdf:
+        found = netcdf["series"].variables["time"]
+        same((found.dimensions, found.units), (("time",), "s"), "netCDF4: time of the series")
+
+
 def check_coordinates(file):
     """Cell centres are equally spaced; the ring closes; times grow."""
     angle = file["disc_angle"][...]
@@ -249,6 +265,7 @@ def main():
         check_attributes(dict(file.attrs))
         check_h5py(file, datasets)
         check_coordinates(file)
+        check_time_of_series(arguments.file, file)
         if arguments.roughness:
             check_roughness(file)
         print(f"h5py {h5py.__version__}: attributes, {len(datasets)} datasets, {file['time'].size} samples")

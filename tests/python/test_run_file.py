@@ -10,6 +10,7 @@ import unittest
 
 import h5py
 import numpy as np
+import xarray
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENES = HERE.parent.parent / "data" / "scenes"
@@ -84,6 +85,10 @@ class RunFile(unittest.TestCase):
             for name, series in file["series"].items():
                 self.assertTrue(np.isfinite(series[:samples]).all(), name)
             self.assertEqual(file.attrs["state"], "running")
+        subprocess.run([PROGRAM, "repair", str(self.path)], check=True, capture_output=True, timeout=300)
+        with xarray.open_dataset(self.path, group="series", engine="h5netcdf") as series:
+            self.assertEqual((list(series.coords), series.sizes["time"]), (["time"], samples))
+        subprocess.run([PROGRAM, "verify", str(self.path)], check=True, capture_output=True, timeout=300)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """The study of the paper (data/studies/riva2019): its measures have closed forms, and documents agree with its results."""
 
+import re
 import subprocess
 import sys
 import unittest
@@ -12,6 +13,9 @@ sys.path.insert(0, str(STUDY))
 import discs  # noqa: E402, where the study is
 import make_points  # noqa: E402, where the study is
 import measures  # noqa: E402
+import write_docs  # noqa: E402, where the study is
+
+ROOT = STUDY.parents[2]
 
 
 class Measures(unittest.TestCase):
@@ -57,6 +61,20 @@ class Measures(unittest.TestCase):
             hits += abs(slope * (100.0 + 0.05 * time + noise).mean() - 0.05) <= half * 101.5
         self.assertGreater(hits, 340)
 
+    def test_standard_error_is_that_of_a_process_of_first_order(self) -> None:
+        # The closed form of the variance of a mean of n values, (1/n²) Σ φ^|i−k|, against the mean of 300 estimates.
+        random, count = np.random.default_rng(1), 500
+        for alike in (0.0, 0.7):
+            apart = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
+            expected, found = (alike**apart).sum() / count**2, []
+            for _ in range(300):
+                values = np.empty(count)
+                values[0] = random.standard_normal()
+                for step, chance in enumerate(random.standard_normal(count - 1) * np.sqrt(1 - alike**2)):
+                    values[step + 1] = alike * values[step] + chance
+                found.append(measures.standard_error(values) ** 2)
+            self.assertAlmostEqual(np.mean(found) / expected, 1.1, delta=0.15)
+
     def test_plateaus_are_pieces_with_common_edges(self) -> None:
         cells = np.array([[1, 0, 0], [0, 1, 1], [1, 0, 0]], bool)
         self.assertEqual(sorted(measures.plateau_sizes(cells, False).tolist()), [1, 1, 2])
@@ -79,6 +97,36 @@ class Documents(unittest.TestCase):
         check = [sys.executable, "-B", str(STUDY / "write_docs.py"), "--check"]
         told = subprocess.run(check, capture_output=True, text=True, check=False)
         self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+
+    def test_numbers_have_their_time_acceleration_beside_them(self) -> None:
+        """A number of m = 500 beside one of m = 1, without either, once made two of one contact area."""
+        parts = {"runs", "sets", "variants", "symmetry"}
+        for name in ("readme.md.in", "validation.md.in"):
+            text = (STUDY / name).read_text()
+            # Runs are what is spoken of unless it says otherwise, which is said first; all that is varied has a section.
+            self.assertIn("{{m runs}}", text[: text.index("{{runs/")], name)
+            # Where a piece begins that is read by itself: a paragraph, a list item, a row, a heading.
+            for piece in re.split(r"\n(?=\n|- |\d\. |\||#)", text):
+                found = set(re.findall(r"\{\{(\w+)/[^}]*(?:contact_area|run_in|pressure|pin_sq|drift|covered)", piece)) & parts
+                for part in found - {"runs", "variants"}:
+                    self.assertIn(f"{{{{m {part}}}}}", piece, f"{name}: {piece}")
+            for section in re.split(r"\n(?=## )", text):
+                if "{{variants/means" in section or "{{table variants}}" in section:
+                    self.assertIn("{{m variants}}", section, name)
+        self.assertEqual(write_docs.accelerations(), {"runs": 1.0, "sets": 500.0, "variants": 200.0, "symmetry": 200.0})
+
+    def test_the_first_screen_has_one_number_for_one_thing(self) -> None:
+        readme = (ROOT / "README.md").read_text().split(write_docs.MARKS[0])[1].split(write_docs.MARKS[1])[0]
+        validation = (ROOT / "docs/validation.md").read_text()
+        for heights in ("1", "0.1", "0.01"):
+            area = write_docs.last_tenth(heights, 3000.0)
+            self.assertIn(area, readme)
+            self.assertIn(area, validation)
+            run_in = write_docs.value(f"runs/{heights}/history/3000/run_in")
+            self.assertIn(f"{run_in:.0f}", readme)
+        # What stands in a list of findings without another m is of the model.
+        for line in re.findall(r"^\d\. .*", (STUDY / "readme.md.in").read_text(), re.MULTILINE):
+            self.assertNotIn("{{sets/", line)
 
     def test_points_are_those_of_the_variants(self) -> None:
         lines = [line for line in (STUDY / "points.csv").read_text().splitlines() if not line.startswith("#")]

@@ -31,6 +31,37 @@ fn a_run_tells_its_results_and_nothing_else() {
 }
 
 #[test]
+fn the_mean_contact_area_is_that_of_the_last_tenth() {
+    let directory = WorkingDirectory::new();
+    let scene = scene("quick.toml");
+    // A revolution at 850 rpm stands for five, 0.353 s: ten of them take less than 6 s.
+    let arguments = ["run", &scene, "-o", "run.h5", "--json", "--set", "numerics.time_acceleration=5"];
+    let summary: Value = serde_json::from_str(&directory.plateau(arguments).quiet_success()).unwrap();
+    let run = RunFile::open(directory.path("run.h5"));
+    let (time, integral) = (run.floats("/time"), run.floats("/series/contact_area_integral"));
+    let last = time.len() - 1;
+    let first = time.iter().rposition(|time| *time <= 54.0 * (1.0 + 1e-9)).unwrap();
+    let window = &summary["contact_area_last_tenth"];
+    assert_eq!((window["from"].as_f64(), window["to"].as_f64()), (Some(time[first]), Some(time[last])));
+    let mean = (integral[last] - integral[first]) / (time[last] - time[first]);
+    assert_eq!(window["mean"].as_f64(), Some(mean));
+    assert!((window["revolutions"].as_f64().unwrap() - 6.0 * 850.0 / 60.0 / 5.0).abs() < 0.01, "{window}");
+    // More than that of independent samples, for neighbours are alike, and less than they differ by.
+    let areas: Vec<f64> =
+        (first..last).map(|at| (integral[at + 1] - integral[at]) / (time[at + 1] - time[at])).collect();
+    let deviation = (areas.iter().map(|area| (area - mean).powi(2)).sum::<f64>() / areas.len() as f64).sqrt();
+    let error = window["standard_error"].as_f64().unwrap();
+    assert!(deviation / (areas.len() as f64).sqrt() < error && error < deviation, "{error} {deviation}");
+    let text = directory.plateau(["run", &scene, "-o", "again.h5"]).quiet_success();
+    assert!(text.contains(" mm² (mean of the last 14.") && text.contains("± standard error"), "{text}");
+    let text = directory.plateau(["run", &scene, "-o", "short.h5", "--set", "operation.steps=6900"]).quiet_success();
+    // 6900 steps are ten revolutions.
+    assert!(text.contains(" mm² (mean of the last 14.12 s, ± standard error)"), "{text}");
+    let text = directory.plateau(["run", &scene, "-o", "shorter.h5", "--set", "operation.steps=3450"]).quiet_success();
+    assert!(text.contains(" mm² (mean of all 7.059 s, only 5 simulated revolutions, ± standard error)"), "{text}");
+}
+
+#[test]
 fn force_replaces_a_run() {
     let directory = short();
     directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();

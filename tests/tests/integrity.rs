@@ -74,6 +74,15 @@ fn what_is_damaged_is_named() {
     file.close().unwrap();
     let (status, document) = verdict(&directory, "value.h5");
     assert_eq!((status, &document["damage"][0]["place"]), (Some(1), &"/series/pool".into()), "{document}");
+
+    // A link that leads elsewhere.
+    directory.write("link.h5", &whole);
+    let file = hdf5::File::open_rw(directory.path("link.h5")).unwrap();
+    file.unlink("series/time").unwrap();
+    file.link_soft("/radius", "series/time").unwrap();
+    file.close().unwrap();
+    let (status, document) = verdict(&directory, "link.h5");
+    assert_eq!((status, &document["damage"][0]["place"]), (Some(1), &"attributes".into()), "{document}");
     let both = directory.plateau(["verify", "run.h5", "value.h5"]);
     assert_eq!(both.status, Some(1));
     assert!(both.stdout.contains("intact") && both.stdout.contains("/series/pool: it is not what was written"));

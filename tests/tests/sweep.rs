@@ -45,6 +45,11 @@ at = "end"
 name = "mean filling"
 dataset = "/series/filled_fraction"
 mean = ["1 s", "3 s"]
+
+[[response]]
+name = "mean contact area"
+dataset = "/series/contact_area"
+mean = "last tenth"
 "#,
         scene("quick.toml")
     )
@@ -133,6 +138,43 @@ fn a_study_is_planned_run_and_collected() {
     let filled = alone.floats("/series/filled_fraction");
     let mean = (filled[1] / 2.0 + filled[2] + filled[3] + filled[4] + filled[5] / 2.0) / 4.0;
     assert!((file.floats("/mean_filling")[14] / mean - 1.0).abs() < 1e-3);
+    // So short a run has fewer than ten simulated revolutions: the mean is over all of it, too short for an error.
+    let [integral, time] = ["/series/contact_area_integral", "/time"].map(|name| *alone.floats(name).last().unwrap());
+    assert_eq!(file.floats("/mean_contact_area")[14], integral / time);
+    assert!(file.floats("/mean_contact_area_standard_error").iter().all(|error| error.is_nan()));
+    let table = fs::read_to_string(directory.path("results/results.csv")).unwrap();
+    assert!(
+        table.lines().next().unwrap().ends_with(",mean_contact_area,mean_contact_area_standard_error,error"),
+        "{table}"
+    );
+}
+
+#[test]
+fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
+    let directory = directory();
+    let longer = study().replace("'3 s'", "'24 s'").replace("seeds = [7, 8, 9]", "seeds = [7]");
+    let one = longer.replace("\"10 N\", \"20 N\"", "\"10 N\"").replace("0.2, 0.3, 0.4", "0.2, 0.4");
+    directory.write("study.toml", one);
+    sweep(&directory, &["--jobs", "2"]);
+    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    let file = RunFile::open(directory.path("results/results.h5"));
+    // Run 4: 10 N, 0.4.
+    let scene = scene("quick.toml");
+    let sets = [
+        "operation.duration=24 s",
+        "output.sample_every=0.5 s",
+        "operation.normal_force=10 N",
+        "pin.base.synthetic.fibre_fraction=0.4",
+        "disc.surface.synthetic.seed=7",
+        "pin.base.synthetic.seed=7",
+    ];
+    let sets = sets.iter().flat_map(|set| ["--set", set]);
+    let summary = json(&directory.plateau(["run", &scene, "-o", "alone.h5", "--json"].into_iter().chain(sets)));
+    let window = &summary["contact_area_last_tenth"];
+    assert_eq!(window["mean"].as_f64(), Some(file.floats("/mean_contact_area")[3]));
+    // The revolutions of a run file follow from its sliding distance.
+    let error = file.floats("/mean_contact_area_standard_error")[3];
+    assert!((window["standard_error"].as_f64().unwrap() / error - 1.0).abs() < 1e-6, "{window} {error}");
 }
 
 #[test]
@@ -297,6 +339,7 @@ fn what_is_wrong_with_a_study_is_said_before_anything_runs() {
         ("seeds = [7, 8, 9]", "seeds = [7, 7, -1]"),
         ("at = \"end\"", "at = \"end\"\nmean = [\"1 s\", \"2 s\"]"),
         ("mean = [\"1 s\", \"3 s\"]", "mean = [\"3 s\", \"1 s\"]"),
+        ("mean = [\"1 s\", \"3 s\"]", "mean = \"last fifth\""),
         ("directory = \"results\"", "directory = \"results\"\npoints = 5"),
         ("directory = \"results\"", "directory = \"results\"\nfoo = 5"),
         ("levels = [0.2, 0.3, 0.4]", "range = [0.4, 0.2]"),

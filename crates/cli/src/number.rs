@@ -42,6 +42,16 @@ pub fn significant(number: f64, digits: usize) -> String {
     }
 }
 
+/// A number and its standard error with two digits of that, `4.426 ± 0.012`; with five digits where there is none.
+pub fn with_error(number: f64, error: Option<f64>) -> String {
+    let Some(error) = error else { return significant(number, 5) };
+    // As it is rounded: 0.0996 is 0.10.
+    let magnitude =
+        if error > 0.0 { format!("{error:.1e}").parse::<f64>().unwrap_or(error).log10().floor() } else { -3.0 };
+    let decimals = (1.0 - magnitude).clamp(0.0, 9.0) as usize;
+    format!("{number:.decimals$} ± {error:.decimals$}")
+}
+
 /// A number with at most so many significant digits, for people: no zeros at the end, and a sign that is as wide as a plus.
 pub fn rounded(number: f64, digits: usize) -> String {
     let text = significant(number, digits);
@@ -89,6 +99,11 @@ mod tests {
     fn numbers_read_well() {
         assert_eq!(grouped(1_174_629), "1 174 629");
         assert_eq!(grouped(12), "12");
+        assert_eq!(with_error(4.425_97, Some(0.012_34)), "4.426 ± 0.012");
+        assert_eq!(with_error(4.425_97, Some(0.099_96)), "4.43 ± 0.10");
+        assert_eq!(with_error(1234.5, Some(56.0)), "1234 ± 56");
+        assert_eq!(with_error(4.425_97, Some(0.0)), "4.4260 ± 0.0000");
+        assert_eq!(with_error(4.425_974, None), "4.4260");
         assert_eq!(short(0.012_345_6), "0.01235");
         assert_eq!(short(123.456), "123.5");
         assert_eq!(short(1.5e-14), "1.500e-14");

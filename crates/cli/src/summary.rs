@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::observe::Sample;
 use plateau_core::simulation::Course;
+use plateau_core::window_mean::WindowMean;
 use plateau_io::run_file::WriterReport;
 use plateau_io::scene::recipe::Scene;
 use serde::Serialize;
@@ -30,6 +31,7 @@ pub struct Summary {
     peak_memory: Option<u64>,
     contact_area: f64,
     contact_area_mean: f64,
+    contact_area_last_tenth: Option<WindowMean>,
     contact_ratio: f64,
     mean_pressure: f64,
     max_pressure: f64,
@@ -44,12 +46,14 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Puts together what was done for the surfaces and what the last sample, the drive and the writer tell.
+    /// Puts together what was done for the surfaces and what the run file, the last sample, the drive and the writer tell.
+    #[expect(clippy::too_many_arguments, reason = "each from somewhere else")]
     pub fn new(
         scene: &Scene,
         surfaces: Vec<String>,
         file: &Path,
         last: &Sample,
+        contact_area_last_tenth: Option<WindowMean>,
         course: Course,
         report: WriterReport,
         wall_time: f64,
@@ -68,6 +72,7 @@ impl Summary {
             peak_memory: machine::peak_memory(),
             contact_area: last.contact_area,
             contact_area_mean: last.contact_area_mean,
+            contact_area_last_tenth,
             contact_ratio: last.contact_ratio,
             mean_pressure: last.mean_pressure,
             max_pressure: last.max_pressure,
@@ -107,6 +112,12 @@ impl Summary {
         let square_millimetres = |area: f64| format!("{:.4} mm²", area * 1e6);
         let cubic_millimetres = |volume: f64| format!("{} mm³", number::short(volume * 1e9));
         let megapascal = |pressure: f64| format!("{:.3} MPa", pressure * 1e-6);
+        let of_last_step =
+            format!("last step {}, {} of the pin", square_millimetres(self.contact_area), percent(self.contact_ratio));
+        let contact_area = match &self.contact_area_last_tenth {
+            Some(window) => format!("{}; {of_last_step}", contact_area(window)),
+            None => of_last_step,
+        };
         let mut rows = vec![
             ("simulated time", format!("{} s in {} steps", number::short(self.time), number::grouped(self.steps))),
             (
@@ -118,15 +129,7 @@ impl Summary {
                 ),
             ),
             ("waited for the run file", number::duration(self.writer_wait)),
-            (
-                "contact area",
-                format!(
-                    "{}, {} of the pin; mean of the last revolution {}",
-                    square_millimetres(self.contact_area),
-                    percent(self.contact_ratio),
-                    square_millimetres(self.contact_area_mean)
-                ),
-            ),
+            ("contact area", contact_area),
             (
                 "contact pressure",
                 format!("mean {}, largest {}", megapascal(self.mean_pressure), megapascal(self.max_pressure)),
@@ -151,4 +154,18 @@ impl Summary {
         rows.push(("run file", format!("{} ({})", self.file.display(), number::bytes(self.file_size))));
         format!("{}\n{}", table(&self.title, &rows), list("Surfaces", &self.surfaces))
     }
+}
+
+/// A mean contact area with its standard error, and over what it is taken.
+fn contact_area(window: &WindowMean) -> String {
+    let mean = number::with_error(window.mean * 1e6, window.standard_error.map(|error| error * 1e6));
+    let width = number::rounded(window.to - window.from, 4);
+    let over = match window.revolutions {
+        Some(revolutions) if !window.is_long() => {
+            format!("mean of all {width} s, only {} simulated revolutions", number::rounded(revolutions, 2))
+        }
+        _ => format!("mean of the last {width} s"),
+    };
+    let error = if window.standard_error.is_some() { ", ± standard error" } else { ", too few samples for an error" };
+    format!("{mean} mm² ({over}{error})")
 }

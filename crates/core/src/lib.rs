@@ -79,4 +79,5 @@ pub mod sum;
 pub mod sums;
 pub mod surface;
 pub mod wear;
+pub mod window_mean;
 mod worker;

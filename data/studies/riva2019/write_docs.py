@@ -3,15 +3,20 @@
 usage: write_docs.py [--check]: with --check only says whether they agree, as exit status
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
-format. `{{table NAME}}` is one of the tables below.
+format. `{{table NAME}}` is one of the tables below, `{{m runs}}` the time acceleration of a part of the study, and
+`{{last tenth HEIGHTS END}}` the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
 
 import json
 import re
 import sys
+import tomllib
 from pathlib import Path
 
-from discs import NAMES
+import measures
+import numpy as np
+from discs import NAMES, SCENES
+from make_points import DEFAULT
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
@@ -36,6 +41,28 @@ def with_interval(pair: list[float], factor: float, form: str) -> str:
     """Mean ± half width of the 95 % interval."""
     mean, half = (entry * factor for entry in pair)
     return f"{shown(mean, form)} ± {shown(half, form)}"
+
+
+def acceleration(scene: Path) -> float:
+    """The time acceleration of a scene, or of the one that it extends."""
+    found = tomllib.loads(scene.read_text())
+    given = found.get("numerics", {}).get("time_acceleration")
+    return acceleration(scene.parent / found["extends"]) if given is None else float(given)
+
+
+def accelerations() -> dict[str, float]:
+    """The time acceleration of every part of the study: numbers of different ones are not compared."""
+    of_runs = {acceleration(HERE / f"{scene}.toml") for scene in SCENES.values()}
+    assert len(of_runs) == 1, f"the runs have accelerations {of_runs}"
+    others = {name: acceleration(HERE / f"{name}.toml") for name in ("sets", "symmetry")}
+    return {"runs": of_runs.pop(), "variants": float(DEFAULT["time acceleration"])} | others
+
+
+def last_tenth(heights: str, end: float) -> str:
+    """Mean contact area over the last tenth of a run and its standard error, mm²: of the means of 50 s that are kept of it."""
+    middles, areas = np.array(value(f"runs/{heights}/contact_area")).T
+    areas = areas[(middles > 0.9 * end) & (middles < end)] * 1e6
+    return with_interval([areas.mean(), measures.standard_error(areas)], 1, ".2f")
 
 
 def row(*cells: str) -> str:
@@ -65,8 +92,11 @@ def table_runs() -> str:
     text += line("pin covered by 0.1 µm and more, %", 100, ".1f", "/covered/pin")
     text += line("build-up on the disc, mean, µm", 1e6, ".2f", "/mean_build_up")
     text += line("highest above the highest of the start, µm", 1e6, ".2f", "/highest")
+    text += row(
+        "contact area, mean of the last tenth ± standard error, mm²", *(last_tenth(run, float(end)) for run, end in ends)
+    )
     text += line("contact area, last 100 s, mm²", 1e6, ".2f", "contact_area")
-    text += line("run-in: to 90 % of that, s", 1, ".0f", "run_in")
+    text += line("run-in: to 90 % of that, ± 25 s", 1, ".0f", "run_in")
     text += line("run-in: change-point, s", 1, ".0f", "change_point")
     text += line("drift in the last third, % per 1000 s", 100, ".2f", "drift")
     text += line("± (95 %)", 100, ".2f", "drift_error")
@@ -117,7 +147,8 @@ def table_history() -> str:
 def table_variants() -> str:
     """The numbers of every variant."""
     text = head(
-        "variant", *(f"{name}: filled, %" for name in NAMES.values()), *(f"{name}: contact area, mm²" for name in NAMES.values()),
+        f"variant, at m = {accelerations()['variants']:g} unless it says otherwise",
+        *(f"{name}: filled, %" for name in NAMES.values()), *(f"{name}: contact area, mm²" for name in NAMES.values()),
         "baseline: run-in, s",
     )
     for name, means in value("variants/means").items():
@@ -156,6 +187,11 @@ def filled_in(template: str) -> str:
         what = match.group(1)
         if what.startswith("table "):
             return globals()["table_" + what.removeprefix("table ")]().rstrip("\n")
+        if what.startswith("m "):
+            return f"{accelerations()[what.removeprefix('m ')]:g}"
+        if what.startswith("last tenth "):
+            heights, end = what.removeprefix("last tenth ").split()
+            return last_tenth(heights, float(end))
         path, *rest = what.split("|")
         found = value(path)
         if not rest:

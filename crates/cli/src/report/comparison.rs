@@ -58,7 +58,7 @@ mod tests {
     use super::{Measure, rows};
 
     fn measure(symbol: &'static str, scale: f64, value: f64) -> Measure {
-        Measure { name: "area", unit: ReadingUnit { symbol, scale }, value: Some(value) }
+        Measure { name: "area", unit: ReadingUnit { symbol, scale }, value: Some(value), error: None }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use plateau_core::window_mean::WindowMean;
 use plateau_io::run_file::{RunFile, State};
 
 use super::recorded::Recorded;
@@ -20,12 +21,18 @@ pub struct Measure {
     pub unit: ReadingUnit,
     /// Its value, SI; none if the run file does not have it.
     pub value: Option<f64>,
+    /// Standard error of the value, SI, where there is one.
+    pub error: Option<f64>,
 }
 
 impl Measure {
     /// The number with its unit.
     pub fn text(&self) -> String {
-        self.value.map_or_else(|| UNKNOWN.into(), |value| self.unit.with_symbol(&readable(value * self.unit.scale)))
+        let text = |value: f64| match self.error {
+            Some(error) => number::with_error(value * self.unit.scale, Some(error * self.unit.scale)),
+            None => readable(value * self.unit.scale),
+        };
+        self.value.map_or_else(|| UNKNOWN.into(), |value| self.unit.with_symbol(&text(value)))
     }
 }
 
@@ -40,18 +47,21 @@ const AREA: ReadingUnit = ReadingUnit { symbol: "mm²", scale: 1e6 };
 const VOLUME: ReadingUnit = ReadingUnit { symbol: "mm³", scale: 1e9 };
 const LENGTH: ReadingUnit = ReadingUnit { symbol: "m", scale: 1.0 };
 
-/// The numbers of a run, the same ones in the same order for every run.
-pub fn measures(series: &[Recorded]) -> Vec<Measure> {
+/// The numbers of a run, the same ones in the same order for every run: its series, and its mean contact area.
+pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Measure> {
     let find = |name: &str| series.iter().find(|series| series.name == name);
     let last = |name: &str| find(name).and_then(|series| series.last);
     let largest = |name: &str| find(name).and_then(|series| series.largest).map(f64::abs);
     let worn = ["worn_pin", "worn_resin", "worn_disc"].map(last);
     let all_worn = worn.into_iter().sum::<Option<f64>>();
-    let measure = |name, unit, value| Measure { name, unit, value };
+    let measure = |name, unit, value| Measure { name, unit, value, error: None };
     vec![
         measure("Sliding distance", LENGTH, last("sliding_distance")),
-        measure("Contact area of the last step", AREA, last("contact_area")),
-        measure("Contact area, mean of the last revolution", AREA, last("contact_area_mean")),
+        Measure {
+            error: contact_area.and_then(|window| window.standard_error),
+            ..measure("Contact area, mean ± standard error", AREA, contact_area.map(|window| window.mean))
+        },
+        measure("– of the last step", AREA, last("contact_area")),
         measure("Contact area over the area of the pin", PERCENT, last("contact_ratio")),
         measure("Mean contact pressure", ReadingUnit::PRESSURE, last("mean_pressure")),
         measure("Largest contact pressure", ReadingUnit::PRESSURE, last("max_pressure")),
@@ -73,8 +83,8 @@ pub fn measures(series: &[Recorded]) -> Vec<Measure> {
     ]
 }
 
-/// What there is to tell of a run besides its numbers: name and text.
-pub fn facts(run: &RunFile) -> Vec<(&'static str, String)> {
+/// What there is to tell of a run besides its numbers: name and text. `contact_area` is its mean.
+pub fn facts(run: &RunFile, contact_area: Option<WindowMean>) -> Vec<(&'static str, String)> {
     let attribute = |name: &str| run.attribute(name).unwrap_or_else(|| UNKNOWN.into());
     let mesh = run.mesh();
     let size = fs::metadata(run.path()).map_or_else(|_| UNKNOWN.into(), |file| number::bytes(file.len()));
@@ -102,7 +112,15 @@ pub fn facts(run: &RunFile) -> Vec<(&'static str, String)> {
             ),
         ),
         ("Program", attribute("program")),
+        ("Mean contact area is taken over", contact_area.map_or_else(|| UNKNOWN.into(), |window| over(&window))),
     ]
+}
+
+/// From when to when a mean is taken.
+fn over(window: &WindowMean) -> String {
+    let short = if window.is_long() { "" } else { ", all of it: fewer than ten simulated revolutions" };
+    let error = if window.standard_error.is_some() { "" } else { "; too few samples for a standard error" };
+    format!("{} to {} s{short}{error}", number::rounded(window.from, 6), number::rounded(window.to, 6))
 }
 
 /// The state in words that say what it means.
@@ -133,14 +151,16 @@ mod tests {
 
     #[test]
     fn numbers_carry_their_units() {
-        let measure = |value| Measure { name: "area", unit: ReadingUnit { symbol: "mm²", scale: 1e6 }, value }.text();
-        assert_eq!(measure(Some(4.690_52e-6)), "4.6905 mm²");
-        assert_eq!(measure(Some(-0.0)), "0 mm²");
-        assert_eq!(measure(None), "–");
+        let measure =
+            |value| Measure { name: "area", unit: ReadingUnit { symbol: "mm²", scale: 1e6 }, value, error: None };
+        assert_eq!(measure(Some(4.690_52e-6)).text(), "4.6905 mm²");
+        assert_eq!(measure(Some(-0.0)).text(), "0 mm²");
+        assert_eq!(measure(None).text(), "–");
+        assert_eq!(Measure { error: Some(3.2e-8), ..measure(Some(4.690_52e-6)) }.text(), "4.691 ± 0.032 mm²");
     }
 
     #[test]
     fn what_is_not_recorded_has_no_value() {
-        assert!(measures(&[]).iter().all(|measure| measure.value.is_none()));
+        assert!(measures(&[], None).iter().all(|measure| measure.value.is_none()));
     }
 }

@@ -1,5 +1,6 @@
 //! The page, put together.
 
+use plateau_core::window_mean::WindowMean;
 use plateau_io::run_file::{ReadError, RunFile, State};
 
 use super::document::Document;
@@ -36,9 +37,11 @@ const SCRIPT: &str = concat!(
 pub fn page(runs: &[RunFile], pictures: &Pictures) -> Result<String, ReadError> {
     let labels = labels(runs);
     let series = runs.iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
-    let measures: Vec<_> = series.iter().map(|series| outcome::measures(series)).collect();
+    let contact_areas = runs.iter().map(RunFile::last_contact_area).collect::<Result<Vec<_>, _>>()?;
+    let measures: Vec<_> =
+        series.iter().zip(&contact_areas).map(|(series, area)| outcome::measures(series, *area)).collect();
     let mut document = Document::new(runs, &labels, &series, &pictures.pictures);
-    let parts = Parts { runs, labels: &labels, series: &series, measures: &measures };
+    let parts = Parts { runs, labels: &labels, series: &series, contact_areas: &contact_areas, measures: &measures };
     let around = AROUND + STYLE.len() + SCRIPT.len() + parts.provenance().len() + 20_000 * (1 + runs.len());
     document.add_maps(runs, MOST_BYTES.saturating_sub(around))?;
     let has_samples = runs.iter().any(|run| !run.time().is_empty());
@@ -85,6 +88,7 @@ struct Parts<'a> {
     runs: &'a [RunFile],
     labels: &'a [String],
     series: &'a [Vec<Recorded>],
+    contact_areas: &'a [Option<WindowMean>],
     measures: &'a [Vec<Measure>],
 }
 
@@ -117,7 +121,8 @@ impl Parts<'_> {
     }
 
     fn summary(&self) -> String {
-        let facts: Vec<_> = self.runs.iter().map(outcome::facts).collect();
+        let facts: Vec<_> =
+            self.runs.iter().zip(self.contact_areas).map(|(run, area)| outcome::facts(run, *area)).collect();
         let fact = |index: usize| {
             let name = facts[0][index].0.to_owned();
             std::iter::once(name).chain(facts.iter().map(|facts| facts[index].1.clone())).collect()

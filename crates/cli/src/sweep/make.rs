@@ -7,7 +7,7 @@ use plateau_core::scout::Scout;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::study::Study;
-use plateau_io::study::record::{Outcome, Series};
+use plateau_io::study::record::{Outcome, REVOLUTIONS, Series};
 use plateau_io::surface;
 
 use super::under_way::UnderWay;
@@ -93,7 +93,8 @@ impl From<SimulationError> for Ended {
 /// Keeps the series that the study wants.
 struct Recorder<'a> {
     kept: Vec<&'static Quantity>,
-    /// Time, then the series.
+    disc_columns: usize,
+    /// Time and simulated revolutions, then the series.
     columns: Vec<Vec<f64>>,
     watcher: &'a dyn Watcher,
     /// Steps that the watcher was told of.
@@ -117,16 +118,25 @@ impl<'a> Recorder<'a> {
                     || asked(quantity.name)
             })
             .collect();
-        Self { columns: vec![Vec::new(); 1 + kept.len()], kept, watcher, told: 0, under_way, signal: None }
+        let disc_columns = scene.parameters.mesh.disc_columns();
+        Self {
+            columns: vec![Vec::new(); 2 + kept.len()],
+            kept,
+            disc_columns,
+            watcher,
+            told: 0,
+            under_way,
+            signal: None,
+        }
     }
 
     fn names(&self) -> Vec<String> {
-        self.kept.iter().map(|quantity| quantity.name.to_owned()).collect()
+        let names = ["time", REVOLUTIONS].into_iter().chain(self.kept.iter().map(|quantity| quantity.name));
+        names.map(str::to_owned).collect()
     }
 
     fn series(self) -> Series {
-        let names = std::iter::once("time").chain(self.kept.iter().map(|quantity| quantity.name));
-        Series::new(names.map(str::to_owned).collect(), self.columns)
+        Series::new(self.names(), self.columns)
     }
 }
 
@@ -134,7 +144,9 @@ impl Sink for Recorder<'_> {
     type Error = Ended;
 
     fn sample(&mut self, sample: Sample) -> Result<(), Ended> {
-        let values = std::iter::once(sample.time).chain(self.kept.iter().map(|quantity| (quantity.value)(&sample)));
+        let revolutions = sample.step as f64 / self.disc_columns as f64;
+        let values =
+            [sample.time, revolutions].into_iter().chain(self.kept.iter().map(|quantity| (quantity.value)(&sample)));
         self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         Ok(())
     }

@@ -23,7 +23,7 @@ pub struct State {
     pub scout: Option<ScoutCheckpoint>,
     /// The series so far, time first.
     pub columns: Vec<Vec<f64>>,
-    /// Their names but for the time.
+    /// Their names.
     pub names: Vec<String>,
 }
 

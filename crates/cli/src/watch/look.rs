@@ -66,7 +66,8 @@ impl Look {
     /// How much of the run is done, 0 to 1.
     pub fn progress(&self) -> Option<f64> {
         let duration = self.duration.filter(|duration| *duration > 0.0)?;
-        Some((self.time() / duration).clamp(0.0, 1.0))
+        // The time of the last step may be rounded to a little less than was asked for.
+        Some(if self.state == State::Finished { 1.0 } else { (self.time() / duration).clamp(0.0, 1.0) })
     }
 }
 
@@ -91,9 +92,30 @@ fn duration(scene: &toml::Table, mesh: &Mesh) -> Option<f64> {
 mod tests {
     use std::f64::consts::TAU;
 
-    use plateau_core::mesh::Mesh;
+    use std::time::Duration;
 
-    use super::duration;
+    use plateau_core::mesh::Mesh;
+    use plateau_io::run_file::State;
+
+    use super::{Look, duration};
+
+    #[test]
+    fn a_finished_run_is_done_however_its_last_time_is_rounded() {
+        let look = |state| Look {
+            title: "a run".into(),
+            state,
+            error: None,
+            times: vec![60.0 * (1.0 - 1e-15)],
+            duration: Some(60.0),
+            contact_area: vec![1e-6],
+            contact_area_mean: vec![1e-6],
+            filled_fraction: None,
+            elapsed: None,
+            age: Duration::ZERO,
+        };
+        assert_eq!(look(State::Finished).progress(), Some(1.0));
+        assert!(look(State::Interrupted).progress() < Some(1.0));
+    }
 
     fn of(operation: &str) -> Option<f64> {
         let scene = format!("[operation]\n{operation}\n[numerics]\ntime_acceleration = 20.0\n");

@@ -13,7 +13,7 @@ mod outliers;
 mod patch;
 mod preparation_error;
 mod prepare;
-mod random;
+pub(crate) mod random;
 mod resample;
 mod synthesis;
 

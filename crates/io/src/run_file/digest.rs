@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use hdf5::types::{TypeDescriptor, VarLenArray, VarLenUnicode};
-use hdf5::{Attribute, File, IndexType, IterationOrder, Location, ObjectReference1, ReferencedObject};
+use hdf5::{Attribute, File, IndexType, IterationOrder, Location, LocationType, ObjectReference1, ReferencedObject};
 use sha2::{Digest, Sha256};
 
 use super::layout::write_text;
@@ -77,7 +77,8 @@ pub(super) fn of_bytes(bytes: &[u8]) -> String {
 /// Digest of the texts among the attributes of a run file, of the scales of its datasets, and of what is in its groups: of
 /// one line `path@attribute=text` or `path: members` for each, in the order of their bytes. A dataset's scales are the paths
 /// in `DIMENSION_LIST`; several texts, paths or members, these as they were made, are separated by commas. What has a line
-/// break in it takes more lines. Where and when the run was made is left out.
+/// break in it takes more lines. A link has the lines of what it leads to, with its own path. Where and when the run was made
+/// is left out.
 pub(super) fn of_attributes(file: &File) -> hdf5::Result<String> {
     let mut lines = Vec::new();
     add_attributes(file, "/", file, &mut lines)?;
@@ -85,8 +86,11 @@ pub(super) fn of_attributes(file: &File) -> hdf5::Result<String> {
     while let Some(group) = groups.pop() {
         let members = group.member_names_by(IndexType::CreationOrder, IterationOrder::Increasing)?;
         lines.push(format!("{}: {}\n", group.name(), members.join(",")));
-        for dataset in group.datasets()? {
-            add_attributes(file, &dataset.name(), &dataset, &mut lines)?;
+        for member in &members {
+            if group.loc_type_by_name(member)? == LocationType::Dataset {
+                let path = format!("{}/{member}", group.name().trim_end_matches('/'));
+                add_attributes(file, &path, &*group.dataset(member)?, &mut lines)?;
+            }
         }
         for datatype in group.committed_datatypes()? {
             add_attributes(file, &datatype.name(), &datatype, &mut lines)?;

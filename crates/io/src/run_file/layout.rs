@@ -40,6 +40,11 @@ pub(super) fn series_chunk(expected_samples: u64) -> usize {
 
 /// Path of the datasets that say how much of a file is complete.
 pub(super) const TIME: &str = "time";
+/// A link to [`TIME`] among the series of a run that has ended, which by themselves are a dataset of xarray with its coordinate.
+///
+/// It is soft: a dataset with two equal names would be known by either, and the scale of the series by the wrong one. While a run
+/// goes on there is none: of a dataset that is open twice, readers that follow it see no new values (`H5Drefresh`).
+pub(super) const TIME_OF_SERIES: &str = "series/time";
 /// See [`TIME`].
 pub(super) const MAP_TIME: &str = "map_time";
 

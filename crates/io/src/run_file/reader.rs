@@ -9,7 +9,7 @@ use plateau_core::material::Status;
 use plateau_core::mesh::Mesh;
 use plateau_core::observe::{Extras, Map, MapValues, quantities};
 
-use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
+use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
 use super::read_error::ReadError;
 use crate::hdf5_file::{self, OpenError};
 use crate::timestamp::from_iso_8601;
@@ -290,7 +290,8 @@ impl Opening<'_> {
             .group("series")
             .map_err(|_| ReadError::Foreign { path: self.path.into(), missing: "group /series".into() })?;
         let names = group.member_names().map_err(|error| self.damaged(reason(&error)))?;
-        let series = names.into_iter().map(|name| {
+        // Their time is no series.
+        let series = names.into_iter().filter(|name| series_path(name) != TIME_OF_SERIES).map(|name| {
             let dataset = self.dataset(&series_path(&name))?;
             let text = |attribute| match hdf5_file::text_attribute(&dataset, attribute) {
                 Ok(text) => Ok(text.unwrap_or_default()),

@@ -1,4 +1,4 @@
-//! The last that is written to a run file: how its run ended, and the digests of what it holds.
+//! The last that is written to a run file: how its run ended, the time of its series, and the digests of what it holds.
 
 use std::fs;
 use std::io::{self, Write as _};
@@ -9,7 +9,7 @@ use hdf5::File;
 
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
-use super::layout::{lay_out, write_number, write_text};
+use super::layout::{TIME, TIME_OF_SERIES, lay_out, write_number, write_text};
 use super::place::Place;
 use super::store::{failed, not_anew, open};
 use super::{End, Header, RunFileError};
@@ -63,6 +63,7 @@ impl Seal<'_> {
             write_text(&file, "error", message)?;
         }
         write_text(&file, "state", self.end.state())?;
+        file.link_soft(&format!("/{TIME}"), TIME_OF_SERIES)?;
         self.digests.write(&file)?;
         file.flush()?;
         file.close()

@@ -305,7 +305,7 @@ fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, P
         (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
         (Some(at), None, None) => Ok(Question::At(time(at, "response.at")?)),
         (None, Some(mean), None) => {
-            let [from, to] = mean.get_ref();
+            let document::Mean::Between([from, to]) = mean.get_ref() else { return Ok(Question::MeanOfLastTenth) };
             let (start, end) = (time(from, "response.mean")?, time(to, "response.mean")?);
             if start < end {
                 return Ok(Question::Mean(start, end));
@@ -321,7 +321,8 @@ fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, P
             format!("{}, expected more than 0 and less than 1", reaches.get_ref()),
         )),
         _ => {
-            let message = "expected one of at = \"end\", at = \"100 s\", mean = [\"50 s\", \"100 s\"], reaches = 0.9";
+            let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
+                           reaches = 0.9";
             Err(place.problem(&table.name, "response", message))
         }
     }

@@ -4,7 +4,7 @@
 //! run                          number of the run, from 1
 //! point, replicate, state      (run)
 //! one for each factor          (run), in SI units, or a word
-//! one for each response        (run), NaN where a run gives none
+//! one for each response        (run), NaN where a run gives none; of a mean contact area with its standard error
 //! one for each series          (run, time); or (run, sample), where the times of the samples differ from run to run
 //! ```
 
@@ -36,6 +36,8 @@ pub struct CollectedRun {
     pub state: State,
     /// Answers to the questions of the study, in their order; NaN where there is none.
     pub responses: Vec<f64>,
+    /// Standard errors of these; NaN where there is none.
+    pub errors: Vec<f64>,
     /// Wall time, s; NaN if it has not ended.
     pub wall_time: f64,
     entry: Option<Entry>,
@@ -90,6 +92,7 @@ impl Collected {
                 run: plan.run(number),
                 state: State::Missing,
                 responses: vec![f64::NAN; responses.len()],
+                errors: vec![f64::NAN; responses.len()],
                 wall_time: f64::NAN,
                 entry: journal.get(identity).cloned(),
                 time: Vec::new(),
@@ -101,8 +104,9 @@ impl Collected {
                 if let Some(series) = series(entry)? {
                     collected.time = series.time().to_vec();
                     collected.series = series.names().to_vec();
-                    collected.responses =
-                        responses.iter().map(|response| response.of(&series).unwrap_or(f64::NAN)).collect();
+                    let known = |answer: Option<f64>| answer.unwrap_or(f64::NAN);
+                    collected.responses = responses.iter().map(|response| known(response.of(&series))).collect();
+                    collected.errors = responses.iter().map(|response| known(response.error_of(&series))).collect();
                 }
             }
             Ok(collected)
@@ -201,6 +205,11 @@ impl Collected {
                 meaning,
                 Values::Float(values),
             ));
+            if response.has_error() {
+                let values = Values::Float(self.runs.iter().map(|run| run.errors[at]).collect());
+                let name = names.free(&error_name(&response.name), "response");
+                content.variables.push(variable(name, unit, format!("standard error of {}", response.name), values));
+            }
         }
         match common {
             Some(time) => content.dimensions.push(coordinate("time", "s", "time of the samples", time.iter().copied())),
@@ -281,6 +290,11 @@ impl Names {
         }
         free
     }
+}
+
+/// What the standard error of a response is called.
+pub fn error_name(response: &str) -> String {
+    format!("{response} standard error")
 }
 
 /// Letters, digits and underscores: `contact area at the end` becomes `contact_area_at_the_end`.

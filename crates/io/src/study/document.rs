@@ -1,6 +1,9 @@
 //! A study file as it stands in the text (formats.md).
 
+use std::fmt;
+
 use serde::Deserialize;
+use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 use toml::{Spanned, Value};
 
 /// The whole file.
@@ -54,8 +57,8 @@ pub(super) struct Factor {
 pub(super) struct Keys(pub Vec<String>);
 
 impl<'de> Deserialize<'de> for Keys {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let expected = || serde::de::Error::custom("expected a key path such as \"operation.normal_force\", or a list");
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = || Error::custom("expected a key path such as \"operation.normal_force\", or a list");
         match Value::deserialize(deserializer)? {
             Value::String(key) => Ok(Self(vec![key])),
             Value::Array(keys) if !keys.is_empty() => {
@@ -74,6 +77,48 @@ pub(super) struct Response {
     pub name: Spanned<String>,
     pub dataset: Spanned<String>,
     pub at: Option<Spanned<String>>,
-    pub mean: Option<Spanned<[Spanned<String>; 2]>>,
+    pub mean: Option<Spanned<Mean>>,
     pub reaches: Option<Spanned<f64>>,
+}
+
+/// Over what a mean is taken.
+#[derive(Debug)]
+pub(super) enum Mean {
+    /// `"last tenth"`.
+    LastTenth,
+    /// From one time to another.
+    Between([Spanned<String>; 2]),
+}
+
+impl<'de> Deserialize<'de> for Mean {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(MeanVisitor)
+    }
+}
+
+struct MeanVisitor;
+
+impl<'de> Visitor<'de> for MeanVisitor {
+    type Value = Mean;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("\"last tenth\", or two times such as [\"50 s\", \"100 s\"]")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Mean, E> {
+        if text == "last tenth" {
+            Ok(Mean::LastTenth)
+        } else {
+            Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut times: A) -> Result<Mean, A::Error> {
+        let mut next = |count| times.next_element()?.ok_or_else(|| A::Error::invalid_length(count, &MeanVisitor));
+        let between = [next(0)?, next(1)?];
+        match times.next_element::<Spanned<String>>()? {
+            None => Ok(Mean::Between(between)),
+            Some(_) => Err(A::Error::invalid_length(3, &self)),
+        }
+    }
 }

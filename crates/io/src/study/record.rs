@@ -43,6 +43,9 @@ pub enum Outcome {
     },
 }
 
+/// Name of a column of [`Series`] that is none of the run file: simulated revolutions since t = 0.
+pub const REVOLUTIONS: &str = "simulated_revolutions";
+
 /// The series of a run: equally long columns, time being the first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {

@@ -1,6 +1,8 @@
 //! Responses: one number that a run gives for each question of a study.
 
-use super::record::Series;
+use plateau_core::window_mean::{Cumulative, WindowMean, last_tenth};
+
+use super::record::{REVOLUTIONS, Series};
 
 /// A question to the series of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +24,8 @@ pub enum Question {
     At(f64),
     /// The mean between two times, s.
     Mean(f64, f64),
+    /// The mean over the last tenth of the run: see [`last_tenth`].
+    MeanOfLastTenth,
     /// The time, s, at which the series first comes to this fraction of its last value; from above, to the last value over
     /// the fraction.
     Reaches(f64),
@@ -35,15 +39,49 @@ impl Response {
         match self.question {
             Question::End => values.last().copied(),
             Question::At(at) => value_at(time, values, at),
-            Question::Mean(from, to) => match run.values("contact_area_integral") {
-                // The integral knows every step, the samples only some.
-                Some(integral) if self.series == "contact_area" || self.series == "contact_area_mean" => {
-                    let at = |moment: f64| if moment == 0.0 { Some(0.0) } else { value_at(time, integral, moment) };
-                    Some((at(to)? - at(from)?) / (to - from))
-                }
-                _ => mean(time, values, from, to),
-            },
+            Question::Mean(..) | Question::MeanOfLastTenth
+                if self.is_of_contact_area() && self.integral(run).is_some() =>
+            {
+                Some(self.mean_of_contact_area(run)?.mean)
+            }
+            Question::Mean(..) | Question::MeanOfLastTenth => {
+                let (from, to) = self.window(run)?;
+                mean(time, values, from, to)
+            }
             Question::Reaches(fraction) => reaches(time, values, fraction),
+        }
+    }
+
+    /// Whether the answer is known with a standard error: a mean of the contact area.
+    pub fn has_error(&self) -> bool {
+        self.is_of_contact_area() && matches!(self.question, Question::Mean(..) | Question::MeanOfLastTenth)
+    }
+
+    /// Standard error of the answer of a run, in the same unit, where it is known.
+    pub fn error_of(&self, run: &Series) -> Option<f64> {
+        if self.has_error() { self.mean_of_contact_area(run)?.standard_error } else { None }
+    }
+
+    /// The integral knows every step, the samples only some.
+    fn mean_of_contact_area(&self, run: &Series) -> Option<WindowMean> {
+        let (from, to) = self.window(run)?;
+        Cumulative { time: run.time(), integral: self.integral(run)?, revolutions: revolutions(run) }.mean(from, to)
+    }
+
+    fn is_of_contact_area(&self) -> bool {
+        self.series == "contact_area" || self.series == "contact_area_mean"
+    }
+
+    fn integral<'a>(&self, run: &'a Series) -> Option<&'a [f64]> {
+        run.values("contact_area_integral")
+    }
+
+    /// From when to when a mean is taken, s.
+    fn window(&self, run: &Series) -> Option<(f64, f64)> {
+        match self.question {
+            Question::Mean(from, to) => Some((from, to)),
+            Question::MeanOfLastTenth => last_tenth(run.time(), revolutions(run)),
+            _ => None,
         }
     }
 
@@ -51,6 +89,11 @@ impl Response {
     pub fn unit<'a>(&self, of_series: &'a str) -> &'a str {
         if matches!(self.question, Question::Reaches(_)) { "s" } else { of_series }
     }
+}
+
+/// Simulated revolutions at the samples; nothing where the run was recorded without them.
+fn revolutions(run: &Series) -> &[f64] {
+    run.values(REVOLUTIONS).unwrap_or_default()
 }
 
 /// Linear between samples; before the first one, that one; none after the last.
@@ -130,5 +173,29 @@ mod tests {
             Response { name: "a".into(), series: "contact_area".into(), question }.of(&run)
         };
         assert_eq!([mean(0.0, 2.0), mean(1.0, 2.0)], [Some(4.0), Some(5.0)]);
+    }
+
+    #[test]
+    fn means_of_the_last_tenth_take_in_ten_revolutions() {
+        let time: Vec<f64> = (1..=200).map(f64::from).collect();
+        // The contact area is 2 t, its integral t²; a revolution takes 1 or 4 s.
+        let square: Vec<f64> = time.iter().map(|time| time * time).collect();
+        let quick = time.clone();
+        let slow: Vec<f64> = time.iter().map(|time| time / 4.0).collect();
+        let ask = |series: &str, revolutions: Option<&Vec<f64>>| {
+            let names = ["time", "contact_area_integral", "contact_area", "pool", REVOLUTIONS];
+            let columns = [Some(&time), Some(&square), Some(&time), Some(&time), revolutions];
+            let known =
+                names.into_iter().zip(columns).filter_map(|(name, column)| Some((name.into(), column?.clone())));
+            let (names, columns) = known.unzip();
+            let response = Response { name: "r".into(), series: series.into(), question: Question::MeanOfLastTenth };
+            let run = Series::new(names, columns);
+            (response.of(&run), response.error_of(&run).is_some())
+        };
+        // Of the contact area from the integral, of another series from its samples, here t.
+        assert_eq!(ask("contact_area_mean", Some(&quick)), (Some(380.0), true));
+        assert_eq!(ask("contact_area", Some(&slow)), (Some(360.0), true));
+        assert_eq!(ask("contact_area", None), (Some(380.0), true));
+        assert_eq!(ask("pool", Some(&slow)), (Some(180.0), false));
     }
 }

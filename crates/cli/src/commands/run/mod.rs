@@ -12,7 +12,7 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
-use plateau_io::run_file::{End, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
+use plateau_io::run_file::{End, RunFile, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
@@ -98,11 +98,13 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let report = close(result, writer, &simulation, &path)?;
     keeper.keep(&mut simulation, scout.as_mut(), true, Some(Synced::already())).map_err(Failure::run)?;
     keeper.wait();
+    let contact_area = RunFile::open(&path).and_then(|run| run.last_contact_area()).map_err(Failure::run)?;
     let summary = Summary::new(
         &scene,
         surface_report,
         &path,
         &keeper.last_sample.unwrap_or_default(),
+        contact_area,
         simulation.course(),
         report,
         start.elapsed().as_secs_f64(),

@@ -2,7 +2,7 @@
 
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::regular;
-use plateau_io::study::collected::{CollectError, Collected, State, plain};
+use plateau_io::study::collected::{CollectError, Collected, State, error_name, plain};
 use plateau_io::study::plan::Plan;
 use serde::Serialize;
 
@@ -81,26 +81,29 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     ])
 }
 
-/// A line for each run: number, point, replicate, state, factors, responses.
+/// A line for each run: number, point, replicate, state, factors, responses, each with its standard error if it has one.
 fn rows(plan: &Plan, collected: &Collected) -> String {
     let study = plan.study();
-    let names =
-        study.factors.iter().map(|factor| &factor.name).chain(study.responses.iter().map(|response| &response.name));
-    let header =
-        ["run", "point", "replicate", "state"].map(str::to_owned).into_iter().chain(names.map(|name| plain(name)));
-    let header = header.chain(["error".to_owned()]).collect::<Vec<_>>();
+    let own = ["run", "point", "replicate", "state"].map(str::to_owned);
+    let factors = study.factors.iter().map(|factor| factor.name.clone());
+    let responses = study.responses.iter().flat_map(|response| {
+        let error = response.has_error().then(|| error_name(&response.name));
+        std::iter::once(response.name.clone()).chain(error)
+    });
+    let header = own.into_iter().chain(factors.chain(responses).map(|name| plain(&name))).chain(["error".to_owned()]);
     let lines = collected.runs.iter().map(|run| {
         let error = if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
         let numbers = [run.run.number, run.run.point + 1, run.run.replicate + 1].map(|number| number.to_string());
-        let responses = run
-            .responses
-            .iter()
-            .map(|response| if response.is_nan() { String::new() } else { format!("{response:?}") });
+        let answers = study.responses.iter().zip(run.responses.iter().zip(&run.errors));
+        let answers = answers.flat_map(|(response, (answer, error))| {
+            std::iter::once(*answer).chain(response.has_error().then_some(*error))
+        });
+        let answers = answers.map(|answer| if answer.is_nan() { String::new() } else { format!("{answer:?}") });
         let cells = numbers.into_iter().chain([run.state.name().to_owned()]);
-        let cells = cells.chain(run.run.levels.iter().map(|level| level.label.clone())).chain(responses).chain([error]);
-        cells.collect()
+        let cells = cells.chain(run.run.levels.iter().map(|level| level.label.clone())).chain(answers).chain([error]);
+        cells.collect::<Vec<_>>()
     });
-    csv_table(std::iter::once(header).chain(lines))
+    csv_table(std::iter::once(header.collect()).chain(lines))
 }
 
 /// What `plateau sweep collect` reports.

@@ -1,0 +1,238 @@
+//! Mean of the contact area over the end of a run, with its standard error.
+//!
+//! Resin that touches loses h_m at once (model 4.2) and is clear until the plateaus have worn as far; most of it does so
+//! together. So the contact area pulses, and a mean over one revolution is that of a moment within a pulse. Means over many
+//! pulses can be compared.
+
+use serde::Serialize;
+
+/// Part of a run, at its end, of which the mean is taken.
+const LAST_PART: f64 = 0.1;
+/// Simulated revolutions in that part, at least, where the run has as many.
+pub const LEAST_REVOLUTIONS: f64 = 10.0;
+/// Parts of a window from which a standard error is told, at least: that of n independent values is itself off by a part of
+/// 1/√(2(n−1)), a third here.
+const LEAST_PARTS: usize = 5;
+/// Rounding of counts of revolutions.
+const ROUNDING: f64 = 1e-9;
+
+/// What the samples of a run tell of a quantity, cumulatively, each as long as the others.
+#[derive(Debug, Clone, Copy)]
+pub struct Cumulative<'a> {
+    /// Times of the samples, s, ascending.
+    pub time: &'a [f64],
+    /// Integral of the quantity over time since t = 0, its unit times s.
+    pub integral: &'a [f64],
+    /// Simulated revolutions since t = 0; empty if they are not known.
+    pub revolutions: &'a [f64],
+}
+
+/// Mean of a quantity over a part of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct WindowMean {
+    /// Where the part begins, s.
+    pub from: f64,
+    /// Where it ends, s.
+    pub to: f64,
+    /// Simulated revolutions in it; none if they are not known.
+    pub revolutions: Option<f64>,
+    /// The mean, exactly: difference of the integral over the time.
+    pub mean: f64,
+    /// Standard error of the mean: see [`standard_error`]. None with fewer than five parts: see [`Cumulative::mean`].
+    pub standard_error: Option<f64>,
+}
+
+impl WindowMean {
+    /// Whether there are as many revolutions in it as a mean needs; so if they are not known.
+    pub fn is_long(&self) -> bool {
+        self.revolutions.is_none_or(|revolutions| revolutions > LEAST_REVOLUTIONS * (1.0 - ROUNDING))
+    }
+}
+
+impl Cumulative<'_> {
+    /// The mean over the last tenth of the run; see [`last_tenth`]. None without samples or with one that is not finite.
+    pub fn mean_of_last_tenth(&self) -> Option<WindowMean> {
+        let (from, to) = last_tenth(self.time, self.revolutions)?;
+        self.mean(from, to)
+    }
+
+    /// The mean between two times, s: exact where these are times of samples, or 0, and otherwise with the integral linear
+    /// between samples. None unless 0 ≤ from < to ≤ the time of the last sample, or where a sample is not finite.
+    ///
+    /// For the standard error the window is cut into equal parts, as many as it has intervals between samples, but none
+    /// shorter than a simulated revolution: what comes and goes within each revolution is no chance.
+    pub fn mean(&self, from: f64, to: f64) -> Option<WindowMean> {
+        let in_order = 0.0 <= from && from < to && to <= self.time.last()? * (1.0 + ROUNDING);
+        if !in_order || self.integral.len() != self.time.len() {
+            return None;
+        }
+        let revolutions = (self.revolutions.len() == self.time.len())
+            .then(|| at(self.time, self.revolutions, to) - at(self.time, self.revolutions, from));
+        let integral = |moment: f64| at(self.time, self.integral, moment);
+        let mean = (integral(to) - integral(from)) / (to - from);
+        let intervals = 1 + self.time.iter().filter(|time| (from < **time) && (**time < to)).count();
+        let parts = revolutions.map_or(intervals, |turns| intervals.min((turns * (1.0 + ROUNDING)) as usize));
+        let width = (to - from) / parts as f64;
+        let edge = |part: usize| integral(if part == parts { to } else { from + part as f64 * width });
+        let standard_error = (parts >= LEAST_PARTS).then(|| {
+            let values: Vec<f64> = (0..parts).map(|part| (edge(part + 1) - edge(part)) / width).collect();
+            standard_error(&values)
+        });
+        let finite = mean.is_finite() && standard_error.is_none_or(f64::is_finite);
+        finite.then_some(WindowMean { from, to, revolutions, mean, standard_error })
+    }
+}
+
+/// The last tenth of a run, s, from one sample to the last; earlier from where it has fewer than ten simulated revolutions
+/// otherwise, and all of the run where that has no more. None without samples.
+pub fn last_tenth(time: &[f64], revolutions: &[f64]) -> Option<(f64, f64)> {
+    let to = *time.last()?;
+    let latest = to * (1.0 - LAST_PART) * (1.0 + ROUNDING);
+    let mut first = time.partition_point(|time| *time <= latest);
+    if let (Some(all), true) = (revolutions.last(), revolutions.len() == time.len()) {
+        let latest = all - LEAST_REVOLUTIONS * (1.0 - ROUNDING);
+        first = first.min(revolutions.partition_point(|turns| *turns <= latest));
+    }
+    Some((if first == 0 { 0.0 } else { time[first - 1] }, to))
+}
+
+/// A cumulative series at a moment: 0 at t = 0, linear between samples.
+fn at(time: &[f64], values: &[f64], moment: f64) -> f64 {
+    let after = time.partition_point(|time| *time < moment).min(time.len() - 1);
+    let (start, before) = if after == 0 { (0.0, 0.0) } else { (time[after - 1], values[after - 1]) };
+    let share = ((moment - start) / (time[after] - start)).min(1.0);
+    before + share * (values[after] - before)
+}
+
+/// Standard error of the mean of values that follow one another in time and may be alike:
+///
+/// γ_k = (1/n) Σ_i (x_i − x̄)(x_{i+k} − x̄), S = γ_0 + 2 Σ_{0<k<L} γ_k, error² = S n / ((n − L)(n − L + 1)).
+///
+/// L ends the initial monotone sequence: pairs γ_{2j} + γ_{2j+1} are added as long as they are positive, none counting more
+/// than the one before, and for no more than half of all lags (C. J. Geyer, Practical Markov chain Monte Carlo, Statistical
+/// Science 7 (1992) 473–483, section 3.3). The divisor takes out that the mean is that of the same values (T. P. Straatsma,
+/// H. J. C. Berendsen, A. J. Stam, Molecular Physics 57 (1986) 89–95); with L = 1 it makes the familiar s/√n. S counts as
+/// γ_0 at least: what swings to and fro is not taken for better known than chance. Strict periods are therefore given too
+/// large an error, and so is a mean that drifts.
+pub fn standard_error(values: &[f64]) -> f64 {
+    let n = values.len();
+    let mean = values.iter().sum::<f64>() / n as f64;
+    let rest: Vec<f64> = values.iter().map(|value| value - mean).collect();
+    let covariance = |lag: usize| rest.iter().zip(&rest[lag..]).map(|(one, other)| one * other).sum::<f64>() / n as f64;
+    let of_one = covariance(0);
+    let (mut lags, mut sum, mut before) = (0, -of_one, f64::INFINITY);
+    while lags + 2 <= n / 2 {
+        let pair = (covariance(lags) + covariance(lags + 1)).min(before);
+        if pair <= 0.0 {
+            break;
+        }
+        (lags, sum, before) = (lags + 2, sum + 2.0 * pair, pair);
+    }
+    if sum < of_one {
+        (lags, sum) = (1, of_one);
+    }
+    let left = (n - lags) as f64;
+    (sum * n as f64 / (left * (left + 1.0))).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::random::{Random, Stream};
+
+    /// A stationary process of first order with variance 1: x_i = φ x_{i−1} + √(1 − φ²) e_i.
+    fn process(random: &mut Random, alike: f64, count: usize) -> Vec<f64> {
+        let mut value = random.normal();
+        let next = |_| {
+            let this = value;
+            value = alike * value + (1.0 - alike * alike).sqrt() * random.normal();
+            this
+        };
+        (0..count).map(next).collect()
+    }
+
+    /// Variance of the mean of n values of that process, in closed form: (1/n²) Σ_i Σ_k φ^|i−k|.
+    fn variance_of_mean(alike: f64, count: usize) -> f64 {
+        let n = count as f64;
+        ((1.0 + alike) / (1.0 - alike) - 2.0 * alike * (1.0 - alike.powi(count as i32)) / (n * (1.0 - alike).powi(2)))
+            / n
+    }
+
+    #[test]
+    fn the_error_is_that_of_a_process_of_first_order() {
+        // The closed form for two values: (1 + φ)/2.
+        assert!((variance_of_mean(0.6, 2) - 0.8).abs() < 1e-15);
+        let mut random = Random::new(1, Stream::DiscHeight);
+        for alike in [0.0, 0.6, 0.9] {
+            let (runs, count) = (400, 1000);
+            let (mut sum, mut hits) = (0.0, 0);
+            for _ in 0..runs {
+                let values = process(&mut random, alike, count);
+                let error = standard_error(&values);
+                sum += error * error;
+                hits += usize::from((values.iter().sum::<f64>() / count as f64).abs() < 1.96 * error);
+            }
+            let ratio = sum / runs as f64 / variance_of_mean(alike, count);
+            // Chance moves the mean of 400 estimates by some hundredths; the truncation makes it a little too large.
+            assert!((0.9..1.25).contains(&ratio), "φ = {alike}: {ratio}");
+            // 95 %, give or take three standard deviations of the count and a little for the estimate.
+            assert!((0.90..0.99).contains(&(hits as f64 / runs as f64)), "φ = {alike}: {hits} of {runs}");
+        }
+    }
+
+    #[test]
+    fn independent_and_alternating_values_have_the_familiar_error() {
+        // s² = 4/3, n = 4; its pairs are negative.
+        assert!((standard_error(&[1.0, -1.0, 1.0, -1.0]) - (4.0_f64 / 3.0 / 4.0).sqrt()).abs() < 1e-15);
+        assert_eq!(standard_error(&[3.0; 8]), 0.0);
+    }
+
+    #[test]
+    fn a_mean_is_the_difference_of_the_integral() {
+        let time: Vec<f64> = (1..=100).map(f64::from).collect();
+        // The quantity is 2 t: its integral t².
+        let integral: Vec<f64> = time.iter().map(|time| time * time).collect();
+        let run = |revolutions: &[f64]| {
+            Cumulative { time: &time, integral: &integral, revolutions }.mean_of_last_tenth().unwrap()
+        };
+        let last = run(&[]);
+        assert_eq!((last.from, last.to, last.mean, last.revolutions), (90.0, 100.0, 190.0, None));
+        // A revolution in 5 s: ten of them take half of the run. The window begins at a sample.
+        let slow: Vec<f64> = time.iter().map(|time| time / 5.0).collect();
+        let last = run(&slow);
+        assert_eq!((last.from, last.mean, last.is_long()), (50.0, 150.0, true));
+        assert!((last.revolutions.unwrap() - 10.0).abs() < 1e-12);
+        // A revolution in 20 s: there are only five.
+        let slower: Vec<f64> = time.iter().map(|time| time / 20.0).collect();
+        let last = run(&slower);
+        assert_eq!((last.from, last.mean, last.is_long()), (0.0, 100.0, false));
+        // Five parts of one revolution each: 20, 60, 100, 140, 180, a line, that is no chance but counts as such.
+        assert_eq!(last.standard_error, Some(standard_error(&[20.0, 60.0, 100.0, 140.0, 180.0])));
+        // Between samples the integral is a line: from 8100 at 90 s to 8281.
+        let between = Cumulative { time: &time, integral: &integral, revolutions: &[] }.mean(90.5, 91.0).unwrap();
+        assert_eq!((between.mean, between.standard_error), (181.0, None));
+    }
+
+    #[test]
+    fn what_there_is_not_has_no_mean() {
+        let of =
+            |time: &[f64], integral: &[f64], from, to| Cumulative { time, integral, revolutions: &[] }.mean(from, to);
+        assert_eq!(of(&[], &[], 0.0, 1.0), None);
+        assert_eq!(of(&[1.0, 2.0], &[1.0, 2.0], 1.0, 2.1), None);
+        assert_eq!(of(&[1.0, 2.0], &[1.0, 2.0], 2.0, 2.0), None);
+        assert_eq!(of(&[1.0, 2.0], &[1.0, f64::NAN], 0.0, 2.0), None);
+        assert_eq!(of(&[1.0, 2.0], &[1.0], 0.0, 2.0), None);
+        assert_eq!(of(&[2.0], &[8.0], 0.0, 2.0).map(|window| window.mean), Some(4.0));
+        assert_eq!(last_tenth(&[], &[]), None);
+    }
+
+    #[test]
+    fn what_comes_and_goes_in_every_revolution_is_no_error() {
+        // Ten samples a revolution: 1 in its first half, 3 in its second.
+        let time: Vec<f64> = (1..=400).map(|sample| f64::from(sample) / 10.0).collect();
+        let turn = |time: f64| if time.fract() < 0.5 { time.fract() } else { 3.0 * time.fract() - 1.0 };
+        let integral: Vec<f64> = time.iter().map(|time| 2.0 * time.floor() + turn(*time)).collect();
+        let window = Cumulative { time: &time, integral: &integral, revolutions: &time }.mean(20.0, 40.0).unwrap();
+        assert!((window.mean - 2.0).abs() < 1e-12 && window.standard_error.unwrap() < 1e-12, "{window:?}");
+    }
+}
