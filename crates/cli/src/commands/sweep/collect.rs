@@ -1,8 +1,9 @@
 //! `plateau sweep collect`: all results of a study in one HDF5 file and a table.
 
 use plateau_io::dataset_file::{Attribute, now};
-use plateau_io::study::collected::{CollectError, Collected, State, plain};
+use plateau_io::study::collected::{CollectError, Collected, State};
 use plateau_io::study::plan::Plan;
+use plateau_io::study::results_table::table as table_of;
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
@@ -24,7 +25,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
     collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
-    output::write(&csv, rows(&plan, &collected).as_bytes(), true)?;
+    output::write(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
     let summary = Summary {
         study: plan.study().title.clone(),
         runs: plan.runs(),
@@ -78,28 +79,6 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
         ("design", text(&study.design)),
         ("collected", Attribute::Text(now())),
     ])
-}
-
-/// A line for each run: number, point, replicate, state, factors, responses.
-fn rows(plan: &Plan, collected: &Collected) -> String {
-    let study = plan.study();
-    let names =
-        study.factors.iter().map(|factor| &factor.name).chain(study.responses.iter().map(|response| &response.name));
-    let header =
-        ["run", "point", "replicate", "state"].map(str::to_owned).into_iter().chain(names.map(|name| plain(name)));
-    let header = header.chain(["error".to_owned()]).collect::<Vec<_>>();
-    let lines = collected.runs.iter().map(|run| {
-        let error = if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
-        let numbers = [run.run.number, run.run.point + 1, run.run.replicate + 1].map(|number| number.to_string());
-        let responses = run
-            .responses
-            .iter()
-            .map(|response| if response.is_nan() { String::new() } else { format!("{response:?}") });
-        let cells = numbers.into_iter().chain([run.state.name().to_owned()]);
-        let cells = cells.chain(run.run.levels.iter().map(|level| level.label.clone())).chain(responses).chain([error]);
-        cells.collect()
-    });
-    csv_table(std::iter::once(header).chain(lines))
 }
 
 /// What `plateau sweep collect` reports.
