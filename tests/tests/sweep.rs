@@ -134,6 +134,14 @@ fn a_study_is_planned_run_and_collected() {
     }
     let area = alone.floats("/series/contact_area_mean");
     assert_eq!(file.floats("/contact_area_at_the_end")[14], area[5]);
+    // The table has units in its head and numbers below, to the bit.
+    let table = fs::read_to_string(directory.path("results/results.csv")).unwrap();
+    let mut lines = table.lines();
+    let head = "run,point,replicate,state,load [N],fibre fraction,contact area at the end [m2],mean filling,error";
+    assert_eq!(lines.next(), Some(head));
+    let cells: Vec<&str> = lines.nth(14).unwrap().split(',').collect();
+    assert_eq!(cells[..6], ["15", "5", "3", "finished", "10.0", "0.3"]);
+    assert_eq!(cells[6].parse(), Ok(area[5]));
     // By hand: the trapezia between the samples at 1, 1.5, 2, 2.5 and 3 s; steps end up to a step after these times.
     let filled = alone.floats("/series/filled_fraction");
     let mean = (filled[1] / 2.0 + filled[2] + filled[3] + filled[4] + filled[5] / 2.0) / 4.0;
@@ -175,6 +183,48 @@ fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
     // The revolutions of a run file follow from its sliding distance.
     let error = file.floats("/mean_contact_area_standard_error")[3];
     assert!((window["standard_error"].as_f64().unwrap() / error - 1.0).abs() < 1e-6, "{window} {error}");
+}
+
+#[test]
+fn points_that_are_there_twice_are_one_run() {
+    let directory = WorkingDirectory::new();
+    let composite = study()
+        .replace("\"full-factorial\"", "\"central-composite\"\ncentre_points = 6")
+        .replace("levels = [\"5 N\", \"10 N\", \"20 N\"]", "range = [\"5 N\", \"20 N\"]")
+        .replace("levels = [0.2, 0.3, 0.4]", "range = [0.2, 0.4]")
+        .replace("[7, 8, 9]", "[7, 8]");
+    directory.write("study.toml", composite);
+    // Four corners, four axial points, the centre six times: nine different ones, with two seeds each.
+    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
+    assert_eq!((planned["runs"].as_u64(), planned["repeats"].as_u64()), (Some(28), Some(10)));
+    let said = "10 of 28 runs repeat another one and count once with it";
+    let text = directory.plateau(["sweep", "plan", "study.toml"]).stdout;
+    assert!(text.contains("different runs  18") && text.contains(said) && text.contains("[replicates]"), "{text}");
+
+    // Whichever task makes them, each is made once.
+    let made = ["1/2", "2/2"].map(|task| sweep(&directory, &["--task", task])["finished"].as_u64().unwrap());
+    assert_eq!((made.iter().sum::<u64>(), records(&directory).len()), (18, 18));
+    let again = sweep(&directory, &[]);
+    let counts = ["runs", "repeats", "finished_before", "left"].map(|key| again[key].as_u64());
+    assert_eq!(counts, [28, 10, 18, 0].map(Some));
+    let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));
+    assert_eq!((planned["ended"]["finished"].as_u64(), planned["estimated_time"].as_f64()), (Some(18), Some(0.0)));
+
+    // All 28 are in the table, 18 in the analysis.
+    let (table, _) = results(&directory);
+    assert_eq!(table.matches(",finished,").count(), 28);
+    let effects = directory.plateau(["sweep", "effects", "study.toml", "--json"]);
+    let effects = json(&effects);
+    assert_eq!((effects["repeats"].as_u64(), effects["responses"][0]["runs"].as_u64()), (Some(10), Some(18)));
+    let terms = effects["responses"][0]["terms"].as_array().unwrap();
+    let freedom: u64 = terms.iter().filter_map(|term| term["degrees_of_freedom"].as_u64()).sum();
+    assert_eq!(freedom, 1 + 5, "the seeds, and the quadratic model");
+    let lines = fs::read_to_string(directory.path("results/effects/effects.csv")).unwrap();
+    assert!(lines.contains("\ncontact area at the end,total,17,"), "{lines}");
+    let text = directory.plateau(["sweep", "effects", "study.toml"]).stdout;
+    assert!(text.starts_with(said), "{text}");
+    let page = fs::read_to_string(directory.path("results/effects/effects.html")).unwrap();
+    assert!(page.contains(said));
 }
 
 #[test]

@@ -86,12 +86,12 @@ fn term(directory: &WorkingDirectory, name: &str) -> BTreeMap<String, String> {
     table(&read(directory, "effects.csv")).into_iter().find(|row| row["term"] == name).expect("the term")
 }
 
-/// The mean of a response, mm², over the runs whose factors have these labels.
-fn mean(directory: &WorkingDirectory, labels: &[(&str, &str)]) -> f64 {
+/// The mean of the contact area, mm², over the runs that have these cells in their table.
+fn mean(directory: &WorkingDirectory, cells: &[(&str, &str)]) -> f64 {
     directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
     let rows = table(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
-    let own = rows.iter().filter(|row| labels.iter().all(|(factor, label)| row[*factor] == *label));
-    let values: Vec<f64> = own.map(|row| number(row, "contact_area") * 1e6).collect();
+    let own = rows.iter().filter(|row| cells.iter().all(|(column, cell)| row[*column] == *cell));
+    let values: Vec<f64> = own.map(|row| number(row, "contact area [m2]") * 1e6).collect();
     values.iter().sum::<f64>() / values.len() as f64
 }
 
@@ -135,12 +135,16 @@ fn figures_show_the_means_and_effects_of_the_table() {
     let boxes = main.boxes();
     assert_eq!(boxes.len(), 3);
     let y = main.y_axis(boxes[0]);
-    let factors = [("load", ["5 N", "10 N"]), ("pool", ["contact", "track"]), ("fibres", ["0.2", "0.4"])];
-    for (frame, (factor, levels)) in boxes.iter().zip(factors) {
+    let factors = [
+        ("load", "load [N]", ["5.0", "10.0"]),
+        ("pool", "pool", ["contact", "track"]),
+        ("fibres", "fibres", ["0.2", "0.4"]),
+    ];
+    for (frame, (factor, column, levels)) in boxes.iter().zip(factors) {
         let dots = main.dots(DATA, *frame);
         assert_eq!(dots.len(), 2, "{factor}");
         for (dot, level) in dots.iter().zip(levels) {
-            let expected = y.place(mean(&directory, &[(factor, level)]));
+            let expected = y.place(mean(&directory, &[(column, level)]));
             assert!((dot[1] - expected).abs() < 1.5, "{factor} {level}: {} and {expected}", dot[1]);
         }
         let effect = number(&term(&directory, factor), "effect") * 1e6;
@@ -152,9 +156,9 @@ fn figures_show_the_means_and_effects_of_the_table() {
     let boxes = pairs.boxes();
     assert_eq!(boxes.len(), 3);
     let y = pairs.y_axis(boxes[0]);
-    for (colour, load) in LINES.iter().zip(["5 N", "10 N"]) {
+    for (colour, load) in LINES.iter().zip(["5.0", "10.0"]) {
         for (dot, pool) in pairs.dots(colour, boxes[0]).iter().zip(["contact", "track"]) {
-            let expected = y.place(mean(&directory, &[("load", load), ("pool", pool)]));
+            let expected = y.place(mean(&directory, &[("load [N]", load), ("pool", pool)]));
             assert!((dot[1] - expected).abs() < 1.5, "{load}, {pool}");
         }
     }
@@ -261,13 +265,32 @@ fn a_saturated_study_is_judged_by_the_margin_of_lenth() {
         [format!("{LOAD}levels = [\"5 N\", \"10 N\"]"), format!("{SPEED}levels = [\"425 rpm\", \"850 rpm\"]")];
     let directory = studied("design = \"full-factorial\"", &[&factors[0], &factors[1], POOL, AREA]);
     let text = effects(&directory, &["--model", "full"]).stdout;
-    let (before, _) = text.split_once(" (Lenth)").expect("a margin");
-    let margin: f64 = before.rsplit(' ').next().unwrap().parse().unwrap();
+    let (_, after) = text.split_once("margin of error ").expect("a margin");
+    let (margins, _) = after.split_once(" (Lenth)").unwrap();
+    let margins: Vec<f64> = margins.split(", simultaneous ").map(|margin| margin.parse().unwrap()).collect();
+    // Of seven effects: qt((1 + 0.95^(1/7))/2, 7/3) by qt(0.975, 7/3) of R 4.2.2.
+    assert!((margins[1] / margins[0] / (9.008_307_114 / 3.764_123_072) - 1.0).abs() < 2e-3, "{margins:?}");
+    let report: Value = serde_json::from_str(&effects(&directory, &["--model", "full", "--json"]).stdout).unwrap();
+    let row = term(&directory, "load");
+    let lenth = &report["responses"][0]["lenth"];
+    let told = [("margin_of_error", "#C44E1C"), ("simultaneous_margin_of_error", "#222222")];
     let pareto = figure(&directory, "contact-area-pareto");
     let frame = pareto.boxes()[0];
-    let line = pareto.line("#C44E1C", frame);
-    assert!((line[0][0] - pareto.x_axis(frame).place(margin * 1e6)).abs() < 3.0, "{margin} at {line:?}");
-    assert!(pareto.texts.iter().any(|text| text.text.starts_with("margin of error (Lenth, 95 %)")));
+    for ((key, colour), margin) in told.into_iter().zip(margins) {
+        assert!((lenth[key].as_f64().unwrap() / margin - 1.0).abs() < 1e-3);
+        assert_eq!(lenth[key].as_f64(), Some(number(&row, key)));
+        // From the top of the box to its bottom, between its sides.
+        let height = frame.y[1] - frame.y[0];
+        let is_limit = |(other, line): &&(String, Vec<[f64; 2]>)| {
+            let is_inside = |[x, _]: &[f64; 2]| *x > frame.x[0] + 1.0 && *x < frame.x[1] - 1.0;
+            other == colour && line.iter().all(is_inside) && (line[0][1] - line[line.len() - 1][1]).abs() > 0.9 * height
+        };
+        let (_, line) = pareto.lines.iter().find(is_limit).expect("a line");
+        assert!((line[0][0] - pareto.x_axis(frame).place(margin * 1e6)).abs() < 3.0, "{margin} at {line:?}");
+    }
+    for label in ["margin of error (Lenth, 95 %)", "simultaneous margin: "] {
+        assert!(pareto.texts.iter().any(|text| text.text.starts_with(label)), "{label}");
+    }
 }
 
 #[test]
@@ -313,6 +336,61 @@ fn ranges_have_lines_of_predictions() {
     assert!((rise - effect).abs() < 2.5 * pixel, "{rise} and {effect}");
     assert!(width(boxes[1]) > 100.0 && main.texts.iter().any(|text| text.text == "log\u{2081}\u{2080} fibres"));
     assert_eq!(main.dots(DATA, boxes[2]).len(), 2, "words have means");
+}
+
+#[test]
+fn a_space_filling_design_is_fitted_with_squares_or_says_why_not() {
+    let factors = [format!("{LOAD}range = [\"2 N\", \"40 N\"]"), format!("{FIBRES}range = [0.05, 0.6]")];
+    let directory = studied("design = \"latin-hypercube\"\npoints = 20", &[&factors[0], &factors[1], AREA]);
+    let of = |arguments: &[&str]| -> Value {
+        let report: Value = serde_json::from_str(&effects(&directory, arguments).stdout).unwrap();
+        report["responses"][0].clone()
+    };
+    let quadratic = of(&["--json"]);
+    assert_eq!((quadratic["model"].as_str(), quadratic["lack_of_fit"].is_null()), (Some("quadratic"), true));
+    // The mean is that of the runs, not what the model says in the middle.
+    let mean = mean(&directory, &[]) * 1e-6;
+    assert!((quadratic["mean"].as_f64().unwrap() / mean - 1.0).abs() < 1e-12);
+    assert!((quadratic["middle"].as_f64().unwrap() / mean - 1.0).abs() > 0.01);
+
+    // Interactions alone miss the curve, and the first lines say which model does not.
+    let straight = of(&["--json", "--model", "interactions"]);
+    assert_eq!(straight["lack_of_fit"]["model_to_try"].as_str(), Some("quadratic"));
+    assert_eq!(straight["lack_of_fit"]["r_squared"], quadratic["r_squared"]);
+    let text = effects(&directory, &["--model", "interactions"]).stdout;
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[1], "  model: main effects and interactions of two factors; as asked for");
+    assert!(
+        lines[2].starts_with("  lack of fit: try --model quadratic, which explains significantly more (p"),
+        "{text}"
+    );
+    let page = read(&directory, "effects.html");
+    assert!(page.contains("<p class=\"notice\">Lack of fit: try --model quadratic"));
+
+    // A table of one's own that is too short for squares, with a line that is there twice.
+    let table = "load,fibres\n2 N,0.3\n2 N,0.3\n9 N,0.1\n15 N,0.5\n22 N,0.2\n31 N,0.6\n40 N,0.4\n";
+    directory.write("points.csv", table);
+    let names = [LOAD, FIBRES, AREA];
+    let base = scene("quick.toml");
+    directory.write(
+        "study.toml",
+        format!("version = 1\nbase = \"{base}\"\nset = [\"operation.duration = '3 s'\"]\ndesign = \"csv\"\nfile = \"points.csv\"\n\
+                 directory = \"results\"\n{}", names.join("\n")),
+    );
+    directory.plateau(["sweep", "run", "study.toml"]).quiet_success();
+    let text = effects(&directory, &[]).stdout;
+    let reason = "model: main effects and interactions of two factors; no squares: 6 runs are too few for 6 coefficients and an error";
+    assert!(text.starts_with("1 of 7 runs repeats another one and counts once with it: "), "{text}");
+    assert!(text.lines().nth(3).unwrap().ends_with(reason), "{text}");
+    // Six values of a number are a range, not six classes: two main effects and their product.
+    let freedom: f64 = table_of_terms(&directory).iter().map(|row| number(row, "degrees_of_freedom")).sum();
+    assert_eq!(freedom, 3.0);
+}
+
+/// The rows of terms.
+fn table_of_terms(directory: &WorkingDirectory) -> Vec<BTreeMap<String, String>> {
+    let rows = table(&read(directory, "effects.csv"));
+    rows.into_iter().filter(|row| !["residual", "total"].contains(&row["term"].as_str())).collect()
 }
 
 #[test]

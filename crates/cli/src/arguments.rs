@@ -13,9 +13,7 @@ use plateau_core::kernel::InstructionSet;
 
 pub use accuracy::{AccuracyArguments, Ladder};
 pub use surface::SurfaceArguments;
-pub use sweep::{
-    CollectArguments, EffectsArguments, Model, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments,
-};
+pub use sweep::{CollectArguments, EffectsArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use plateau_study::design::Setting;
 use plateau_study::effects::{
-    Cell, Effects, ErrorSource, Factor, FactorKind, Lenth, Model, Nature, Observation, Options, Prediction, Squares,
-    Term, Test, analyse, half_normal_quantiles,
+    Better, Cell, Effects, ErrorSource, Factor, FactorKind, Lenth, Model, Nature, Observation, Options, Prediction,
+    Squares, Term, Test, analyse, half_normal_quantiles,
 };
 use serde::Deserialize;
 
@@ -56,6 +56,8 @@ struct Expected {
     #[serde(default)]
     cell_means: Vec<ExpectedCell>,
     surface: Option<ExpectedSurface>,
+    /// F and p of the larger model against this one, and its share of the sum of squares.
+    misfit: Option<[f64; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -120,12 +122,14 @@ impl Study {
 
     fn observations(&self) -> Vec<Observation> {
         let each = self.settings.iter().zip(&self.replicates).zip(&self.responses);
-        each.map(|((numbers, replicate), response)| Observation {
-            settings: self.settings(numbers),
-            replicate: *replicate,
-            response: response.map_or(f64::NAN, |response| response + self.shift),
-        })
-        .collect()
+        each.enumerate()
+            .map(|(run, ((numbers, replicate), response))| Observation {
+                settings: self.settings(numbers),
+                replicate: *replicate,
+                run,
+                response: response.map_or(f64::NAN, |response| response + self.shift),
+            })
+            .collect()
     }
 
     fn effects(&self) -> Effects {
@@ -249,6 +253,8 @@ fn compare(name: &'static str) -> Effects {
     assert_eq!(effects.observations, expected.fitted.len());
     assert_eq!(effects.missing, study.responses.iter().filter(|response| response.is_none()).count());
     comparison.same("constant", effects.constant.value, expected.constant);
+    let responses: Vec<f64> = study.responses.iter().flatten().map(|response| response + study.shift).collect();
+    comparison.same("mean", effects.mean, responses.iter().sum::<f64>() / responses.len() as f64);
     comparison.squares("total", effects.total, expected.total);
     let rows: Vec<&Term> = effects.rows().filter(|term| term.freedom > 0).collect();
     assert_eq!(rows.len(), expected.terms.len());
@@ -356,6 +362,39 @@ fn latin_hypercube() {
     let effects = compare("hypercube");
     assert_eq!(effects.error.to_string(), "pooled: what the model leaves out");
     assert!(effects.level_means(0).is_empty());
+    // Straight but for a sine, which squares do not show either.
+    assert_eq!(effects.misfit(), None);
+}
+
+#[test]
+fn curves_are_missed_by_interactions_and_told_by_squares() {
+    let quadratic = compare("hypercube_quadratic");
+    assert_eq!(quadratic.misfit(), None);
+    // In the middle of the ranges the squares are nothing: that is not the mean.
+    assert!((quadratic.mean - quadratic.constant.value).abs() > 0.2);
+    let straight = compare("hypercube_curved");
+    let [f, p, r_squared] = Study::read("hypercube_curved").expected.misfit.unwrap();
+    let misfit = straight.misfit().unwrap();
+    let Better { model, r_squared: found } = misfit.better.unwrap();
+    assert!(!misfit.by_replicates && model == Model::Quadratic);
+    let comparison = Comparison { name: "hypercube_curved", rounding: 0.0 };
+    comparison.exactly("larger model", [misfit.test.f, misfit.test.p, found], [f, p, r_squared]);
+    comparison.exactly("larger model", [found], [quadratic.r_squared]);
+}
+
+#[test]
+fn replicates_tell_a_lack_of_fit() {
+    // The product of three factors is left out, which the full model has.
+    let blocks = compare("blocks");
+    let misfit = blocks.misfit().unwrap();
+    assert_eq!((misfit.by_replicates, Some(misfit.test)), (true, blocks.residual.parts.unwrap().test));
+    let full = compare("blocks_full");
+    let better = misfit.better.unwrap();
+    assert_eq!(better.model, Model::Full);
+    assert!((better.r_squared - full.r_squared).abs() < 1e-12);
+    assert_eq!(full.misfit(), None);
+    assert_eq!(compare("composite").misfit(), None);
+    assert_eq!(compare("filtration").misfit(), None);
 }
 
 #[test]
@@ -377,6 +416,11 @@ fn margins_of_effects_without_error() {
     // qt(0.975, 5) and qt((1 + 0.95^(1/15))/2, 5) of R 4.2.2.
     assert!((lenth.margin / 2.625 - 2.5705818356363137).abs() < 1e-12);
     assert!((lenth.simultaneous_margin / 2.625 - 5.218651262019962).abs() < 1e-12);
+    // The same of seven effects, with 7/3 degrees of freedom; all of them are small, and their median is 4.
+    let seven = Lenth::new(&[1.0, -2.0, 3.0, -4.0, 5.0, -6.0, 7.0], 0.95).unwrap();
+    assert_eq!(seven.pseudo_standard_error, 6.0);
+    assert!((seven.margin / 6.0 - 3.76412307208258).abs() < 1e-12);
+    assert!((seven.simultaneous_margin / 6.0 - 9.00830711394499).abs() < 1e-12, "{}", seven.simultaneous_margin / 6.0);
     assert_eq!(Lenth::new(&[1.0, 2.0], 0.95), None);
     assert_eq!(Lenth::new(&[0.0, 0.0, 0.0, 1.0], 0.95), None);
 }

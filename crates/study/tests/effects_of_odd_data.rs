@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use plateau_study::design::Setting;
 use plateau_study::effects::{
-    Effects, EffectsError, ErrorSource, Factor, FactorKind, Model, Nature, Observation, Options, analyse,
+    Better, Effects, EffectsError, ErrorSource, Factor, FactorKind, Model, Nature, NoSquares, Observation, Options,
+    analyse, no_squares,
 };
 use proptest::prelude::*;
 
@@ -26,6 +27,7 @@ fn observed(points: &[Vec<Setting>], response: impl Fn(usize, &[Setting]) -> f64
     let observation = |(index, settings): (usize, &Vec<Setting>)| Observation {
         settings: settings.clone(),
         replicate: 0,
+        run: index,
         response: response(index, settings),
     };
     points.iter().enumerate().map(observation).collect()
@@ -130,10 +132,10 @@ fn a_model_that_reproduces_all_responses_has_no_error_to_test_with() {
 
 #[test]
 fn replicates_that_are_equal_give_no_pure_error_to_test_with() {
-    // A deterministic program that is run twice.
+    // Seeds that change nothing.
     let factors = named(&["a", "b"]);
     let once = observed(&corners(2), |index, _| [1.0, 2.0, 4.0, 9.0][index]);
-    let again = once.iter().map(|each| Observation { replicate: 1, ..each.clone() });
+    let again = once.iter().map(|each| Observation { replicate: 1, run: 4 + each.run, ..each.clone() });
     let observations: Vec<Observation> = once.iter().cloned().chain(again).collect();
     let effects = analyse(&factors, &observations, &of_model(Model::MainEffects)).unwrap();
     let parts = effects.residual.parts.unwrap();
@@ -141,6 +143,67 @@ fn replicates_that_are_equal_give_no_pure_error_to_test_with() {
     assert_eq!(parts.lack_of_fit.freedom, 1);
     assert_eq!(effects.blocks.as_ref().unwrap().freedom, 1);
     finite(&effects);
+}
+
+#[test]
+fn observations_of_one_run_count_once() {
+    // Two points twice, of which one gave nothing: by hand, the means of four runs.
+    let factors = named(&["a", "b"]);
+    let once = observed(&corners(2), |index, _| [1.0, 2.0, 4.0, f64::NAN][index]);
+    let observations: Vec<Observation> = [&once[..], &once[2..]].concat();
+    let effects = analyse(&factors, &observations, &of_model(Model::MainEffects)).unwrap();
+    assert_eq!((effects.observations, effects.missing, effects.repeated), (3, 1, 2));
+    let alone = analyse(&factors, &once, &of_model(Model::MainEffects)).unwrap();
+    assert_eq!((&effects.terms, &effects.fitted), (&alone.terms, &alone.fitted));
+    assert_eq!(effects.error, ErrorSource::Saturated);
+    assert!((effects.mean - 7.0 / 3.0).abs() < 1e-15);
+    let empty = observed(&[corners(2)[0].clone(), corners(2)[0].clone()], |_, _| f64::NAN);
+    let same: Vec<Observation> = empty.into_iter().map(|each| Observation { run: 9, ..each }).collect();
+    assert_eq!(analyse(&factors, &same, &Options::default()), Err(EffectsError::Empty { missing: 1 }));
+}
+
+#[test]
+fn designs_allow_squares_or_say_why_not() {
+    let ranges = [range("load"), range("speed")];
+    let points = |values: &[(f64, f64)]| -> Vec<Vec<Setting>> {
+        values.iter().map(|(load, speed)| vec![Setting::Coded(*load), Setting::Coded(*speed)]).collect()
+    };
+    let of = |factors: &[Factor], points: &[Vec<Setting>]| {
+        no_squares(factors, &observed(points, |index, _| index as f64), true)
+    };
+    // 1 + 2 + 1 + 2 coefficients, and three degrees of freedom.
+    let nine: Vec<(f64, f64)> = (0..9).map(|index| (f64::from(index / 3) - 1.0, f64::from(index % 3) - 1.0)).collect();
+    assert_eq!(of(&ranges, &points(&nine)), None);
+    let few = of(&ranges, &points(&nine[1..])).unwrap();
+    assert_eq!(few, NoSquares::FewRuns { runs: 8, coefficients: 6 });
+    assert_eq!(few.to_string(), "8 runs are too few for 6 coefficients and an error");
+    // Three points that are made with three seeds each are nine runs, but no more points than three.
+    let repeated = [0, 4, 8].map(|index| nine[index]).repeat(3);
+    let few = of(&ranges, &points(&repeated)).unwrap();
+    assert_eq!(few.to_string(), "3 different points are too few for 6 coefficients");
+    // Points on a diagonal.
+    let diagonal: Vec<(f64, f64)> = nine.iter().map(|(load, speed)| (3.0 * load + speed, 3.0 * load + speed)).collect();
+    let aliased = of(&ranges, &points(&diagonal)).unwrap();
+    assert_eq!(aliased.to_string(), "the runs cannot tell speed, load², speed² from other terms");
+    assert_eq!(of(&named(&["a", "b"]), &corners(2)), Some(NoSquares::TwoValues));
+    // The square of a number that has two values is not needed.
+    let mixed: Vec<(f64, f64)> =
+        nine.iter().map(|(load, speed)| (*load, if *speed > 0.0 { 1.0 } else { -1.0 })).collect();
+    assert_eq!(of(&ranges, &points(&mixed)), None);
+    assert_eq!(of(&ranges, &[]), None, "that nothing can be analysed is another error");
+}
+
+#[test]
+fn a_model_that_reproduces_everything_is_better_beyond_doubt() {
+    let points: Vec<Vec<Setting>> = (0..7).map(|index| vec![Setting::Coded(f64::from(index) / 3.0 - 1.0)]).collect();
+    let observations = observed(&points, |_, point| 2.0 - sign(point[0]).powi(2));
+    let effects = analyse(&[range("load")], &observations, &Options::default()).unwrap();
+    let misfit = effects.misfit().unwrap();
+    assert_eq!((misfit.test.f, misfit.test.p), (f64::INFINITY, 0.0));
+    assert_eq!(misfit.better, Some(Better { model: Model::Quadratic, r_squared: 1.0 }));
+    // Nothing is to be told where there is no error.
+    let exact = analyse(&[range("load")], &observations, &of_model(Model::Quadratic)).unwrap();
+    assert_eq!((exact.error, exact.misfit()), (ErrorSource::Exact, None));
 }
 
 #[test]
@@ -302,12 +365,14 @@ proptest! {
     ) {
         let speed = Factor { name: "speed".into(), kind: FactorKind::Levels(vec![1.0, 5.0]) };
         let factors = [categories("pad", 3), speed, range("load")];
-        let observation = |&(pad, speed, load, replicate, response): &(usize, usize, i32, usize, i32)| Observation {
+        type Row = (usize, usize, i32, usize, i32);
+        let observation = |(run, &(pad, speed, load, replicate, response)): (usize, &Row)| Observation {
             settings: vec![Setting::Level(pad), Setting::Level(speed), Setting::Coded(f64::from(load) / 2.0)],
             replicate,
+            run,
             response: if response == 0 { f64::NAN } else { offset + 0.1 * f64::from(response) },
         };
-        let observations: Vec<Observation> = rows.iter().map(observation).collect();
+        let observations: Vec<Observation> = rows.iter().enumerate().map(observation).collect();
         let options = Options { model, blocks, ..Options::default() };
         match analyse(&factors, &observations, &options) {
             Ok(effects) => {
@@ -320,6 +385,10 @@ proptest! {
                     let sum = parts.lack_of_fit.sum + parts.pure_error.sum;
                     prop_assert!((sum - effects.residual.squares.sum).abs() <= 1e-9 * effects.total.sum);
                 }
+                if let Some(misfit) = effects.misfit() {
+                    prop_assert!(misfit.test.p < 0.05 && misfit.test.f > 0.0, "{:?}", misfit);
+                }
+                let _ = no_squares(&factors, &observations, blocks);
                 if let Ok(surface) = effects.surface(&observations[0].settings) {
                     prop_assert!(surface.coded.constant.is_finite() && surface.natural.constant.is_finite());
                 }

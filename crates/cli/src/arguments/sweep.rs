@@ -129,7 +129,8 @@ pub struct CollectArguments {
 pub struct EffectsArguments {
     /// Study file (TOML)
     pub study: PathBuf,
-    /// What is fitted; quadratic for designs that allow it, else main effects and interactions, unless given
+    /// What is fitted; unless given, quadratic for designs that allow it (central-composite, box-behnken; latin-hypercube,
+    /// sobol and csv with runs enough), main effects for plackett-burman, else main effects and interactions
     #[arg(long, value_enum)]
     pub model: Option<Model>,
     /// Confidence level of intervals
@@ -154,6 +155,17 @@ pub enum Model {
     Full,
     /// Main effects, interactions of two factors and squares
     Quadratic,
+}
+
+impl From<Model> for plateau_study::effects::Model {
+    fn from(model: Model) -> Self {
+        match model {
+            Model::Main => Self::MainEffects,
+            Model::Interactions => Self::Interactions,
+            Model::Full => Self::Full,
+            Model::Quadratic => Self::Quadratic,
+        }
+    }
 }
 
 /// A value of `--confidence`.

@@ -1,14 +1,18 @@
 //! What the collected results of a study tell of its factors: from runs to observations, and what is fitted.
 
+use std::collections::BTreeSet;
+
 use plateau_io::study::Study;
 use plateau_io::study::collected::{Collected, unit_of};
 use plateau_io::study::factor::{Factor, Level, Values};
 use plateau_study::design::Setting;
-use plateau_study::effects::{self, Effects, EffectsError, FactorKind, Observation, Options, analyse};
+use plateau_study::effects::{self, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, analyse};
 
+use super::model::Choice;
 use super::reading::Reading;
 
-/// Values of a table of one's own up to which a factor has levels; with more it has a range.
+/// Values of a table of one's own up to which a factor has levels; with more it has a range, and where its values mostly
+/// come once.
 const MOST_LEVELS: usize = 10;
 
 /// A study's factors as the analysis sees them, and what became of every response.
@@ -41,15 +45,25 @@ pub struct AnalysedResponse {
     pub name: String,
     /// Its SI unit.
     pub unit: &'static str,
+    /// What is fitted to it.
+    pub choice: Choice,
     /// What the factors do to it.
     pub effects: Result<Effects, EffectsError>,
+    /// What the model misses.
+    pub misfit: Option<Misfit>,
 }
 
 impl Analysis {
-    /// Analyses every response of a study.
-    pub fn new(study: &Study, collected: &Collected, options: &Options) -> Self {
-        let factors: Vec<AnalysedFactor> =
-            study.factors.iter().enumerate().map(|(at, factor)| analysed(factor, &levels(collected, at))).collect();
+    /// Analyses every response of a study, with the model that is asked for or one that the design allows.
+    pub fn new(study: &Study, collected: &Collected, asked: Option<Model>, confidence: f64) -> Self {
+        let different = collected.runs.iter().enumerate().filter(|(place, run)| run.first == *place);
+        let points = different.map(|(_, run)| run.run.point).collect::<BTreeSet<_>>().len();
+        let factors: Vec<AnalysedFactor> = study
+            .factors
+            .iter()
+            .enumerate()
+            .map(|(at, factor)| analysed(factor, &levels(collected, at), points))
+            .collect();
         let plain: Vec<effects::Factor> = factors.iter().map(|factor| factor.factor.clone()).collect();
         let settings: Vec<Vec<Setting>> = collected
             .runs
@@ -62,15 +76,20 @@ impl Analysis {
         let of_response = |at: usize| {
             let runs = collected.runs.iter().zip(&settings);
             let observation = |(run, settings): (&plateau_io::study::collected::CollectedRun, &Vec<Setting>)| {
-                Observation { settings: settings.clone(), replicate: run.run.replicate, response: run.responses[at] }
+                let (replicate, response) = (run.run.replicate, run.responses[at]);
+                Observation { settings: settings.clone(), replicate, run: run.first, response }
             };
             let observations: Vec<Observation> = runs.map(observation).collect();
-            analyse(&plain, &observations, options)
+            let options = Options { confidence, ..Options::default() };
+            let choice = Choice::new(asked, study, &plain, &observations, options.blocks);
+            let options = Options { model: choice.model, ..options };
+            (choice, analyse(&plain, &observations, &options))
         };
-        let responses = study.responses.iter().enumerate().map(|(at, response)| AnalysedResponse {
-            name: response.name.clone(),
-            unit: response.unit(unit_of(&response.series)),
-            effects: of_response(at),
+        let responses = study.responses.iter().enumerate().map(|(at, response)| {
+            let (choice, effects) = of_response(at);
+            let unit = response.unit(unit_of(&response.series));
+            let misfit = effects.as_ref().ok().and_then(Effects::misfit);
+            AnalysedResponse { name: response.name.clone(), unit, choice, effects, misfit }
         });
         let responses = responses.collect();
         let runs = settings.into_iter().zip(collected.runs.iter().map(|run| run.responses.clone())).collect();
@@ -90,7 +109,7 @@ fn levels(collected: &Collected, factor: usize) -> Vec<Level> {
     levels
 }
 
-fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
+fn analysed(factor: &Factor, found: &[Level], points: usize) -> AnalysedFactor {
     let stated: Vec<&Level> = match &factor.values {
         // One end may be zero, which is so in any unit.
         Values::Range { low, high, .. } => vec![high, low],
@@ -104,6 +123,7 @@ fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
         reading: reading.clone(),
     };
     let numbers = |levels: &[Level]| levels.iter().map(|level| level.number).collect::<Option<Vec<f64>>>();
+    let is_table = matches!(&factor.values, Values::Levels(levels) if levels.is_empty());
     let listed = match &factor.values {
         Values::Range { low, high, logarithmic } => {
             let (low, high) = (low.number.unwrap_or(-1.0), high.number.unwrap_or(1.0));
@@ -121,7 +141,7 @@ fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
         Some(numbers) if numbers.len() == 2 && found.len() > 2 => {
             return range(factor.name.clone(), numbers[0], numbers[1]);
         }
-        Some(numbers) if numbers.len() > MOST_LEVELS => {
+        Some(numbers) if numbers.len() > MOST_LEVELS || is_table && numbers.len() > 2 && 2 * numbers.len() > points => {
             let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
             return range(factor.name.clone(), least, numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max));
         }

@@ -9,7 +9,7 @@ pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
     let missing = if effects.missing > 0 { format!(", {} without a response", effects.missing) } else { String::new() };
     let mut parts = vec![
         format!("{}{missing}", number::count(effects.observations, "run")),
-        format!("mean {}", shown(effects.constant.value)),
+        format!("mean {}", shown(effects.mean)),
         format!("R² {:.4}", effects.r_squared),
     ];
     parts.extend(effects.predicted_r_squared.map(|share| format!("predicted R² {share:.4}")));
@@ -21,6 +21,9 @@ pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
     if effects.residual_standard_deviation.is_none() {
         parts.push(format!("error {}", effects.error));
     }
-    parts.extend(effects.lenth.as_ref().map(|lenth| format!("margin of error {} (Lenth)", shown(lenth.margin))));
+    parts.extend(effects.lenth.map(|lenth| {
+        let [margin, simultaneous] = [lenth.margin, lenth.simultaneous_margin].map(&shown);
+        format!("margin of error {margin}, simultaneous {simultaneous} (Lenth)")
+    }));
     parts.join(", ")
 }

@@ -1,6 +1,6 @@
 //! The scenes of all runs of a study: whether they can be built, and what their results are told by.
 
-use plateau_io::study::identity::{Digests, identity};
+use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
 use rayon::prelude::*;
 
@@ -15,11 +15,23 @@ const SHOWN: usize = 10;
 pub struct Resolved {
     /// By what its results are known.
     pub identities: Vec<String>,
+    /// The place of the first run with the same identity: that of the run itself unless it repeats another one.
+    pub firsts: Vec<usize>,
     /// Its steps.
     pub steps: Vec<u64>,
 }
 
 impl Resolved {
+    /// Whether a run, by its place in the design, repeats another one, so that it has its result.
+    pub fn is_repeat(&self, place: usize) -> bool {
+        self.firsts.get(place).is_some_and(|first| *first != place)
+    }
+
+    /// How many runs repeat another one.
+    pub fn repeats(&self) -> usize {
+        (0..self.firsts.len()).filter(|place| self.is_repeat(*place)).count()
+    }
+
     /// Builds the scene of every run.
     ///
     /// # Errors
@@ -37,8 +49,8 @@ impl Resolved {
         let problems: Vec<(usize, &String)> =
             (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
-            let (identities, steps) = all.into_iter().flatten().unzip();
-            return Ok(Self { identities, steps });
+            let (identities, steps): (Vec<String>, Vec<u64>) = all.into_iter().flatten().unzip();
+            return Ok(Self { firsts: firsts(&identities), identities, steps });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();

@@ -15,6 +15,7 @@ use std::path::Path;
 use plateau_core::observe::{Extras, quantities};
 use thiserror::Error;
 
+use super::identity::firsts;
 use super::journal::{Entry, Journal};
 use super::plan::{Plan, Run};
 use super::record::{Outcome, Series};
@@ -32,6 +33,9 @@ pub struct Collected {
 pub struct CollectedRun {
     /// The run.
     pub run: Run,
+    /// The first run of the design with the same scene, files and program, by its place: its own unless it repeats that
+    /// one, whose result it has.
+    pub first: usize,
     /// How it ended, if it did.
     pub state: State,
     /// Answers to the questions of the study, in their order; NaN where there is none.
@@ -87,9 +91,10 @@ impl Collected {
     /// [`CollectError::Read`].
     pub fn new(plan: &Plan, identities: &[String], journal: &Journal) -> Result<Self, CollectError> {
         let responses = &plan.study().responses;
-        let run = |(number, identity): (usize, &String)| {
+        let run = |((number, identity), first): ((usize, &String), usize)| {
             let mut collected = CollectedRun {
                 run: plan.run(number),
+                first,
                 state: State::Missing,
                 responses: vec![f64::NAN; responses.len()],
                 errors: vec![f64::NAN; responses.len()],
@@ -111,8 +116,13 @@ impl Collected {
             }
             Ok(collected)
         };
-        let runs = (1..).zip(identities).map(run).collect::<Result<_, CollectError>>()?;
+        let runs = (1..).zip(identities).zip(firsts(identities)).map(run).collect::<Result<_, CollectError>>()?;
         Ok(Self { runs })
+    }
+
+    /// How many runs repeat another one: they tell nothing that it does not.
+    pub fn repeats(&self) -> usize {
+        self.runs.iter().enumerate().filter(|(place, run)| run.first != *place).count()
     }
 
     /// How many runs ended like this.
@@ -298,7 +308,7 @@ pub fn error_name(response: &str) -> String {
 }
 
 /// Letters, digits and underscores: `contact area at the end` becomes `contact_area_at_the_end`.
-pub fn plain(name: &str) -> String {
+fn plain(name: &str) -> String {
     let plain: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
     let plain = plain.trim_matches('_').to_lowercase();
     if plain.starts_with(|c: char| c.is_ascii_digit()) || plain.is_empty() { format!("_{plain}") } else { plain }

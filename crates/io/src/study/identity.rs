@@ -1,7 +1,7 @@
 //! What a result is the result of: the scene without what does not show in it, the content of the files that it reads, and
 //! the program.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -62,6 +62,12 @@ pub fn identity(scene: &Scene, digests: &Digests, program: &str) -> Result<Strin
     Ok(format!("{:x}", hasher.finalize()))
 }
 
+/// Of each run the place of the first one with the same identity, which is its own unless it repeats another run.
+pub fn firsts(identities: &[String]) -> Vec<usize> {
+    let mut known = HashMap::new();
+    identities.iter().enumerate().map(|(place, identity)| *known.entry(identity).or_insert(place)).collect()
+}
+
 /// The lines of a resolved scene, one key each, that show in its results.
 fn relevant(resolved: &str) -> impl Iterator<Item = &str> {
     let mut table = "";
@@ -99,6 +105,11 @@ fn heights(source: &HeightSource) -> Option<&PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn runs_that_repeat_another_are_told() {
+        assert_eq!(firsts(&["a", "b", "a", "c", "b", "a"].map(str::to_owned)), [0, 1, 0, 3, 1, 0]);
+    }
 
     #[test]
     fn what_does_not_show_in_results_does_not_count() {

@@ -1,13 +1,14 @@
 //! Studies: many runs of one scene with other values of some keys, and what is asked of them (formats.md).
 //!
 //! ```text
-//! study file     document   the text
-//!                build      what its keys say together -> Study
-//!                plan       the design, its points and replicates -> the runs, each a list of --set arguments
-//! results        identity   what a result is the result of
-//!                record     what is kept of a run
-//!                journal    where records are kept while many processes make them
-//!                collected  all of them in one file
+//! study file     document       the text
+//!                build          what its keys say together -> Study
+//!                plan           the design, its points and replicates -> the runs, each a list of --set arguments
+//! results        identity       what a result is the result of
+//!                record         what is kept of a run
+//!                journal        where records are kept while many processes make them
+//!                collected      all of them in one file
+//!                results_table  all of them as text, a line for each run
 //! ```
 
 mod build;
@@ -20,6 +21,7 @@ pub mod plan;
 mod points_of_file;
 pub mod record;
 pub mod response;
+pub mod results_table;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -38,7 +38,8 @@ impl Default for Options {
 
 /// What the responses tell of the factors.
 ///
-/// Observations without a response are left out, whatever that does to the design; terms that cannot be told from each
+/// Observations without a response are left out, whatever that does to the design, and of those of one run all but the
+/// first; terms that cannot be told from each
 /// other are reported as such.
 ///
 /// # Errors
@@ -61,7 +62,8 @@ pub fn analyse(factors: &[Factor], observations: &[Observation], options: &Optio
     let centred_mean: f64 = centred.mean();
     let total = Squares { freedom: count - 1, sum: centred.add_scalar(-centred_mean).norm_squared() };
     let mut fit = Fit::new(&matrix, &centred);
-    let residual = Residuals { usable: &usable, fit: &fit, rounding: ROUNDING * largest };
+    let rounding = ROUNDING * largest;
+    let residual = Residuals { usable: &usable, fit: &fit, rounding };
     let exact = residual.are_rounding(&fit.residuals);
     let residual = residual.split(&centred, regressors.has_blocks());
     let variance = residual.squares.mean().filter(|_| !exact);
@@ -84,13 +86,16 @@ pub fn analyse(factors: &[Factor], observations: &[Observation], options: &Optio
         residual: *residual,
     });
     let fitted = fitted.collect();
+    let (mean, repeated) = (offset + centred_mean, usable.repeated);
     let mean_row = [vec![1.0], vec![0.0; matrix.ncols() - 1]].concat();
-    let inner = Inner { factors: factors.to_vec(), usable, regressors, fit, offset, deviation, quantile };
+    let inner = Inner { factors: factors.to_vec(), usable, regressors, fit, offset, rounding, deviation, quantile };
     Ok(Effects {
         model,
         observations: count,
-        missing: observations.len() - count,
+        missing: observations.len() - repeated - count,
+        repeated,
         confidence,
+        mean,
         constant: inner.predict(&mean_row),
         blocks,
         terms,

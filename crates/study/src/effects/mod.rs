@@ -15,10 +15,11 @@
 //! let wear = [(-1.0, 0, [4.1, 4.3]), (1.0, 0, [8.0, 8.4]), (-1.0, 1, [2.1, 2.2]), (1.0, 1, [3.9, 4.2])];
 //! let observations: Vec<Observation> = wear
 //!     .iter()
-//!     .flat_map(|(load, pad, responses)| {
+//!     .enumerate()
+//!     .flat_map(|(point, (load, pad, responses))| {
 //!         let settings = vec![Setting::Coded(*load), Setting::Level(*pad)];
 //!         let observation = |(replicate, response): (usize, &f64)| {
-//!             Observation { settings: settings.clone(), replicate, response: *response }
+//!             Observation { settings: settings.clone(), replicate, run: 2 * point + replicate, response: *response }
 //!         };
 //!         responses.iter().enumerate().map(observation).collect::<Vec<_>>()
 //!     })
@@ -39,7 +40,9 @@ mod factor;
 mod fit;
 mod lenth;
 mod means;
+mod misfit;
 mod model;
+mod no_squares;
 mod observation;
 mod prediction;
 mod pure_error;
@@ -54,7 +57,9 @@ pub use error::EffectsError;
 pub use factor::{Factor, FactorKind};
 pub use lenth::{Lenth, half_normal_quantiles};
 pub use means::Cell;
+pub use misfit::{Better, Misfit};
 pub use model::Model;
+pub use no_squares::{NoSquares, no_squares};
 pub use observation::Observation;
 pub use result::{
     Effects, ErrorSource, Estimate, Fitted, HalfNormal, LeftOut, Prediction, Residual, ResidualParts, Squares, Term,

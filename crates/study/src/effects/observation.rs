@@ -1,5 +1,7 @@
 //! What was observed at which settings.
 
+use std::collections::BTreeSet;
+
 use super::error::EffectsError;
 use super::factor::Factor;
 use crate::design::Setting;
@@ -12,11 +14,14 @@ pub struct Observation {
     pub settings: Vec<Setting>,
     /// Which repetition of the study: repetitions are made with the same seeds at all points, which makes them blocks.
     pub replicate: usize,
+    /// Which run it is of, by any number. A program that computes the same from the same gives a run's response whenever
+    /// it is asked, so observations of one run are one observation: they tell nothing of the error.
+    pub run: usize,
     /// The response, NaN if there is none.
     pub response: f64,
 }
 
-/// Observations that have a response, with canonical settings.
+/// Observations that have a response, each run once, with canonical settings.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Usable {
     /// Which of all observations, in their order.
@@ -29,6 +34,8 @@ pub(super) struct Usable {
     pub blocks: Vec<usize>,
     /// Distinct settings, numbered as they appear.
     pub points: Vec<usize>,
+    /// Observations of a run that another one is of.
+    pub repeated: usize,
 }
 
 /// Responses beyond this have no squares.
@@ -40,8 +47,13 @@ impl Usable {
     /// Those that have a response, if it varies.
     pub fn new(factors: &[Factor], observations: &[Observation]) -> Result<Self, EffectsError> {
         let (mut indices, mut settings, mut responses, mut replicates) = (vec![], vec![], vec![], vec![]);
+        let (mut seen, mut repeated) = (BTreeSet::new(), 0);
         for (index, each) in observations.iter().enumerate() {
             let canonical = canonical(factors, &each.settings)?;
+            if !seen.insert(each.run) {
+                repeated += 1;
+                continue;
+            }
             if each.response.is_nan() {
                 continue;
             }
@@ -57,7 +69,7 @@ impl Usable {
             Some(range.map_or((*response, *response), |(low, high)| (low.min(*response), high.max(*response))))
         });
         let Some((low, high)) = range else {
-            return Err(EffectsError::Empty { missing: observations.len() });
+            return Err(EffectsError::Empty { missing: observations.len() - repeated });
         };
         // Equal but for rounding.
         if high - low <= (16.0 * f64::EPSILON * low.abs().max(high.abs())).max(SMALLEST_SPREAD) {
@@ -65,7 +77,7 @@ impl Usable {
         }
         let blocks = numbered(replicates.iter().copied());
         let points = numbered(settings.iter().map(|point| point.iter().copied().map(key).collect::<Vec<_>>()));
-        Ok(Self { indices, settings, responses, blocks, points })
+        Ok(Self { indices, settings, responses, blocks, points, repeated })
     }
 
     /// Number of distinct settings.

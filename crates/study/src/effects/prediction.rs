@@ -56,13 +56,15 @@ mod tests {
             Factor { name: "x".into(), kind: FactorKind::Range { low: 0.0, high: 1.0 } },
             Factor { name: "c".into(), kind: FactorKind::Categorical(["a", "b", "c"].map(String::from).to_vec()) },
         ];
-        let point = |(coded, level): (f64, usize)| Observation {
+        let point = |(run, (coded, level)): (usize, (f64, usize))| Observation {
             settings: vec![Setting::Coded(coded), Setting::Level(level)],
             replicate: 0,
+            run,
             response: 10.0 + 2.0 * coded + 3.0 * level as f64 + if level == 2 { 0.5 * coded } else { 0.0 },
         };
         let points = [(-1.0, 0), (1.0, 0), (-1.0, 1), (1.0, 1), (-1.0, 2), (1.0, 2)];
-        let effects = analyse(&factors, &points.map(point), &Options::default()).unwrap();
+        let observations: Vec<Observation> = points.into_iter().enumerate().map(point).collect();
+        let effects = analyse(&factors, &observations, &Options::default()).unwrap();
         let at = |given: &[(usize, Setting)]| effects.predict_at(given).unwrap().value;
         assert!((at(&[]) - 13.0).abs() < 1e-12);
         assert!((at(&[(0, Setting::Coded(1.0))]) - (15.0 + 0.5 / 3.0)).abs() < 1e-12);

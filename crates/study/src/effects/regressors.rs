@@ -86,12 +86,16 @@ impl Regressors {
 
     /// Whether interactions are all that a model without some of them leaves: no number has more than two values.
     pub fn leave_interactions_only(&self, usable: &Usable) -> bool {
-        (0..self.codings.len()).filter(|factor| self.codings[*factor] == Coding::Number).all(|factor| {
-            let mut keys: Vec<i64> = usable.settings.iter().map(|settings| key(settings[factor])).collect();
-            keys.sort_unstable();
-            keys.dedup();
-            keys.len() <= 2
-        })
+        !(0..self.codings.len()).any(|factor| self.is_curved(factor, usable))
+    }
+
+    /// Whether a factor is a number here and was observed at more than two values, so that its square differs from the
+    /// mean.
+    pub fn is_curved(&self, factor: usize, usable: &Usable) -> bool {
+        let mut keys: Vec<i64> = usable.settings.iter().map(|settings| key(settings[factor])).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        self.codings[factor] == Coding::Number && keys.len() > 2
     }
 
     /// Number of columns of the mean (1), of the blocks, if any, and of each term.

@@ -30,15 +30,19 @@ impl Residuals<'_> {
         Squares { freedom, sum }
     }
 
+    /// What the model leaves.
+    pub fn left(&self) -> Squares {
+        self.squares(&self.fit.residuals, self.fit.residuals.len() - self.fit.kept.len())
+    }
+
     /// What the model leaves, and which part of that repeated points tell.
     pub fn split(&self, responses: &DVector<f64>, in_blocks: bool) -> Residual {
-        let freedom = responses.len() - self.fit.kept.len();
-        let squares = self.squares(&self.fit.residuals, freedom);
+        let squares = self.left();
         let parts = PureError::new(self.usable, responses, in_blocks).map(|pure| {
             let pure_error = self.squares(&pure.residuals, pure.freedom);
             // Their difference, not that of the sums: it may be far smaller than either.
             let missed = &self.fit.residuals - &pure.residuals;
-            let lack_of_fit = self.squares(&missed, freedom.saturating_sub(pure.freedom));
+            let lack_of_fit = self.squares(&missed, squares.freedom.saturating_sub(pure.freedom));
             ResidualParts { lack_of_fit, pure_error, test: test(lack_of_fit, pure_error) }
         });
         Residual { squares, parts }

@@ -15,13 +15,18 @@ use super::regressors::Regressors;
 pub struct Effects {
     /// What the response was taken to depend on.
     pub model: Model,
-    /// Observations that have a response.
+    /// Runs that have a response; each counts once, however often it was observed.
     pub observations: usize,
-    /// Observations that have none.
+    /// Runs that have none.
     pub missing: usize,
+    /// Observations that were left out because another one is of the same run.
+    pub repeated: usize,
     /// Confidence level of all intervals.
     pub confidence: f64,
-    /// The response where all numbers are 0 in coded units, averaged over levels and blocks.
+    /// Mean of the responses, which is that of the model over the points of the design.
+    pub mean: f64,
+    /// The response of the model where all numbers are 0 in coded units, averaged over levels and blocks: in a quadratic
+    /// model that in the middle of the ranges, not the mean.
     pub constant: Prediction,
     /// What replicates differ by, at all points alike; none if there is one only or blocks are not wanted.
     pub blocks: Option<Term>,
@@ -58,6 +63,8 @@ pub(super) struct Inner {
     pub fit: Fit,
     /// The mean response, which the fit is without.
     pub offset: f64,
+    /// Residuals below this are none.
+    pub rounding: f64,
     /// Standard deviation of the error.
     pub deviation: Option<f64>,
     /// How many standard errors intervals reach.

@@ -63,10 +63,10 @@ def span(name, low, high):
 
 
 class Case:
-    """A study; `order` is that of its interactions."""
+    """A study; `larger` is a model that explains more of it, to be tested against its own."""
 
-    def __init__(self, factors, settings, replicates, responses, model="interactions", blocks=True, terms=None, shift=0):
-        self.factors, self.model, self.shift = factors, model, shift
+    def __init__(self, factors, settings, replicates, responses, model="interactions", blocks=True, terms=None, shift=0, larger=None):
+        self.factors, self.model, self.shift, self.larger = factors, model, shift, larger
         self.settings = [list(point) for point in settings]
         self.replicates = list(replicates)
         self.responses = [None if np.isnan(y) else float(y) for y in responses]
@@ -194,8 +194,15 @@ class Case:
         expected["cell_means"] = group([0, len(self.factors) - 1]) if len(self.factors) > 1 else []
         if self.model == "quadratic":
             expected["surface"] = self.surface(fit)
+        if self.larger:
+            other = Case(self.factors, self.settings, self.replicates, self.shifted(), self.larger, self.asked_blocks)
+            more = smf.ols("y ~ " + " + ".join(other.texts("python")), frame).fit(method="qr")
+            expected["misfit"] = [*more.compare_f_test(fit)[:2], more.rsquared]
         self.check_with_r(frame, fit, table, saturated, order)
         return expected
+
+    def shifted(self):
+        return [np.nan if y is None else y - self.shift for y in self.responses]
 
     def means(self, frame, rows, factors, half):
         keys = [tuple(self.settings[i][f] for f in factors) for i in rows]
@@ -393,6 +400,17 @@ def main():
     y = 3 + x[:, 0] - 0.4 * x[:, 1] + 0.8 * x[:, 0] * x[:, 3] + 0.15 * np.sin(3 * x[:, 2]) + noise(count, 0.1)
     free = [span(name, 0.0, 10.0) for name in ("load", "speed", "temperature", "grain")]
     Case(free, points, [0] * count, y.round(6)).write("hypercube", "Latin hypercube, two-factor interactions")
+
+    # The same with curves: interactions alone miss them.
+    curved = np.random.default_rng(20261122)
+    count = 40
+    columns = [(2 * (curved.permutation(count) + 0.5) / count - 1).round(6) for _ in range(4)]
+    points = [tuple(map(float, point)) for point in zip(*columns)]
+    x = np.array(points)
+    y = 5 + 1.2 * x[:, 0] - 0.7 * x[:, 1] + 2 * x[:, 0] ** 2 - 1.1 * x[:, 2] ** 2 + 0.5 * x[:, 0] * x[:, 3]
+    y = (y + curved.normal(0, 0.15, count)).round(6)
+    Case(free, points, [0] * count, y, model="quadratic").write("hypercube_quadratic", "Latin hypercube, quadratic")
+    Case(free, points, [0] * count, y, larger="quadratic").write("hypercube_curved", "the same, two-factor interactions")
 
     # Effects that leave no doubt, and the same on a large offset. Multiples of 2⁻¹⁶ have the offset exactly.
     plain = [levels(name, "low", "high") for name in ("pad", "load", "speed")]

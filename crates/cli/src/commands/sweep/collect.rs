@@ -2,8 +2,9 @@
 
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::regular;
-use plateau_io::study::collected::{CollectError, Collected, State, error_name, plain};
+use plateau_io::study::collected::{CollectError, Collected, State};
 use plateau_io::study::plan::Plan;
+use plateau_io::study::results_table::table as table_of;
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
@@ -25,7 +26,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
     collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
-    output::write(&csv, rows(&plan, &collected).as_bytes(), true)?;
+    output::write(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
     let summary = Summary {
         study: plan.study().title.clone(),
         runs: plan.runs(),
@@ -79,31 +80,6 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
         ("design", text(&study.design)),
         ("collected", Attribute::Text(now())),
     ])
-}
-
-/// A line for each run: number, point, replicate, state, factors, responses, each with its standard error if it has one.
-fn rows(plan: &Plan, collected: &Collected) -> String {
-    let study = plan.study();
-    let own = ["run", "point", "replicate", "state"].map(str::to_owned);
-    let factors = study.factors.iter().map(|factor| factor.name.clone());
-    let responses = study.responses.iter().flat_map(|response| {
-        let error = response.has_error().then(|| error_name(&response.name));
-        std::iter::once(response.name.clone()).chain(error)
-    });
-    let header = own.into_iter().chain(factors.chain(responses).map(|name| plain(&name))).chain(["error".to_owned()]);
-    let lines = collected.runs.iter().map(|run| {
-        let error = if let State::Failed(error) = &run.state { error.clone() } else { String::new() };
-        let numbers = [run.run.number, run.run.point + 1, run.run.replicate + 1].map(|number| number.to_string());
-        let answers = study.responses.iter().zip(run.responses.iter().zip(&run.errors));
-        let answers = answers.flat_map(|(response, (answer, error))| {
-            std::iter::once(*answer).chain(response.has_error().then_some(*error))
-        });
-        let answers = answers.map(|answer| if answer.is_nan() { String::new() } else { format!("{answer:?}") });
-        let cells = numbers.into_iter().chain([run.state.name().to_owned()]);
-        let cells = cells.chain(run.run.levels.iter().map(|level| level.label.clone())).chain(answers).chain([error]);
-        cells.collect::<Vec<_>>()
-    });
-    csv_table(std::iter::once(header.collect()).chain(lines))
 }
 
 /// What `plateau sweep collect` reports.

@@ -2,19 +2,19 @@
 
 use std::path::Path;
 
-use plateau_io::study::{DesignSource, Study};
-use plateau_study::design::Kind;
-use plateau_study::effects::{self, Effects, Options, Term};
+use plateau_study::effects::{self, Effects, Term};
 use serde::Serialize;
 
 use super::collect::collected;
 use super::effects_files;
-use crate::arguments::{EffectsArguments, Model};
+use crate::arguments::EffectsArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep;
 use crate::sweep::analysis::{AnalysedResponse, Analysis};
+use crate::sweep::model::{lack_of_fit, name};
 use crate::sweep::quality::quality;
+use crate::sweep::repeated;
 use crate::table::{columns, print, table};
 use crate::{message, number, output};
 
@@ -40,9 +40,7 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
             collected.count("missing")
         ));
     }
-    let options =
-        Options { model: model(arguments.model, study), confidence: arguments.confidence, ..Options::default() };
-    let analysis = Analysis::new(study, &collected, &options);
+    let analysis = Analysis::new(study, &collected, arguments.model.map(Into::into), arguments.confidence);
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("effects"));
     output::make_directory(&folder)?;
     let csv = folder.join("effects.csv");
@@ -51,10 +49,13 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
     files.extend(effects_files::write(&folder, &plan, &collected, &analysis)?);
     let reports: Vec<Report> = analysis.responses.iter().map(Report::new).collect();
     if arguments.json {
-        let report = Document { study: &study.title, responses: reports, files };
+        let report = Document { study: &study.title, repeats: collected.repeats(), responses: reports, files };
         return print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"));
     }
-    let mut text: String = analysis.responses.iter().map(|response| text_of(response) + "\n").collect();
+    let repeats = Some(collected.repeats()).filter(|repeats| *repeats > 0);
+    let mut text =
+        repeats.map_or_else(String::new, |repeats| repeated::sentence(repeats, collected.runs.len()) + "\n\n");
+    text.extend(analysis.responses.iter().map(|response| text_of(response) + "\n"));
     text.push_str(&table(&study.title, &told(&folder, &files)));
     print(&text)
 }
@@ -70,21 +71,6 @@ fn told(folder: &Path, files: &[String]) -> Vec<(&'static str, String)> {
         told.push(("written", format!("{figures} as PNG and SVG in {}", folder.display())));
     }
     told
-}
-
-/// What is fitted unless the user says so: squares where the design is made for them.
-fn model(asked: Option<Model>, study: &Study) -> effects::Model {
-    match (asked, &study.source) {
-        (Some(Model::Main), _) => effects::Model::MainEffects,
-        (Some(Model::Interactions), _) => effects::Model::Interactions,
-        (Some(Model::Full), _) => effects::Model::Full,
-        (Some(Model::Quadratic), _)
-        | (None, DesignSource::Kind(Kind::CentralComposite { .. } | Kind::BoxBehnken { .. })) => {
-            effects::Model::Quadratic
-        }
-        (None, DesignSource::Kind(Kind::PlackettBurman)) => effects::Model::MainEffects,
-        (None, _) => effects::Model::Interactions,
-    }
 }
 
 /// A line for each response and term.
@@ -104,6 +90,8 @@ fn rows(analysis: &Analysis) -> String {
         "t",
         "low",
         "high",
+        "margin_of_error",
+        "simultaneous_margin_of_error",
         "aliased_with",
     ];
     let mut lines = vec![header.map(str::to_owned).to_vec()];
@@ -127,6 +115,8 @@ fn rows(analysis: &Analysis) -> String {
                 shown(uncertainty.map(|uncertainty| uncertainty.t)),
                 shown(uncertainty.map(|uncertainty| uncertainty.interval[0])),
                 shown(uncertainty.map(|uncertainty| uncertainty.interval[1])),
+                shown(term.estimate.and(effects.lenth).map(|lenth| lenth.margin)),
+                shown(term.estimate.and(effects.lenth).map(|lenth| lenth.simultaneous_margin)),
                 term.aliased_with.join("; "),
             ]);
         }
@@ -153,6 +143,9 @@ fn text_of(response: &AnalysedResponse) -> String {
         Ok(effects) => effects,
         Err(error) => return format!("{heading}\n  {error}\n"),
     };
+    let misfit = response.misfit.as_ref().map(|misfit| lack_of_fit(misfit, effects.r_squared));
+    let notes = [Some(response.choice.words()), misfit].into_iter().flatten();
+    let heading = notes.fold(heading, |heading, note| format!("{heading}\n  {note}"));
     let names = ["term", "effect", "interval", "share", "F", "p"];
     let mut rows: Vec<&Term> = effects.rows().collect();
     rows.sort_by(|a, b| b.share.total_cmp(&a.share));
@@ -189,6 +182,8 @@ fn cells(term: &Term) -> Vec<String> {
 #[derive(Debug, Serialize)]
 struct Document<'a> {
     study: &'a str,
+    /// Runs that repeat another one and count once with it.
+    repeats: usize,
     responses: Vec<Report>,
     files: Vec<String>,
 }
@@ -200,15 +195,46 @@ struct Report {
     unit: &'static str,
     /// Why there are no effects.
     error: Option<String>,
+    /// As `--model` calls it.
+    model: &'static str,
+    /// Why it is that one.
+    model_reason: String,
+    /// Runs that have a response, each counted once.
     runs: usize,
     missing: usize,
+    /// Mean of the responses.
     mean: f64,
+    /// What the model says where all ranges are in the middle, averaged over levels.
+    middle: f64,
     r_squared: f64,
     adjusted_r_squared: Option<f64>,
     predicted_r_squared: Option<f64>,
     residual_standard_deviation: Option<f64>,
     error_from: String,
+    lack_of_fit: Option<MisfitReport>,
+    lenth: Option<LenthReport>,
     terms: Vec<TermReport>,
+}
+
+/// A lack of fit that is significant.
+#[derive(Debug, Serialize)]
+struct MisfitReport {
+    /// Absent where the other model leaves nothing.
+    f: Option<f64>,
+    p: f64,
+    /// Whether replicates tell it; else the model to try does.
+    by_replicates: bool,
+    model_to_try: Option<&'static str>,
+    /// Of the model to try.
+    r_squared: Option<f64>,
+}
+
+/// What judges effects where there is no error.
+#[derive(Debug, Serialize)]
+struct LenthReport {
+    pseudo_standard_error: f64,
+    margin_of_error: f64,
+    simultaneous_margin_of_error: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -249,14 +275,29 @@ impl Report {
             name: response.name.clone(),
             unit: response.unit,
             error: response.effects.as_ref().err().map(ToString::to_string),
+            model: name(response.choice.model),
+            model_reason: response.choice.reason.clone(),
             runs: effects.map_or(0, |effects| effects.observations),
             missing: effects.map_or(0, |effects| effects.missing),
-            mean: number(|effects| effects.constant.value),
+            mean: number(|effects| effects.mean),
+            middle: number(|effects| effects.constant.value),
             r_squared: number(|effects| effects.r_squared),
             adjusted_r_squared: optional(|effects| effects.adjusted_r_squared),
             predicted_r_squared: optional(|effects| effects.predicted_r_squared),
             residual_standard_deviation: optional(|effects| effects.residual_standard_deviation),
             error_from: effects.map_or_else(String::new, |effects| effects.error.to_string()),
+            lack_of_fit: response.misfit.map(|misfit| MisfitReport {
+                f: Some(misfit.test.f).filter(|f| f.is_finite()),
+                p: misfit.test.p,
+                by_replicates: misfit.by_replicates,
+                model_to_try: misfit.better.map(|better| name(better.model)),
+                r_squared: misfit.better.map(|better| better.r_squared),
+            }),
+            lenth: effects.and_then(|effects| effects.lenth).map(|lenth| LenthReport {
+                pseudo_standard_error: lenth.pseudo_standard_error,
+                margin_of_error: lenth.margin,
+                simultaneous_margin_of_error: lenth.simultaneous_margin,
+            }),
             terms: effects.map_or_else(Vec::new, |effects| effects.rows().map(term).collect()),
         }
     }

@@ -10,7 +10,7 @@ use crate::execution::cores;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, aliases, journal};
+use crate::sweep::{self, aliases, journal, repeated};
 use crate::table::{columns, list, print, table};
 use crate::{number, output};
 
@@ -27,17 +27,19 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let estimate = Estimate::of(&plan)?;
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
-    let mut ended = None;
+    let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= RESOLVED {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
-        let entries: Vec<&Entry> = resolved.identities.iter().filter_map(|identity| journal.get(identity)).collect();
+        let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
+        let entries: Vec<&Entry> = different.filter_map(|place| journal.get(&resolved.identities[place])).collect();
         let failed = entries.iter().filter(|entry| entry.failure.is_some()).count();
         ended = Some(Ended { finished: entries.len() - failed, failed });
+        repeats = Some(resolved.repeats());
     }
     if let Some(csv) = &arguments.csv {
         output::write(csv, table_of_runs(&plan).as_bytes(), arguments.force)?;
     }
-    let report = Report::new(&plan, estimate, jobs, ended);
+    let report = Report::new(&plan, estimate, jobs, ended, repeats);
     if arguments.json {
         print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"))
     } else {
@@ -55,6 +57,8 @@ struct Report {
     points: usize,
     replicates: usize,
     runs: usize,
+    /// Runs that are the same as another one and have its result; absent where there are too many runs to look.
+    repeats: Option<usize>,
     resolution: Option<u32>,
     defining_words: Vec<String>,
     aliases: Vec<Vec<String>>,
@@ -85,9 +89,9 @@ struct FactorReport {
 }
 
 impl Report {
-    fn new(plan: &Plan, estimate: Estimate, jobs: usize, ended: Option<Ended>) -> Self {
+    fn new(plan: &Plan, estimate: Estimate, jobs: usize, ended: Option<Ended>, repeats: Option<usize>) -> Self {
         let study = plan.study();
-        let left = plan.runs() - ended.map_or(0, |ended| ended.finished);
+        let left = plan.runs() - repeats.unwrap_or(0) - ended.map_or(0, |ended| ended.finished);
         let aliases = plan.aliases();
         Self {
             title: study.title.clone(),
@@ -105,6 +109,7 @@ impl Report {
             points: plan.points(),
             replicates: plan.replicates(),
             runs: plan.runs(),
+            repeats,
             resolution: aliases.map(|aliases| aliases.resolution),
             defining_words: aliases.map_or_else(Vec::new, |aliases| aliases.defining_words.clone()),
             aliases: aliases.map_or_else(Vec::new, |aliases| aliases.chains.clone()),
@@ -127,6 +132,10 @@ impl Report {
             ("design", self.design.clone()),
             ("runs", format!("{} points{replicates} = {}", self.points, number::grouped(self.runs as u64))),
         ];
+        if let Some(repeats) = self.repeats.filter(|repeats| *repeats > 0) {
+            let different = number::grouped((self.runs - repeats) as u64);
+            rows.push(("different runs", format!("{different}; {}", repeated::sentence(repeats, self.runs))));
+        }
         if let Some(Ended { finished, failed }) = self.ended {
             let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
             rows.push(("ended before", format!("{finished} finished{failed}")));

@@ -46,6 +46,11 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         if arguments.task.is_some_and(|task| place % task.count != task.number - 1) {
             continue;
         }
+        // It has the result of the run that it repeats, whichever task makes that.
+        if resolved.is_repeat(number - 1) {
+            before.repeats += 1;
+            continue;
+        }
         match journal.get(&resolved.identities[number - 1]) {
             Some(Entry { failure: None, .. }) => before.finished += 1,
             Some(_) if !arguments.retry => before.failed += 1,
@@ -90,6 +95,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         runs: plan.runs(),
         finished_before: before.finished,
         failed_before: before.failed,
+        repeats: before.repeats,
         finished,
         failed,
         left: pending.len() - (finished + failed).min(pending.len()),
@@ -121,6 +127,8 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
 struct Before {
     finished: usize,
     failed: usize,
+    /// Not made, for they repeat another run.
+    repeats: usize,
 }
 
 /// What the runs that are made at the same time share.
@@ -215,6 +223,8 @@ struct Summary {
     runs: usize,
     finished_before: usize,
     failed_before: usize,
+    /// Runs that have the result of another one.
+    repeats: usize,
     finished: usize,
     failed: usize,
     left: usize,
@@ -230,6 +240,9 @@ impl Summary {
         let task = arguments.task.map(|task| format!("task {} of {}", task.number, task.count));
         let mut rows = vec![("runs of the study", self.runs.to_string())];
         rows.extend(task.map(|task| ("made here", task)));
+        if self.repeats > 0 {
+            rows.push(("repeats of others", self.repeats.to_string()));
+        }
         rows.push(("finished before", self.finished_before.to_string()));
         rows.push((
             "finished now",

@@ -3,7 +3,7 @@
 //! | what is known | the length of a bar | where it is significant |
 //! |---|---|---|
 //! | an error | the root of F, which for one degree of freedom is abs(t) | the root of the quantile of F |
-//! | none, but Lenth's margin | the size of the effect | the margin of error |
+//! | none, but Lenth's margins | the size of the effect | the margin of error, and the simultaneous one |
 //! | neither | the share of the sum of squares | not known |
 
 use plateau_study::effects::{Effects, Term};
@@ -12,7 +12,7 @@ use plotters::style::RGBColor;
 use super::{ResponseFigures, Subject};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::colour::{DATA, DATA_AREA, DERIVED, FAINT};
+use crate::figure::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle};
 use crate::figure::run::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
@@ -82,15 +82,18 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     };
     let count = bars.len() as f64;
     let height = (BAR * count).max(LEAST_HEIGHT);
-    let longest = bars.iter().flat_map(|bar| [bar.length, bar.limit.unwrap_or(0.0)]).fold(0.0, f64::max);
+    let simultaneous = effects.lenth.filter(|_| measure == Measure::Size);
+    let simultaneous = simultaneous.map(|lenth| subject.unit.value(lenth.simultaneous_margin));
+    let limits = bars.iter().filter_map(|bar| bar.limit).chain(simultaneous);
+    let longest = bars.iter().map(|bar| bar.length).chain(limits).fold(0.0, f64::max);
     let names = bars.iter().enumerate().map(|(at, bar)| (count - 0.5 - at as f64, shortened(&bar.name, TEXT, NAMES)));
     let chart = Chart {
         title: String::new(),
         x: Axis::linear(up_from_zero(longest), x_label),
         y: Axis::marked(0.0..=count, "", names.collect()),
-        contents: contents(&bars),
+        contents: contents(&bars, simultaneous),
     };
-    let page = page(COLUMN, height, 1, vec![chart], &meanings(subject, measure, &bars));
+    let page = page(COLUMN, height, 1, vec![chart], &meanings(subject, measure, &bars, simultaneous));
     subject.add(figures, "pareto", "Sizes of effects on", caption(subject, measure, all), page);
 }
 
@@ -112,7 +115,7 @@ fn bar(subject: &Subject, term: &Term, measure: Measure) -> Option<Bar> {
     Some(Bar { name: format!("{}{mark}", term.label), length, limit })
 }
 
-fn contents(bars: &[Bar]) -> Vec<Content> {
+fn contents(bars: &[Bar], simultaneous: Option<f64>) -> Vec<Content> {
     let count = bars.len() as f64;
     let mut contents = Vec::new();
     for (at, bar) in bars.iter().enumerate() {
@@ -132,6 +135,11 @@ fn contents(bars: &[Bar]) -> Vec<Content> {
         }
         from = to;
     }
+    contents.extend(simultaneous.map(|margin| Content::Line {
+        points: vec![[margin, 0.0], [margin, count]],
+        colour: INK,
+        width: LINE + 1,
+    }));
     contents
 }
 
@@ -143,7 +151,7 @@ fn colour(bar: &Bar) -> RGBColor {
     }
 }
 
-fn meanings(subject: &Subject, measure: Measure, bars: &[Bar]) -> Vec<Meaning> {
+fn meanings(subject: &Subject, measure: Measure, bars: &[Bar], simultaneous: Option<f64>) -> Vec<Meaning> {
     let Some(first) = bars.iter().find_map(|bar| bar.limit) else { return Vec::new() };
     let confidence = subject.confidence();
     let is_common = bars.iter().all(|bar| bar.limit == Some(first));
@@ -157,7 +165,12 @@ fn meanings(subject: &Subject, measure: Measure, bars: &[Bar]) -> Vec<Meaning> {
     let areas = areas.into_iter().filter(|(_, _, beyond)| is_beyond(*beyond));
     let areas = areas.map(|(colour, text, _)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() });
     let limit = Meaning { colour: DERIVED, style: KeyStyle::Line, text: limit };
-    areas.chain([limit]).collect()
+    let simultaneous = simultaneous.map(|margin| Meaning {
+        colour: INK,
+        style: KeyStyle::Line,
+        text: subject.unit.with_symbol(&format!("simultaneous margin: {}", number::rounded(margin, 3))),
+    });
+    areas.chain([limit]).chain(simultaneous).collect()
 }
 
 fn caption(subject: &Subject, measure: Measure, all: usize) -> String {
@@ -170,8 +183,9 @@ fn caption(subject: &Subject, measure: Measure, all: usize) -> String {
             effects.error
         ),
         Measure::Size if effects.lenth.is_some() => format!(
-            "Sizes of effects. Nothing tells the error ({}), so bars are compared with Lenth's margin of error at \
-             {confidence}, which takes most effects to be none.",
+            "Sizes of effects. Nothing tells the error ({}), so bars are compared with Lenth's margins of error at \
+             {confidence}, which take most effects to be none: an effect that is looked at alone is likely one beyond the \
+             margin, one that is picked from all beyond the simultaneous margin.",
             effects.error
         ),
         Measure::Size => format!("Sizes of effects. Nothing tells the error: {}.", effects.error),

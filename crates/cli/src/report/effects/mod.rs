@@ -20,6 +20,7 @@ use super::section::Section;
 use crate::figure::effects::axes;
 use crate::number;
 use crate::sweep::analysis::Analysis;
+use crate::sweep::repeated;
 use crate::version;
 use parallel::Parallel;
 
@@ -69,14 +70,15 @@ pub fn page(of: &StudyPage) -> String {
 
 fn notices(of: &StudyPage) -> Vec<String> {
     let [failed, missing] = ["failed", "missing"].map(|state| of.collected.count(state));
-    if failed + missing == 0 {
-        return Vec::new();
-    }
-    vec![format!(
-        "{} of {} have no results and are left out: {failed} failed, {missing} not made yet.",
-        failed + missing,
-        number::count(of.collected.runs.len(), "run")
-    )]
+    let (runs, repeats) = (of.collected.runs.len(), of.collected.repeats());
+    let left_out = (failed + missing > 0).then(|| {
+        format!(
+            "{} of {} have no results and are left out: {failed} failed, {missing} not made yet.",
+            failed + missing,
+            number::count(runs, "run")
+        )
+    });
+    left_out.into_iter().chain((repeats > 0).then(|| repeated::sentence(repeats, runs))).collect()
 }
 
 fn contents(of: &StudyPage) -> Vec<String> {

@@ -8,6 +8,7 @@ use crate::number;
 use crate::report::html;
 use crate::report::picture::{Picture, Pictures};
 use crate::sweep::analysis::AnalysedResponse;
+use crate::sweep::model::lack_of_fit;
 use crate::sweep::quality::quality;
 
 /// Digits of numbers.
@@ -32,6 +33,11 @@ pub fn html(response: &AnalysedResponse, axes: &[FactorAxis], pictures: &Picture
     let unit = unit(response, effects);
     let caption = format!("Analysis of variance of {}", response.name);
     let mut text = format!("<p>{}</p>\n", html::escape(&sentence(effects, &unit)));
+    text.push_str(&format!("<p>{}.</p>\n", html::escape(&capital(&response.choice.words()))));
+    if let Some(misfit) = &response.misfit {
+        let misfit = capital(&lack_of_fit(misfit, effects.r_squared));
+        text.push_str(&format!("<p class=\"notice\">{}.</p>\n", html::escape(&misfit)));
+    }
     text.push_str(&html::number_table(&caption, &heads(effects, &unit), &rows(effects, &unit)));
     text.push_str(HINT);
     let aliased = effects.rows().filter(|term| !term.aliased_with.is_empty());

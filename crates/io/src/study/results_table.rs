@@ -1,0 +1,98 @@
+//! The results of a study as a table of text: a line for each run, numbers in SI units, units in the head.
+
+use std::collections::BTreeSet;
+
+use super::collected::{Collected, CollectedRun, State, unit_of};
+use super::plan::Plan;
+
+/// A column: its head and a cell for each run.
+struct Column {
+    head: String,
+    cells: Vec<String>,
+}
+
+/// Head and lines: number, point, replicate and state of each run, its factors and responses, and why it failed.
+///
+/// Quantities are numbers in the unit that stands behind the name, as in `load [N]`; words, and numbers without a unit, stand
+/// as the study has them. A response that a run does not give is an empty cell.
+pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
+    let study = plan.study();
+    let mut names = Names::default();
+    let mut column = |name: &str, what: &str, unit: &str, cell: &dyn Fn(&CollectedRun) -> String| Column {
+        head: names.head(name, what, unit),
+        cells: collected.runs.iter().map(cell).collect(),
+    };
+    let mut columns = vec![
+        column("run", "", "", &|run| run.run.number.to_string()),
+        column("point", "", "", &|run| (run.run.point + 1).to_string()),
+        column("replicate", "", "", &|run| (run.run.replicate + 1).to_string()),
+        column("state", "", "", &|run| run.state.name().to_owned()),
+    ];
+    // The last column; its name is nobody else's.
+    let error = column("error", "", "", &|run| match &run.state {
+        State::Failed(error) => error.clone(),
+        State::Finished | State::Missing => String::new(),
+    });
+    for (at, factor) in study.factors.iter().enumerate() {
+        let unit = factor.unit();
+        let is_quantity = !["", "1"].contains(&unit)
+            && collected.runs.iter().all(|run| run.run.levels.get(at).is_some_and(|level| level.number.is_some()));
+        columns.push(column(&factor.name, "factor", if is_quantity { unit } else { "" }, &|run| {
+            let level = run.run.levels.get(at);
+            let number = level.and_then(|level| level.number).filter(|_| is_quantity);
+            number.map_or_else(|| level.map_or_else(String::new, |level| level.label.clone()), exactly)
+        }));
+    }
+    for (at, response) in study.responses.iter().enumerate() {
+        let unit = response.unit(unit_of(&response.series));
+        columns.push(column(&response.name, "response", if unit == "1" { "" } else { unit }, &|run| {
+            run.responses
+                .get(at)
+                .filter(|response| !response.is_nan())
+                .map_or_else(String::new, |value| exactly(*value))
+        }));
+    }
+    columns.push(error);
+    let head = columns.iter().map(|column| column.head.clone()).collect();
+    let line = |run: usize| columns.iter().map(|column| column.cells[run].clone()).collect();
+    std::iter::once(head).chain((0..collected.runs.len()).map(line)).collect()
+}
+
+/// A number with all its digits.
+fn exactly(number: f64) -> String {
+    format!("{number:?}")
+}
+
+/// Heads of columns, each given once.
+#[derive(Default)]
+struct Names(BTreeSet<String>);
+
+impl Names {
+    /// Name and unit; where that is taken, with what it is behind the name.
+    fn head(&mut self, name: &str, what: &str, unit: &str) -> String {
+        let behind = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+        let mut name = name.to_owned();
+        while !self.0.insert(format!("{name}{behind}")) {
+            name = format!("{name} ({what})");
+        }
+        format!("{name}{behind}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Names;
+
+    #[test]
+    fn heads_have_units_and_differ() {
+        let mut names = Names::default();
+        let heads = [
+            names.head("state", "", ""),
+            names.head("load", "factor", "N"),
+            names.head("state", "factor", ""),
+            names.head("load", "response", "N"),
+            names.head("load", "response", "m2"),
+        ];
+        assert_eq!(heads, ["state", "load [N]", "state (factor)", "load (response) [N]", "load [m2]"]);
+    }
+}

@@ -1,0 +1,100 @@
+"""What docs/studies.md does with the results of a study works, whatever its factors are called."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import pandas
+import xarray
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = os.environ.get("PLATEAU_PROGRAM", str(ROOT / "plateau"))
+QUICK = ROOT / "data" / "scenes" / "quick.toml"
+
+STUDY = """
+version = 1
+base = "{base}"
+set = ["operation.duration = '2 s'", "output.sample_every = '0.5 s'"]
+design = "full-factorial"
+replicates = {{ keys = ["disc.surface.synthetic.seed"], seeds = [1, 2] }}
+[[factor]]
+name = "{name}"
+key = "operation.normal_force"
+levels = ["5 N", "0.01 kN"]
+[[factor]]
+name = "rows"
+key = "mesh.rows"
+levels = [10, 20]
+[[factor]]
+name = "pool"
+key = "plateaus.debris_pool"
+levels = ["contact", "track"]
+[[response]]
+name = "contact area"
+dataset = "/series/contact_area_mean"
+at = "end"
+[[response]]
+name = "filled"
+dataset = "/series/filled_fraction"
+at = "1000 s"
+"""
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.results = self.folder / "data" / "studies" / "pad-properties"
+        self.results.parent.mkdir(parents=True)
+
+    def collect(self, name):
+        study = self.results.with_suffix(".toml")
+        study.write_text(STUDY.format(base=QUICK, name=name))
+        for command in ("run", "collect"):
+            done = subprocess.run([PROGRAM, "sweep", command, study], capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def block(self):
+        """The Python of the guide."""
+        blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs" / "studies.md").read_text(), re.MULTILINE | re.DOTALL)
+        self.assertEqual(len(blocks), 1)
+        return blocks[0]
+
+    def run_python(self, text):
+        environment = {**os.environ, "MPLBACKEND": "agg"}
+        command = [sys.executable, "-c", text]
+        done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, text + done.stderr)
+        return done.stdout
+
+    def test_the_guide_works_for_any_name_of_a_factor(self):
+        # Names that are methods of xarray, that are dimensions, that a series has, and that are no identifiers; how they
+        # are called in results.h5.
+        names = {"load": "load", "mean": "mean", "Time": "time_factor", "contact area": "contact_area_factor", "µ (1)": "µ__1"}
+        for name, variable in names.items():
+            self.collect(name)
+            text = self.block().replace('"load [N]"', f'"{name} [N]"').replace('study["load"]', f'study["{variable}"]')
+            out = self.run_python(text + "\nprint(areas.shape, *areas[areas.dims[0]].values)\n")
+            self.assertIn("(2, 4) 5.0 10.0", out, name)
+
+    def test_the_table_has_numbers_in_the_units_of_its_head(self):
+        self.collect("load")
+        table = pandas.read_csv(self.results / "results.csv")
+        columns = ["run", "point", "replicate", "state", "load [N]", "rows", "pool", "contact area [m2]", "filled", "error"]
+        self.assertEqual(list(table), columns)
+        for column, kind in {"load [N]": "f", "rows": "i", "contact area [m2]": "f", "filled": "f", "run": "i"}.items():
+            self.assertEqual(table[column].dtype.kind, kind, column)
+        # SI units, whatever the study has, and the numbers of results.h5, to the bit.
+        with xarray.open_dataset(self.results / "results.h5", engine="h5netcdf") as study:
+            for column, name in {"load [N]": "load", "rows": "rows", "contact area [m2]": "contact_area_response"}.items():
+                np.testing.assert_array_equal(table[column], study[name].values, column)
+            self.assertEqual(list(table["pool"]), list(study["pool_factor"].values.astype(str)))
+        self.assertEqual(sorted(set(table["load [N]"])), [5, 10])
+        # The runs end before 1000 s.
+        self.assertTrue(table["filled"].isna().all())
