@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::observe::Sample;
 use plateau_core::simulation::Course;
 use plateau_io::run_file::WriterReport;
+use plateau_io::scene::Warning;
 use plateau_io::scene::recipe::Scene;
 use serde::Serialize;
 
@@ -41,6 +42,8 @@ pub struct Summary {
     load_residual: f64,
     load_tolerance: f64,
     balance_residual: f64,
+    /// What the scene can hardly mean.
+    warnings: Vec<Warning>,
 }
 
 impl Summary {
@@ -79,6 +82,7 @@ impl Summary {
             load_residual: course.largest_load_residual,
             load_tolerance: scene.parameters.load_tolerance,
             balance_residual: last.balance_residual,
+            warnings: scene.warnings.clone(),
         }
     }
 

@@ -52,6 +52,7 @@ mod crew;
 pub mod debris;
 pub mod exact;
 pub mod filling;
+pub mod first_contact;
 pub mod forecast;
 pub mod history;
 pub mod kernel;
