@@ -92,12 +92,54 @@ fn level_decides_what_is_taken_out() {
         surface["Sq"].as_f64().expect("Sq")
     };
     // The slope is a plane. Its heights 0, 1, 2, 3 occur 3, 3, 2 and 3 times: Σ z = 16, Σ z² = 38 over 11 points.
-    assert!(sq(&[]) < 1e-15 && sq(&["--level", "plane"]) < 1e-15);
+    assert_eq!((sq(&[]), sq(&["--level", "plane"])), (0.0, 0.0));
     let expected = (38.0 / 11.0 - (16.0_f64 / 11.0).powi(2)).sqrt();
     for level in ["none", "mean"] {
         assert!((sq(&["--level", level]) / expected - 1.0).abs() < 1e-14);
     }
     refused(&directory.plateau(["surface", "small.sdf", "--level", "cubic"]), "expected none, mean");
+}
+
+/// The cell of a parameter in the table of one surface.
+fn cell<'a>(table: &'a str, symbol: &str) -> &'a str {
+    let line = table.lines().find(|line| line.starts_with(&format!("{symbol:5} "))).expect(symbol);
+    line.rsplit(' ').next().unwrap_or_default()
+}
+
+#[test]
+fn a_slope_that_is_levelled_is_flat() {
+    let directory = WorkingDirectory::new();
+    directory.write("small.sdf", small_sdf());
+    let surface = json(directory.plateau(["surface", "small.sdf", "--json"]));
+    let table = directory.plateau(["surface", "small.sdf"]).quiet_success();
+    for symbol in ["Sa", "Sq", "Sz", "Sk", "Spk", "Svk", "Vmc", "Sdq", "Sdr", "Ra_x", "Rq_y"] {
+        assert_eq!((surface[symbol].as_f64(), cell(&table, symbol)), (Some(0.0), "0"), "{symbol}");
+    }
+    for symbol in ["Ssk", "Sku", "Smr1", "Smr2", "Sal", "Str", "Rsk_x", "Rku_y"] {
+        assert_eq!((&surface[symbol], cell(&table, symbol)), (&Value::Null, "-"), "{symbol}");
+    }
+    assert!(table.contains("flat: all its heights are equal"), "{table}");
+    let slope = directory.plateau(["surface", "small.sdf", "--level", "none"]).quiet_success();
+    assert!(!slope.contains("flat:"), "{slope}");
+}
+
+#[test]
+fn heights_that_are_unrelated_from_point_to_point_have_no_length() {
+    let directory = WorkingDirectory::new();
+    // Multiplication by a large prime scatters the numbers of the points: r at the next point is of the order of
+    // 1/√(60 · 50).
+    let noise = |point: u64| point.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_mul(point | 1) >> 52;
+    let heights: Vec<String> = (1..=60 * 50).map(|point| noise(point).to_string()).collect();
+    let sizes = ("NumPoints = 4\nNumProfiles = 3", "NumPoints = 60\nNumProfiles = 50");
+    let sdf = small_sdf().replace(sizes.0, sizes.1).replace("0 1 2 3\n0 1 BAD 3\n0 1 2 3", &heights.join("\n"));
+    directory.write("noise.sdf", sdf);
+    let surface = json(directory.plateau(["surface", "noise.sdf", "--json"]));
+    let table = directory.plateau(["surface", "noise.sdf"]).quiet_success();
+    for symbol in ["Sal", "Str"] {
+        assert_eq!((&surface[symbol], cell(&table, symbol)), (&Value::Null, "-"), "{symbol}");
+    }
+    assert!(surface["Sq"].is_number() && surface["Str_below"].is_null(), "{surface}");
+    assert!(table.contains("Sal and Str have no value"), "{table}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use plateau_core::observe::Sample;
 use plateau_core::simulation::Course;
 use plateau_core::window_mean::WindowMean;
 use plateau_io::run_file::WriterReport;
+use plateau_io::scene::Warning;
 use plateau_io::scene::recipe::Scene;
 use serde::Serialize;
 
@@ -43,6 +44,8 @@ pub struct Summary {
     load_residual: f64,
     load_tolerance: f64,
     balance_residual: f64,
+    /// What the scene can hardly mean.
+    warnings: Vec<Warning>,
 }
 
 impl Summary {
@@ -84,6 +87,7 @@ impl Summary {
             load_residual: course.largest_load_residual,
             load_tolerance: scene.parameters.load_tolerance,
             balance_residual: last.balance_residual,
+            warnings: scene.warnings.clone(),
         }
     }
 

@@ -54,6 +54,7 @@ mod crew;
 pub mod debris;
 pub mod exact;
 pub mod filling;
+pub mod first_contact;
 pub mod forecast;
 pub mod history;
 pub mod kernel;

@@ -3,9 +3,10 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use plateau_core::surface::describe::{
-    Autocorrelation, CoreHeight, Description, Direction, Gradient, Grid, HeightParameters, MaterialCurve,
+    Autocorrelation, CoreHeight, Description, Direction, Gradient, Grid, HeightParameters, MaterialCurve, PARAMETERS,
     ProfileParameters, Volumes,
 };
+use plateau_core::surface::{Level, level};
 
 /// A grid of heights z(x, y) over the indices of column and row.
 fn heights(columns: usize, rows: usize, z: impl Fn(f64, f64) -> f64) -> Vec<f64> {
@@ -252,10 +253,73 @@ fn missing_points_take_no_part() {
     near(part.across.root_mean_square_height, whole.across.root_mean_square_height, 0.015);
     let slope = |description: &Description| description.gradient.expect("a pitch").root_mean_square_slope;
     near(slope(&part), slope(&whole), 0.02);
-    // White noise falls to 0.2 at 0.8 of a pitch, the shorter one first.
-    for description in [whole, part] {
-        near(description.autocorrelation.expect("a pitch").length, 0.8 * 5e-7, 0.02);
+}
+
+#[test]
+fn what_varies_from_point_to_point_has_no_length() {
+    // Of white noise nothing is left at the next point: where it falls to 0.2 before that, no grid tells.
+    let noise = gaussian_sample(5, 60_000);
+    let mut part = noise.clone();
+    part.iter_mut().step_by(3).for_each(|z| *z = f64::NAN);
+    // A lay of lines of one point across: it ends nowhere along x, but how wide it is nobody knows.
+    let lines: Vec<f64> = (0..60_000).map(|point| noise[point % 200]).collect();
+    for heights in [&noise, &part, &lines] {
+        let found = Autocorrelation::of(&grid(300, 200, heights), 0.0).expect("a pitch");
+        let Autocorrelation { length, aspect_ratio, aspect_ratio_below, below_pitch } = found;
+        assert!(
+            below_pitch && [length, aspect_ratio, aspect_ratio_below].iter().all(|value| value.is_nan()),
+            "{found:?}"
+        );
     }
+    // The mean of two points beside each other along either axis has r = ½ at the next one and 0 at the one after: linear
+    // between, it falls to 0.2 at 1.6 points along an axis, the shorter pitch first. Along a line between the axes r is the
+    // product of both: from ½ (1, 0) to ¼ (1, 1), so that the longest line is not far from the axis of the longer pitch.
+    let mean = |x: usize, y: usize| (0..4).map(|k| noise[(x + k % 2) * 201 % 60_000 + y + k / 2]).sum::<f64>();
+    let smooth: Vec<f64> = (0..290 * 199).map(|point| mean(point / 199, point % 199)).collect();
+    let found = Autocorrelation::of(&grid(290, 199, &smooth), 0.0).expect("a pitch");
+    assert!(!found.below_pitch, "{found:?}");
+    near(found.length, 1.6 * 5e-7, 0.03);
+    near(found.aspect_ratio, 0.25, 0.05);
+    // The mean along y alone: what is left along x ends before the next point, so that the longest distance is unknown.
+    let smooth: Vec<f64> = noise.windows(2).map(|pair| pair[0] + pair[1]).chain([0.0]).collect();
+    let found = Autocorrelation::of(&grid(300, 200, &smooth), 0.0).expect("a pitch");
+    near(found.length, 1.6 * 5e-7, 0.03);
+    assert!(found.aspect_ratio.is_nan() && found.aspect_ratio_below.is_nan() && !found.below_pitch, "{found:?}");
+}
+
+#[test]
+fn a_plane_is_flat_once_it_is_taken_out() {
+    let shapes = [(12, 10), (300, 200), (1024, 33)];
+    let planes =
+        [(0.1, 0.0, 0.0), (0.0, 1e-7, 3e-7), (0.076, 1.3e-8, -7.7e-7), (-3e-6, 0.02, 1.0 / 3.0), (1e-9, -1e-9, 0.0)];
+    for ((columns, rows), (offset, along, across)) in
+        shapes.into_iter().flat_map(|shape| planes.map(|plane| (shape, plane)))
+    {
+        let plane = heights(columns, rows, |x, y| offset + along * x + across * y);
+        for form in [Level::Plane, Level::Quadratic] {
+            let mut heights = plane.clone();
+            level(&mut heights, rows, form, false);
+            assert!(heights.iter().all(|height| *height == 0.0), "{offset} + {along} x + {across} y, {form:?}");
+        }
+        // A billionth of the tilt is a surface.
+        let bump = 1e-9 * (offset.abs() + along.abs() * columns as f64 + across.abs() * rows as f64);
+        let mut heights = plane;
+        heights[columns * rows / 2] += bump;
+        level(&mut heights, rows, Level::Plane, false);
+        near(heights[columns * rows / 2], bump, 0.1);
+    }
+    let mut heights = heights(300, 200, |x, y| 1e-6 + 1e-7 * x - 3e-8 * y);
+    heights[7] = f64::NAN;
+    level(&mut heights, 200, Level::Plane, false);
+    assert!(heights[7].is_nan());
+    let flat = Description::of(&grid(300, 200, &heights)).expect("heights");
+    for parameter in PARAMETERS {
+        let value = (parameter.value)(&flat).expect("a pitch");
+        let has_shape = ["sk", "ku", "Smr", "Sal", "Str"].iter().any(|part| parameter.symbol.contains(part));
+        // Sk, Spk and Svk are heights, Ssk, Sku, Rsk and Rku are not.
+        assert!(if has_shape { value.is_nan() } else { value == 0.0 }, "{} is {value}", parameter.symbol);
+    }
+    assert!(!flat.autocorrelation.expect("a pitch").below_pitch);
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! | a scene, read, checked and resolved | [`scene`] |
 //! | quantities with units | [`units`] |
 //! | initial surfaces, measured or synthetic | [`surface`] |
+//! | input that is legal but cannot be meant | [`plausibility`] |
 //! | the run file and its writer | [`run_file`] |
 //! | studies: many runs, their results | [`study`] |
 //! | what a stopped run goes on from | [`checkpoint`] |
@@ -22,6 +23,7 @@ pub mod dataset_file;
 mod digest;
 pub mod export;
 mod hdf5_file;
+pub mod plausibility;
 pub mod process;
 mod random;
 pub mod regular;

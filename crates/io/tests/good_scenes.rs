@@ -82,7 +82,7 @@ fn the_example_of_the_format_gives_its_values() {
     assert_eq!(scene.output.maps_at, [0.0, 500.0, 3000.0]);
     assert_eq!(scene.output.maps, Map::ALL);
     assert_eq!(scene.files, [good("full.toml")]);
-    assert_eq!(scene.warnings, [""; 0]);
+    assert_eq!(scene.warnings, []);
 }
 
 #[test]
@@ -170,8 +170,11 @@ fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() 
     assert_eq!(scene.output.maps_at, [0.0, 0.5]);
     assert_eq!(scene.output.checkpoint_every, 60.0);
     assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings);
-    assert!(scene.warnings[0].starts_with("tests/scenes/good/extending.toml:17:11: output.maps_at: "));
-    assert!(scene.warnings[0].ends_with("no maps at 3600 s"));
+    let warning = scene.warnings[0].to_string();
+    assert!(
+        warning.starts_with("tests/scenes/good/extending.toml:17:11: output.maps_at: maps at 3600 s, "),
+        "{warning}"
+    );
 }
 
 #[test]

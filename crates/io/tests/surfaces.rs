@@ -1,5 +1,6 @@
 //! The surfaces of a scene, from recipes and files.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -72,6 +73,7 @@ fn scene() -> Scene {
         resolved: String::new(),
         files: Vec::new(),
         warnings: Vec::new(),
+        places: BTreeMap::new(),
     }
 }
 
@@ -314,7 +316,7 @@ fn a_measured_patch_on_disc_and_pin() {
     };
     scene.disc_surface = HeightRecipe { source: file(&afm(), None), mirror: false, preparation };
     scene.pin_surface = scene.disc_surface.clone();
-    let Loaded { surfaces, inputs, report } = load(&scene).unwrap();
+    let Loaded { surfaces, inputs, report, .. } = load(&scene).unwrap();
     // The heights are levelled, so their mean is 0 and the cut at 10 nm becomes a highest height of 3 um.
     let highest = surfaces.disc_height.iter().copied().fold(f64::MIN, f64::max);
     assert!(highest <= 3e-6 * (1.0 + 1e-9) && highest > 1e-6, "{highest}");

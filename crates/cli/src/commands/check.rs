@@ -11,13 +11,14 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::smoothness::Smoothness;
 use plateau_io::checkpoint;
 use plateau_io::claim::lock_of;
+use plateau_io::plausibility;
 use plateau_io::run_file::{resolve, size_estimate};
-use plateau_io::scene::{memory_estimate, recipe::Scene};
+use plateau_io::scene::{Warning, memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
 use serde::Serialize;
 
-use super::load_scene;
 use super::run::warn_of;
+use super::{load_scene, warn_of_scene};
 use crate::arguments::CheckArguments;
 use crate::execution::{decide, time_per_step};
 use crate::failure::Failure;
@@ -33,8 +34,10 @@ const TRIAL: Duration = Duration::from_millis(300);
 pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let mut scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
+    let implausible = plausibility::of_surfaces(&scene, &loaded);
+    warn_of_scene(&mut scene, implausible);
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
-    let Loaded { surfaces, inputs, report } = loaded;
+    let Loaded { surfaces, inputs, report, .. } = loaded;
     let files = files(&scene, &inputs);
     if scene.adaptive.is_some() && Smoothness::forbids_from_the_start(&scene.parameters, &surfaces) {
         warn_of(Idle::Smooth(0.0));
@@ -89,6 +92,8 @@ struct Check {
     largest_acceleration: Option<f64>,
     stiffness_number: f64,
     warns_of_stiffness: bool,
+    /// What the scene can hardly mean.
+    warnings: Vec<Warning>,
     needed: Vec<Reasoned>,
     left_out: Vec<Reasoned>,
 }
@@ -212,6 +217,7 @@ impl Check {
             stiffness_number,
             largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
             warns_of_stiffness: stability::is_doubtful(parameters),
+            warnings: scene.warnings.clone(),
             needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
             left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
         }

@@ -16,7 +16,8 @@ mod sweep;
 mod verify;
 mod watch;
 
-use plateau_io::scene::{self, recipe::Scene};
+use plateau_io::plausibility;
+use plateau_io::scene::{self, Warning, recipe::Scene};
 
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
@@ -43,13 +44,18 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
     }
 }
 
-/// Reads the scene with the changes of the command line; warnings go to standard error.
+/// Reads the scene with the changes of the command line; what it can hardly mean goes to standard error.
 fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
     let mut sets = arguments.sets.clone();
     sets.extend(arguments.workers.iter().map(|workers| format!("numerics.workers={workers}")));
-    let scene = scene::load(&arguments.scene, &sets).map_err(Failure::input)?;
-    for warning in &scene.warnings {
-        message::warning(warning);
-    }
+    let mut scene = scene::load(&arguments.scene, &sets).map_err(Failure::input)?;
+    scene.warnings.extend(plausibility::of_scene(&scene));
+    scene.warnings.iter().for_each(message::warning);
     Ok(scene)
+}
+
+/// Says what else the scene can hardly mean, and keeps it with what was said of it before.
+fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>) {
+    warnings.iter().for_each(message::warning);
+    scene.warnings.extend(warnings);
 }

@@ -234,7 +234,7 @@ impl SurfaceFigure<'_> {
         let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, upper, lower } =
             self.description.core;
         let place = |ratio: f64, height: f64| axes.place_within(100.0 * ratio, height * unit.per_metre);
-        if core_height.is_finite() {
+        if peak_ratio.is_finite() {
             let peaks = [place(0.0, upper), place(0.0, upper + reduced_peak_height), place(peak_ratio, upper)];
             let dales = [place(1.0, lower), place(1.0, lower - reduced_dale_depth), place(dale_ratio, lower)];
             canvas.area(&peaks, DERIVED_AREA)?;

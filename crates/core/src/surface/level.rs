@@ -6,6 +6,8 @@ use super::prepare::Level;
 ///
 /// Stored column by column. With `closed` the columns run round a ring and only what closes is taken out: the mean, a
 /// slope and a curvature along the rows. A slope round the ring would leave a step where it closes.
+///
+/// Heights that were nothing but the form are all 0 afterwards: what the rounding of numbers leaves of them is no surface.
 pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
     let terms: &[Term] = match (level, closed) {
         (Level::None, _) => return,
@@ -16,11 +18,24 @@ pub fn level(heights: &mut [f64], rows: usize, level: Level, closed: bool) {
         (Level::Quadratic, false) => &[Term(0, 0), Term(1, 0), Term(0, 1), Term(2, 0), Term(1, 1), Term(0, 2)],
     };
     let Some(form) = Form::new(heights, rows, terms) else { return };
+    let before = largest(heights);
     // The second pass takes out what rounding left of a large offset or tilt in the first.
     for _ in 0..2 {
         let coefficients = form.fit(heights);
         form.take_out(heights, &coefficients);
     }
+    if largest(heights) <= ROUNDING * before {
+        heights.iter_mut().filter(|height| !height.is_nan()).for_each(|height| *height = 0.0);
+    }
+}
+
+/// What rounding leaves of heights that are nothing but a form, by the largest of them: a few units of the last place, of
+/// the heights themselves and of the sum of terms that is taken out.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The largest distance of a height from 0; missing points take no part.
+fn largest(heights: &[f64]) -> f64 {
+    heights.iter().fold(0.0, |largest, height| height.abs().max(largest))
 }
 
 /// Product of the Legendre polynomials of these orders, 0 to 2, in x and y.

@@ -63,6 +63,8 @@ pub enum RawHeights {
 pub struct Prepared {
     /// One height for every cell of the body, m, column by column.
     pub heights: Vec<f64>,
+    /// Fraction of the points that `cutoff` cut; none without it.
+    pub cut: Option<f64>,
     /// What was done, one step a line, for people, with the rms height (about the mean) that it left.
     pub report: Vec<String>,
 }
@@ -95,12 +97,13 @@ impl Preparation {
             (patch.column_pitch, patch.row_pitch) = (pixel, pixel);
             report.push(format!("pixel pitch taken as {}", Length(pixel)));
         }
-        if let Some(cutoff) = self.cutoff {
+        let cut = self.cutoff.map(|cutoff| {
             let before = rms(&patch.heights);
             let cut = cut(&mut patch.heights, cutoff);
             let step = format!("cut at {} above the mean: {:.3} % of points", Length(cutoff), 100.0 * cut);
             report.push(format!("{step}, {}", change(before, &patch.heights)));
-        }
+            cut
+        });
         let mut heights = if on_mesh {
             patch.heights
         } else {
@@ -115,7 +118,7 @@ impl Preparation {
             report.push(format!("heights times {}: {}", self.scale, change(before, &heights)));
         }
         self.refuse_heights(&heights, |height| !height.is_finite())?;
-        Ok(Prepared { heights, report })
+        Ok(Prepared { heights, cut, report })
     }
 
     fn check(&self) -> Result<(), PreparationError> {

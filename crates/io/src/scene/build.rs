@@ -17,7 +17,7 @@ use super::interpret::Setting;
 use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
 use super::schema::{ROTATIONS, join};
 use super::settings::Settings;
-use super::{memory, resolved};
+use super::{Warning, memory, resolved};
 use crate::surface::ReadOptions;
 
 /// A number, or a table with how the run chooses it.
@@ -54,6 +54,7 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
         resolved: resolved::write(&settings),
         files,
         warnings,
+        places: settings.places(),
         adaptive,
         duration: duration.unwrap_or_else(|| parameters.clock().time_at(parameters.steps)),
         parameters,
@@ -350,7 +351,7 @@ fn file(settings: &Settings, section: &str) -> Option<(PathBuf, Option<String>)>
 fn output(
     settings: &mut Settings,
     parameters: &Parameters,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Warning>,
 ) -> Result<OutputRecipe, Problem> {
     let sample_every = match settings.optional_number("output.sample_every")? {
         Some(time) => SampleEvery::Time(time),
@@ -372,7 +373,7 @@ fn output(
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.
-fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Vec<String>) -> Vec<f64> {
+fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Vec<Warning>) -> Vec<f64> {
     let key = "output.maps_at";
     let origin = settings.origin(key);
     let mut times = match settings.get(key) {
@@ -386,9 +387,14 @@ fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Ve
     let (kept, beyond): (Vec<_>, Vec<_>) = times.into_iter().partition(|time| *time <= end * (1.0 + 1e-9));
     if !beyond.is_empty() {
         let beyond: Vec<_> = beyond.iter().map(|time| format!("{time} s")).collect();
-        // In words for people: the last digits of a time that is a sum of steps say nothing.
-        let message = format!("the run ends at {} s: no maps at {}", rounded(end), beyond.join(", "));
-        warnings.push(Problem::new(&origin, key, message).to_string());
+        warnings.push(Warning {
+            place: origin.clone(),
+            key: key.to_owned(),
+            found: format!("maps at {}", beyond.join(", ")),
+            // In words for people: the last digits of a time that is a sum of steps say nothing.
+            bound: format!("after the run, which ends at {} s", rounded(end)),
+            advice: "they are not taken: give earlier times, or a longer operation.duration".to_owned(),
+        });
     }
     settings.insert(key, Setting::Numbers(kept.clone()), &origin);
     kept

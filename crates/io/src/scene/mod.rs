@@ -18,6 +18,7 @@ pub mod recipe;
 mod resolved;
 pub mod schema;
 mod settings;
+mod warning;
 
 use std::path::Path;
 
@@ -26,6 +27,7 @@ pub use error::{Origin, Problem, SceneError};
 pub use memory::memory_estimate;
 use recipe::Scene;
 use settings::Settings;
+pub use warning::Warning;
 
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
 /// and checks everything that can be checked without reading surfaces.

@@ -1,5 +1,6 @@
 //! What a scene asks for, in SI units: the typed result of reading it.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use plateau_core::acceleration::Adaptive;
@@ -9,6 +10,7 @@ use plateau_core::schedule::{End, SampleEvery, Schedule};
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
 
+use super::{Origin, Warning};
 use crate::surface::ReadOptions;
 
 /// A scene, read, checked and resolved.
@@ -45,7 +47,9 @@ pub struct Scene {
     /// Every scene file read (this one and those it extends), for the run file's provenance.
     pub files: Vec<PathBuf>,
     /// Things worth telling the user that are no errors (for instance a map time beyond the end).
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Warning>,
+    /// Where every key that has a value was given, by its full path.
+    pub places: BTreeMap<String, Origin>,
 }
 
 impl Scene {

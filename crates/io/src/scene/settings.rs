@@ -51,6 +51,11 @@ impl Settings {
         self.values.get(path).map_or(Origin::Default, |(_, origin)| origin.clone())
     }
 
+    /// Where every key that has a value was given.
+    pub(super) fn places(&self) -> BTreeMap<String, Origin> {
+        self.values.iter().map(|(path, (_, origin))| (path.clone(), origin.clone())).collect()
+    }
+
     /// The value of a number or quantity (SI units) that a checked scene has.
     pub(super) fn number(&self, path: &str) -> Result<f64, Problem> {
         match self.get(path) {

@@ -20,6 +20,10 @@ use crate::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene};
 pub struct Loaded {
     /// Heights and bases of every cell.
     pub surfaces: InitialSurfaces,
+    /// Fraction of the points that `disc.prepare.cutoff` cut; none without it.
+    pub disc_cut: Option<f64>,
+    /// The same of `pin.prepare.cutoff`.
+    pub pin_cut: Option<f64>,
     /// Every surface file read, each once, with its SHA-256 in hexadecimal digits.
     pub inputs: Vec<(PathBuf, String)>,
     /// What was read, made and done, one step a line, for people.
@@ -36,8 +40,8 @@ pub struct Loaded {
 /// [`SurfaceError`], which names the scene's table and the file.
 pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     let mut loader = Loader { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new() };
-    let disc_height = loader.heights(&scene.disc_surface, Body::Disc)?;
-    let mut pin_height = loader.heights(&scene.pin_surface, Body::Pin)?;
+    let (disc_height, disc_cut) = loader.heights(&scene.disc_surface, Body::Disc)?;
+    let (mut pin_height, pin_cut) = loader.heights(&scene.pin_surface, Body::Pin)?;
     let pin_base = loader.base(&scene.pin_base, scene.pin_base_mirror)?;
     if scene.resin_recess != 0.0 {
         let resin = pin_height.iter_mut().zip(&pin_base).filter(|(_, base)| **base == Base::None);
@@ -45,7 +49,7 @@ pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
         loader.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
     }
     let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
-    Ok(Loaded { surfaces, inputs: loader.inputs.0, report: loader.report })
+    Ok(Loaded { surfaces, disc_cut, pin_cut, inputs: loader.inputs.0, report: loader.report })
 }
 
 /// Table of the scene that says where a body's heights come from.
@@ -80,7 +84,8 @@ fn source_name(source: &HeightSource) -> String {
 }
 
 impl Loader<'_> {
-    fn heights(&mut self, recipe: &HeightRecipe, body: Body) -> Result<Vec<f64>, SurfaceError> {
+    /// Heights of a body, and the fraction of its points that a cutoff cut.
+    fn heights(&mut self, recipe: &HeightRecipe, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
         let (surface, prepare) = (surface_key(body), prepare_key(body));
         let (raw, negate) = match &recipe.source {
             HeightSource::Flat => {
@@ -112,7 +117,7 @@ impl Loader<'_> {
             self.report.push(format!("{surface}: negated, for the pin's z grows away from the disc"));
         }
         self.report.push(format!("{surface}: {}", spread(&heights)));
-        Ok(heights)
+        Ok((heights, prepared.cut))
     }
 
     /// Heights of a file. Heights of the model with the shape of the body's fields are those of its cells; any other

@@ -12,6 +12,7 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
+use plateau_io::plausibility::{self, Recorded};
 use plateau_io::run_file::{End, RunFile, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
@@ -19,7 +20,7 @@ use plateau_io::surface::{self, Loaded};
 use self::beginning::{Beginning, not_claimed};
 use self::header::header;
 use self::recorder::{Recorder, RunFailure};
-use super::load_scene;
+use super::{load_scene, warn_of_scene};
 use crate::arguments::{RunArguments, SceneArguments};
 use crate::drive::{drive, go_on};
 use crate::execution::decide;
@@ -46,7 +47,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     // From now on: preparing a large scene takes long enough to be told to stop meanwhile.
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     interrupt.listen_for_save().map_err(Failure::run)?;
-    let scene = load_scene(&lengthened(arguments))?;
+    let mut scene = load_scene(&lengthened(arguments))?;
     let path = arguments.output.clone().unwrap_or_else(|| scene.output.file.clone());
     // What a link points to is what is written, and its checkpoints lie beside it.
     let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
@@ -58,8 +59,10 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     stop_if_told(&interrupt, job)?;
     refuse_to_replace_inputs(&path, &scene, &loaded)?;
+    let implausible = plausibility::of_surfaces(&scene, &loaded);
+    warn_of_scene(&mut scene, implausible);
     let mut schedule = scene.schedule();
-    let Loaded { surfaces, inputs, report: surface_report } = loaded;
+    let Loaded { surfaces, inputs, report: surface_report, .. } = loaded;
     let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
     let execution = execution.map_err(Failure::run)?;
     let mut scout = scout(&scene, &surfaces, execution, job)?;
@@ -86,10 +89,11 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let start = Instant::now();
     let progress = Progress::new(schedule.end_time(), job.leads());
     let agreement = Agreement::default();
-    let mut recorder = Recorder { writer, progress, interrupt, job, keeper, agreement };
+    let recorded = Recorded::new(&scene.parameters);
+    let mut recorder = Recorder { writer, progress, interrupt, job, keeper, agreement, recorded };
     let result = drive(&mut simulation, scout.as_mut(), schedule, &scene.output, &mut recorder);
     recorder.progress.finish();
-    let Recorder { writer, mut keeper, .. } = recorder;
+    let Recorder { writer, mut keeper, recorded, .. } = recorder;
     keeper.wait();
     let Some(writer) = writer else {
         result.map_err(failure_of)?;
@@ -99,6 +103,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     keeper.keep(&mut simulation, scout.as_mut(), true, Some(Synced::already())).map_err(Failure::run)?;
     keeper.wait();
     let contact_area = RunFile::open(&path).and_then(|run| run.last_contact_area()).map_err(Failure::run)?;
+    let implausible = recorded.warnings(&scene);
+    warn_of_scene(&mut scene, implausible);
     let summary = Summary::new(
         &scene,
         surface_report,

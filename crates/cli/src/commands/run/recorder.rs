@@ -4,6 +4,7 @@ use plateau_core::comm::CommError;
 use plateau_core::observe::{Sample, Snapshot};
 use plateau_core::scout::Scout;
 use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_io::plausibility::Recorded;
 use plateau_io::run_file::{RunFileError, RunWriter};
 
 use crate::drive::Sink;
@@ -49,12 +50,15 @@ pub(super) struct Recorder<'job> {
     pub(super) keeper: Keeper,
     /// What all processes settled last.
     pub(super) agreement: Agreement,
+    /// What the samples so far say of the scene.
+    pub(super) recorded: Recorded,
 }
 
 impl Sink for Recorder<'_> {
     type Error = RunFailure;
 
     fn sample(&mut self, sample: Sample) -> Result<(), RunFailure> {
+        self.recorded.add(&sample);
         self.keeper.sampled(sample);
         self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample)).map_err(RunFailure::RunFile)
     }

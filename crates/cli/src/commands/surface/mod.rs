@@ -104,7 +104,7 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
     for warning in &scene.warnings {
         message::warning(warning);
     }
-    let Loaded { surfaces, report, inputs } = surface::load(&scene).map_err(Failure::input)?;
+    let Loaded { surfaces, report, inputs, .. } = surface::load(&scene).map_err(Failure::input)?;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
     for picture in arguments.plot.iter().chain(&arguments.preview) {
         output::check(picture, arguments.force, &inputs)?;

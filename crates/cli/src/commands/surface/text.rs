@@ -113,6 +113,14 @@ fn remarks(subjects: &[Subject]) -> String {
         if missing > 0 {
             text.push_str(&format!("  {} of {} points are missing and take no part\n", missing, subject.points()));
         }
+        if subject.description.heights.maximum_height() == 0.0 {
+            text.push_str("  flat: all its heights are equal, so what tells of their shape has no value\n");
+        }
+        if subject.description.autocorrelation.is_some_and(|spatial| spatial.below_pitch) {
+            text.push_str(
+                "  Sal and Str have no value: from each point to the next the heights are all but unrelated\n",
+            );
+        }
         if subject.pitch.is_none() {
             text.push_str("  Sdq, Sdr, Sal and Str need the distance of the points: give --pitch\n");
         }

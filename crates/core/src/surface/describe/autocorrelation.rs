@@ -14,12 +14,18 @@ pub const CORRELATION_THRESHOLD: f64 = 0.2;
 /// value at no lag; z is measured from the mean. So nothing is said of what lies beyond the edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Autocorrelation {
-    /// Sal, m: the shortest distance over which the autocorrelation decays to s; NaN if it does so in no direction.
+    /// Sal, m: the shortest distance over which the autocorrelation decays to s; NaN if it does so in no direction, or
+    /// already before the next point.
     pub length: f64,
-    /// Str: Sal over the longest such distance of any direction; NaN if it does not decay in every direction.
+    /// Str: Sal over the longest such distance of any direction; NaN if it does not decay in every direction, or if either
+    /// distance ends before the next point.
     pub aspect_ratio: f64,
-    /// What Str is less than where it is NaN for that reason: Sal over half the extent in the direction that does not decay.
+    /// What Str is less than where it is NaN because of a direction in which the autocorrelation does not decay: Sal over
+    /// half the extent in that direction.
     pub aspect_ratio_below: f64,
+    /// Whether the shortest distance ends before the next point: it then is somewhere below the pitch, where the grid has
+    /// nothing to tell.
+    pub below_pitch: bool,
 }
 
 impl Autocorrelation {
@@ -31,25 +37,35 @@ impl Autocorrelation {
         let pitch = grid.pitch?;
         let lags = Lags::of(grid.columns, grid.rows);
         let columns: Vec<&[f64]> = grid.column_slices().collect();
-        let none = Self { length: f64::NAN, aspect_ratio: f64::NAN, aspect_ratio_below: f64::NAN };
+        let [length, aspect_ratio, aspect_ratio_below] = [f64::NAN; 3];
+        let none = Self { length, aspect_ratio, aspect_ratio_below, below_pitch: false };
         if lags.x == 0 || lags.y == 0 || columns.len() != grid.columns {
             return Some(none);
         }
         let field = Field::of(&columns, mean, lags, pitch);
         let reaches: Vec<Reach> = lags.edge().into_par_iter().map(|end| field.follow(end)).collect();
-        let (mut shortest, mut longest, mut beyond) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        // With each distance, whether it ends before the next point.
+        let (mut shortest, mut longest, mut beyond) = ((f64::INFINITY, false), (0.0, false), 0.0_f64);
         for reach in reaches {
             match reach {
-                Reach::Decays(distance) => {
-                    (shortest, longest) = (shortest.min(distance), longest.max(distance));
+                Reach::Decays { distance, step } => {
+                    if distance < shortest.0 {
+                        shortest = (distance, step == 1);
+                    }
+                    if distance > longest.0 {
+                        longest = (distance, step == 1);
+                    }
                 }
                 Reach::Beyond(distance) => beyond = beyond.max(distance),
             }
         }
-        Some(match (shortest.is_finite(), beyond > 0.0) {
+        let (length, below_pitch) = shortest;
+        Some(match (length.is_finite(), beyond > 0.0) {
             (false, _) => none,
-            (true, false) => Self { length: shortest, aspect_ratio: shortest / longest, ..none },
-            (true, true) => Self { length: shortest, aspect_ratio_below: shortest / beyond.max(longest), ..none },
+            (true, _) if below_pitch => Self { below_pitch, ..none },
+            (true, true) => Self { length, aspect_ratio_below: length / beyond.max(longest.0), ..none },
+            (true, false) if longest.1 => Self { length, ..none },
+            (true, false) => Self { length, aspect_ratio: length / longest.0, ..none },
         })
     }
 }
@@ -65,8 +81,8 @@ impl Lags {
 
 /// How far the autocorrelation reaches in one direction, m.
 enum Reach {
-    /// It falls to s there.
-    Decays(f64),
+    /// It falls to s at this distance, in this step from one line of the grid of lags to the next.
+    Decays { distance: f64, step: usize },
     /// It is above s up to there, where it ends.
     Beyond(f64),
 }
@@ -122,7 +138,8 @@ impl Field {
             }
             if value <= CORRELATION_THRESHOLD {
                 let part = (before - CORRELATION_THRESHOLD) / (before - value);
-                return Reach::Decays(length * ((step - 1) as f64 + part) / steps as f64);
+                let distance = length * ((step - 1) as f64 + part) / steps as f64;
+                return Reach::Decays { distance, step };
             }
             before = value;
         }

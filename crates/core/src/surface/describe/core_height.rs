@@ -15,9 +15,9 @@ pub struct CoreHeight {
     pub reduced_peak_height: f64,
     /// Svk, m: reduced depth of the dales below the core.
     pub reduced_dale_depth: f64,
-    /// Smr1: fraction of the points that are peaks above the core.
+    /// Smr1: fraction of the points that are peaks above the core; NaN where all heights are equal.
     pub peak_ratio: f64,
-    /// Smr2: fraction of the points that are peaks or core.
+    /// Smr2: fraction of the points that are peaks or core; NaN where all heights are equal.
     pub dale_ratio: f64,
     /// Height of the upper end of the core above the mean, m.
     pub upper: f64,
@@ -45,7 +45,9 @@ impl CoreHeight {
         let centre = first as f64 + 0.5 * width as f64;
         let upper = mean + slope * (-0.5 - centre);
         let lower = mean + slope * (heights.len() as f64 - 0.5 - centre);
-        let (peak_ratio, dale_ratio) = (curve.ratio(upper), curve.ratio(lower));
+        // A plane is all core, or all peak, or all dale.
+        let is_flat = heights.first() == heights.last();
+        let [peak_ratio, dale_ratio] = [upper, lower].map(|end| if is_flat { f64::NAN } else { curve.ratio(end) });
         let height = |area: f64, base: f64| if base > 0.0 { 2.0 * area / base } else { 0.0 };
         Self {
             core_height: upper - lower,
