@@ -185,20 +185,25 @@ fn orders_front_and_advice_follow_from_the_table() {
         let means_nothing = expected <= 0.0 || number(&pair[0], "value") < 3.0;
         assert_eq!(!pair[1]["order_note"].is_empty(), means_nothing, "{pair:?}");
     }
+    // What took as long as the reference is no choice.
+    let longest = RunFile::open(directory.path("accuracy/accuracy.h5")).number("reference_wall_time");
+    let quicker: Vec<&Row> = rows.iter().filter(|row| point(row).0 < longest).collect();
     for row in &rows {
         let (time, error) = point(row);
-        let beaten = rows
+        let beaten = quicker
             .iter()
-            .map(point)
+            .map(|row| point(row))
             .any(|(other_time, other)| other_time <= time && other <= error && (other_time < time || other < error));
-        assert_eq!(number(row, "on_front"), if beaten { 0.0 } else { 1.0 });
+        assert_eq!(number(row, "on_front"), if beaten || time >= longest { 0.0 } else { 1.0 });
+        assert_eq!(number(row, "above_reference_error"), 1.0);
     }
-    let quickest = rows
+    let quickest = quicker
         .iter()
         .filter(|row| point(row).1 <= 0.01)
         .min_by(|one, other| point(one).0.total_cmp(&point(other).0))
         .expect("a run within 1 %");
     assert!(text.contains(&format!("for 1 % error in contact area use {}: ", quickest["setting"])), "{text}");
+    assert!(text.contains("none, it is the model itself"), "{text}");
 }
 
 #[test]
@@ -299,7 +304,15 @@ fn every_file_has_the_same_numbers() {
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let rows = rows(&fs::read_to_string(directory.path("accuracy/accuracy.csv")).unwrap());
     let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
-    for name in ["wall_time", "steps", "contact_area_error", "filled_fraction_error", "load_residual", "on_front"] {
+    for name in [
+        "wall_time",
+        "steps",
+        "contact_area_error",
+        "above_reference_error",
+        "filled_fraction_error",
+        "load_residual",
+        "on_front",
+    ] {
         let expected: Vec<f64> = rows.iter().map(|row| number(row, name)).collect();
         assert_eq!(results.floats(name), expected, "{name}");
         for (run, expected) in json["runs"].as_array().unwrap().iter().zip(expected) {
@@ -308,6 +321,10 @@ fn every_file_has_the_same_numbers() {
     }
     assert_eq!(results.text("state"), "finished");
     assert_eq!(results.number("reference_time_acceleration"), 1.0);
+    assert_eq!(results.number("reference_contact_area_error"), 0.0);
+    assert_eq!(json["reference"]["contact_area_error"].as_f64(), Some(0.0));
+    let advice: Vec<&str> = json["advice"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
+    assert_eq!(results.text("advice"), advice.join("\n"));
     expect_near(results.number("window_width"), WINDOW, 1e-12, "width");
     for (number, end) in results.floats("window_end").into_iter().enumerate() {
         expect_near(end, (number + 1) as f64 * WINDOW, 1e-12, "end");
@@ -357,14 +374,30 @@ fn bad_input_is_refused() {
         file.attr("state").unwrap().write_scalar(&state).unwrap();
         file.close().unwrap();
     }
-    let cases: [(&[&str], &[&str]); 11] = [
+    let model = ["--set", "numerics.time_acceleration=1"];
+    let chosen = ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 20 }"];
+    let cases: [(&[&str], &[&str]); 14] = [
         (
             &["scene.toml", "--ladder", "steps"],
             &["'steps'", "time_acceleration, tolerance, mesh, load_tolerance, integrator, perturbation"],
         ),
         (&["scene.toml", "--budget", "10"], &["'10'", "a time such as"]),
         (&["scene.toml", "--budget", "0 s"], &["expected more than 0 s"]),
-        (&["scene.toml", "--budget", "1 us"], &["the budget of", "is too small", "give --budget"]),
+        (
+            &["scene.toml", "--budget", "1 us"],
+            &[
+                "the budget of",
+                "is too small: at ",
+                "steps/s, as measured, a reference with time_acceleration = ",
+                "finer than the scene's time_acceleration = 20",
+                "give --budget",
+                "for a reference with 1, the model itself",
+            ],
+        ),
+        (
+            &[&["scene.toml", "--budget", "1 us"], &model[..]].concat(),
+            &["too small", "the scene's own run, which is the reference, and one to hold against it take about"],
+        ),
         (&["missing.toml"], &["missing.toml"]),
         (&["scene.toml", "--reference", "scene.toml"], &["scene.toml is no HDF5 file"]),
         (
@@ -374,18 +407,17 @@ fn bad_input_is_refused() {
         (&["scene.toml", "--reference", "short.h5"], &["short.h5 ends at 10.", "expected 20 s"]),
         (&["scene.toml", "--reference", "stopped.h5"], &["stopped.h5 is interrupted, expected a run that is finished"]),
         (
-            &[
-                "scene.toml",
-                "--reference",
-                "good.h5",
-                "--set",
-                "numerics.time_acceleration=1",
-                "--ladder",
-                "mesh",
-                "--budget",
-                "1 us",
-            ],
-            &["the budget of", "is too small: with time_acceleration = 5 as the reference"],
+            &["scene.toml", "--reference", "good.h5", "--ladder", "mesh", "--budget", "1 us"],
+            &["the budget of", "is too small: at ", "the runs to hold against the reference take about"],
+        ),
+        // A reference is finer than what it judges.
+        (
+            &["scene.toml", "--reference", "good.h5", "--set", "numerics.time_acceleration=5"],
+            &["the reference has time_acceleration = 5, the scene has time_acceleration = 5: expected a reference"],
+        ),
+        (
+            &[&["scene.toml", "--reference", "good.h5"], &chosen[..]].concat(),
+            &["the scene has time_acceleration = { tolerance = 0.01, max = 20 }: expected a reference"],
         ),
         (&["scene.toml", "-o", "scene.toml"], &["cannot make the folder scene.toml"]),
     ];
@@ -396,21 +428,129 @@ fn bad_input_is_refused() {
     expect_refusal(&directory, &["scene.toml", "-o", "taken"], &["taken/accuracy.svg exists; give --force"]);
 }
 
+/// Arguments that make the scene one of 196 million steps with `time_acceleration` = 1, which no machine does in 10 s.
+fn long(time_acceleration: &str, budget: &str) -> Vec<String> {
+    let sets =
+        ["operation.duration=20000 s", "mesh.rows=1", &format!("numerics.time_acceleration={time_acceleration}")];
+    let sets = sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]);
+    sets.chain(["--budget", budget, "--ladder", "integrator"].map(str::to_owned)).collect()
+}
+
 #[test]
-fn a_small_budget_has_a_coarser_reference() {
+fn a_budget_for_no_finer_reference_is_too_small() {
     let directory = with_scene(&[]);
-    // Its own run has 196 million steps, which no machine does in that time, and the coarsest one 0.2 million.
-    let sets = ["operation.duration=20000 s", "mesh.rows=1", "numerics.time_acceleration=1"];
-    let mut long: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
-    long.extend(["--budget", "4 s"]);
-    let (text, rows) = measured(&directory, &[&long[..], &["--ladder", "time_acceleration"]].concat());
-    assert!(text.contains("the finest that the budget of 4.0 s allows"), "{text}");
+    // There would be time for runs that are coarser than the scene.
+    let arguments = long("2", "4 s");
+    let arguments: Vec<&str> = ["scene.toml"].into_iter().chain(arguments.iter().map(String::as_str)).collect();
+    let words = [
+        "the budget of 4.0 s is too small: at ",
+        "a reference with time_acceleration = 1, finer than the scene's time_acceleration = 2",
+        "give --budget ",
+    ];
+    expect_refusal(&directory, &arguments, &words);
+}
+
+#[test]
+fn a_small_budget_has_a_reference_between_the_model_and_the_scene() {
+    let directory = with_scene(&[]);
+    // 1.3 million steps are needed.
+    let arguments = long("1000", "20 s");
+    let (text, rows) = measured(&directory, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(
+        text.contains("the finest that the budget of 20.0 s allows; for 1, the model itself, give --budget"),
+        "{text}"
+    );
     let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
     let reference = results.number("reference_time_acceleration");
-    assert!(reference > 1.0, "{text}");
-    // The scene's own is finer, and not run.
-    assert!(rows.iter().all(|row| number(row, "value") > reference), "{text}");
-    assert!(text.contains("the scene's own time_acceleration = 1 is finer than the reference: not run"), "{text}");
+    assert!(1.0 < reference && reference < 1000.0, "{text}");
+    assert!(rows.iter().all(|row| number(row, "time_acceleration") > reference), "{text}");
+    assert!(rows.iter().any(|row| row["value"] == "1000.0"), "{text}");
+    assert!(results.number("reference_contact_area_error") > 0.0, "{text}");
+}
+
+#[test]
+fn the_own_error_of_a_reference_is_that_of_its_opening_and_grows_with_the_scene() {
+    let directory = with_scene(&[]);
+    drop(run(&directory, "five.h5", &["numerics.time_acceleration=5".to_owned()]));
+    let (text, rows) = measured(&directory, &["--ladder", "integrator", "--reference", "five.h5"]);
+    let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
+    // Windows of the opening are whole revolutions with 5 and with 20: as wide as those of all runs.
+    let end = results.number("reference_opening_end");
+    let windows = (end / WINDOW).round() as usize;
+    assert!((1..=WINDOWS).contains(&windows) && (end / WINDOW - windows as f64).abs() < 1e-12, "{end}");
+    let areas = |time_acceleration: &str| {
+        let mut areas =
+            mean_areas(&run(&directory, "run.h5", &[format!("numerics.time_acceleration={time_acceleration}")]));
+        areas.truncate(windows);
+        areas
+    };
+    let [model, reference, scene] = ["1", "5", "20"].map(areas);
+    let opening = error(&reference, &model);
+    expect_near(results.number("reference_opening_error"), opening, 1e-12, "error in the opening");
+    let own = rows.iter().find(|row| row["value"] == "20.0").expect("the scene's own run");
+    let growth = (number(own, "contact_area_error") / error(&scene, &reference)).max(1.0);
+    let own_error = results.number("reference_contact_area_error");
+    expect_near(own_error, opening * growth, 1e-12, "own error");
+    assert!(own_error > 0.0 && text.contains(" in contact area: "), "{text}");
+    for row in &rows {
+        let above = number(row, "contact_area_error") >= 3.0 * own_error;
+        assert_eq!(number(row, "above_reference_error"), f64::from(u8::from(above)));
+    }
+}
+
+#[test]
+fn nothing_is_advised_from_a_reference_that_is_hardly_better() {
+    let directory = with_scene(&[]);
+    drop(run(&directory, "half.h5", &["numerics.time_acceleration=10".to_owned()]));
+    let (text, rows) = measured(&directory, &["--ladder", "integrator", "--reference", "half.h5"]);
+    let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
+    let own_error = results.number("reference_contact_area_error");
+    for row in &rows {
+        assert!(number(row, "contact_area_error") < 3.0 * own_error, "{own_error}: {row:?}");
+        assert_eq!([number(row, "above_reference_error"), number(row, "on_front")], [0.0, 0.0]);
+    }
+    let advice = results.text("advice");
+    assert!(advice.starts_with("no setting is advised") && !advice.contains('\n'), "{advice}");
+    assert!(
+        text.contains(&advice) && text.contains("in brackets: the reference's own error is of that size"),
+        "{text}"
+    );
+    assert!(!text.contains("error in contact area use"), "{text}");
+
+    let figure = Figure::read(&fs::read_to_string(directory.path("accuracy/accuracy.svg")).unwrap());
+    let panel = figure.panel(figure.boxes()[0]);
+    let height = panel.y.place(100.0 * own_error);
+    let is_there = |line: &[[f64; 2]]| line.len() == 2 && line.iter().all(|place| (place[1] - height).abs() < 1.0);
+    assert!(figure.lines.iter().any(|(_, line)| is_there(line)), "no line at the reference's own error");
+    let is_said = |words: &str| figure.texts.iter().any(|text| text.text.contains(words));
+    assert!(is_said("its own error") && !is_said("no other run"), "{:?}", figure.texts);
+}
+
+#[test]
+fn nothing_is_advised_that_is_slower_than_the_reference() {
+    let directory = with_scene(&[]);
+    drop(run(&directory, "quick.h5", &["numerics.time_acceleration=1".to_owned()]));
+    {
+        let _starting = no_open_hdf5_file();
+        let file = hdf5::File::open_rw(directory.path("quick.h5")).unwrap();
+        file.attr("wall_time").unwrap().write_scalar(&1e-9).unwrap();
+        file.close().unwrap();
+    }
+    let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
+    assert!(text.contains("no setting is advised: no other run is quicker than the reference"), "{text}");
+    assert!(!text.contains("error in contact area use"), "{text}");
+    assert!(rows.len() == 4 && rows.iter().all(|row| number(row, "on_front") == 0.0), "{text}");
+}
+
+#[test]
+fn a_smooth_disc_needs_the_model_itself_as_the_reference() {
+    let directory = with_scene(&[]);
+    let smooth = ["--set", "disc.prepare.scale=0.01"];
+    let sets = ["disc.prepare.scale=0.01", "numerics.time_acceleration=2"].map(str::to_owned);
+    drop(run(&directory, "two.h5", &sets));
+    let (text, _) = measured(&directory, &[&["--ladder", "integrator", "--reference", "two.h5"], &smooth[..]].concat());
+    assert!(text.contains("no setting is advised: on a disc as smooth as this one"), "{text}");
+    assert!(text.contains("more later"), "{text}");
 }
 
 #[test]
@@ -427,7 +567,10 @@ fn a_signal_ends_it_in_good_order() {
     let message = String::from_utf8_lossy(&outcome.stderr);
     assert!(started && sent.success());
     assert_eq!(outcome.status.code(), Some(130), "{message}");
-    assert!(message.contains("stopped by signal 2 during the reference run; nothing is written"), "{message}");
+    assert!(
+        message.contains("stopped by signal 2 during the reference run with time_acceleration = 1; nothing is written"),
+        "{message}"
+    );
     assert_eq!(directory.names(), ["scene.toml"]);
 }
 

@@ -91,6 +91,14 @@ pub fn bytes(count: u64) -> String {
     }
 }
 
+/// A fraction in per cent, with two digits that count.
+pub fn percent(fraction: f64) -> String {
+    if fraction.is_nan() {
+        return "–".to_owned();
+    }
+    format!("{} %", rounded(100.0 * fraction, 2))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,5 +124,16 @@ mod tests {
         assert_eq!(duration(0.25), "250 ms");
         assert_eq!(duration(119.9), "1 min 59 s");
         assert_eq!(bytes(2_500_000), "2.5 MB");
+    }
+
+    #[test]
+    fn parts_are_given_in_per_cent() {
+        assert_eq!(percent(1e-2), "1 %");
+        assert_eq!(percent(1e-3), "0.1 %");
+        assert_eq!(percent(0.002_84), "0.28 %");
+        assert_eq!(percent(1.5), "150 %");
+        assert_eq!(percent(0.0), "0 %");
+        assert_eq!(percent(1.234e-9), "1.2e\u{2212}7 %");
+        assert_eq!(percent(f64::NAN), "–");
     }
 }

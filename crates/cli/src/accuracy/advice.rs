@@ -1,56 +1,49 @@
 //! Which run to choose for an error, in a sentence.
 
-use super::pareto::{most_exact, quickest_within};
+use super::choice::{Advice, judge};
 use super::report::Report;
-use crate::number;
+use crate::number::{self, percent};
 
 /// Errors of the contact area for which runs are advised.
 const ERRORS: [f64; 2] = [1e-2, 1e-3];
 
-/// One sentence for each of the errors.
+/// A sentence for each of the errors, or one for all of them.
 pub fn advice(report: &Report) -> Vec<String> {
+    let own = report.own_error;
+    if own.comes_late {
+        return vec![format!(
+            "no setting is advised: on a disc as smooth as this one the error of every time_acceleration above 1 grows late, \
+             and the reference has {}",
+            report.reference.time_acceleration
+        )];
+    }
     let costs = report.choices();
-    let of = |index: usize| {
-        let (row, cost) = (&report.rows[index], costs[index]);
-        (row.setting(), number::duration(cost.time), percent(cost.error))
-    };
+    let clear: Vec<bool> = report.rows.iter().map(|row| row.is_clear).collect();
+    let found = ERRORS.map(|error| (error, judge(error, &costs, own.contact_area(), &clear)));
+    let all_same = found.iter().all(|(_, advice)| *advice == found[0].1);
     let reference = number::duration(report.reference.outcome.wall_time);
-    let sentence = |error: f64| match (quickest_within(&costs, error), most_exact(&costs)) {
-        (Some(index), _) => {
+    let of = |index: usize| (report.rows[index].setting(), number::duration(costs[index].time), costs[index].error);
+    let sentence = |(error, advice): (f64, Advice)| match advice {
+        Advice::Use(index) => {
             let (name, time, _) = of(index);
             format!("for {} error in contact area use {name}: {time} instead of {reference}", percent(error))
         }
-        (None, Some(index)) => {
-            let (name, time, found) = of(index);
-            format!("no run reaches {} error in contact area; the best has {found}: {name}, {time}", percent(error))
+        Advice::Missed(index) => {
+            let (name, time, least) = of(index);
+            let least = percent(least);
+            format!("no run reaches {} error in contact area; the best has {least}: {name}, {time}", percent(error))
         }
-        (None, None) => "there is no run to choose".to_owned(),
+        Advice::ReferenceInexact => {
+            let wanted =
+                if all_same { String::new() } else { format!(" for {} error in contact area", percent(error)) };
+            let own = percent(own.contact_area());
+            format!(
+                "no setting is advised{wanted}: the reference's own error, about {own}, is of the size of the errors compared"
+            )
+        }
+        Advice::NoChoice => "no setting is advised: no other run is quicker than the reference".to_owned(),
     };
-    let mut advice = ERRORS.map(sentence).to_vec();
+    let mut advice = found.map(sentence).to_vec();
     advice.dedup();
     advice
-}
-
-/// A fraction in per cent, with two digits that count.
-pub fn percent(fraction: f64) -> String {
-    if fraction.is_nan() {
-        return "–".to_owned();
-    }
-    format!("{} %", number::rounded(100.0 * fraction, 2))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::percent;
-
-    #[test]
-    fn parts_are_given_in_per_cent() {
-        assert_eq!(percent(1e-2), "1 %");
-        assert_eq!(percent(1e-3), "0.1 %");
-        assert_eq!(percent(0.002_84), "0.28 %");
-        assert_eq!(percent(1.5), "150 %");
-        assert_eq!(percent(0.0), "0 %");
-        assert_eq!(percent(1.234e-9), "1.2e\u{2212}7 %");
-        assert_eq!(percent(f64::NAN), "–");
-    }
 }

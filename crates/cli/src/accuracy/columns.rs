@@ -59,6 +59,9 @@ pub const COLUMNS: &[Column] = columns! {
     "contact_area_error", "1",
         "error of the contact area over the windows, root mean square, relative",
         |row| measured(row, |run| run.comparison.contact_area.mean_square);
+    "above_reference_error", "1",
+        "1 where that error is at least three times the reference's own, else 0",
+        |row| f64::from(u8::from(row.is_clear));
     "contact_area_largest_error", "1",
         "largest error of the contact area of any window, relative",
         |row| measured(row, |run| run.comparison.contact_area.largest);

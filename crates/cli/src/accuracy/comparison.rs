@@ -3,9 +3,7 @@
 use plateau_core::mesh::Mesh;
 
 use super::coarsening::Coarsening;
-use super::history_error::{HistoryError, largest_difference};
 use super::outcome::{Heights, Outcome};
-use super::topography::{rms_difference, rms_difference_about_mean};
 use super::windows::Windows;
 
 /// How far a run is from the reference: differences are run − reference; NaN where one of them is not known.
@@ -82,4 +80,84 @@ fn topography(run: &Heights, reference: &Heights, mesh: &Mesh, coarsening: Optio
             rms_difference_about_mean(run, &on_mesh(expected, Coarsening::pin), areas)
         }),
     ]
+}
+
+/// Error of a history, relative to the reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryError {
+    /// √(Σ (a − b)² / Σ b²) with b the reference.
+    pub mean_square: f64,
+    /// Largest |a − b| / |b| of any window.
+    pub largest: f64,
+}
+
+impl HistoryError {
+    /// Compares the means over the same windows; NaN where one of them is no number.
+    pub fn of(values: &[f64], reference: &[f64]) -> Self {
+        let pairs = || values.iter().zip(reference);
+        let difference: f64 = pairs().map(|(a, b)| (a - b).powi(2)).sum();
+        let size: f64 = reference.iter().map(|b| b.powi(2)).sum();
+        Self { mean_square: (difference / size).sqrt(), largest: greatest(pairs().map(|(a, b)| ((a - b) / b).abs())) }
+    }
+}
+
+/// Largest |a − b|.
+fn largest_difference(values: &[f64], reference: &[f64]) -> f64 {
+    greatest(values.iter().zip(reference).map(|(a, b)| (a - b).abs()))
+}
+
+/// The greatest of numbers that are not negative; NaN if one of them is no number.
+fn greatest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |most, number| if number.is_nan() || number > most { number } else { most })
+}
+
+/// Area-weighted rms of the difference of two fields, m; `areas` are those of the cells of a column.
+fn rms_difference(heights: &[f64], reference: &[f64], areas: &[f64]) -> f64 {
+    about(0.0, heights, reference, areas)
+}
+
+/// The same after the mean of the difference is taken out: how far the shapes are from each other.
+fn rms_difference_about_mean(heights: &[f64], reference: &[f64], areas: &[f64]) -> f64 {
+    let mean = weighted_mean(heights.iter().zip(reference).map(|(a, b)| a - b), areas);
+    about(mean, heights, reference, areas)
+}
+
+fn about(level: f64, heights: &[f64], reference: &[f64], areas: &[f64]) -> f64 {
+    weighted_mean(heights.iter().zip(reference).map(|(a, b)| (a - b - level).powi(2)), areas).sqrt()
+}
+
+fn weighted_mean(values: impl Iterator<Item = f64>, areas: &[f64]) -> f64 {
+    let (sum, area) = values
+        .zip(areas.iter().cycle())
+        .fold((0.0, 0.0), |(sum, area), (value, weight)| (sum + value * weight, area + weight));
+    sum / area
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_those_of_the_definition() {
+        // By hand: √((0.3² + 0.4²)/(3² + 4²)) = 0.1; the larger of 0.3/3 and 0.4/4.
+        let error = HistoryError::of(&[3.3, 3.6], &[3.0, 4.0]);
+        assert!((error.mean_square - 0.1).abs() < 1e-15 && (error.largest - 0.1).abs() < 1e-15, "{error:?}");
+        assert_eq!(HistoryError::of(&[3.0, 4.0], &[3.0, 4.0]), HistoryError { mean_square: 0.0, largest: 0.0 });
+        assert_eq!(largest_difference(&[1.0, 0.5], &[0.75, 1.0]), 0.5);
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_small_error() {
+        let error = HistoryError::of(&[f64::NAN, 4.0], &[3.0, 4.0]);
+        assert!(error.mean_square.is_nan() && error.largest.is_nan());
+    }
+
+    #[test]
+    fn cells_count_by_their_areas() {
+        // Two columns of two rows with areas 1 and 3; differences 0, 2, 0, 2: mean square (3·4 + 3·4)/8 = 3, mean 1.5,
+        // and about it 3 − 2.25 = 0.75.
+        let (heights, reference, areas) = ([5.0, 9.0, 1.0, 4.0], [5.0, 7.0, 1.0, 2.0], [1.0, 3.0]);
+        assert!((rms_difference(&heights, &reference, &areas) - 3_f64.sqrt()).abs() < 1e-15);
+        assert!((rms_difference_about_mean(&heights, &reference, &areas) - 0.75_f64.sqrt()).abs() < 1e-15);
+    }
 }

@@ -2,6 +2,7 @@
 
 use plateau_io::dataset_file::{Attribute, Content, Coordinate, Values, Variable, now};
 
+use super::advice::advice;
 use super::columns::{COLUMNS, TEXT_COLUMNS};
 use super::history::History;
 use super::report::{Report, Row};
@@ -87,6 +88,10 @@ fn attributes(report: &Report, making: &Making) -> Vec<(&'static str, Attribute)
         ("reference_file", text(file)),
         ("reference_sha256", text(sha256)),
         ("reference_time_acceleration", Attribute::Number(reference.time_acceleration)),
+        ("reference_contact_area_error", Attribute::Number(report.own_error.contact_area())),
+        ("reference_opening_error", Attribute::Number(report.own_error.opening)),
+        ("reference_opening_end", Attribute::Number(report.own_error.end)),
+        ("advice", Attribute::Text(advice(report).join("\n"))),
         ("reference_steps", Attribute::Integer(reference.outcome.steps as i64)),
         ("reference_wall_time", Attribute::Number(reference.outcome.wall_time)),
         ("reference_workers", Attribute::Integer(made.workers as i64)),

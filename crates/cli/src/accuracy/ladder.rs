@@ -48,7 +48,7 @@ impl Rung {
     pub fn name(&self) -> String {
         match self.ladder {
             Ladder::TimeAcceleration => format!("time_acceleration = {}", self.value()),
-            Ladder::Tolerance => self.acceleration(),
+            Ladder::Tolerance => self.numerics.acceleration(),
             Ladder::Mesh => format!("mesh coarsened {} times", self.value()),
             Ladder::LoadTolerance => format!("load_tolerance = {:e}", self.value()),
             Ladder::Integrator => format!("integrator = \"{}\"", integrator_name(self.numerics.integrator)),
@@ -60,17 +60,7 @@ impl Rung {
     pub fn full_name(&self) -> String {
         match self.ladder {
             Ladder::TimeAcceleration | Ladder::Tolerance => self.name(),
-            _ => format!("{}, {}", self.acceleration(), self.name()),
-        }
-    }
-
-    /// The time acceleration as a scene gives it.
-    pub fn acceleration(&self) -> String {
-        match self.numerics.adaptive {
-            None => format!("time_acceleration = {}", self.numerics.time_acceleration),
-            Some(Adaptive { tolerance, largest }) => {
-                format!("time_acceleration = {{ tolerance = {tolerance}, max = {largest} }}")
-            }
+            _ => format!("{}, {}", self.numerics.acceleration(), self.name()),
         }
     }
 }
@@ -84,34 +74,30 @@ pub fn time_accelerations(own: f64, revolutions: f64) -> Vec<f64> {
     accelerations
 }
 
-/// The rungs of these ladders that are coarser than a reference with the time acceleration `reference`, or that are the
-/// reference with other heights; `own` are the scene's numerics.
+/// The rungs of these ladders that a reference with the time acceleration `reference` judges, or that are the reference with
+/// other heights; `own` are the scene's numerics, from which the others differ in one thing.
 ///
-/// The first one is the scene's own run, unless that is the reference. Where the scene's own time acceleration is finer
-/// than that of the reference, all other ladders have the reference's.
+/// The first one is the scene's own run, unless that is the reference.
 pub fn rungs(
     ladders: &[Ladder],
     own: Numerics,
     accelerations: &[f64],
     coarsenings: &[usize],
     reference: f64,
-) -> (Numerics, Vec<Rung>) {
-    let base = if own.adaptive.is_some() { own } else { own.accelerated(own.time_acceleration.max(reference)) };
+) -> Vec<Rung> {
     let rung = |ladder, numerics| Rung { ladder, numerics };
     let mut rungs = Vec::new();
-    if base.adaptive.is_some() {
-        rungs.push(rung(Ladder::Tolerance, base));
-    } else if base.time_acceleration > reference {
-        rungs.push(rung(Ladder::TimeAcceleration, base));
+    if own.adaptive.is_some() {
+        rungs.push(rung(Ladder::Tolerance, own));
+    } else if own.time_acceleration > reference {
+        rungs.push(rung(Ladder::TimeAcceleration, own));
     }
     for ladder in ladders {
         match ladder {
             Ladder::TimeAcceleration => rungs.extend(
                 accelerations
                     .iter()
-                    .filter(|other| {
-                        **other > reference && (base.adaptive.is_some() || **other != base.time_acceleration)
-                    })
+                    .filter(|other| **other > reference && (own.adaptive.is_some() || **other != own.time_acceleration))
                     .map(|other| rung(*ladder, own.accelerated(*other))),
             ),
             Ladder::Tolerance => {
@@ -123,27 +109,28 @@ pub fn rungs(
                 );
             }
             Ladder::Mesh => {
-                rungs.extend(coarsenings.iter().map(|factor| rung(*ladder, Numerics { coarsening: *factor, ..base })));
+                rungs.extend(coarsenings.iter().map(|factor| rung(*ladder, Numerics { coarsening: *factor, ..own })));
             }
             Ladder::LoadTolerance => rungs.extend(
                 LOAD_TOLERANCES
                     .iter()
                     .filter(|tolerance| **tolerance != own.load_tolerance)
-                    .map(|tolerance| rung(*ladder, Numerics { load_tolerance: *tolerance, ..base })),
+                    .map(|tolerance| rung(*ladder, Numerics { load_tolerance: *tolerance, ..own })),
             ),
             Ladder::Integrator => {
                 let integrator = match own.integrator {
                     Integrator::Explicit => Integrator::Exponential,
                     Integrator::Exponential => Integrator::Explicit,
                 };
-                rungs.push(rung(*ladder, Numerics { integrator, ..base }));
+                rungs.push(rung(*ladder, Numerics { integrator, ..own }));
             }
             Ladder::Perturbation => rungs.extend(PERTURBATIONS.iter().map(|perturbation| {
                 rung(*ladder, Numerics { perturbation: *perturbation, ..own.accelerated(reference) })
             })),
         }
     }
-    (base, rungs)
+    rungs.retain(|rung| rung.ladder == Ladder::Perturbation || rung.numerics.is_judged_by(reference));
+    rungs
 }
 
 #[cfg(test)]
@@ -177,8 +164,7 @@ mod tests {
             Ladder::Integrator,
             Ladder::Perturbation,
         ];
-        let (base, all) = rungs(&all, OWN, &accelerations, &[2], 1.0);
-        assert_eq!(base, OWN);
+        let all = rungs(&all, OWN, &accelerations, &[2], 1.0);
         let names: Vec<String> = all.iter().map(Rung::name).collect();
         assert_eq!(
             names,
@@ -204,13 +190,12 @@ mod tests {
         assert_eq!(all[7].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
         // A scene that chooses is run first, and the others with its choice.
         let chosen = Numerics { adaptive: Some(Adaptive { tolerance: 0.02, largest: 300.0 }), ..OWN.accelerated(1.0) };
-        let (base, few) = rungs(&[Ladder::Tolerance, Ladder::Mesh], chosen, &accelerations, &[2], 1.0);
-        assert_eq!(base, chosen);
+        let few = rungs(&[Ladder::Tolerance, Ladder::Mesh], chosen, &accelerations, &[2], 1.0);
         assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [0.02, 0.01, 0.05, 0.1, 2.0]);
         assert_eq!(few[4].full_name(), "time_acceleration = { tolerance = 0.02, max = 300 }, mesh coarsened 2 times");
-        // A reference that is coarser than the scene takes its place.
-        let (base, few) = rungs(&[Ladder::TimeAcceleration], OWN, &accelerations, &[], 30.0);
-        assert_eq!(base.time_acceleration, 30.0);
-        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [50.0]);
+        // A coarser reference judges what is coarser still, and no run that may be finer.
+        let few = rungs(&[Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh], OWN, &accelerations, &[2], 5.0);
+        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [20.0, 50.0, 2.0]);
+        assert!(rungs(&[Ladder::TimeAcceleration], OWN, &accelerations, &[], 50.0).is_empty());
     }
 }

@@ -5,46 +5,43 @@
 //! | the numerics that a ladder changes | [`numerics`] |
 //! | the rungs of every ladder | [`ladder`] |
 //! | surfaces on a coarser mesh | [`coarsening`], [`overlap`] |
-//! | how long a run will take | [`laboratory`] |
-//! | which runs fit into a budget | [`mod@plan`] |
-//! | one run | [`mod@measure`] |
-//! | what is kept of it | [`outcome`], [`history`] |
+//! | how runs are made, and how long they take | [`runs`], [`mod@measure`] |
+//! | which runs fit into a budget, and which is the reference | [`mod@plan`] |
+//! | the runs of a plan, one after the other | [`mod@search`] |
+//! | what is kept of a run | [`outcome`], [`history`] |
 //! | a reference, made or read | [`mod@reference`] |
 //! | windows of physical time | [`windows`] |
-//! | a run held against the reference | [`comparison`], [`history_error`], [`topography`] |
+//! | a run held against the reference | [`comparison`] |
 //! | order of convergence | [`order`] |
-//! | which runs are worth their time | [`pareto`], [`mod@advice`] |
+//! | which runs are worth their time, and when that can be told | [`choice`], in sentences [`mod@advice`] |
 //! | all that was found | [`report`], its numbers in [`columns`] |
-//! | as text, CSV, JSON and HDF5 | [`mod@text`], [`mod@csv`], [`mod@json`], [`hdf5`] |
+//! | as text, CSV, JSON and HDF5 | [`mod@text`], [`documents`], [`hdf5`] |
 
 mod advice;
+mod choice;
 mod coarsening;
 mod columns;
 mod comparison;
-mod csv;
+mod documents;
 mod hdf5;
 mod history;
-mod history_error;
-mod json;
-mod laboratory;
 mod ladder;
 mod measure;
 mod numerics;
 mod order;
 mod outcome;
 mod overlap;
-mod pareto;
 mod plan;
 mod reference;
 mod report;
+mod runs;
+mod search;
 mod text;
-mod topography;
 mod windows;
 
-pub use csv::csv;
+pub use documents::{csv, json};
 pub use hdf5::{Making, content};
-pub use json::json;
-pub use laboratory::{Found, Laboratory, Wish};
 pub use reference::{ReadReference, read as read_reference};
 pub use report::{Report, Row};
+pub use search::{Found, Wish, search};
 pub use text::text;

@@ -42,8 +42,24 @@ impl Numerics {
         Self { time_acceleration, adaptive: None, ..self }
     }
 
-    /// What a simulation of the scene with these numerics is told; `coarsening` is that of the mesh, if there is one.
-    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>) -> Parameters {
+    /// The time acceleration as a scene gives it.
+    pub fn acceleration(&self) -> String {
+        match self.adaptive {
+            None => format!("time_acceleration = {}", self.time_acceleration),
+            Some(Adaptive { tolerance, largest }) => {
+                format!("time_acceleration = {{ tolerance = {tolerance}, max = {largest} }}")
+            }
+        }
+    }
+
+    /// Whether a reference with this time acceleration is finer than the run, or the model itself. A run that chooses its
+    /// acceleration begins with 1, so that nothing but the model is finer.
+    pub fn is_judged_by(&self, reference: f64) -> bool {
+        reference == 1.0 || (self.adaptive.is_none() && reference < self.time_acceleration)
+    }
+
+    /// What a simulation of `duration` (s) with these numerics is told; `coarsening` is that of the mesh, if there is one.
+    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>, duration: f64) -> Parameters {
         let mut parameters = Parameters {
             time_acceleration: self.time_acceleration,
             load_tolerance: self.load_tolerance,
@@ -54,7 +70,7 @@ impl Numerics {
             parameters.mesh = coarsening.mesh.clone();
         }
         // As when the scene is run with these numerics.
-        parameters.steps = parameters.clock().steps_until(scene.duration).max(1);
+        parameters.steps = parameters.clock().steps_until(duration).max(1);
         parameters
     }
 }

@@ -4,10 +4,12 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use plateau_core::observe::{Map, MapValues};
+use plateau_core::parameters::Integrator;
 use plateau_io::run_file::{InputFile, ReadError, RunFile, State};
 use plateau_io::scene::{Difference, differences, recipe::Scene};
 
 use super::history::History;
+use super::numerics::integrator_name;
 use super::outcome::{End, Heights, Outcome};
 use crate::failure::Failure;
 
@@ -20,6 +22,37 @@ pub struct Reference {
     pub outcome: Outcome,
     /// Where it comes from.
     pub provenance: Provenance,
+}
+
+/// How far a reference is from the model itself, `time_acceleration` = 1: an estimate from the first windows, the opening.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OwnError {
+    /// Error of the mean contact areas of the opening against the model, relative, root mean square.
+    pub opening: f64,
+    /// How many times as large as in the opening errors are over the whole run.
+    pub growth: f64,
+    /// Where the opening ends, s; 0 where the reference is the model.
+    pub end: f64,
+    /// Whether it is known to come later: on smooth discs, on which no run that chooses its acceleration has one.
+    pub comes_late: bool,
+}
+
+impl OwnError {
+    /// Of the model itself.
+    pub const NONE: Self = Self { opening: 0.0, growth: 1.0, end: 0.0, comes_late: false };
+
+    /// Error of the mean contact areas over the whole run, about.
+    pub fn contact_area(&self) -> f64 {
+        self.opening * self.growth
+    }
+
+    /// The same with the growth that the error of the scene's own run shows, against the reference: `opening` in the opening
+    /// and `whole` over the whole run. Errors are not taken to shrink; where one of the two is not known there is no growth.
+    #[must_use]
+    pub fn growing(self, opening: f64, whole: f64) -> Self {
+        let growth = whole / opening;
+        Self { growth: if growth.is_finite() { growth.max(1.0) } else { 1.0 }, ..self }
+    }
 }
 
 /// Where a reference comes from.
@@ -44,6 +77,8 @@ pub struct Provenance {
 pub struct ReadReference {
     /// The reference.
     pub reference: Reference,
+    /// Its integrator, which may be another than the scene's.
+    pub integrator: Integrator,
     /// Longest time between two samples, s.
     pub sample_every: f64,
     /// What it did not record.
@@ -69,14 +104,19 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
         )));
     }
     refuse_another_scene(&run, scene, inputs)?;
-    let time_acceleration = run.scene().get("numerics").and_then(|numerics| numerics.get("time_acceleration"));
+    let numerics = |key: &str| run.scene().get("numerics").and_then(|numerics| numerics.get(key));
     let time_acceleration =
-        time_acceleration.and_then(|value| value.as_float().or(value.as_integer().map(|m| m as f64)));
+        numerics("time_acceleration").and_then(|value| value.as_float().or(value.as_integer().map(|m| m as f64)));
     let Some(time_acceleration) = time_acceleration else {
         return Err(Failure::input(format_args!(
             "the scene of the reference {shown} has no numerics.time_acceleration"
         )));
     };
+    let integrator = numerics("integrator").and_then(|value| value.as_str());
+    let integrator = [Integrator::Explicit, Integrator::Exponential]
+        .into_iter()
+        .find(|known| integrator == Some(integrator_name(*known)))
+        .unwrap_or(scene.parameters.integrator);
     let mut parameters = scene.parameters.clone();
     parameters.time_acceleration = time_acceleration;
     let end = run.time().last().copied().unwrap_or(0.0);
@@ -100,7 +140,8 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
         workers: run.number("workers").unwrap_or(0.0) as u64,
         start_time: text("start_time"),
     };
-    Ok(ReadReference { reference: Reference { time_acceleration, outcome, provenance }, sample_every, missing })
+    let reference = Reference { time_acceleration, outcome, provenance };
+    Ok(ReadReference { reference, integrator, sample_every, missing })
 }
 
 fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outcome, Failure> {
@@ -212,4 +253,20 @@ fn parsed_inputs(text: &str) -> Vec<InputFile> {
         Some(InputFile { path: text("path")?, sha256: text("sha256")? })
     };
     entries.iter().filter_map(entry).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::OwnError;
+
+    #[test]
+    fn the_own_error_grows_as_the_error_of_the_scene_does() {
+        let own = OwnError { opening: 2e-5, growth: 1.0, end: 5.0, comes_late: false };
+        // The scene's error is 0.01 % in the opening and 0.2 % in the end: 20 times as large, and so is the reference's.
+        assert!((own.growing(1e-4, 2e-3).contact_area() - 4e-4).abs() < 1e-18);
+        for (opening, whole) in [(2e-3, 1e-3), (0.0, 1e-3), (0.0, 0.0), (1e-4, f64::NAN)] {
+            assert_eq!(own.growing(opening, whole), own, "{opening}, {whole}");
+        }
+        assert_eq!(OwnError::NONE.growing(1e-4, 2e-3).contact_area(), 0.0);
+    }
 }

@@ -1,15 +1,15 @@
 //! All that was found: what the table, the files and the figure show.
 
-use super::advice::percent;
+use super::choice::{CLEAR, Cost, front};
 use super::comparison::Comparison;
 use super::history::History;
 use super::ladder::Rung;
 use super::order::{self, Point};
 use super::outcome::Outcome;
-use super::pareto::{Cost, front};
-use super::reference::Reference;
+use super::reference::{OwnError, Reference};
 use super::windows::Windows;
 use crate::arguments::Ladder;
+use crate::number::percent;
 
 /// All that was found.
 #[derive(Debug, Clone)]
@@ -18,6 +18,8 @@ pub struct Report {
     pub title: String,
     /// What the runs are held against.
     pub reference: Reference,
+    /// How far that is from the model itself.
+    pub own_error: OwnError,
     /// Over which contact areas are compared.
     pub windows: Windows,
     /// One row for every rung that was run, ladder by ladder, the finest first.
@@ -37,6 +39,8 @@ pub struct Row {
     pub stiffness_number: f64,
     /// What was measured, or why the run failed.
     pub result: Result<Measured, String>,
+    /// Whether the error of the contact area is at least [`CLEAR`] times the reference's own.
+    pub is_clear: bool,
     /// Whether no other rung is as quick and as exact.
     pub on_front: bool,
     /// Observed order of convergence from the next finer rung to this one; NaN where there is none.
@@ -61,23 +65,32 @@ pub struct Measured {
     /// How far it is from the reference.
     pub comparison: Comparison,
     /// Error of the contact areas against the scene's own run, from which this one differs in one thing; NaN on the ladder
-    /// of time accelerations, and where the scene's own run failed.
+    /// of time accelerations, and where the scene's own run failed or was not made.
     pub change: f64,
 }
 
 impl Measured {
     /// What is kept of a run that was compared.
-    pub fn of(outcome: Outcome, comparison: Comparison, change: f64) -> Self {
+    pub fn of(outcome: Outcome, comparison: Comparison) -> Self {
         let Outcome { steps, wall_time, history, end, .. } = outcome;
         let (load_residual, balance_residual) = (end.load_residual, end.balance_residual);
-        Self { steps, wall_time, history, load_residual, balance_residual, comparison, change }
+        Self { steps, wall_time, history, load_residual, balance_residual, comparison, change: f64::NAN }
     }
 }
 
 impl Row {
     /// A row of which orders and front are not known yet.
     pub fn new(rung: Rung, cells: [usize; 3], stiffness_number: f64, result: Result<Measured, String>) -> Self {
-        Self { rung, cells, stiffness_number, result, on_front: false, order: f64::NAN, order_note: String::new() }
+        Self {
+            rung,
+            cells,
+            stiffness_number,
+            result,
+            is_clear: false,
+            on_front: false,
+            order: f64::NAN,
+            order_note: String::new(),
+        }
     }
 
     /// Keys and values that make this run, as a scene has them.
@@ -86,7 +99,7 @@ impl Row {
         match self.rung.ladder {
             Ladder::Mesh => format!(
                 "{}, rows = {rows}, disc_columns = {disc_columns}, pin_columns = {pin_columns}",
-                self.rung.acceleration()
+                self.rung.numerics.acceleration()
             ),
             _ => self.rung.full_name(),
         }
@@ -104,10 +117,11 @@ impl Row {
     }
 
     /// Wall time and error as they count for a choice. A run that equals the scene's own, step by step, is none, for only
-    /// chance makes it the quicker of the two; nor is a perturbed reference.
-    fn choice(&self) -> Cost {
-        let same = self.result.as_ref().is_ok_and(|measured| measured.change == 0.0);
-        let none = same || self.rung.ladder == Ladder::Perturbation;
+    /// chance makes it the quicker of the two; nor is a perturbed reference, nor what is not quicker than the reference.
+    fn choice(&self, reference: &Outcome) -> Cost {
+        let none =
+            |run: &Measured| run.change == 0.0 || run.steps >= reference.steps || run.wall_time >= reference.wall_time;
+        let none = self.rung.ladder == Ladder::Perturbation || self.result.as_ref().is_ok_and(none);
         Cost { error: if none { f64::NAN } else { self.error() }, ..self.cost() }
     }
 }
@@ -121,21 +135,23 @@ impl Report {
             one_ladder.cmp(&other_ladder).then(one.total_cmp(&other))
         });
         let on_front = front(&self.choices());
+        let own_error = self.own_error.contact_area();
         for (row, on_front) in self.rows.iter_mut().zip(on_front) {
-            row.on_front = on_front;
+            row.is_clear = row.error() >= CLEAR * own_error;
+            row.on_front = on_front && row.is_clear;
         }
-        let reference = self.reference.time_acceleration;
+        let reference = Point { size: self.reference.time_acceleration, error: own_error };
         self.observe_orders(Ladder::TimeAcceleration, reference, |measured| {
             measured.comparison.contact_area.mean_square
         });
         // The scene's mesh is the reference of the other meshes.
-        self.observe_orders(Ladder::Mesh, 1.0, |measured| measured.change);
+        self.observe_orders(Ladder::Mesh, Point { size: 1.0, error: 0.0 }, |measured| measured.change);
         self.note_ladders();
     }
 
     /// Wall time and error of every row that is a choice; the error of the others is NaN.
     pub fn choices(&self) -> Vec<Cost> {
-        self.rows.iter().map(Row::choice).collect()
+        self.rows.iter().map(|row| row.choice(&self.reference.outcome)).collect()
     }
 
     /// Says what the rows of a ladder show together.
@@ -163,7 +179,8 @@ impl Report {
             .filter(|row| row.rung.ladder == Ladder::TimeAcceleration)
             .map(|row| Point { size: row.rung.value(), error: row.error() })
             .collect();
-        if let Some(order) = order::fitted(&points, self.reference.time_acceleration) {
+        let reference = Point { size: self.reference.time_acceleration, error: self.own_error.contact_area() };
+        if let Some(order) = order::fitted(&points, reference) {
             self.notes.push(format!(
                 "the errors of all time accelerations together grow with order {order:.2} (least squares, from {} times the \
                  reference's on)",
@@ -172,7 +189,7 @@ impl Report {
         }
     }
 
-    fn observe_orders(&mut self, ladder: Ladder, reference: f64, error: impl Fn(&Measured) -> f64) {
+    fn observe_orders(&mut self, ladder: Ladder, reference: Point, error: impl Fn(&Measured) -> f64) {
         let mut finer: Option<Point> = None;
         for row in self.rows.iter_mut().filter(|row| row.rung.ladder == ladder) {
             let Ok(measured) = &row.result else { continue };

@@ -2,9 +2,10 @@
 
 use plateau_core::parameters::Integrator;
 
-use super::advice::{advice, percent};
+use super::advice::advice;
+use super::reference::OwnError;
 use super::report::{Measured, Report, Row};
-use crate::number;
+use crate::number::{self, percent};
 use crate::table::{columns, list, table};
 
 /// Reference, errors, advice and notes.
@@ -25,6 +26,7 @@ fn reference(report: &Report) -> String {
     let source = made.file.as_ref().map_or("run here".to_owned(), |file| file.path.clone());
     let rows = [
         ("reference", format!("time_acceleration = {}, {source}", reference.time_acceleration)),
+        ("its own error", own_error(&report.own_error)),
         (
             "its wall time",
             format!(
@@ -46,6 +48,20 @@ fn reference(report: &Report) -> String {
     table(&report.title, &rows)
 }
 
+fn own_error(own: &OwnError) -> String {
+    if *own == OwnError::NONE {
+        return "none, it is the model itself".to_owned();
+    }
+    let (opening, end) = (percent(own.opening), number::short(own.end));
+    let growth = match own.growth {
+        1.0 => String::new(),
+        growth => format!(", and errors grow to {} times that", number::rounded(growth, 2)),
+    };
+    let later = if own.comes_late { ", more later" } else { "" };
+    let whole = percent(own.contact_area());
+    format!("about {whole} in contact area: {opening} against 1 over the first {end} s{growth}{later}")
+}
+
 fn errors(rows: &[Row]) -> String {
     let names = ["run", "wall time", "steps", "contact area", "largest", "by itself", "order", "filled, largest", ""];
     let line = |row: &Row, run: &Measured| {
@@ -58,7 +74,7 @@ fn errors(rows: &[Row]) -> String {
         vec![
             number::duration(run.wall_time),
             number::grouped(run.steps),
-            percent(area.mean_square),
+            if row.is_clear { percent(area.mean_square) } else { format!("({})", percent(area.mean_square)) },
             percent(area.largest),
             percent(run.change),
             order,
@@ -73,6 +89,9 @@ fn errors(rows: &[Row]) -> String {
 /// What the table of errors cannot say in a few letters.
 fn remarks(rows: &[Row]) -> String {
     let mut remarks = Vec::new();
+    if rows.iter().any(|row| row.result.is_ok() && !row.is_clear) {
+        remarks.push("(contact area) in brackets: the reference's own error is of that size".to_owned());
+    }
     let changed = |row: &Row| row.result.as_ref().is_ok_and(|run| !run.change.is_nan());
     if rows.iter().any(changed) {
         remarks.push(

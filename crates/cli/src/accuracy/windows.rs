@@ -1,5 +1,8 @@
 //! Equal windows of physical time, over which runs are compared.
 
+/// Narrowest window, s.
+pub const LEAST_WINDOW: f64 = 5.0;
+
 /// Windows that follow each other from the start of a run. What is left at its end is less than one of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Windows {
@@ -21,6 +24,11 @@ impl Windows {
             0 => Self { width: duration, count: 1 },
             count => Self { width, count },
         }
+    }
+
+    /// Where the last of them ends, s.
+    pub fn span(&self) -> f64 {
+        self.count as f64 * self.width
     }
 
     /// Where each of them ends, s.

@@ -12,13 +12,14 @@ use super::{ExecutionArguments, SceneArguments};
 pub struct AccuracyArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Wall time that all runs together may take; the reference is as fine as it allows
+    /// Wall time that all runs together may take; the reference is as fine as half of it allows, and finer than the scene
     #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
     pub budget: f64,
     /// Ladders that are climbed, with commas between; all but perturbation unless given
     #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
     pub ladders: Vec<Ladder>,
-    /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here
+    /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here; finer than
+    /// the scene
     #[arg(long, value_name = "RUN")]
     pub reference: Option<PathBuf>,
     /// Folder for accuracy.csv, .h5, .png and .svg, made if it is not there

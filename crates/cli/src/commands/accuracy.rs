@@ -9,7 +9,7 @@ use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
 use super::load_scene;
-use crate::accuracy::{Found, Laboratory, Making, ReadReference, Wish, content, csv, json, read_reference, text};
+use crate::accuracy::{Found, Making, ReadReference, Wish, content, csv, json, read_reference, search, text};
 use crate::arguments::{AccuracyArguments, Ladder};
 use crate::execution::decide;
 use crate::failure::Failure;
@@ -55,8 +55,8 @@ fn measure_into(
     let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
     ladders.sort_unstable();
     ladders.dedup();
-    let laboratory = Laboratory::new(scene, &loaded.surfaces, execution, &ladders)?;
-    let Found { report, stopped } = laboratory.search(Wish { ladders, budget: arguments.budget, reference })?;
+    let wish = Wish { ladders, budget: arguments.budget, reference };
+    let Found { report, stopped } = search(scene, &loaded.surfaces, execution, wish)?;
 
     let making = Making {
         scene: scene.resolved.clone(),

@@ -29,14 +29,21 @@ pub fn figure(report: &Report) -> Figure {
     let shown = shown(&report.rows);
     let reference = report.reference.outcome.wall_time;
     let times = shown.iter().map(|row| row.cost().time).chain([reference]);
-    let errors = shown.iter().map(|row| 100.0 * row.error());
+    let own_error = 100.0 * report.own_error.contact_area();
+    let errors = shown.iter().map(|row| 100.0 * row.error()).chain([own_error]);
     let (x, y) = (range(times), range(errors));
     let mut contents = Vec::new();
     if reference > 0.0 {
         let points = vec![[reference, *y.start()], [reference, *y.end()]];
         contents.push(Content::Line { points, colour: FAINT, width: LINE });
     }
-    contents.push(Content::Line { points: front(&shown), colour: APART, width: 5 * LINE });
+    if own_error > 0.0 {
+        let points = vec![[*x.start(), own_error], [*x.end(), own_error]];
+        contents.push(Content::Line { points, colour: FAINT, width: LINE });
+    }
+    let front = front(&shown);
+    let has_front = !front.is_empty();
+    contents.push(Content::Line { points: front, colour: APART, width: 5 * LINE });
     let mut ladders: Vec<Ladder> = shown.iter().map(|row| row.rung.ladder).collect();
     ladders.dedup();
     for ladder in &ladders {
@@ -55,9 +62,12 @@ pub fn figure(report: &Report) -> Figure {
     let meaning = |colour, style, text: &str| Meaning { colour, style, text: text.to_owned() };
     let mut meanings: Vec<Meaning> =
         ladders.iter().map(|ladder| meaning(colour(*ladder), KeyStyle::Area, ladder.name())).collect();
-    meanings.push(meaning(APART, KeyStyle::Area, "no other run is as quick and as exact"));
-    if reference > 0.0 {
-        let text = format!("reference, time_acceleration = {}", report.reference.time_acceleration);
+    if has_front {
+        meanings.push(meaning(APART, KeyStyle::Area, "no other run is as quick and as exact"));
+    }
+    if reference > 0.0 || own_error > 0.0 {
+        let lines = if own_error > 0.0 { ", its time and its own error" } else { "" };
+        let text = format!("reference, time_acceleration = {}{lines}", report.reference.time_acceleration);
         meanings.push(meaning(FAINT, KeyStyle::Line, &text));
     }
     let chart = Chart {

@@ -1,12 +1,29 @@
-//! What was found, as one JSON document.
+//! What was found, as CSV and as JSON.
 
 use serde_json::{Map, Value, json};
 
 use super::advice::advice;
 use super::columns::{COLUMNS, TEXT_COLUMNS};
 use super::report::{Report, Row};
+use crate::csv_table::csv_table;
 
-/// The document; what is not known is null.
+/// A line of names and one line for each row; what is not known is empty.
+pub fn csv(rows: &[Row]) -> String {
+    let names = TEXT_COLUMNS.iter().map(|column| column.name).chain(COLUMNS.iter().map(|column| column.name));
+    let header: Vec<String> = names.map(str::to_owned).collect();
+    let lines = rows.iter().map(|row| {
+        let texts = TEXT_COLUMNS.iter().map(|column| (column.value)(row));
+        texts.chain(COLUMNS.iter().map(|column| number((column.value)(row)))).collect()
+    });
+    csv_table(std::iter::once(header).chain(lines))
+}
+
+/// As short as reads back as the same number.
+fn number(value: f64) -> String {
+    if value.is_nan() { String::new() } else { format!("{value:?}") }
+}
+
+/// One JSON document; what is not known is null.
 pub fn json(report: &Report) -> String {
     let reference = &report.reference;
     let made = &reference.provenance;
@@ -18,6 +35,9 @@ pub fn json(report: &Report) -> String {
             "steps": reference.outcome.steps,
             "wall_time": reference.outcome.wall_time,
             "workers": made.workers,
+            "contact_area_error": report.own_error.contact_area(),
+            "opening_error": report.own_error.opening,
+            "opening_end": report.own_error.end,
         },
         "window_width": report.windows.width,
         "windows": report.windows.count,
@@ -33,4 +53,14 @@ fn row(row: &Row) -> Value {
     // JSON has no NaN: such a number becomes null.
     let numbers = COLUMNS.iter().map(|column| (column.name.to_owned(), Value::from((column.value)(row))));
     Value::Object(texts.chain(numbers).collect::<Map<_, _>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn values_read_back() {
+        assert_eq!([number(0.1), number(1e-300), number(f64::NAN), number(20.0)], ["0.1", "1e-300", "", "20.0"]);
+    }
 }
