@@ -30,7 +30,7 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
     let parameters = parameters(&settings)?;
-    warnings.extend(debris_by_default(&settings));
+    warnings.extend(debris_by_default(&settings, path));
     // From here on it is `debris`.
     settings.remove("plateaus.debris_pool");
     let duration = settings.optional_number("operation.duration")?;
@@ -186,13 +186,15 @@ fn materials(settings: &Settings) -> Result<Materials, Problem> {
 }
 
 /// A word to scenes of before local debris that leave the rule open.
-fn debris_by_default(settings: &Settings) -> Option<String> {
+fn debris_by_default(settings: &Settings, scene: &Path) -> Option<Warning> {
     let (debris, pool) = (settings.origin("plateaus.debris"), settings.get("plateaus.debris_pool"));
     let is_open = debris == Origin::Default && pool.is_none() && settings.bool("plateaus.formation").unwrap_or(false);
-    is_open.then(|| {
-        "plateaus.debris is not given: wear debris goes to one pool for the whole contact, as before; write debris = \
-         \"contact\" to keep that, or \"local\" for the rule of the paper"
-            .to_owned()
+    is_open.then(|| Warning {
+        place: Origin::File(scene.into()),
+        key: "plateaus.debris".to_owned(),
+        found: "not given".to_owned(),
+        bound: "so wear debris goes to one pool for the whole contact, as before there was a choice".to_owned(),
+        advice: "write debris = \"contact\" to keep that, or \"local\" for the rule of the paper".to_owned(),
     })
 }
 

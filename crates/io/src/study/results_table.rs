@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::collected::{Collected, CollectedRun, State, unit_of};
+use super::collected::{Collected, CollectedRun, State, error_name, unit_of};
 use super::plan::Plan;
 
 /// A column: its head and a cell for each run.
@@ -14,7 +14,8 @@ struct Column {
 /// Head and lines: number, point, replicate and state of each run, its factors and responses, and why it failed.
 ///
 /// Quantities are numbers in the unit that stands behind the name, as in `load [N]`; words, and numbers without a unit, stand
-/// as the study has them. A response that a run does not give is an empty cell.
+/// as the study has them. A response that a run does not give is an empty cell. A response that has a standard error is
+/// followed by it.
 pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
     let study = plan.study();
     let mut names = Names::default();
@@ -51,6 +52,16 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
                 .filter(|response| !response.is_nan())
                 .map_or_else(String::new, |value| exactly(*value))
         }));
+        if response.has_error() {
+            columns.push(column(
+                &error_name(&response.name),
+                "response",
+                if unit == "1" { "" } else { unit },
+                &|run| {
+                    run.errors.get(at).filter(|error| !error.is_nan()).map_or_else(String::new, |error| exactly(*error))
+                },
+            ));
+        }
     }
     columns.push(error);
     let head = columns.iter().map(|column| column.head.clone()).collect();
