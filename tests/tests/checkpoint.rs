@@ -22,7 +22,7 @@ fn simulation(sets: &[&str], workers: usize, instructions: InstructionSet) -> Si
 const SCENES: [&[&str]; 6] = [
     &[],
     &["plateaus.formation=false"],
-    &["plateaus.debris_pool=track", "plateaus.captured_fraction=0.5"],
+    &["plateaus.debris=track", "plateaus.captured_fraction=0.5"],
     &["materials.disc_primary.specific_wear_rate=1e-15 1/Pa", "numerics.integrator=exponential"],
     &["materials.pin_secondary.youngs_modulus=5e8 Pa", "plateaus.captured_fraction=0.9", "plateaus.destruction=true"],
     &["mesh.rows=13", "mesh.disc_columns=61", "mesh.pin_columns=61"],

@@ -114,7 +114,7 @@ fn the_quick_scene() {
 
 #[test]
 fn one_pool_per_track() {
-    let sets = [&FAST[..], &["plateaus.debris_pool=track"]].concat();
+    let sets = [&FAST[..], &["plateaus.debris=track"]].concat();
     Scene::quick(1500, &sets).agrees_for_all(plateaus_form_and_fall);
 }
 
@@ -126,7 +126,7 @@ fn exponential_wear_with_materials_of_their_own() {
 
 #[test]
 fn explicit_wear_with_materials_of_their_own_and_one_pool_per_track() {
-    let sets = [&FAST[..], &OWN_MATERIALS, &["plateaus.debris_pool=track"]].concat();
+    let sets = [&FAST[..], &OWN_MATERIALS, &["plateaus.debris=track"]].concat();
     Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 

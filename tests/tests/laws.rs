@@ -14,7 +14,8 @@ use proptest::prelude::*;
 fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
     let mesh = (1..12_usize, 2..40_usize).prop_flat_map(|(rows, columns)| (Just(rows), Just(columns), 1..=columns));
     let fractions = (0.0..=1.0, option::of(0.0..=1.0));
-    let rules = (fractions, 0.0..=1.0, any::<bool>(), any::<bool>(), any::<bool>());
+    let debris = prop_oneof![Just(DebrisRule::Local), Just(DebrisRule::Contact), Just(DebrisRule::Track)];
+    let rules = (fractions, 0.0..=1.0, debris, any::<bool>(), any::<bool>());
     let wear = (0.0..1e-13, 0.0..1e-13, 0.0..1e-14, 0.0..1e-14);
     (mesh, rules, wear, 0.01..100.0, 1.0..500.0, any::<bool>(), any::<u64>()).prop_map(
         |((rows, columns, pin), rules, wear, force, acceleration, exponential, seed)| {
@@ -25,7 +26,7 @@ fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
                 captured_fraction: rules.0.0,
                 captured_resin_fraction: rules.0.1,
                 pad_share: rules.1,
-                debris: if rules.2 { DebrisRule::Track } else { DebrisRule::Contact },
+                debris: rules.2,
                 formation: rules.3,
                 destruction: rules.4,
             };
@@ -113,8 +114,10 @@ proptest! {
         let sample = simulation.sample().unwrap();
         let PlateauRules { captured_fraction, captured_resin_fraction, .. } = parameters.plateaus;
         let plateaus = sample.worn_pin + sample.worn_disc;
-        let captured = captured_fraction * plateaus
-            + captured_resin_fraction.unwrap_or(captured_fraction) * sample.worn_resin;
+        // Without a pool all of it leaves the contact.
+        let local = parameters.plateaus.debris == DebrisRule::Local;
+        let captured = if local { 0.0 } else { captured_fraction * plateaus
+            + captured_resin_fraction.unwrap_or(captured_fraction) * sample.worn_resin };
         let worn = plateaus + sample.worn_resin;
         prop_assert!((sample.pool - captured).abs() <= 1e-12 * worn, "{:e} of {:e}", sample.pool - captured, worn);
         prop_assert!((sample.emitted - (worn - captured)).abs() <= 1e-12 * worn);
@@ -142,6 +145,31 @@ proptest! {
         prop_assert!(pin.height.iter().zip(&pin.substrate).all(|(z, b)| z <= b), "z_p ≤ b_p");
         prop_assert!(disc.height.iter().zip(&disc.substrate).all(|(z, b)| z >= b), "z_d ≥ b_d");
         prop_assert!(disc.statuses().all(|status| status != Status::None));
+    }
+
+    #[test]
+    fn local_debris_neither_overtops_the_disc_nor_goes_anywhere_but_behind_what_wears((mut parameters, seed) in scenes()) {
+        parameters.plateaus.debris = DebrisRule::Local;
+        let (mesh, rows) = (&parameters.mesh, parameters.mesh.rows());
+        let surfaces = random_surfaces(mesh, seed);
+        let reference = surfaces.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut simulation = start(&parameters, surfaces);
+        let mut before = simulation.pin().unwrap().height;
+        for step in 1..=2 * mesh.disc_columns() as u64 {
+            simulation.advance().unwrap();
+            let sample = simulation.sample().unwrap();
+            prop_assert_eq!((sample.pool, sample.returned), (0.0, 0.0));
+            prop_assert!(sample.balance_residual.abs() <= 1e-15, "step {}: {:e}", step, sample.balance_residual);
+            prop_assert!(simulation.disc_height().unwrap().into_iter().all(|z_d| z_d <= reference), "step {}", step);
+            let after = simulation.pin().unwrap().height;
+            for cell in (0..after.len()).filter(|cell| after[*cell] < before[*cell]) {
+                // It grew toward the disc: flush at the most with the cell ahead, which wears away from it.
+                let ahead = cell + rows;
+                prop_assert!(ahead < after.len(), "step {}: the last column grew", step);
+                prop_assert!(after[cell] >= before[ahead], "step {}, cell {}", step, cell);
+            }
+            before = after;
+        }
     }
 
     #[test]

@@ -251,3 +251,27 @@ fn only_the_same_run_is_gone_on_with() {
     }
     assert_eq!(fs::read_to_string(directory.path("run.h5")).unwrap(), "notes");
 }
+
+#[test]
+fn a_run_goes_on_with_the_engine_that_began_it() {
+    let directory = WorkingDirectory::new();
+    let arguments = |more: &[&str]| {
+        let sets = ["operation.duration=0.1 s", "numerics.time_acceleration=1", "output.maps_at=[]"];
+        let mut arguments = ["run", &scene("quick.toml"), "--engine", "plain"].map(str::to_owned).to_vec();
+        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+        arguments.extend(more.iter().map(|word| (*word).to_owned()));
+        arguments
+    };
+    let whole = ["-o", "whole.h5", "--set", "operation.duration=0.2 s"];
+    directory.plateau(arguments(&whole)).quiet_success();
+    directory.plateau(arguments(&["-o", "run.h5"])).quiet_success();
+    let extended = ["-o", "run.h5", "--extend-to", "0.2 s"];
+    let fast = directory.plateau(arguments(&extended).into_iter().map(|word| word.replace("plain", "fast")));
+    assert_eq!(fast.status, Some(2));
+    assert!(fast.stderr.contains("it was begun with --engine plain, this is fast"), "{}", fast.stderr);
+    assert_eq!(directory.plateau(arguments(&extended)).status, Some(0));
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)));
+    let [whole, run] =
+        [whole, run].map(|file| file.last_map("/pin/height").into_iter().map(f64::to_bits).collect::<Vec<_>>());
+    assert!(whole == run, "the pin differs");
+}

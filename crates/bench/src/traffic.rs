@@ -54,19 +54,19 @@ mod tests {
 
     #[test]
     fn the_paper_s_scene_moves_three_heights_each_way() {
-        let needs = Needs { distinct: false, disc_wears: false, forms: true, destroys: true };
+        let needs = Needs { distinct: false, disc_wears: false, forms: true, destroys: true, local: false };
         assert_eq!(cell_traffic(needs), CellTraffic { read: 24.25, written: 24.0, held: 24.25 });
     }
 
     #[test]
     fn wear_alone_leaves_the_disc_as_it_is() {
-        let needs = Needs { distinct: false, disc_wears: false, forms: false, destroys: false };
+        let needs = Needs { distinct: false, disc_wears: false, forms: false, destroys: false, local: false };
         assert_eq!(cell_traffic(needs), CellTraffic { read: 16.25, written: 8.0, held: 16.25 });
     }
 
     #[test]
     fn a_disc_that_wears_moves_its_substrate_too() {
-        let needs = Needs { distinct: true, disc_wears: true, forms: true, destroys: true };
+        let needs = Needs { distinct: true, disc_wears: true, forms: true, destroys: true, local: false };
         assert_eq!(cell_traffic(needs), CellTraffic { read: 32.25, written: 32.0, held: 32.25 });
     }
 }

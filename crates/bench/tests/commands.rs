@@ -201,7 +201,7 @@ fn peers_agree_before_they_are_timed() {
 #[test]
 fn peers_refuse_a_scene_that_they_do_not_compute() {
     for (set, what) in [
-        ("plateaus.debris_pool=track", "one pool per track"),
+        ("plateaus.debris=track", "one pool per track"),
         ("plateaus.formation=false", "no formation"),
         ("numerics.integrator=exponential", "exponential wear"),
     ] {

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use plateau_core::observe::Sample;
 use plateau_core::scout::Scout;
-use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_core::simulation::{Engine, Simulation, SimulationError};
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::Synced;
 
@@ -18,6 +18,8 @@ use crate::message;
 pub struct About {
     /// Name, version and revision of the program.
     pub program: String,
+    /// What takes its steps.
+    pub engine: Engine,
     /// The whole resolved scene.
     pub scene: String,
     /// The surface files with their digests.
@@ -91,7 +93,7 @@ impl Keeper {
         let run = simulation.checkpoint()?;
         let scout = scout.map(Scout::checkpoint).transpose()?;
         let Some(synced) = synced else { return Ok(()) };
-        let About { program, scene, inputs } = self.about.clone();
+        let About { program, scene, inputs, .. } = self.about.clone();
         let state = RunState {
             program,
             scene,

@@ -50,6 +50,11 @@ fn compare(run_file: &Path, state: &RunState, about: &About, extends: bool) -> R
         let what = format_args!("it was begun by {}, this is {}", state.program, about.program);
         return Err(refusal(run_file, what));
     }
+    let engine = state.run.engine();
+    if engine != about.engine {
+        let what = format_args!("it was begun with --engine {engine}, this is {}", about.engine);
+        return Err(refusal(run_file, what));
+    }
     compare_scenes(run_file, &state.scene, about, extends)?;
     let changed: Vec<String> = about
         .inputs

@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::clock::Clock;
 use crate::contact::Contact;
 use crate::debris::Account;
+use crate::engine::Engine;
 use crate::exact::Quantum;
 use crate::forecast::Forecast;
 use crate::history::History;
@@ -69,6 +70,11 @@ impl Checkpoint {
     /// Steps done.
     pub fn steps(&self) -> u64 {
         self.memory.course.steps
+    }
+
+    /// What took its steps.
+    pub fn engine(&self) -> Engine {
+        if self.memory.engine.is_some() { Engine::Fast } else { Engine::Plain }
     }
 
     /// When its steps end.

@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use crate::material::{Material, Materials};
     use crate::mesh::Mesh;
-    use crate::parameters::{DebrisPool, Integrator, PlateauRules};
+    use crate::parameters::{DebrisRule, Integrator, PlateauRules};
     use crate::simulation::Simulation;
 
     fn parameters(normal_force: f64) -> Parameters {
@@ -103,7 +103,7 @@ mod tests {
                 captured_fraction: 0.5,
                 captured_resin_fraction: None,
                 pad_share: 0.5,
-                debris_pool: DebrisPool::Contact,
+                debris: DebrisRule::Contact,
                 formation: true,
                 destruction: true,
             },

@@ -52,6 +52,7 @@ pub mod comm;
 pub mod contact;
 mod crew;
 pub mod debris;
+mod engine;
 pub mod exact;
 pub mod filling;
 pub mod first_contact;

@@ -1,6 +1,5 @@
 //! A pin on a disc, from its first step to its last (model section 4).
 
-use std::fmt;
 use std::sync::Arc;
 
 use thiserror::Error;
@@ -13,6 +12,7 @@ use crate::comm::threads::Threads;
 use crate::comm::{Communicator as _, mpi::Mpi};
 use crate::contact::ContactError;
 use crate::crew::Crew;
+pub use crate::engine::Engine;
 use crate::kernel::InstructionSet;
 use crate::mesh::Mesh;
 use crate::model::plain::Plain;
@@ -76,7 +76,9 @@ pub enum SimulationError {
     #[error(transparent)]
     Checkpoint(#[from] WrongMesh),
     /// A checkpoint is of the other engine.
-    #[error("the checkpoint is of the {found} engine, expected one of the {expected} engine")]
+    #[error(
+        "the checkpoint is of the {found} engine, expected one of the {expected} engine; go on with --engine {found}"
+    )]
     OtherEngine {
         /// That of the checkpoint.
         found: Engine,
@@ -100,25 +102,6 @@ pub enum SimulationError {
         /// What the system says.
         message: String,
     },
-}
-
-/// What takes the steps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Engine {
-    /// Eight cells at a time, on any number of workers: one pass over the pin a step.
-    #[default]
-    Fast,
-    /// The plain model, cell by cell ([`crate::model`]), on one worker: the same results but for rounding, slowly.
-    Plain,
-}
-
-impl fmt::Display for Engine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Fast => "fast",
-            Self::Plain => "plain",
-        })
-    }
 }
 
 /// How a simulation is carried out. Nothing of it shows in the results, but that the two engines round differently.

@@ -68,7 +68,7 @@ pub fn variants(subject: &Subject) -> Vec<Variant> {
     let nothing = ["plateaus.formation=false", "pin.base.uniform=primary", &sample_every_revolution];
     add(NO_MAPS, "nothing optional", &nothing);
     add(NO_MAPS, "exponential wear", &["numerics.integrator=exponential"]);
-    add(NO_MAPS, "one pool per track", &["plateaus.debris_pool=track"]);
+    add(NO_MAPS, "one pool per track", &["plateaus.debris=track"]);
     add(NO_MAPS, "wear of the disc", &[DISC_WEAR]);
     add(NO_MAPS, "materials of build-ups given as those below", &[&same_debris]);
     add(NO_MAPS, "materials of their own for build-ups", &[SOFTER_DEBRIS, FASTER_DEBRIS]);

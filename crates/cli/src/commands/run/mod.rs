@@ -71,7 +71,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     job.compare(
         &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
     )?;
-    let about = About { program: version::build(), scene: scene.resolved.clone(), inputs };
+    let about = About { program: version::build(), engine: execution.engine, scene: scene.resolved.clone(), inputs };
     stop_if_told(&interrupt, job)?;
     let beginning = Beginning::of(&path, &header, &about, arguments, schedule.end_time(), job)?;
     // In this order: the claim goes last.
