@@ -25,8 +25,8 @@ pub(super) struct Beginning {
 }
 
 impl Beginning {
-    /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done already, which is
-    /// said. All processes of a job do this together.
+    /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done
+    /// already, which is said. All processes of a job do this together.
     ///
     /// # Errors
     /// [`Failure`] when the file cannot be made, or what is there is of another run.
