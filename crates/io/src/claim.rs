@@ -1,12 +1,14 @@
 //! Who may write a run file and its checkpoints: one process at a time.
 //!
-//! Whoever begins to write `run.h5` first makes `run.h5.lock` beside it, which says who that is, and removes it in the end.
-//! The file is made complete under another name and then linked, which fails where there is one; where a file system has no
-//! links it is made by an open that fails where there is one. So no locks of the system are needed, which network file systems may lack.
+//! Whoever begins to write `run.h5` first makes `run.h5.lock` beside it, which says who that is, and removes it in the
+//! end. The file is made complete under another name and then linked, which fails where there is one; where a file system
+//! has no links it is made by an open that fails where there is one. So no locks of the system are needed, which network
+//! file systems may lack.
 //!
-//! A process that was killed leaves its lock. Another process of the same machine sees that, and takes it over: it first claims
-//! the right to do so in the same way, with a file named by the number that only this lock has; then it looks whether that
-//! lock still is there, and replaces it. So of several that find a lock left over one gets it, and nobody takes a new one for it.
+//! A process that was killed leaves its lock. Another process of the same machine sees that, and takes it over: it first
+//! claims the right to do so in the same way, with a file named by the number that only this lock has; then it looks
+//! whether that lock still is there, and replaces it. So of several that find a lock left over one gets it, and nobody
+//! takes a new one for it.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Write};
@@ -27,7 +29,7 @@ use crate::timestamp::iso_8601;
 const START: &str = "{\"plateau_lock\":";
 /// More bytes than any lock has.
 const LARGEST: u64 = 4096;
-/// How often a lock that is not complete is read, and how long is waited before: without links it is made and filled in turn.
+/// How often a lock that is not complete is read, and how long is waited before: without links it is first made, then filled.
 const LOOKS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(50);
 /// Processes killed one after the other while each took over the lock of the one before: more is something else.
