@@ -21,6 +21,8 @@ fn racer(directory: &WorkingDirectory, file: &str, more: &str) -> Command {
         "mesh.rows=8",
         "mesh.disc_columns=160",
         "mesh.pin_columns=16",
+        "disc.surface.synthetic.correlation_length=2 mm",
+        "pin.surface.synthetic.correlation_length=2 mm",
         "operation.duration=60 s",
         "numerics.time_acceleration=1",
         "output.sample_every=0.05 s",

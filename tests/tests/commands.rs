@@ -193,6 +193,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "formation of plateaus",
         "destruction of plateaus",
         "properties of their own for build-ups",
+        "debris pool",
         "one debris pool per track",
         "exponential wear",
         "time acceleration",

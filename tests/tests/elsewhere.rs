@@ -28,8 +28,9 @@ fn read_as_surface(directory: &WorkingDirectory, file: &str) -> Vec<Outcome> {
     let start = text.find("[disc.surface]").unwrap();
     let end = start + text[start..].find("\n[").unwrap();
     let disc = format!("[disc.surface]\nfile = \"{file}\"\n");
+    let output = format!("run-of-{file}").replace('/', "-");
     directory.write("scene.toml", [&text[..start], &disc, &text[end..]].concat());
-    let commands: [&[&str]; 3] = [&["surface", file], &["check", "scene.toml"], &["run", "scene.toml", "-o", "out.h5"]];
+    let commands: [&[&str]; 3] = [&["surface", file], &["check", "scene.toml"], &["run", "scene.toml", "-o", &output]];
     commands.map(|command| limited(directory, command)).into()
 }
 

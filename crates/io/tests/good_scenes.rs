@@ -169,8 +169,9 @@ fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() 
     assert_eq!(scene.output.maps, [Map::DiscHeight, Map::Pressure]);
     assert_eq!(scene.output.maps_at, [0.0, 0.5]);
     assert_eq!(scene.output.checkpoint_every, 60.0);
-    assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings);
-    let warning = scene.warnings[0].to_string();
+    let [debris, warning] = &scene.warnings[..] else { panic!("{:?}", scene.warnings) };
+    assert_eq!((debris.key.as_str(), debris.found.as_str()), ("plateaus.debris", "not given"));
+    let warning = warning.to_string();
     assert!(
         warning.starts_with("tests/scenes/good/extending.toml:17:11: output.maps_at: maps at 3600 s, "),
         "{warning}"

@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn shares_have_the_decimals_that_tell_them_apart() {
         assert_eq!(told_apart(0.98662, 0.64843), ["0.9866", "0.6484"]);
-        assert_eq!(told_apart(0.999_998, 0.999_991), ["0.999998", "0.999991"]);
+        assert_eq!(told_apart(0.999_998, 0.999_991), ["1.00000", "0.99999"]);
         assert_eq!(told_apart(1.0, 1.0), ["1.0000", "1.0000"]);
     }
 }

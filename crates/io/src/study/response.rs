@@ -183,8 +183,8 @@ mod tests {
         let quick = time.clone();
         let slow: Vec<f64> = time.iter().map(|time| time / 4.0).collect();
         let ask = |series: &str, revolutions: Option<&Vec<f64>>| {
-            let names = ["time", "contact_area_integral", "contact_area", "pool", REVOLUTIONS];
-            let columns = [Some(&time), Some(&square), Some(&time), Some(&time), revolutions];
+            let names = ["time", "contact_area_integral", "contact_area", "contact_area_mean", "pool", REVOLUTIONS];
+            let columns = [Some(&time), Some(&square), Some(&time), Some(&time), Some(&time), revolutions];
             let known =
                 names.into_iter().zip(columns).filter_map(|(name, column)| Some((name.into(), column?.clone())));
             let (names, columns) = known.unzip();
