@@ -1,7 +1,7 @@
 //! The model as it is read: state (section 2) and one step (section 4), on plain arrays, cell by cell, in the order of the text.
 //!
 //! Nothing here is fast, and nothing is done twice for speed: [`step`] is what the engine ([`crate::simulation`]) is held
-//! against, step by step. [`plain`] drives it in place of the engine, as `plateau run --engine plain` does.
+//! against, step by step. `plateau run --engine plain` drives it in place of the engine.
 //!
 //! | model | rule | function |
 //! |---|---|---|
