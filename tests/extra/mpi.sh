@@ -48,6 +48,6 @@ ranks_end 3 fail-alike
 [ "$(grep -c 'all ranks failed on purpose' "$output")" -eq 1 ] ||
     { cat "$output" && echo 'what failed all ranks was not said once' && exit 1; }
 
-# One test at a time: every one of them starts several processes that wait for each other.
-PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun cargo test --release --locked --workspace --test ranks \
+# One test at a time: every one of them starts several processes that wait for each other. Should they wait for ever, it fails.
+PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun timeout 900 cargo test --release --locked --workspace --test ranks \
     --target-dir "$target" -- --ignored --test-threads 1

@@ -44,20 +44,26 @@ fn written(directory: &WorkingDirectory, outcome: &Outcome) -> (BTreeMap<String,
 #[test]
 #[ignore = "needs MPI"]
 fn the_number_of_ranks_does_not_show() {
-    let on_threads = |threads| {
-        let directory = WorkingDirectory::new();
-        written(&directory, &directory.plateau(short_run(&["--workers", threads]))).0
-    };
-    let one = on_threads("1");
-    assert_eq!(differences(&one, &on_threads("2")), [""; 0], "2 threads");
-    for ranks in [1, 2, 3] {
-        let directory = WorkingDirectory::new();
-        let outcome = on_ranks(&directory, ranks, &short_run(&[]));
-        let (content, workers) = written(&directory, &outcome);
-        assert_eq!(differences(&one, &content), [""; 0], "{ranks} ranks");
-        assert_eq!(workers, ranks as f64);
-        // One summary, not one from every rank.
-        assert_eq!(outcome.stdout.matches("run.h5").count(), 1, "{}", outcome.stdout);
+    for debris in [
+        &["--set=plateaus.debris=local"][..],
+        &["--set=plateaus.debris=contact", "--set=plateaus.captured_fraction=0.06"],
+    ] {
+        let on_threads = |threads| {
+            let directory = WorkingDirectory::new();
+            let arguments = [debris, &["--workers", threads]].concat();
+            written(&directory, &directory.plateau(short_run(&arguments))).0
+        };
+        let one = on_threads("1");
+        assert_eq!(differences(&one, &on_threads("2")), [""; 0], "2 threads");
+        for ranks in [1, 2, 3] {
+            let directory = WorkingDirectory::new();
+            let outcome = on_ranks(&directory, ranks, &short_run(debris));
+            let (content, workers) = written(&directory, &outcome);
+            assert_eq!(differences(&one, &content), [""; 0], "{ranks} ranks, {debris:?}");
+            assert_eq!(workers, ranks as f64);
+            // One summary, not one from every rank.
+            assert_eq!(outcome.stdout.matches("run.h5").count(), 1, "{}", outcome.stdout);
+        }
     }
 }
 
@@ -200,7 +206,7 @@ fn a_rank_that_is_killed_ends_all() {
 
 #[test]
 #[ignore = "needs MPI"]
-fn a_rank_that_comes_late_to_a_study_takes_its_share_of_what_is_left() {
+fn a_rank_takes_over_what_another_is_late_with() {
     let directory = WorkingDirectory::new();
     let base = scene("quick.toml");
     let seeds: Vec<String> = (1..=24).map(|seed: u32| seed.to_string()).collect();
@@ -212,16 +218,24 @@ fn a_rank_that_comes_late_to_a_study_takes_its_share_of_what_is_left() {
         seeds.join(", ")
     );
     directory.write("study.toml", &study);
-    // The second rank waits for its copy of the study at a pipe, until the first rank has results.
-    assert!(Command::new("mkfifo").arg(directory.path("late.toml")).status().expect("mkfifo").success());
+    // The second rank rests from its first result on, until the first rank has made more than half of the runs.
     let mut command = mpirun(&directory);
-    command.args(["-n", "1"]).arg(program()).args(["sweep", "run", "study.toml"]);
-    command.args([":", "-n", "1"]).arg(program()).args(["sweep", "run", "late.toml"]);
+    command.args(["-n", "2", "sh", "-c", LEAVE_PROCESS_NUMBER]).arg(program()).args(["sweep", "run", "study.toml"]);
     let job = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the launcher");
     let shards = || fs::read_dir(directory.path("results/journal")).into_iter().flatten().map(|shard| shard.unwrap());
-    assert!(wait_until(|| shards().any(|shard| shard.metadata().is_ok_and(|shard| shard.len() > 0))));
-    fs::write(directory.path("late.toml"), &study).expect("a pipe with a reader");
+    let made = || {
+        let texts = shards().filter_map(|shard| fs::read_to_string(shard.path()).ok());
+        let mut made: Vec<usize> = texts.map(|text| text.lines().count()).filter(|runs| *runs > 0).collect();
+        made.sort_unstable();
+        made
+    };
+    assert!(wait_until(|| made().len() == 2));
+    let second = process_of_rank(&directory, 1);
+    assert!(Command::new("kill").args(["-s", "STOP", &second]).status().expect("kill").success());
+    let taken_over = wait_until(|| made().last().is_some_and(|runs| *runs > seeds.len() / 2));
+    assert!(Command::new("kill").args(["-s", "CONT", &second]).status().expect("kill").success());
     let output = job.wait_with_output().expect("the end of the job");
+    assert!(taken_over, "one rank left the runs of the other: {:?}", made());
     assert!(output.status.success(), "{output:?}");
     let texts: Vec<_> = shards().map(|shard| fs::read_to_string(shard.path()).expect("a shard")).collect();
     assert_eq!(texts.len(), 2, "both ranks made runs");
@@ -229,6 +243,15 @@ fn a_rank_that_comes_late_to_a_study_takes_its_share_of_what_is_left() {
     let mut runs: Vec<usize> = runs.map(|rest| rest.split(',').next().unwrap().parse().unwrap()).collect();
     runs.sort_unstable();
     assert_eq!(runs, (1..=seeds.len()).collect::<Vec<_>>());
+}
+
+/// Every rank leaves its process number in a file that is named by its rank.
+const LEAVE_PROCESS_NUMBER: &str = "echo $$ >$OMPI_COMM_WORLD_RANK; exec \"$0\" \"$@\"";
+
+/// The process of a rank.
+fn process_of_rank(directory: &WorkingDirectory, rank: usize) -> String {
+    let text = fs::read_to_string(directory.path(&rank.to_string())).expect("a process number");
+    text.trim_end().to_owned()
 }
 
 /// A run that goes on until something ends it.
@@ -247,9 +270,7 @@ impl EndlessJob {
     fn in_directory(directory: WorkingDirectory, ranks: usize, arguments: &[&str]) -> Self {
         let stderr = File::create(directory.path("stderr")).expect("a file");
         let mut command = mpirun(&directory);
-        // Every rank leaves its process number in a file that is named by its rank.
-        let order = "echo $$ >$OMPI_COMM_WORLD_RANK; exec \"$0\" \"$@\"";
-        command.args(["-n", &ranks.to_string(), "sh", "-c", order]).arg(program());
+        command.args(["-n", &ranks.to_string(), "sh", "-c", LEAVE_PROCESS_NUMBER]).arg(program());
         command.args(["run", &scene("quick.toml"), "-o", "run.h5"]).args(arguments);
         let launcher = command.stdout(Stdio::null()).stderr(stderr).spawn().expect("the launcher");
         let job = Self { directory, launcher };
@@ -264,8 +285,7 @@ impl EndlessJob {
 
     /// The process of a rank.
     fn process(&self, rank: usize) -> String {
-        let text = fs::read_to_string(self.directory.path(&rank.to_string())).expect("a process number");
-        text.trim_end().to_owned()
+        process_of_rank(&self.directory, rank)
     }
 
     /// Waits for its end; gives the exit status and what was said on standard error.
