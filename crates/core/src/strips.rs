@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use crate::kernel::{Chunk, LANES};
 use crate::mesh::Mesh;
+use crate::parts::Needs;
 use crate::state::Base;
 
 /// Height of pin cells that are there only to fill up the last strip, m, and depth of disc cells: out of reach of each other.
@@ -107,6 +108,8 @@ pub struct PinStrips {
     resin: Vec<u8>,
     /// Which are plateaus at the start of the coming step: fibre or built up; follows from the heights.
     plateau: Vec<u8>,
+    /// With local debris: which touch in the coming step; from the last reading.
+    touches: Vec<u8>,
     columns: usize,
 }
 
@@ -121,11 +124,13 @@ pub struct PinStrip<'a> {
     pub resin: &'a [u8],
     /// Which rows are plateaus at the start of the coming step, one bit each.
     pub plateau: &'a mut [u8],
+    /// Which rows touch in the coming step, one bit each; empty but with local debris.
+    pub touches: &'a mut [u8],
 }
 
 impl PinStrips {
     /// Some rows of the pin, from the beginning of a strip on, before the first step.
-    pub fn new(mesh: &Mesh, own: Range<usize>, heights: &[f64], base: &[Base], builds_up: bool) -> Self {
+    pub fn new(mesh: &Mesh, own: Range<usize>, heights: &[f64], base: &[Base], needs: Needs) -> Self {
         let (rows, columns) = (own.len(), mesh.pin_columns() + 1);
         let mut height = Strips::new(rows, columns, OUT_OF_REACH);
         let mut resin = vec![0; strips(rows) * columns];
@@ -140,7 +145,8 @@ impl PinStrips {
             strip[columns - 1] = u8::MAX;
         }
         let plateau = resin.iter().map(|resin| !resin).collect();
-        Self { substrate: builds_up.then(|| height.clone()), height, resin, plateau, columns }
+        let touches = vec![0; if needs.local { resin.len() } else { 0 }];
+        Self { substrate: needs.forms.then(|| height.clone()), height, resin, plateau, touches, columns }
     }
 
     /// Which rows of a strip are resin, column by column.
@@ -155,6 +161,17 @@ impl PinStrips {
         &self.plateau[strip * self.columns..][..self.columns]
     }
 
+    /// Which rows of a strip touch in the coming step, column by column; only with local debris.
+    #[inline]
+    pub fn touches(&self, strip: usize) -> &[u8] {
+        &self.touches[strip * self.columns..][..self.columns]
+    }
+
+    /// Notes that a cell touches in the coming step; only with local debris.
+    pub fn note_touch(&mut self, row: usize, column: usize) {
+        self.touches[row / LANES * self.columns + column] |= 1 << (row % LANES);
+    }
+
     /// Some columns of a strip.
     #[inline]
     pub fn strip_mut(&mut self, strip: usize, columns: Range<usize>) -> PinStrip<'_> {
@@ -166,7 +183,8 @@ impl PinStrips {
             },
             height: &mut self.height.strip_mut(strip)[columns],
             resin: &self.resin[bytes.clone()],
-            plateau: &mut self.plateau[bytes],
+            plateau: &mut self.plateau[bytes.clone()],
+            touches: if self.touches.is_empty() { &mut [] } else { &mut self.touches[bytes] },
         }
     }
 
@@ -175,9 +193,15 @@ impl PinStrips {
         self.resin(row / LANES)[column] >> (row % LANES) & 1 == 1
     }
 
-    /// b_p, m, kept or not.
+    /// b_p, m, kept or not; lower than z_p where a cell wears and no debris has come upon it since.
     pub fn substrate(&self) -> &Strips {
         self.substrate.as_ref().unwrap_or(&self.height)
+    }
+
+    /// b_p of a column, m.
+    pub fn substrate_column(&self, column: usize) -> impl Iterator<Item = f64> + '_ {
+        let cells = self.height.column(column).zip(self.substrate().column(column));
+        cells.map(|(height, substrate)| if substrate > height { substrate } else { height })
     }
 
     /// Changes a column between two steps.
@@ -281,7 +305,8 @@ mod tests {
         let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
         let heights: Vec<f64> = (0..33).map(f64::from).collect();
         let base = vec![Base::None; 33];
-        let mut from = PinStrips::new(&mesh, 0..11, &heights, &base, true);
+        let needs = Needs { distinct: false, disc_wears: false, forms: true, local: false, destroys: false };
+        let mut from = PinStrips::new(&mesh, 0..11, &heights, &base, needs);
         let mut to = from.clone();
         let plateau = |row: usize| row.is_multiple_of(3);
         from.height.set_column(1, &[7.0; 11]);

@@ -16,6 +16,8 @@ use crate::strips::{DiscSector, PinStrip, PinStrips};
 pub(super) struct Strip<'a> {
     /// Which, of the worker's.
     pub index: usize,
+    /// The first column of the pin.
+    pub first: usize,
     /// The pin, with the column that is ahead of the last.
     pub pin: PinStrip<'a>,
     /// z_d, m.
@@ -48,6 +50,7 @@ impl<'a> Strip<'a> {
         let (disc_height, disc_substrate) = disc.strip_mut(index);
         let mut strip = Self {
             index,
+            first,
             pin: pin.strip_mut(index, first..first + columns + 1),
             behind_height: if joined { disc_height[over - 1] } else { Chunk([f64::NEG_INFINITY; LANES]) },
             behind_secondary: 0,
@@ -151,6 +154,6 @@ pub(super) fn update<
         strip.pin.plateau[column] = (pin_secondary | !on_resin).byte();
     }
     let pairs = Pairs { on_resin, pin_secondary, disc_secondary: behind.secondary };
-    next.add(z_p - behind.height, pairs, &rules.bracket, strip.index, reading);
+    next.add(z_p - behind.height, pairs, &rules.bracket, [strip.index, strip.first + column], reading);
     Behind { height: z_d, secondary: if DISTINCT { b_d.below(z_d) } else { nothing } }
 }

@@ -1,122 +1,163 @@
-//! What the last column of a span must know of the one ahead of it, where debris is local (model 4L).
+//! What the cells ahead lose, where debris is local (model 4.2 and 4L).
 
-use super::instructions::{InstructionSet, kernel};
-use super::lanes::{Chunk, LANES, Lanes, Mask};
+use super::lanes::{Chunk, LANES};
+use super::pairs::{PLATEAU, RESIN};
 use super::read::Span;
-use super::rules::{Conditions, Rules, StripRules};
-use super::worn::{Cells, Worn, wear};
+use super::rules::{Conditions, Rules};
+use crate::material::Status;
+use crate::pair::Pair;
 use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
 
-/// A column of the pin after wear and before its own deposit, strip by strip.
+/// A pair of cells at the start of a step; heights in m.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cells {
+    pub z_p: f64,
+    pub b_p: f64,
+    pub z_d: f64,
+    pub b_d: f64,
+    pub on_resin: bool,
+}
+
+/// A cell of the pin that touches, after wear and before its own deposit.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Ahead {
+    /// z_p after wear, m.
+    pub height: f64,
+    /// What of the losses of the pair may be compacted behind it, m.
+    pub caught: f64,
+    /// Whether it was a plateau at the start of the step; else it is resin that lost its wear height.
+    pub plateau: bool,
+}
+
+impl Ahead {
+    /// A pair that touches after wear: what [`super::worn::wear`] does to eight of them.
+    #[inline(always)]
+    pub fn new<const DISTINCT: bool, const DISC_WEARS: bool>(
+        rules: &Rules,
+        row: usize,
+        displacement: f64,
+        cells: Cells,
+    ) -> Self {
+        let Cells { z_p, b_p, z_d, b_d, on_resin } = cells;
+        let clearance = z_p - z_d - displacement;
+        if DISTINCT {
+            return Self::of_distinct::<DISC_WEARS>(rules, row, clearance, cells);
+        }
+        let mut lost = clearance * rules.pin_loss.entry(PLATEAU, row);
+        let (mut height, mut pair, mut of_resin) = (z_p + lost, PLATEAU, 0.0);
+        // Seldom: bare resin, or resin whose build-up is worn through.
+        if on_resin & (height >= b_p) {
+            if z_p < b_p {
+                (lost, height) = (b_p - z_p, b_p);
+            } else {
+                (lost, pair, of_resin) = (0.0, RESIN, rules.wear_height);
+                height = z_p + of_resin;
+            }
+        }
+        if DISC_WEARS {
+            lost += clearance * rules.disc_loss.entry(pair, row);
+        }
+        let _ = b_d;
+        Self { height, caught: rules.caught(lost, of_resin), plateau: pair == PLATEAU }
+    }
+
+    /// The same where build-up has properties of its own.
+    fn of_distinct<const DISC_WEARS: bool>(rules: &Rules, row: usize, clearance: f64, cells: Cells) -> Self {
+        let Cells { z_p, b_p, z_d, b_d, on_resin } = cells;
+        let status = match (z_p < b_p, on_resin) {
+            (true, _) => Status::Secondary,
+            (false, true) => Status::None,
+            (false, false) => Status::Primary,
+        };
+        let pair = Pair::new(status, b_d < z_d).index();
+        let is_resin = status == Status::None;
+        let raw = if is_resin { 0.0 } else { clearance * rules.pin_loss.entry(pair, row) };
+        let below = if on_resin { 0.0 } else { rules.fibre.entry(pair, row) };
+        let pin = wear(z_p, b_p, raw, below);
+        let of_resin = if is_resin { rules.wear_height } else { 0.0 };
+        let mut lost = raw - pin.spared;
+        if DISC_WEARS {
+            let raw = clearance * rules.disc_loss.entry(pair, row);
+            lost = lost + raw - wear(0.0 - z_d, 0.0 - b_d, raw, rules.coating.entry(pair, row)).spared;
+        }
+        Self { height: pin.height + of_resin, caught: rules.caught(lost, of_resin), plateau: !is_resin }
+    }
+}
+
+/// A cell of the pin after wear.
+struct Worn {
+    height: f64,
+    spared: f64,
+}
+
+/// What [`crate::wear::pin`] does to eight cells.
+fn wear(height: f64, substrate: f64, raw: f64, below: f64) -> Worn {
+    let build_up = substrate - height;
+    if height < substrate && raw >= build_up {
+        let deeper = (raw - build_up) * below;
+        return Worn { height: substrate + deeper, spared: raw - build_up - deeper };
+    }
+    Worn { height: height + raw, spared: 0.0 }
+}
+
+/// The column ahead of a span: the first of the next.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Edge {
     strips: Vec<EdgeStrip>,
 }
 
-/// Eight cells of an [`Edge`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct EdgeStrip {
-    /// z_p after wear, m.
-    height: Chunk,
-    /// What of the losses of its pairs may be compacted behind them, m.
-    caught: Chunk,
-    /// Which were plateaus at the start of the step, one bit each.
-    plateau: u8,
-    /// Which are resin that lost its wear height.
-    resin: u8,
+/// Eight cells of an [`Edge`]; those that do not touch lose nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct EdgeStrip {
+    /// Which touch, one bit each.
+    pub touches: u8,
+    pub cells: [Ahead; LANES],
 }
 
-/// The same in registers.
-#[derive(Clone, Copy)]
-pub(super) struct Ahead<L: Lanes> {
-    pub height: L,
-    pub caught: L,
-    pub plateau: L::Mask,
-    pub resin: L::Mask,
-}
-
-impl<L: Lanes> Ahead<L> {
-    /// Eight cells after wear; `plateau` are those that were plateaus at the start of the step.
-    #[inline(always)]
-    pub fn new<const DISTINCT: bool, const DISC_WEARS: bool>(
-        rules: &StripRules<L>,
-        cells: &Cells<L>,
-        worn: &Worn<L>,
-        plateau: u8,
-    ) -> Self {
-        // What they really lost.
-        let mut lost = worn.raw_pin;
-        if DISTINCT {
-            lost = lost - worn.spared_pin;
-        } else {
-            lost = L::select(worn.worn_through, worn.b_p - cells.z_p, lost);
-        }
-        if DISC_WEARS {
-            lost = lost + worn.raw_disc;
-            if DISTINCT {
-                lost = lost - worn.spared_disc;
-            }
-        }
-        let of_resin = rules.wear_height().only(worn.resin);
-        Self {
-            height: L::select(worn.worn_through, worn.b_p, worn.z_p),
-            caught: rules.caught(lost, of_resin),
-            plateau: L::Mask::of_byte(plateau),
-            resin: worn.resin,
-        }
-    }
-
-    /// Nothing that wears.
-    #[inline(always)]
-    fn none(rules: &StripRules<L>) -> Self {
-        let nothing = L::Mask::of_byte(0);
-        Self { height: rules.zero, caught: rules.zero, plateau: nothing, resin: nothing }
-    }
-
-    /// From memory; nothing where no column is ahead.
-    #[inline(always)]
-    pub fn of_edge(edge: Option<&Edge>, rules: &StripRules<L>, strip: usize) -> Self {
-        match edge.map(|edge| &edge.strips[strip]) {
-            None => Self::none(rules),
-            Some(EdgeStrip { height, caught, plateau, resin }) => Self {
-                height: L::load(height),
-                caught: L::load(caught),
-                plateau: L::Mask::of_byte(*plateau),
-                resin: L::Mask::of_byte(*resin),
-            },
-        }
-    }
-}
+/// Words of a strip on its way to another worker.
+const WORDS: usize = 2 * LANES + 1;
 
 impl Edge {
+    /// A strip; nothing that touches where no column is ahead.
+    #[inline(always)]
+    pub(super) fn strip(edge: Option<&Self>, strip: usize) -> EdgeStrip {
+        edge.map_or_else(EdgeStrip::default, |edge| edge.strips[strip])
+    }
+
     /// Words of a column of so many strips on its way to another worker.
     pub fn words(strips: usize) -> usize {
-        (2 * LANES + 1) * strips
+        WORDS * strips
     }
 
     /// Writes it for another worker.
     pub fn write(&self, words: &mut Vec<u64>) {
-        for EdgeStrip { height, caught, plateau, resin } in &self.strips {
-            words.extend(height.0.iter().chain(&caught.0).map(|value| value.to_bits()));
-            words.push(u64::from(*plateau) | u64::from(*resin) << 8);
+        for EdgeStrip { touches, cells } in &self.strips {
+            words.extend(cells.iter().map(|cell| cell.height.to_bits()));
+            words.extend(cells.iter().map(|cell| cell.caught.to_bits()));
+            let plateaus = (0..LANES).fold(0, |bits, lane| bits | u64::from(cells[lane].plateau) << lane);
+            words.push(u64::from(*touches) | plateaus << LANES);
         }
     }
 
     /// Takes over one that another worker wrote.
     pub fn read(&mut self, words: &[u64]) {
-        let (words, _) = words.as_chunks::<{ 2 * LANES + 1 }>();
+        let (words, _) = words.as_chunks::<WORDS>();
         self.strips.clear();
         self.strips.extend(words.iter().map(|words| {
-            let heights = |first: usize| Chunk(std::array::from_fn(|lane| f64::from_bits(words[first + lane])));
-            let [plateau, resin, ..] = words[2 * LANES].to_le_bytes();
-            EdgeStrip { height: heights(0), caught: heights(LANES), plateau, resin }
+            let [touches, plateaus, ..] = words[2 * LANES].to_le_bytes();
+            let cell = |lane: usize| Ahead {
+                height: f64::from_bits(words[lane]),
+                caught: f64::from_bits(words[LANES + lane]),
+                plateau: plateaus >> lane & 1 == 1,
+            };
+            EdgeStrip { touches, cells: std::array::from_fn(cell) }
         }));
     }
 }
 
 /// Wears a column of pairs, the first of a span, without changing it.
-pub type WearColumn = fn(InstructionSet, &Rules, &Conditions, &PinStrips, &DiscSector, Span, &mut Edge);
+pub type WearColumn = fn(&Rules, &Conditions, &PinStrips, &DiscSector, Span, &mut Edge);
 
 /// The wear that does what a scene needs and nothing else; chosen once per run.
 pub fn wear_column(needs: Needs) -> WearColumn {
@@ -128,20 +169,7 @@ pub fn wear_column(needs: Needs) -> WearColumn {
     }
 }
 
-kernel! {
-    /// Wears a column.
-    pub fn wear_first<const DISTINCT, const DISC_WEARS>(
-        rules: &Rules,
-        conditions: &Conditions,
-        pin: &PinStrips,
-        disc: &DiscSector,
-        span: Span,
-        edge: &mut Edge,
-    ) = wear_strips
-}
-
-#[inline(always)]
-fn wear_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
+fn wear_first<const DISTINCT: bool, const DISC_WEARS: bool>(
     rules: &Rules,
     conditions: &Conditions,
     pin: &PinStrips,
@@ -150,17 +178,22 @@ fn wear_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     edge: &mut Edge,
 ) {
     edge.strips.clear();
-    for strip in 0..pin.height.strips() {
-        let rules = StripRules::<L>::new(rules, conditions, strip);
-        let fields = [&pin.height, pin.substrate(), &disc.height, disc.substrate()].map(|field| field.strip(strip));
-        let (resin, plateau) = (pin.resin(strip)[span.first], pin.plateau(strip)[span.first]);
-        let cells = Cells::load::<DISTINCT, DISC_WEARS, true>(fields, resin, [span.first, span.over]);
-        let worn = wear::<L, DISTINCT, DISC_WEARS, true>(&rules, cells);
-        let ahead = Ahead::new::<DISTINCT, DISC_WEARS>(&rules, &cells, &worn, plateau);
-        let mut stored =
-            EdgeStrip { height: Chunk([0.0; LANES]), caught: Chunk([0.0; LANES]), plateau, resin: ahead.resin.byte() };
-        ahead.height.store(&mut stored.height);
-        ahead.caught.store(&mut stored.caught);
-        edge.strips.push(stored);
-    }
+    edge.strips.extend((0..pin.height.strips()).map(|strip| {
+        let touches = pin.touches(strip)[span.first];
+        let pin_chunks = [&pin.height, pin.substrate()].map(|field| field.chunk(strip, span.first));
+        let disc_chunks = [&disc.height, disc.substrate()].map(|field| field.chunk(strip, span.over));
+        let resin = pin.resin(strip)[span.first];
+        let cell = |lane: usize| {
+            if touches >> lane & 1 == 0 {
+                return Ahead::default();
+            }
+            let of = |chunk: &Chunk| chunk.0[lane];
+            let [z_p, b_p] = pin_chunks.map(of);
+            let [z_d, b_d] = disc_chunks.map(of);
+            let cells = Cells { z_p, b_p, z_d, b_d, on_resin: resin >> lane & 1 == 1 };
+            let row = (conditions.first_strip + strip) * LANES + lane;
+            Ahead::new::<DISTINCT, DISC_WEARS>(rules, row, conditions.displacement, cells)
+        };
+        EdgeStrip { touches, cells: std::array::from_fn(cell) }
+    }));
 }

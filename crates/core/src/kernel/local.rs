@@ -1,22 +1,22 @@
-//! One pass over the pin with local debris: wear and deposits of a step, and the pairs of the next step against a bracket
-//! (model 4.2, 4L, and 4.1 of the next step).
+//! One pass over the pin with local debris: deposits and wear of a step, and the pairs of the next step against a bracket
+//! (model 4L, 4.2, and 4.1 of the next step).
 //!
-//! What a cell gets depends on what the cell ahead of it loses, so a column is worn one column before it is finished.
-
-use std::ops::Range;
+//! Which pairs touch is known from the reading. Some columns of a strip at a time, debris first comes upon open cells, as
+//! [`super::deposit`] has it; that leaves what touches as it is at the start of the step, and then that wears.
 
 use super::cells::{Behind, Strip};
-use super::edge::Ahead;
+use super::deposit::{COLUMNS, deposit};
+use super::edge::Edge;
 use super::instructions::kernel;
 use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use super::local_plain::sweep_plain_locally;
-use super::moved::{Moved, SeldomEvent, StripMoved, note_deposits, note_seldom};
+use super::moved::{Moved, SeldomEvent, StripMoved, note_seldom};
 use super::pairs::Pairs;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::sweep::{MOST_UNUSUAL, Sweep};
-use super::worn::{Cells, Worn, wear};
+use super::worn::{Cells, wear};
 use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
 
@@ -57,93 +57,64 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     reading: &mut Reading,
 ) {
     for index in 0..pin.height.strips() {
-        let rules = StripRules::<L>::new(rules, conditions, index);
         let mut strip = Strip::new::<L, DISTINCT, true>(index, pin, disc, span, joined);
-        let edge = Ahead::of_edge(conditions.ahead, &rules, index);
-        let (mut column, mut unusual) = (0, 0);
-        while column < span.columns {
-            let mut end = span.columns;
-            if !DISTINCT && unusual <= MOST_UNUSUAL {
-                column = sweep_plain_locally::<L, DISC_WEARS>(&rules, &mut strip, column, moved, reading);
-                end = column + 1;
+        let strip_rules = StripRules::<L>::new(rules, conditions, index);
+        let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, DISTINCT>::new());
+        let edge = Edge::strip(conditions.ahead, index);
+        strip.pin.touches[span.columns] = edge.touches;
+        let mut behind = strip.behind::<L, DISTINCT>(0);
+        let mut unusual = 0;
+        for first in (0..span.columns).step_by(COLUMNS) {
+            deposit::<DISTINCT, DISC_WEARS>(rules, conditions, &edge, &mut strip, first, moved);
+            let (mut column, end) = (first, span.columns.min(first + COLUMNS));
+            while column < end {
+                if !DISTINCT && unusual <= MOST_UNUSUAL {
+                    column = sweep_plain_locally::<L, DISTINCT, DISC_WEARS>(
+                        &strip_rules,
+                        &mut strip,
+                        column..end,
+                        &mut behind,
+                        &mut next,
+                    );
+                    if column == end {
+                        break;
+                    }
+                    unusual += 1;
+                }
+                behind = update::<L, DISTINCT, DISC_WEARS>(
+                    &strip_rules,
+                    &mut strip,
+                    column,
+                    behind,
+                    &mut strip_moved,
+                    &mut moved.seldom,
+                    &mut next,
+                    reading,
+                );
+                column += 1;
             }
-            sweep_any::<L, DISTINCT, DISC_WEARS>(&rules, &mut strip, column..end, edge, moved, reading);
-            (column, unusual) = (end, unusual + 1);
         }
+        strip_moved.store::<DISTINCT, true>(index, moved);
+        next.store(index, reading);
     }
 }
 
-/// Sweeps some columns of a strip, whatever happens to their cells; `edge` is what is ahead of the strip's last.
-#[inline(always)]
-fn sweep_any<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
-    rules: &StripRules<L>,
-    strip: &mut Strip,
-    columns: Range<usize>,
-    edge: Ahead<L>,
-    moved: &mut Moved,
-    reading: &mut Reading,
-) {
-    let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, DISTINCT>::new());
-    let mut behind = strip.behind::<L, DISTINCT>(columns.start);
-    let (mut cells, mut worn) = strip.wear::<L, DISTINCT, DISC_WEARS>(rules, columns.start);
-    for column in columns {
-        let (mut ahead, mut next_worn) = (edge, (cells, worn));
-        if column + 1 < strip.disc_height.len() {
-            next_worn = strip.wear::<L, DISTINCT, DISC_WEARS>(rules, column + 1);
-            let plateau = strip.pin.plateau[column + 1];
-            ahead = Ahead::new::<DISTINCT, DISC_WEARS>(rules, &next_worn.0, &next_worn.1, plateau);
-        }
-        behind = finish::<L, DISTINCT, DISC_WEARS>(
-            rules,
-            strip,
-            column,
-            &cells,
-            &worn,
-            ahead,
-            behind,
-            &mut strip_moved,
-            &mut moved.seldom,
-            &mut next,
-            reading,
-        );
-        (cells, worn) = next_worn;
-    }
-    strip_moved.store::<DISTINCT, true>(strip.index, moved);
-    next.store(strip.index, reading);
-}
-
-impl Strip<'_> {
-    /// Wears the eight cells of a column, without changing them.
-    #[inline(always)]
-    fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
-        &self,
-        rules: &StripRules<L>,
-        column: usize,
-    ) -> (Cells<L>, Worn<L>) {
-        let fields = [&*self.pin.height, &*self.pin.substrate, &*self.disc_height, &*self.disc_substrate];
-        let cells = Cells::load::<DISTINCT, DISC_WEARS, true>(fields, self.pin.resin[column], [column, column]);
-        (cells, wear::<L, DISTINCT, DISC_WEARS, true>(rules, cells))
-    }
-}
-
-/// Compacts debris of the column ahead in the eight cells of a worn column, stores them, and reads what they do with what
-/// lies behind; returns what lies behind the next.
+/// Wears the eight cells of a column, and reads what they do with what lies behind; returns what lies behind the next.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "what is summed stays in registers")]
-fn finish<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
+fn update<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     rules: &StripRules<L>,
     strip: &mut Strip,
     column: usize,
-    cells: &Cells<L>,
-    worn: &Worn<L>,
-    ahead: Ahead<L>,
     behind: Behind<L>,
     moved: &mut StripMoved<L>,
     seldom: &mut Vec<SeldomEvent>,
     next: &mut StripReading<L, DISTINCT>,
     reading: &mut Reading,
 ) -> Behind<L> {
-    // 4.2 Build-up on resin that is worn through.
+    let fields = [&*strip.pin.height, &*strip.pin.substrate, &*strip.disc_height, &*strip.disc_substrate];
+    let cells = Cells::<L>::load::<DISTINCT, DISC_WEARS, true>(fields, strip.pin.resin[column], [column, column]);
+    let worn = wear::<L, DISTINCT, DISC_WEARS, true>(rules, cells);
     if DISTINCT {
         moved.spared_pin = moved.spared_pin.plus(rules.loss(worn.spared_pin));
         if DISC_WEARS {
@@ -157,32 +128,10 @@ fn finish<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     }
     let z_p = L::select(worn.worn_through, worn.b_p, worn.z_p);
     let b_p = worn.b_p.greater(z_p);
-
-    // 4L
-    let reference = rules.reference_height();
-    let flush = L::select(ahead.plateau, z_p.lesser(ahead.height), z_p);
-    let (to_plateau, to_reference) = (z_p - flush, reference - worn.z_d);
-    let room = worn.clearance.lesser(to_plateau + to_reference);
-    let deposit = room.lesser(ahead.caught).only(!worn.touches);
-    let on_pin = deposit.lesser(to_plateau);
-    let on_disc = deposit - on_pin;
-    // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
-    let z_p = (z_p - on_pin).greater(flush);
-    let z_d = (worn.z_d + on_disc).lesser(reference);
-    let of_resin = ahead.resin & rules.zero.below(deposit);
-    if of_resin.any() {
-        let (mut pin_heights, mut disc_heights) = (Chunk([0.0; LANES]), Chunk([0.0; LANES]));
-        on_pin.store(&mut pin_heights);
-        on_disc.store(&mut disc_heights);
-        note_deposits(seldom, &pin_heights, &disc_heights, of_resin.byte(), rules.strip);
-    }
-    moved.deposited_pin = moved.deposited_pin.plus(rules.deposit(on_pin.only(!of_resin)));
-    moved.deposited_disc = moved.deposited_disc.plus(rules.deposit(on_disc.only(!of_resin)));
-
     z_p.store(&mut strip.pin.height[column]);
     b_p.store(&mut strip.pin.substrate[column]);
-    z_d.store(&mut strip.disc_height[column]);
     if DISC_WEARS {
+        worn.z_d.store(&mut strip.disc_height[column]);
         worn.b_d.store(&mut strip.disc_substrate[column]);
     }
 
@@ -190,7 +139,8 @@ fn finish<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     let pin_secondary = z_p.below(b_p);
     strip.pin.plateau[column] = (pin_secondary | !worn.on_resin).byte();
     let pairs = Pairs { on_resin: worn.on_resin, pin_secondary, disc_secondary: behind.secondary };
-    next.add(z_p - behind.height, pairs, &rules.bracket, strip.index, reading);
+    let place = [strip.index, strip.first + column];
+    strip.pin.touches[column] = next.add(z_p - behind.height, pairs, &rules.bracket, place, reading).byte();
     let nothing = L::Mask::of_byte(0);
-    Behind { height: z_d, secondary: if DISTINCT { worn.b_d.below(z_d) } else { nothing } }
+    Behind { height: worn.z_d, secondary: if DISTINCT { worn.b_d.below(worn.z_d) } else { nothing } }
 }

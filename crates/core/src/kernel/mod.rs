@@ -4,6 +4,7 @@
 //! the processor has is chosen at start. What they sum up does not depend on the order of the cells.
 
 mod cells;
+mod deposit;
 mod edge;
 mod instructions;
 pub(crate) mod lanes;

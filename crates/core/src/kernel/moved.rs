@@ -41,6 +41,11 @@ pub struct SeldomEvent {
 }
 
 impl SeldomEvent {
+    /// What was compacted on pin and disc of what resin ahead lost, m.
+    pub fn deposited(row: usize, deposited: [f64; 2]) -> Self {
+        Self { deposited, ..Self::in_row(row) }
+    }
+
     /// Nothing yet, in a row.
     fn in_row(row: usize) -> Self {
         Self { row: row as u32, returned: 0.0, spared: 0.0, deposited: [0.0; 2] }
@@ -141,14 +146,4 @@ pub(super) fn note_seldom(
     seldom.extend(lanes_of(fallen).map(|lane| SeldomEvent { returned: build_up.0[lane], ..event(lane) }));
     let spared = |lane: usize| raw.0[lane] - build_up.0[lane];
     seldom.extend(lanes_of(worn_through).map(|lane| SeldomEvent { spared: spared(lane), ..event(lane) }));
-}
-
-/// Notes, for some of eight cells behind resin that lost its wear height, what is compacted of it on pin and disc.
-#[cold]
-#[inline(never)]
-pub(super) fn note_deposits(seldom: &mut Vec<SeldomEvent>, on_pin: &Chunk, on_disc: &Chunk, lanes: u8, strip: usize) {
-    seldom.extend(lanes_of(lanes).map(|lane| SeldomEvent {
-        deposited: [on_pin.0[lane], on_disc.0[lane]],
-        ..SeldomEvent::in_row(strip * LANES + lane)
-    }));
 }

@@ -19,17 +19,22 @@ pub struct Span {
 }
 
 /// Reads the pairs of a span against a bracket.
-pub type Read = fn(InstructionSet, &PinStrips, &DiscSector, Span, &Bracket, &mut Reading);
+pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, &Bracket, &mut Reading);
 
 /// The reading that looks at what a scene needs and nothing else; chosen once per run.
 pub fn read(needs: Needs) -> Read {
-    if needs.distinct { read_span::<true> } else { read_span::<false> }
+    match (needs.distinct, needs.local) {
+        (false, false) => read_span::<false, false>,
+        (false, true) => read_span::<false, true>,
+        (true, false) => read_span::<true, false>,
+        (true, true) => read_span::<true, true>,
+    }
 }
 
 kernel! {
-    /// Reads a span; `DISTINCT` tells whether build-up has properties of its own.
-    pub fn read_span<const DISTINCT>(
-        pin: &PinStrips,
+    /// Reads a span; `DISTINCT` tells whether build-up has properties of its own, `LOCAL` whether debris is local.
+    pub fn read_span<const DISTINCT, const LOCAL>(
+        pin: &mut PinStrips,
         disc: &DiscSector,
         span: Span,
         bracket: &Bracket,
@@ -38,8 +43,8 @@ kernel! {
 }
 
 #[inline(always)]
-fn read_strips<L: Lanes, const DISTINCT: bool>(
-    pin: &PinStrips,
+fn read_strips<L: Lanes, const DISTINCT: bool, const LOCAL: bool>(
+    pin: &mut PinStrips,
     disc: &DiscSector,
     span: Span,
     bracket: &Bracket,
@@ -48,18 +53,16 @@ fn read_strips<L: Lanes, const DISTINCT: bool>(
     let bracket = BracketLanes::<L>::new(bracket);
     let nothing = L::Mask::of_byte(0);
     for strip in 0..pin.height.strips() {
-        let pin_height = &pin.height.strip(strip)[span.first..][..span.columns];
-        let resin = &pin.resin(strip)[span.first..][..span.columns];
+        let pin = pin.strip_mut(strip, span.first..span.first + span.columns);
         let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
-        let pin_substrate = pin.substrate.as_ref().map(|field| &field.strip(strip)[span.first..][..span.columns]);
         let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
         let mut sums = StripReading::<L, DISTINCT>::new();
         for column in 0..span.columns {
-            let (z_p, z_d) = (L::load(&pin_height[column]), L::load(&disc_height[column]));
+            let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
             let pairs = Pairs {
-                on_resin: L::Mask::of_byte(resin[column]),
-                pin_secondary: match pin_substrate {
-                    Some(substrate) => z_p.below(L::load(&substrate[column])),
+                on_resin: L::Mask::of_byte(pin.resin[column]),
+                pin_secondary: match pin.substrate.get(column) {
+                    Some(substrate) => z_p.below(L::load(substrate)),
                     None => nothing,
                 },
                 disc_secondary: match disc_substrate {
@@ -67,7 +70,10 @@ fn read_strips<L: Lanes, const DISTINCT: bool>(
                     _ => nothing,
                 },
             };
-            sums.add(z_p - z_d, pairs, &bracket, strip, reading);
+            let touches = sums.add(z_p - z_d, pairs, &bracket, [strip, span.first + column], reading);
+            if LOCAL {
+                pin.touches[column] = touches.byte();
+            }
         }
         sums.store(strip, reading);
     }

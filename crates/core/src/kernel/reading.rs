@@ -36,6 +36,8 @@ pub struct NearPair {
     pub gap: f64,
     /// Its row.
     pub row: u32,
+    /// Its column of the pin.
+    pub column: u32,
     /// Its [`Pair::index`].
     pub pair: u8,
 }
@@ -140,9 +142,17 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         Stand { overlap: anchored.bits(), touches, near: anchored.at_least(bracket.high) & !touches }
     }
 
-    /// Reads eight pairs: gap g = z_p − z_d against the bracket.
+    /// Reads eight pairs of a strip and a column of the pin: gap g = z_p − z_d against the bracket. Returns those that touch
+    /// at its lower end.
     #[inline(always)]
-    pub fn add(&mut self, gap: L, pairs: Pairs<L>, bracket: &BracketLanes<L>, strip: usize, reading: &mut Reading) {
+    pub fn add(
+        &mut self,
+        gap: L,
+        pairs: Pairs<L>,
+        bracket: &BracketLanes<L>,
+        [strip, column]: [usize; 2],
+        reading: &mut Reading,
+    ) -> L::Mask {
         let Stand { overlap, touches, near } = self.face(gap, bracket);
         if DISTINCT {
             let mut pair = 0;
@@ -162,8 +172,9 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
             let mut gaps = Chunk([0.0; LANES]);
             gap.store(&mut gaps);
             let statuses = [pairs.on_resin.byte(), pairs.pin_secondary.byte(), pairs.disc_secondary.byte()];
-            note_near::<DISTINCT>(reading, &gaps, near.byte(), statuses, strip);
+            note_near::<DISTINCT>(reading, &gaps, near.byte(), statuses, [strip, column]);
         }
+        touches
     }
 
     /// Reads eight pairs as if all were plateaus and none near; returns those that touch, and those that are near.
@@ -192,11 +203,18 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
 /// Notes the few pairs of which the bracket does not say whether they touch.
 #[cold]
 #[inline(never)]
-fn note_near<const DISTINCT: bool>(reading: &mut Reading, gaps: &Chunk, lanes: u8, statuses: [u8; 3], strip: usize) {
+fn note_near<const DISTINCT: bool>(
+    reading: &mut Reading,
+    gaps: &Chunk,
+    lanes: u8,
+    statuses: [u8; 3],
+    [strip, column]: [usize; 2],
+) {
     let first_row = reading.first_row;
     reading.near.extend(lanes_of(lanes).map(|lane| NearPair {
         gap: gaps.0[lane],
         row: (first_row + strip * LANES + lane) as u32,
+        column: column as u32,
         pair: pair_of_lane(lane, DISTINCT, statuses),
     }));
 }

@@ -12,17 +12,17 @@ use crate::parameters::Parameters;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rules {
     /// Raw loss of the pin per overlap, negative: the kernels have −u at hand.
-    pin_loss: ChunkTable,
+    pub(super) pin_loss: ChunkTable,
     /// Raw loss of the disc per overlap, negative.
-    disc_loss: ChunkTable,
-    fibre: ChunkTable,
-    coating: ChunkTable,
+    pub(super) disc_loss: ChunkTable,
+    pub(super) fibre: ChunkTable,
+    pub(super) coating: ChunkTable,
     /// h_m, m.
-    wear_height: f64,
+    pub(super) wear_height: f64,
     /// β.
     pad_share: f64,
     /// z_ref, m: up to which local debris fills the disc.
-    reference_height: f64,
+    pub(super) reference_height: f64,
     /// η, of plateaus and of resin.
     captured_fraction: f64,
     captured_resin_fraction: f64,
@@ -42,6 +42,14 @@ impl Rules {
             captured_fraction: parameters.plateaus.captured_fraction,
             captured_resin_fraction: parameters.plateaus.captured_of_resin(),
         }
+    }
+}
+
+impl Rules {
+    /// What of the losses of a pair local debris may compact behind it, m.
+    #[inline(always)]
+    pub(super) fn caught(&self, of_plateaus: f64, of_resin: f64) -> f64 {
+        of_plateaus * self.captured_fraction + of_resin * self.captured_resin_fraction
     }
 }
 
@@ -144,30 +152,6 @@ impl<'a, L: Lanes> StripRules<'a, L> {
     #[inline(always)]
     pub fn beyond(&self, deposit: L, even: L) -> L::Integers {
         (self.deposits + deposit).bits().minus((self.deposits + even).bits())
-    }
-
-    /// z_ref, m.
-    #[inline(always)]
-    pub fn reference_height(&self) -> L {
-        L::splat(self.rules.reference_height)
-    }
-
-    /// What of the losses of eight pairs of plateaus local debris may compact behind them, m.
-    #[inline(always)]
-    pub fn caught_of_plateaus(&self, lost: L) -> L {
-        lost * L::splat(self.rules.captured_fraction)
-    }
-
-    /// What of the losses of eight pairs local debris may compact behind them, m.
-    #[inline(always)]
-    pub fn caught(&self, of_plateaus: L, of_resin: L) -> L {
-        self.caught_of_plateaus(of_plateaus) + of_resin * L::splat(self.rules.captured_resin_fraction)
-    }
-
-    /// A deposit in quanta.
-    #[inline(always)]
-    pub fn deposit(&self, height: L) -> L::Integers {
-        (self.deposits + height).bits().minus(self.deposits.bits())
     }
 
     /// A loss in quanta.

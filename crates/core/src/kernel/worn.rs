@@ -46,15 +46,12 @@ pub(super) struct Worn<L: Lanes> {
     /// γ of the start of the step, or −u where they touch, m.
     pub clearance: L,
     pub touches: L::Mask,
-    /// Resin that lost its wear height.
-    pub resin: L::Mask,
     /// Build-up on resin at the start of the step.
     pub build_up: L::Mask,
     /// Build-up on resin that is worn through.
     pub worn_through: L::Mask,
-    /// Raw losses, m.
+    /// Raw loss of the pin, m.
     pub raw_pin: L,
-    pub raw_disc: L,
     /// What of them was not lost, m; only where build-up has properties of its own.
     pub spared_pin: L,
     pub spared_disc: L,
@@ -90,9 +87,9 @@ pub(super) fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const
     }
     let resin = touches & pairs.resin();
     z_p = z_p.plus_where(resin, rules.wear_height());
-    let (mut raw_disc, mut spared_disc) = (rules.zero, rules.zero);
+    let mut spared_disc = rules.zero;
     if DISC_WEARS {
-        raw_disc = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss())).only(touches);
+        let raw_disc = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss())).only(touches);
         if DISTINCT {
             let worn = wear::disc(z_d, b_d, raw_disc, pairs.pick::<true>(&rules.coating()));
             (z_d, spared_disc) = (worn.height, worn.spared);
@@ -116,11 +113,9 @@ pub(super) fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const
         on_resin,
         clearance,
         touches,
-        resin,
         build_up,
         worn_through,
         raw_pin,
-        raw_disc,
         spared_pin,
         spared_disc,
     }

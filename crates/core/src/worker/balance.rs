@@ -34,6 +34,7 @@ impl<C: Communicator> Worker<C> {
                 self.contact.balance(&self.weights, &self.sums, &mut self.reading.near, &bracket, normal_force);
             match verdict.map_err(|source| SimulationError::Contact { step, source })? {
                 Verdict::Solved => {
+                    self.note_near_touches();
                     if largest > 0.0 {
                         self.overlaps = Quantum::of_sum(largest, columns);
                     }
@@ -73,9 +74,24 @@ impl<C: Communicator> Worker<C> {
         for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
             let Some(sector) = &self.sectors[sector] else { continue };
             let span = Span { first: pin.start, over, columns: pin.len() };
-            (self.read)(self.instructions, &self.pin, sector, span, bracket, &mut self.reading);
+            (self.read)(self.instructions, &mut self.pin, sector, span, bracket, &mut self.reading);
         }
         self.gather_reading(bracket)
+    }
+
+    /// With local debris, notes which of the pairs that the bracket did not decide touch at the displacement.
+    fn note_near_touches(&mut self) {
+        if self.edges.is_empty() {
+            return;
+        }
+        let displacement = self.contact.displacement();
+        for near in self.reading.near.iter().take_while(|near| near.gap < displacement) {
+            let row = near.row as usize;
+            if self.rows.contains(&row) {
+                // In columns of other workers it means nothing: they are read anew when they come here.
+                self.pin.note_touch(row - self.rows.start, near.column as usize);
+            }
+        }
     }
 
     /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin.

@@ -50,7 +50,7 @@ fn write_near(message: &mut Vec<u64>, reading: &Reading) {
     message.push(reading.largest().to_bits());
     message.push(reading.near.len() as u64);
     for near in &reading.near {
-        message.extend([near.gap.to_bits(), u64::from(near.row) << 8 | u64::from(near.pair)]);
+        message.extend([near.gap.to_bits(), u64::from(near.column) << 40 | u64::from(near.row) << 8 | u64::from(near.pair)]);
     }
 }
 
@@ -59,6 +59,7 @@ fn add_near(words: &mut impl Iterator<Item = u64>, reading: &mut Reading) {
     reading.largest.0[0] = reading.largest.0[0].max(f64::from_bits(next()));
     for _ in 0..next() {
         let (gap, cell) = (next(), next());
-        reading.near.push(NearPair { gap: f64::from_bits(gap), row: (cell >> 8) as u32, pair: cell as u8 });
+        let (column, row) = ((cell >> 40) as u32, (cell >> 8) as u32);
+        reading.near.push(NearPair { gap: f64::from_bits(gap), row, column, pair: cell as u8 });
     }
 }

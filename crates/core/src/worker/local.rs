@@ -69,7 +69,7 @@ impl<C: Communicator> Worker<C> {
         if let Some(sector) = &self.sectors[segment.sector] {
             let span = Span { first: segment.pin.start + column, over: segment.over + column, columns: 1 };
             let conditions = conditions(&self.contact, &self.debris, self.quantum, bracket, self.rows.start, None);
-            (self.wear_column)(self.instructions, &self.rules, &conditions, &self.pin, sector, span, &mut edge);
+            (self.wear_column)(&self.rules, &conditions, &self.pin, sector, span, &mut edge);
         }
         edge
     }

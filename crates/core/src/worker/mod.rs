@@ -139,7 +139,7 @@ impl<C: Communicator> Worker<C> {
             contact: Contact::new(&weights),
             quantum,
             overlaps: quantum,
-            pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs.forms),
+            pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs),
             forecast: Forecast::new(mesh.disc_columns()),
             debris: Debris::new(&parameters, &coefficients, &weights),
             history: History::new(mesh.disc_columns()),

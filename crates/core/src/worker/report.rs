@@ -140,7 +140,7 @@ impl<C: Communicator> Worker<C> {
         for column in self.own_pin_columns() {
             match map {
                 Map::PinHeight => own.extend(self.pin.height.column(column).map(f64::to_bits)),
-                Map::PinSubstrate => own.extend(self.pin.substrate().column(column).map(f64::to_bits)),
+                Map::PinSubstrate => own.extend(self.pin.substrate_column(column).map(f64::to_bits)),
                 Map::PinStatus => own.extend(self.pin_statuses(column).map(|status| status as u64)),
                 _ => match self.pressure.get(self.own_cells(column)) {
                     Some(cells) => own.extend(cells.iter().map(|pressure| pressure.to_bits())),

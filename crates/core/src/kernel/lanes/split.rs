@@ -175,6 +175,11 @@ macro_rules! split {
             }
 
             #[inline(always)]
+            fn only(self, mask: $mask) -> Self {
+                Self([$(call!($and(self.0[$part], mask.0[$part]))),*])
+            }
+
+            #[inline(always)]
             fn bits(self) -> $integers {
                 $integers([$(call!($to_words(self.0[$part]))),*])
             }
