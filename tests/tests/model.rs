@@ -102,7 +102,7 @@ fn compare(parameters: &Parameters, seed: u64, execution: Execution) -> End {
     End::Equal
 }
 
-/// Scenes with a rule; the instruction set and number of workers change from scene to scene.
+/// Scenes with a rule; instruction set, number of workers and the kernel's shortcut change from scene to scene.
 fn agrees(debris: DebrisRule) {
     let sets: Vec<InstructionSet> = InstructionSet::available().collect();
     let mut ties = 0;
@@ -113,6 +113,7 @@ fn agrees(debris: DebrisRule) {
             instructions,
             workers: 1 + seed as usize / 3 % 4,
             bands: (seed % 2 == 0).then_some(1),
+            shortcut: seed % 5 != 0,
             ..Execution::default()
         };
         match compare(&parameters, seed, execution) {

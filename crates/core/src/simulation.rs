@@ -117,6 +117,8 @@ pub struct Execution {
     pub bands: Option<usize>,
     /// Whether each worker stays on a core of its own.
     pub pin: bool,
+    /// Whether cells to which nothing out of the ordinary happens are swept with few instructions: false is for tests.
+    pub shortcut: bool,
 }
 
 impl Execution {
@@ -131,7 +133,8 @@ impl Execution {
 
 impl Default for Execution {
     fn default() -> Self {
-        Self { engine: Engine::Fast, workers: 1, instructions: InstructionSet::best(), bands: None, pin: false }
+        let instructions = InstructionSet::best();
+        Self { engine: Engine::Fast, workers: 1, instructions, bands: None, pin: false, shortcut: true }
     }
 }
 
@@ -213,10 +216,9 @@ impl Simulation {
             let team = Team::Plain(Box::new(Plain::new(parameters.clone(), surfaces, columns)));
             return Ok(Self { parameters, pin_base, execution: Execution { workers: 1, ..execution }, team });
         }
-        let instructions = execution.instructions;
         let team =
             if execution.workers == 1 {
-                let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, Single);
+                let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, columns, Single);
                 Team::Alone(Box::new(worker))
             } else {
                 let halo_words = halo_words(parameters.mesh.rows(), Needs::of(&parameters).local);
@@ -225,7 +227,7 @@ impl Simulation {
                 let worker = |end: Threads| {
                     let alarm = end.alarm();
                     let partition = partition.clone();
-                    (Worker::new(parameters.clone(), &surfaces, partition, instructions, columns, end), alarm)
+                    (Worker::new(parameters.clone(), &surfaces, partition, execution, columns, end), alarm)
                 };
                 let crew = Crew::start(ends.into_iter().map(worker).collect(), execution.pin);
                 Team::Crew(crew.map_err(|error| SimulationError::Threads {
@@ -255,7 +257,7 @@ impl Simulation {
         let execution = Execution { workers, instructions, ..Execution::default() };
         let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
         let parameters = Arc::new(parameters);
-        let worker = Worker::new(parameters.clone(), &surfaces, partition, instructions, 0, communicator);
+        let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, 0, communicator);
         Ok(Self { parameters, pin_base: surfaces.pin_base, execution, team: Team::Rank(Box::new(worker)) })
     }
 

@@ -11,6 +11,7 @@ use crate::material::{Material, Materials};
 use crate::mesh::Mesh;
 use crate::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use crate::sector::Partition;
+use crate::simulation::Execution;
 use crate::state::{Base, InitialSurfaces};
 use crate::strips::PinStrips;
 
@@ -112,8 +113,8 @@ fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
         let alarm = threads.alarm();
         let fault = fault.filter(|_| threads.rank() == rank);
         let faulty = Faulty { threads, fault, calls: 0, _alive: alive.clone() };
-        let instructions = InstructionSet::PORTABLE;
-        (Worker::new(parameters.clone(), &surfaces, partition.clone(), instructions, 0, faulty), alarm)
+        let execution = Execution { instructions: InstructionSet::PORTABLE, ..Execution::default() };
+        (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, 0, faulty), alarm)
     };
     let threads =
         Threads::connect(WORKERS, partition.sectors() * partition.bands(), PinStrips::crossing_words(mesh.rows()));

@@ -1,15 +1,24 @@
 //! Wear and pooled debris in eight cells, whatever happens to them (model 4.2 and 4P), and their pairs of the next step
 //! (4.1).
 
+use super::instructions::InstructionSet;
 use super::lanes::{Chunk, Integers, LANES, Lanes, Mask};
-use super::moved::{SeldomEvent, StripMoved, note_seldom};
+use super::moved::{Moved, SeldomEvent, StripMoved, note_seldom};
 use super::pairs::Pairs;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
-use super::rules::StripRules;
+use super::rules::{Conditions, Rules, StripRules};
 use super::worn::{Cells, Worn, wear};
 use crate::plateau;
 use crate::strips::{DiscSector, PinStrip, PinStrips};
+
+/// Columns of a strip with something out of the ordinary after which it is not looked for any more.
+pub(super) const MOST_UNUSUAL: usize = 12;
+
+/// A sweep over a span; the flag tells whether the pair of its first pin column with the disc column before its first
+/// is to be read for the next step.
+pub type Sweep =
+    fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, bool, &mut Moved, &mut Reading);
 
 /// A strip of the columns that are swept.
 #[derive(Debug)]

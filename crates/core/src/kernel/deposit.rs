@@ -3,8 +3,9 @@
 //! Few cells get any: the open ones behind one that touches. So they are looked up in the bytes that tell which cells touch,
 //! and done one by one. Their heights change before any cell wears, and what is ahead of them is worn in passing.
 
+use super::ahead::Cells;
 use super::cells::Strip;
-use super::edge::{Ahead, Cells, EdgeStrip};
+use super::edge::{Ahead, EdgeStrip};
 use super::lanes::{Chunk, LANES};
 use super::moved::{Moved, SeldomEvent};
 use super::rules::{Conditions, Rules};

@@ -4,7 +4,7 @@
 //! Which pairs touch is known from the reading. Some columns of a strip at a time, debris first comes upon open cells, as
 //! [`super::deposit`] has it; that leaves what touches as it is at the start of the step, and then that wears.
 
-use super::cells::{Behind, Strip};
+use super::cells::{Behind, MOST_UNUSUAL, Strip, Sweep};
 use super::deposit::{COLUMNS, deposit};
 use super::edge::Edge;
 use super::instructions::kernel;
@@ -15,7 +15,6 @@ use super::pairs::Pairs;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
-use super::sweep::{MOST_UNUSUAL, Sweep};
 use super::worn::{Cells, wear};
 use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
@@ -68,7 +67,7 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
             deposit::<DISTINCT, DISC_WEARS>(rules, conditions, &edge, &mut strip, first, moved);
             let (mut column, end) = (first, span.columns.min(first + COLUMNS));
             while column < end {
-                if !DISTINCT && unusual <= MOST_UNUSUAL {
+                if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
                     column = sweep_plain_locally::<L, DISTINCT, DISC_WEARS>(
                         &strip_rules,
                         &mut strip,

@@ -79,7 +79,8 @@ impl<L: Lanes, const DISTINCT: bool> Plain<'_, L, DISTINCT> {
             z_d = z_d - (clearance * self.disc_loss).only(touches);
         }
         // Bare resin, or build-up on resin that is worn through.
-        let on_ground = worn.at_least(L::load(&self.pin_substrate[column])).byte() & self.resin[column] & self.touches[column];
+        let on_ground =
+            worn.at_least(L::load(&self.pin_substrate[column])).byte() & self.resin[column] & self.touches[column];
 
         // 4.1 of the next step
         let mut next = self.next;

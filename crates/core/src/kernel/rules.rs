@@ -26,11 +26,13 @@ pub struct Rules {
     /// η, of plateaus and of resin.
     captured_fraction: f64,
     captured_resin_fraction: f64,
+    /// Whether cells to which nothing out of the ordinary happens are swept with few instructions; the results are the same.
+    pub(super) shortcut: bool,
 }
 
 impl Rules {
     /// The rules of a scene whose disc was at most `reference_height` (m) high at the start.
-    pub fn new(parameters: &Parameters, coefficients: &Coefficients, reference_height: f64) -> Self {
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, reference_height: f64, shortcut: bool) -> Self {
         Self {
             pin_loss: ChunkTable::new(&coefficients.pin, -1.0),
             disc_loss: ChunkTable::new(&coefficients.disc, -1.0),
@@ -41,6 +43,7 @@ impl Rules {
             reference_height,
             captured_fraction: parameters.plateaus.captured_fraction,
             captured_resin_fraction: parameters.plateaus.captured_of_resin(),
+            shortcut,
         }
     }
 }

@@ -10,8 +10,8 @@
 
 use std::ops::Range;
 
-use super::cells::{Strip, update};
-use super::instructions::{InstructionSet, kernel};
+use super::cells::{MOST_UNUSUAL, Strip, Sweep, update};
+use super::instructions::kernel;
 use super::lanes::Lanes;
 use super::local::sweep_locally;
 use super::moved::{Moved, StripMoved};
@@ -21,14 +21,6 @@ use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use crate::parts::Needs;
 use crate::strips::{DiscSector, PinStrips};
-
-/// Columns of a strip with something out of the ordinary after which it is not looked for any more.
-pub(super) const MOST_UNUSUAL: usize = 12;
-
-/// A sweep over a span; the flag tells whether the pair of its first pin column with the disc column before its first
-/// is to be read for the next step.
-pub type Sweep =
-    fn(InstructionSet, &Rules, &Conditions, &mut PinStrips, &mut DiscSector, Span, bool, &mut Moved, &mut Reading);
 
 /// The sweep that does what a scene needs and nothing else; chosen once per run.
 pub fn sweep(needs: Needs) -> Sweep {
@@ -78,7 +70,7 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
         let (mut column, mut unusual) = (0, 0);
         while column < columns {
             let mut end = columns;
-            if !DISTINCT && unusual <= MOST_UNUSUAL {
+            if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
                 let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
                 column = plain(&strip_rules, &mut strip, column, moved, reading);
                 end = columns.min(column + 1);

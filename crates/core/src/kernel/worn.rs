@@ -105,18 +105,5 @@ pub(super) fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const
         build_up = on_resin & pairs.pin_secondary;
         worn_through = build_up & !z_p.below(b_p);
     }
-    Worn {
-        z_p,
-        b_p,
-        z_d,
-        b_d,
-        on_resin,
-        clearance,
-        touches,
-        build_up,
-        worn_through,
-        raw_pin,
-        spared_pin,
-        spared_disc,
-    }
+    Worn { z_p, b_p, z_d, b_d, on_resin, clearance, touches, build_up, worn_through, raw_pin, spared_pin, spared_disc }
 }

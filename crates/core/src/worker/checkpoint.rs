@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Worker;
 use crate::checkpoint::{Checkpoint, EngineMemory, Memory};
 use crate::comm::Communicator;
+use crate::kernel::Rules;
 use crate::parameters::Parameters;
 use crate::simulation::{Engine, SimulationError};
 
@@ -61,7 +62,7 @@ impl<C: Communicator> Worker<C> {
     /// Makes everything that depends on the acceleration anew.
     pub(super) fn accept_coefficients(&mut self, parameters: &Parameters) {
         self.coefficients = crate::pair::Coefficients::new(parameters);
-        self.rules = crate::kernel::Rules::new(parameters, &self.coefficients, self.filling.reference_height());
+        self.rules = Rules::new(parameters, &self.coefficients, self.filling.reference_height(), self.shortcut);
         self.weights = crate::sums::RowWeights::new(parameters, &self.coefficients, self.rows.clone());
         self.debris.set_coefficients(&self.coefficients);
         self.parameters = Arc::new(parameters.clone());

@@ -50,7 +50,10 @@ fn write_near(message: &mut Vec<u64>, reading: &Reading) {
     message.push(reading.largest().to_bits());
     message.push(reading.near.len() as u64);
     for near in &reading.near {
-        message.extend([near.gap.to_bits(), u64::from(near.column) << 40 | u64::from(near.row) << 8 | u64::from(near.pair)]);
+        message.extend([
+            near.gap.to_bits(),
+            u64::from(near.column) << 40 | u64::from(near.row) << 8 | u64::from(near.pair),
+        ]);
     }
 }
 

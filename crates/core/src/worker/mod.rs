@@ -29,7 +29,7 @@ use crate::pair::Coefficients;
 use crate::parameters::Parameters;
 use crate::parts::Needs;
 use crate::sector::Partition;
-use crate::simulation::SimulationError;
+use crate::simulation::{Execution, SimulationError};
 use crate::state::InitialSurfaces;
 use crate::strips::{DiscSector, PinStrips, strips};
 use crate::sums::{RowWeights, Sums};
@@ -60,6 +60,7 @@ pub(crate) struct Worker<C> {
     parameters: Arc<Parameters>,
     partition: Arc<Partition>,
     instructions: InstructionSet,
+    shortcut: bool,
     sweep: Sweep,
     read: Read,
     wear_column: WearColumn,
@@ -110,7 +111,7 @@ impl<C: Communicator> Worker<C> {
         parameters: Arc<Parameters>,
         surfaces: &InitialSurfaces,
         partition: Arc<Partition>,
-        instructions: InstructionSet,
+        execution: Execution,
         turned: u64,
         communicator: C,
     ) -> Self {
@@ -131,11 +132,12 @@ impl<C: Communicator> Worker<C> {
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
         let quantum = Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns());
         Self {
-            instructions,
+            instructions: execution.instructions,
+            shortcut: execution.shortcut,
             sweep: sweep(needs),
             read: read(needs),
             wear_column: wear_column(needs),
-            rules: Rules::new(&parameters, &coefficients, filling.reference_height()),
+            rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights),
             quantum,
             overlaps: quantum,
