@@ -602,7 +602,12 @@ fn every_column_is_documented() {
 fn a_run_that_fails_is_in_the_table_and_the_others_go_on() {
     let directory = with_scene(&[]);
     // The explicit rule wears far beyond what numbers can hold; the exponential one no farther than the overlap.
-    let sets = ["numerics.integrator=exponential", "materials.pin_primary.specific_wear_rate=1e100 1/Pa"];
+    let sets = [
+        "numerics.integrator=exponential",
+        "materials.pin_primary.specific_wear_rate=1e100 1/Pa",
+        "plateaus.debris=contact",
+        "plateaus.captured_fraction=0.06",
+    ];
     let mut arguments: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
     arguments.extend(["--ladder", "integrator", "--ladder", "time_acceleration"]);
     let (text, rows) = measured(&directory, &arguments);

@@ -19,12 +19,19 @@ fn simulation(sets: &[&str], workers: usize, instructions: InstructionSet) -> Si
 }
 
 /// Scenes with every part of the model on and off.
-const SCENES: [&[&str]; 6] = [
+const SCENES: [&[&str]; 8] = [
     &[],
+    &["materials.pin_secondary.youngs_modulus=5e8 Pa", "numerics.time_acceleration=400"],
+    &["plateaus.debris=contact", "plateaus.captured_fraction=0.06"],
     &["plateaus.formation=false"],
     &["plateaus.debris=track", "plateaus.captured_fraction=0.5"],
     &["materials.disc_primary.specific_wear_rate=1e-15 1/Pa", "numerics.integrator=exponential"],
-    &["materials.pin_secondary.youngs_modulus=5e8 Pa", "plateaus.captured_fraction=0.9", "plateaus.destruction=true"],
+    &[
+        "materials.pin_secondary.youngs_modulus=5e8 Pa",
+        "plateaus.debris=contact",
+        "plateaus.captured_fraction=0.9",
+        "plateaus.destruction=true",
+    ],
     &["mesh.rows=13", "mesh.disc_columns=61", "mesh.pin_columns=61"],
 ];
 

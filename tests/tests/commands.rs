@@ -163,10 +163,11 @@ fn a_check_tells_what_a_run_takes() {
     for part in ["wear of the resin", "formation of plateaus", "map disc_height"] {
         assert!(needed.contains(part) && !left_out.contains(part), "{part}");
     }
-    for part in ["wear of the disc", "exponential wear", "one debris pool per track"] {
+    for part in ["wear of the disc", "exponential wear", "destruction of plateaus", "debris pool"] {
         assert!(left_out.contains(part) && !needed.contains(part), "{part}");
     }
-    let sets = ["plateaus.formation=false", "plateaus.debris=track", "output.maps=[\"pressure\"]"];
+    let track = ["plateaus.debris=track", "plateaus.captured_fraction=0.06"];
+    let sets = [&track[..], &["plateaus.formation=false", "output.maps=[\"pressure\"]"]].concat();
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     let text = directory.plateau(["check", &scene].into_iter().chain(sets)).quiet_success();
     let (needed, left_out) = text.split_once("\nLeft out\n").expect("what is left out");
@@ -221,6 +222,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "materials.disc_primary.specific_wear_rate=1e-16 1/Pa",
         "materials.pin_secondary.youngs_modulus=2e9 Pa",
         "plateaus.debris=track",
+        "plateaus.captured_fraction=0.06",
         "numerics.integrator=exponential",
         "numerics.workers=2",
         "output.roughness=true",

@@ -85,8 +85,13 @@ impl Scene {
     }
 }
 
-/// Without these, resin touches and plateaus fall only after 16 000 steps.
-const FAST: [&str; 2] = ["numerics.time_acceleration=400", "plateaus.captured_fraction=0.5"];
+/// Without this, resin touches only after 16 000 steps.
+const FAST: &str = "numerics.time_acceleration=400";
+
+/// A pool of so much debris that plateaus fall in few steps.
+const POOLED: [&str; 3] = [FAST, "plateaus.debris=contact", "plateaus.captured_fraction=0.5"];
+/// One pool for each track.
+const TRACK: [&str; 3] = [FAST, "plateaus.debris=track", "plateaus.captured_fraction=0.5"];
 
 /// Materials of their own for all that can touch, on a disc that wears.
 const OWN_MATERIALS: [&str; 7] = [
@@ -99,6 +104,12 @@ const OWN_MATERIALS: [&str; 7] = [
     "materials.pin_secondary.specific_wear_rate=8e-14 1/Pa",
 ];
 
+/// Local debris, of which nothing is kept back.
+fn local(parameters: &mut Parameters) {
+    parameters.plateaus.debris = DebrisRule::Local;
+    parameters.plateaus.captured_fraction = 1.0;
+}
+
 fn plateaus_form_and_fall(end: &Sample) -> bool {
     end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.returned > 0.0
 }
@@ -107,56 +118,81 @@ fn the_disc_wears_too(end: &Sample) -> bool {
     plateaus_form_and_fall(end) && end.worn_disc > 0.0
 }
 
+/// With local debris nothing falls, and there is no pool.
+fn plateaus_form_of_local_debris(end: &Sample) -> bool {
+    end.worn_resin > 0.0 && end.deposited_pin > 0.0 && end.deposited_disc > 0.0 && end.emitted > 0.0
+}
+
 #[test]
 fn the_quick_scene() {
-    Scene::quick(17_000, &[]).agrees_for_all(plateaus_form_and_fall);
+    Scene::quick(1500, &[FAST]).agrees_for_all(plateaus_form_of_local_debris);
+}
+
+#[test]
+fn the_quick_scene_with_a_pool() {
+    let sets = ["plateaus.debris=contact", "plateaus.captured_fraction=0.06"];
+    Scene::quick(17_000, &sets).agrees_for_all(plateaus_form_and_fall);
 }
 
 #[test]
 fn one_pool_per_track() {
-    let sets = [&FAST[..], &["plateaus.debris=track"]].concat();
-    Scene::quick(1500, &sets).agrees_for_all(plateaus_form_and_fall);
+    Scene::quick(1500, &TRACK).agrees_for_all(plateaus_form_and_fall);
 }
 
 #[test]
 fn exponential_wear_with_materials_of_their_own() {
-    let sets = [&FAST[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
+    let sets = [&POOLED[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();
     Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 
 #[test]
 fn explicit_wear_with_materials_of_their_own_and_one_pool_per_track() {
-    let sets = [&FAST[..], &OWN_MATERIALS, &["plateaus.debris=track"]].concat();
+    let sets = [&TRACK[..], &OWN_MATERIALS].concat();
     Scene::quick(1500, &sets).agrees_for_all(the_disc_wears_too);
 }
 
 #[test]
+fn explicit_wear_with_materials_of_their_own_and_local_debris() {
+    let sets = [&[FAST][..], &OWN_MATERIALS].concat();
+    Scene::quick(1500, &sets).agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
+}
+
+#[test]
+fn local_debris_on_a_disc_that_wears() {
+    let sets = [FAST, OWN_MATERIALS[0]];
+    Scene::quick(1500, &sets).agrees_for_all(|end| plateaus_form_of_local_debris(end) && end.worn_disc > 0.0);
+}
+
+#[test]
 fn no_formation() {
-    let sets = [&FAST[..], &["plateaus.formation=false"]].concat();
+    let sets = [FAST, "plateaus.formation=false"];
     Scene::quick(1500, &sets).agrees_for_all(|end| end.worn_resin > 0.0 && end.deposited_disc == 0.0);
 }
 
 #[test]
 fn no_formation_on_a_disc_that_wears() {
-    let sets = [&FAST[..], &["plateaus.formation=false", OWN_MATERIALS[0]]].concat();
+    let sets = [FAST, "plateaus.formation=false", OWN_MATERIALS[0]];
     Scene::quick(1500, &sets).agrees_for_all(|end| end.worn_disc > 0.0 && end.deposited_disc == 0.0);
 }
 
 #[test]
 fn no_destruction() {
-    let sets = [&FAST[..], &["plateaus.destruction=false"]].concat();
+    let sets = [&POOLED[..], &["plateaus.destruction=false"]].concat();
     Scene::quick(1500, &sets).agrees_for_all(|end| end.deposited_pin > 0.0 && end.returned == 0.0);
 }
 
 #[test]
 fn a_time_acceleration_at_which_much_changes() {
     let sets = ["numerics.time_acceleration=1000", "numerics.integrator=exponential", "plateaus.captured_fraction=0.9"];
+    Scene::quick(3000, &sets).agrees_for_all(plateaus_form_of_local_debris);
+    let sets = [&sets[..], &["plateaus.debris=contact"]].concat();
     Scene::quick(3000, &sets).agrees_for_all(|end| plateaus_form_and_fall(end) && end.filled_fraction > 0.2);
 }
 
 #[test]
 fn a_pin_as_wide_as_the_ring() {
     Scene::random([9, 37, 37], |_| ()).agrees_for_all(plateaus_form_and_fall);
+    Scene::random([9, 37, 37], local).agrees_for_all(plateaus_form_of_local_debris);
 }
 
 #[test]
@@ -174,22 +210,26 @@ fn rows_that_fill_no_strip_and_columns_that_no_number_of_workers_divides() {
 #[test]
 fn rows_that_fill_no_strip_and_columns_that_are_prime_in_the_plainest_case() {
     Scene::random([13, 211, 29], |_| ()).agrees_for_all(plateaus_form_and_fall);
+    Scene::random([13, 211, 29], local).agrees_for_all(plateaus_form_of_local_debris);
 }
 
 #[test]
 fn a_pin_of_one_column() {
     Scene::random([9, 31, 1], |_| ()).agrees_for_all(|end| end.deposited_disc > 0.0);
+    // Nothing is ahead of a single column.
+    Scene::random([9, 31, 1], local).agrees_for_all(|end| end.emitted > 0.0 && end.deposited_disc == 0.0);
 }
 
 #[test]
 fn sectors_of_two_columns() {
     Scene::random([1, 16, 5], |_| ()).agrees_for_all(|end| end.deposited_disc > 0.0);
+    Scene::random([1, 16, 5], local).agrees_for_all(|end| end.deposited_disc > 0.0);
 }
 
 #[test]
 fn looking_changes_nothing() {
     for workers in [1, 3] {
-        let scene = Scene::quick(150, &[&FAST[..], &OWN_MATERIALS].concat());
+        let scene = Scene::quick(150, &[&[FAST][..], &OWN_MATERIALS].concat());
         let compare = move || {
             let execution = Execution { workers, ..Execution::default() };
             let mut pair = [scene.start(execution), scene.start(execution)];
@@ -207,7 +247,7 @@ fn looking_changes_nothing() {
 #[test]
 fn pressures_that_were_not_kept_are_not_reported() {
     for workers in [1, 3] {
-        let scene = Scene::quick(150, &FAST);
+        let scene = Scene::quick(150, &[FAST]);
         let compare = move || {
             let execution = Execution { workers, ..Execution::default() };
             let mut pair = [scene.start(execution), scene.start(execution)];

@@ -32,7 +32,7 @@ fn combined_modulus(pin: f64) -> f64 {
 
 fn load(path: &str, sets: &[&str]) -> Scene {
     // A scene that leaves the debris rule open is told so, which is not looked at here.
-    let sets: Vec<String> = sets.iter().chain(&["plateaus.debris=contact"]).map(|set| (*set).to_owned()).collect();
+    let sets: Vec<String> = sets.iter().chain(&["plateaus.debris=local"]).map(|set| (*set).to_owned()).collect();
     scene::load(Path::new(path), &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -99,12 +99,16 @@ impl StripCells<'_> {
         let on_pin = lesser(deposit, to_plateau);
         let on_disc = deposit - on_pin;
         // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
-        let height = greater(z_p - on_pin, flush);
+        let mut height = greater(z_p - on_pin, flush);
         let mut disc_height = lesser(z_d + on_disc, rules.reference_height);
-        // Nor does a cell touch in the step in which it is filled up.
+        // Nor does a cell touch in the step in which it is filled up: what is too much goes back, up to where it came from.
         let mut clearance = height - disc_height - displacement;
-        while clearance < 0.0 {
-            disc_height = lesser(disc_height + clearance, disc_height.next_down());
+        while clearance < 0.0 && (disc_height > z_d || height < z_p) {
+            if disc_height > z_d {
+                disc_height = greater(lesser(disc_height + clearance, disc_height.next_down()), z_d);
+            } else {
+                height = lesser(greater(height - clearance, height.next_up()), z_p);
+            }
             clearance = height - disc_height - displacement;
         }
         let substrate = greater(self.pin_substrate[column].0[lane], z_p);
