@@ -4,6 +4,7 @@ use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, run, scene, wait_until};
 use plateau_tests::run_file::RunFile;
@@ -58,10 +59,11 @@ fn a_run_whose_file_was_replaced_leaves_the_checkpoints_of_the_other_alone() {
         // As on another machine, where nobody sees that the file is being written.
         let elsewhere = WorkingDirectory::new();
         assert_eq!(run(elsewhere.command(["run", &scene("quick.toml"), "-o", "run.h5"])).status, Some(0));
-        // From when its file is replaced on, the run begins no checkpoint.
         for name in ["run.h5", "run.h5.checkpoint"] {
             directory.write("new", fs::read(elsewhere.path(name)).unwrap());
             fs::rename(directory.path("new"), directory.path(name)).unwrap();
+            // From when its file is replaced on, the run begins no checkpoint; one that is under way comes to its end.
+            std::thread::sleep(Duration::from_secs(1));
         }
         other = Some(content());
     });

@@ -16,7 +16,7 @@ const LINES: [&str; 2] = ["#0072B2", "#D55E00"];
 
 const LOAD: &str = "[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n";
 const SPEED: &str = "[[factor]]\nname = \"speed\"\nkey = \"operation.rotational_speed\"\n";
-const POOL: &str = "[[factor]]\nname = \"pool\"\nkey = \"plateaus.debris_pool\"\nlevels = [\"contact\", \"track\"]\n";
+const POOL: &str = "[[factor]]\nname = \"pool\"\nkey = \"plateaus.debris\"\nlevels = [\"contact\", \"track\"]\n";
 const FIBRES: &str = "[[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\n";
 const REPLICATES: &str = "[replicates]\nkeys = [\"disc.surface.synthetic.seed\"]\nseeds = [1, 2, 3]\n";
 const AREA: &str = "[[response]]\nname = \"contact area\"\ndataset = \"/series/contact_area_mean\"\nat = \"end\"\n";
@@ -30,7 +30,8 @@ fn studied(head: &str, tables: &[&str]) -> WorkingDirectory {
     directory.write(
         "study.toml",
         format!(
-            "version = 1\nbase = \"{base}\"\nset = [\"operation.duration = '3 s'\", \"output.sample_every = '0.5 s'\"]\n\
+            "version = 1\nbase = \"{base}\"\nset = [\"operation.duration = '3 s'\", \"output.sample_every = '0.5 s'\", \
+             \"plateaus.debris = 'contact'\", \"plateaus.captured_fraction = 0.06\"]\n\
              directory = \"results\"\n{head}\n{}",
             tables.join("\n")
         ),
