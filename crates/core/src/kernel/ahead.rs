@@ -36,13 +36,14 @@ impl Ahead {
         }
         let mut lost = clearance * rules.pin_loss.entry(PLATEAU, row);
         let (mut height, mut pair, mut of_resin) = (z_p + lost, PLATEAU, 0.0);
-        // Seldom: bare resin, or resin whose build-up is worn through.
-        if on_resin & (height >= b_p) {
+        // Seldom: bare resin, or resin whose build-up is worn through. Nothing is at least a number that is none, so this is
+        // one branch, which hardly ever is another than the last.
+        let ground = f64::from_bits(b_p.to_bits() | if on_resin { 0 } else { f64::NAN.to_bits() });
+        if height >= ground {
             if z_p < b_p {
                 (lost, height) = (b_p - z_p, b_p);
             } else {
-                (lost, pair, of_resin) = (0.0, RESIN, rules.wear_height);
-                height = z_p + of_resin;
+                (lost, pair, of_resin, height) = (0.0, RESIN, rules.wear_height, f64::INFINITY);
             }
         }
         if DISC_WEARS {
@@ -70,7 +71,8 @@ impl Ahead {
             let raw = clearance * rules.disc_loss.entry(pair, row);
             lost = lost + raw - wear(0.0 - z_d, 0.0 - b_d, raw, rules.coating.entry(pair, row)).spared;
         }
-        Self { height: pin.height + of_resin, caught: rules.caught(lost, of_resin), plateau: !is_resin }
+        let height = if is_resin { f64::INFINITY } else { pin.height };
+        Self { height, caught: rules.caught(lost, of_resin), plateau: !is_resin }
     }
 }
 

@@ -92,7 +92,7 @@ impl StripCells<'_> {
         };
 
         let (z_p, z_d) = (self.pin_height[column].0[lane], self.disc_height[column].0[lane]);
-        let flush = if ahead.plateau { lesser(z_p, ahead.height) } else { z_p };
+        let flush = lesser(z_p, ahead.height);
         let (to_plateau, to_reference) = (z_p - flush, rules.reference_height - z_d);
         let clearance = z_p - z_d - displacement;
         let deposit = lesser(lesser(clearance, to_plateau + to_reference), ahead.caught);
@@ -101,15 +101,9 @@ impl StripCells<'_> {
         // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
         let mut height = greater(z_p - on_pin, flush);
         let mut disc_height = lesser(z_d + on_disc, rules.reference_height);
-        // Nor does a cell touch in the step in which it is filled up: what is too much goes back, up to where it came from.
-        let mut clearance = height - disc_height - displacement;
-        while clearance < 0.0 && (disc_height > z_d || height < z_p) {
-            if disc_height > z_d {
-                disc_height = greater(lesser(disc_height + clearance, disc_height.next_down()), z_d);
-            } else {
-                height = lesser(greater(height - clearance, height.next_up()), z_p);
-            }
-            clearance = height - disc_height - displacement;
+        // Nor does a cell touch in the step in which it is filled up.
+        if height - disc_height - displacement < 0.0 {
+            [height, disc_height] = taken_back([z_p, z_d], [height, disc_height], displacement);
         }
         let substrate = greater(self.pin_substrate[column].0[lane], z_p);
         self.disc_height[column].0[lane] = disc_height;
@@ -124,6 +118,23 @@ impl StripCells<'_> {
             add(&mut moved.deposited_disc.0[self.strip][lane], on_disc);
         } else if deposit > 0.0 {
             moved.seldom.push(SeldomEvent::deposited(row, [on_pin, on_disc]));
+        }
+    }
+}
+
+/// Heights of pin and disc, m, that rounding leaves touching: what is too much goes back, up to where the cell was open.
+#[cold]
+#[inline(never)]
+fn taken_back([z_p, z_d]: [f64; 2], [mut height, mut disc_height]: [f64; 2], displacement: f64) -> [f64; 2] {
+    loop {
+        let clearance = height - disc_height - displacement;
+        if clearance >= 0.0 || (disc_height <= z_d && height >= z_p) {
+            return [height, disc_height];
+        }
+        if disc_height > z_d {
+            disc_height = greater(lesser(disc_height + clearance, disc_height.next_down()), z_d);
+        } else {
+            height = lesser(greater(height - clearance, height.next_up()), z_p);
         }
     }
 }

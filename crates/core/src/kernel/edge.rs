@@ -5,7 +5,7 @@ use super::lanes::LANES;
 /// A cell of the pin that touches, after wear and before its own deposit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Ahead {
-    /// z_p after wear, m.
+    /// z_p of a plateau after wear, m; out of reach where it is none, which nothing is built up against.
     pub height: f64,
     /// What of the losses of the pair may be compacted behind it, m.
     pub caught: f64,
