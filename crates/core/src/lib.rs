@@ -19,7 +19,7 @@
 //! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pair::Coefficients`] |
 //! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
 //! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`], [`wear`] |
-//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | `kernel::local` |
+//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | `kernel::deposit` |
 //! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`] |
 //! | 4P formation | d = min(γ, s), s = M/S | [`debris::Debris::prepare`], [`plateau`] |
 //! | 4P balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
@@ -27,7 +27,7 @@
 //! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::roughness`] |
 //!
 //! [`model::step`] is all of it as it is read, cell by cell. The engine takes the same steps: `worker` takes the rules in turn,
-//! those of eight cells are `kernel::worn` (4.2), `kernel::local` (4L) and `kernel::cells` (4P).
+//! those of eight cells are `kernel::worn` (4.2) and `kernel::cells` (4P), that of a cell with local debris `kernel::deposit` (4L).
 //!
 //! # How a step is carried out
 //! - One pass over the pin a step. In the next step the disc column under pin column j lies under column j + 1, so the
