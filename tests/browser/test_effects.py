@@ -14,7 +14,7 @@ NAME = "</script><script>alert(1)</script><b>load"
 STUDY = f"""version = 1
 title = {NAME!r}
 base = "{QUICK}"
-set = ["operation.duration = '2 s'", "output.sample_every = '1 s'"]
+set = ["operation.duration = '2 s'", "output.sample_every = '1 s'", "plateaus.captured_fraction = 0.06"]
 design = "full-factorial"
 directory = "results"
 
@@ -28,9 +28,9 @@ key = "operation.normal_force"
 levels = ["5 N", "10 N", "20 N"]
 
 [[factor]]
-name = "pool"
-key = "plateaus.debris_pool"
-levels = ["contact", "track"]
+name = "debris"
+key = "plateaus.debris"
+levels = ["local", "contact"]
 
 [[factor]]
 name = "fibre fraction"
@@ -138,7 +138,7 @@ class EffectsPage(unittest.TestCase):
             " return [svg.left + at.x, svg.top + at.y]; })()")
         self.browser.move(*place)
         reading = self.browser.run("document.getElementById('parallel-reading').textContent")
-        self.assertRegex(reading, r"^Run \d+: .*load 5 N, pool contact, fibre fraction 0\.[24], contact area [\d.]+ mm²")
+        self.assertRegex(reading, r"^Run \d+: .*load 5 N, debris (local|contact), fibre fraction 0\.[24], contact area [\d.]+ mm²")
 
 
 if __name__ == "__main__":

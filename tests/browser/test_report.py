@@ -141,9 +141,9 @@ class ReportPage(unittest.TestCase):
 
     def test_values_of_the_legend_are_those_of_the_run(self):
         self.open(self.one)
-        area = self.browser.run("document.querySelector('#charts .values tbody tr:nth-child(2) td').textContent")
+        area = self.browser.run("document.querySelector('#charts .values tbody tr:nth-child(1) td').textContent")
         rows = "[...document.querySelectorAll('#summary tbody tr')]"
-        summary = self.browser.run(f"{rows}.find((row) => row.textContent.includes('mean of the last')).cells[1].textContent")
+        summary = self.browser.run(f"{rows}.find((row) => row.textContent.includes('of the last step')).cells[1].textContent")
         self.assertEqual(area.split()[1], summary.split()[1])
         self.assertAlmostEqual(float(area.split()[0]), float(summary.split()[0]), delta=6e-4 * float(summary.split()[0]))
 
