@@ -31,7 +31,7 @@ use outcome::Outcome;
 #[command(after_help = "Exit status: 0 every case keeps its bounds, 1 one does not.\n\n\
                         Example:\n  extremes --into docs/stability.md")]
 pub struct Arguments {
-    /// A million steps instead of a billion where the number of steps is the case
+    /// A thousandth of the steps where their number is the case: a million instead of a billion
     #[arg(long)]
     quick: bool,
     /// Only cases whose name has this text
