@@ -1,4 +1,4 @@
-"""The step as loops over cells, compiled by Numba. Fields are arrays (column, row); z grows from the disc to the pin."""
+"""The step as loops over cells (column, row), compiled by Numba. z grows from the disc to the pin."""
 import math
 
 from numba import njit
@@ -96,7 +96,7 @@ def wear_with_local_debris(fields, rules, turned, displacement):
 
 @njit
 def wear_with_pool(fields, rules, turned, displacement, contact_area, pool):
-    """What all cells lose is shared out evenly in the next step. Column j + 1 is still as it was at the start of the step."""
+    """What all cells lose is shared out evenly in the next step."""
     z_p, b_p, fibre, z_d, gap, _ = fields
     area = rules.area
     columns, rows = z_p.shape
@@ -104,6 +104,7 @@ def wear_with_pool(fields, rules, turned, displacement, contact_area, pool):
     open_area = rules.pin_area - contact_area
     share = max(pool / open_area, 0.0) if open_area > 0.0 else 0.0
     worn, returned, deposited = 0.0, 0.0, 0.0
+    # Column by column: the one ahead, j + 1, is still as it was at the start of the step
     for j in range(columns):
         c = (j - turned) % ring
         for i in range(rows):

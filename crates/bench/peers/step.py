@@ -4,8 +4,8 @@
 
 reads scene.json and the surfaces from DIRECTORY, tells its versions, then answers requests, one JSON text a line:
 
-    {"do": "trace", "steps": N}     displacement, contact area, debris pool and volume deposited so far after each of the
-                                    next N steps
+    {"do": "trace", "steps": N}     displacement, contact area, debris pool and volume deposited so far after each
+                                    of the next N steps
     {"do": "write"}                 writes the heights to DIRECTORY
     {"do": "advance", "steps": N}   makes N steps; the seconds that they took, the load evaluations of all steps so far
 
