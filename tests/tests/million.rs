@@ -1,8 +1,10 @@
-//! A million steps of `quick.toml`: the load stays balanced, and no debris comes from nowhere or goes there.
+//! A million steps of `quick.toml`, with local debris and with one pool: the load stays balanced, and no debris comes from
+//! nowhere or goes there.
 
 use std::path::Path;
 
 use plateau_core::mesh::Mesh;
+use plateau_core::parameters::DebrisRule;
 use plateau_core::simulation::Simulation;
 use plateau_io::{scene, surface};
 
@@ -20,21 +22,42 @@ fn largest(heights: &[f64]) -> f64 {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "takes half a minute in release, and minutes in debug")]
 fn residuals_stay_small_and_nothing_is_lost_over_a_million_steps() {
+    expect_balance_over_a_million_steps(DebrisRule::Local, &[]);
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "takes half a minute in release, and minutes in debug")]
+fn the_same_holds_with_one_debris_pool() {
+    let sets = ["plateaus.debris=contact", "plateaus.captured_fraction=0.06"];
+    expect_balance_over_a_million_steps(DebrisRule::Contact, &sets);
+}
+
+/// Runs the scene with changes that make it have this rule.
+fn expect_balance_over_a_million_steps(debris: DebrisRule, sets: &[&str]) {
     let path = plateau_tests::program::scene("quick.toml");
-    let sets = [format!("operation.steps={STEPS}")];
+    let steps = format!("operation.steps={STEPS}");
+    let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).chain([steps]).collect();
     let scene = scene::load(Path::new(&path), &sets).unwrap();
-    assert_eq!(scene.parameters.steps, STEPS);
+    assert_eq!((scene.parameters.steps, scene.parameters.plateaus.debris), (STEPS, debris));
+    let is_local = debris == DebrisRule::Local;
     let tolerance = scene.parameters.load_tolerance;
     let mesh = scene.parameters.mesh.clone();
     let initial = surface::load(&scene).unwrap().surfaces;
+    let reference_height = initial.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let mut simulation = Simulation::new(scene.parameters, initial.clone()).unwrap();
 
     for step in (0..=STEPS).step_by(100) {
         simulation.advance_to(step).unwrap();
         let load = simulation.course().largest_load_residual;
         assert!(load <= tolerance, "step {step}: load residual {load:e}");
-        let balance = simulation.sample().unwrap().balance_residual;
+        let sample = simulation.sample().unwrap();
+        let balance = sample.balance_residual;
         assert!(balance.abs() <= 1e-12, "step {step}: balance residual {balance:e}");
+        if is_local {
+            assert_eq!((sample.pool, sample.returned), (0.0, 0.0), "step {step}");
+            let is_below = simulation.disc_height().unwrap().into_iter().all(|height| height <= reference_height);
+            assert!(is_below, "step {step}: the disc grew above its highest initial height");
+        }
     }
     assert_eq!(simulation.steps_done(), STEPS);
 
@@ -45,6 +68,11 @@ fn residuals_stay_small_and_nothing_is_lost_over_a_million_steps() {
     }
     assert!(disc.height.iter().zip(&disc.substrate).all(|(z, b)| z >= b), "z_d ≥ b_d");
     assert!(pin.height.iter().zip(&pin.substrate).all(|(z, b)| z <= b), "z_p ≤ b_p");
+    if is_local {
+        let worn = sample.worn_pin + sample.worn_resin + sample.worn_disc;
+        let left = worn - sample.deposited_pin - sample.deposited_disc - sample.emitted;
+        assert!(left.abs() <= 1e-12 * worn, "worn is not deposited and emitted, {left:e} m³ are missing: {sample:?}");
+    }
 
     // The heights tell the same as the account of volumes. In this scene the disc does not wear: it only grows.
     assert_eq!(sample.worn_disc, 0.0);

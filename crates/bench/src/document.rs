@@ -237,8 +237,12 @@ pub struct Agreement {
     pub displacement: f64,
     /// Of the contact area after each step.
     pub contact_area: f64,
-    /// Of the debris pool after each step.
-    pub pool: f64,
+    /// Of the debris pool after each step; none where debris has no pool.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pool: Option<f64>,
+    /// Of the volume deposited until after each step; none in older results.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deposited: Option<f64>,
     /// Of the heights of disc and pin after the last step.
     pub heights: f64,
 }

@@ -101,8 +101,8 @@ pub enum BenchError {
     },
     /// The scene asks for what the peers do not compute.
     #[error(
-        "the peers compute explicit wear of the pin on a disc that does not wear, build-ups as what they lie on, one \
-             debris pool, formation and destruction; the scene asks for {0}"
+        "the peers compute explicit wear of the pin on a disc that does not wear, build-ups as what they lie on, and \
+         local debris, or one debris pool with formation and destruction; the scene asks for {0}"
     )]
     NotForPeers(&'static str),
 }

@@ -22,19 +22,27 @@ struct Variant {
 const VARIANTS: &[Variant] = &[
     Variant { name: "the scene", sets: &[] },
     Variant { name: "the scene once more", sets: &[] },
-    Variant { name: "no destruction", sets: &["plateaus.destruction=false"] },
-    Variant { name: "no formation, no destruction", sets: &["plateaus.formation=false"] },
+    Variant { name: "no formation", sets: &["plateaus.formation=false"] },
     Variant { name: "no resin", sets: &["pin.base.uniform=primary"] },
     Variant { name: "wear of fibres alone", sets: &["plateaus.formation=false", "pin.base.uniform=primary"] },
     Variant { name: "exponential wear", sets: &["numerics.integrator=exponential"] },
-    Variant { name: "one pool per track", sets: &["plateaus.debris=track"] },
-    Variant { name: "local debris", sets: &["plateaus.debris=local", "plateaus.captured_fraction=1"] },
+    Variant { name: "one debris pool", sets: &[ONE_POOL, POOLED_FRACTION] },
+    Variant { name: "one debris pool, no destruction", sets: &[ONE_POOL, POOLED_FRACTION, NO_DESTRUCTION] },
+    Variant { name: "one debris pool per track", sets: &[POOL_PER_TRACK, POOLED_FRACTION] },
     Variant { name: "wear of the disc", sets: &[DISC_WEAR] },
     Variant { name: "materials of their own for build-ups", sets: &[SOFTER_DEBRIS, FASTER_DEBRIS] },
     Variant { name: "wear of the disc and such materials", sets: &[DISC_WEAR, SOFTER_DEBRIS, FASTER_DEBRIS] },
     Variant { name: "time acceleration 100", sets: &["numerics.time_acceleration=100"] },
 ];
 
+/// All debris of the contact in one pool, which needs a captured fraction.
+pub const ONE_POOL: &str = "plateaus.debris=contact";
+/// A pool for each track, which needs one too.
+pub const POOL_PER_TRACK: &str = "plateaus.debris=track";
+/// The captured fraction of the pooled baseline.
+pub const POOLED_FRACTION: &str = "plateaus.captured_fraction=0.06";
+/// No plateau falls for want of support, which with local debris none does anyway.
+pub const NO_DESTRUCTION: &str = "plateaus.destruction=false";
 /// A hundredth of the wear rate of the pin.
 pub const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
 /// Half the modulus of the fibres.

@@ -54,6 +54,8 @@ pub struct Trace {
     pub contact_area: Vec<f64>,
     /// M after every step, m³.
     pub pool: Vec<f64>,
+    /// Debris compacted until after every step, m³.
+    pub deposited: Vec<f64>,
 }
 
 #[derive(Deserialize)]
@@ -166,6 +168,7 @@ pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
         "normal_force": parameters.normal_force,
         "load_tolerance": parameters.load_tolerance,
         "time_acceleration": parameters.time_acceleration,
+        "debris": if plateaus.debris == DebrisRule::Local { "local" } else { "contact" },
         "captured_fraction": plateaus.captured_fraction,
         "pad_share": plateaus.pad_share,
     });
@@ -180,16 +183,17 @@ pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
     write("pin_base.u8", &surfaces.pin_base.iter().map(|base| *base as u8).collect::<Vec<_>>())
 }
 
-/// The peers do what the paper's scene needs and nothing else.
+/// The peers do what the paper's scene needs, with local debris or one pool, and nothing else.
 fn supported(parameters: &Parameters) -> Result<(), BenchError> {
     let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
+    let rules = &parameters.plateaus;
     let unsupported = [
         (distinct, "materials of their own for build-ups"),
         (disc_wears, "wear of the disc"),
         (!forms, "no formation"),
-        (local, "local debris"),
-        (!destroys, "no destruction"),
-        (parameters.plateaus.debris == DebrisRule::Track, "one pool per track"),
+        (!local && !destroys, "no destruction"),
+        (rules.debris == DebrisRule::Track, "one pool per track"),
+        (rules.captured_of_resin() != rules.captured_fraction, "a captured fraction of its own for resin"),
         (parameters.integrator != Integrator::Explicit, "exponential wear"),
     ];
     match unsupported.into_iter().find(|(asked, _)| *asked) {

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use plateau_core::observe::{Map, MapValues};
+use plateau_core::parameters::DebrisRule;
 use tempfile::TempDir;
 
 use crate::case::Case;
@@ -67,6 +68,7 @@ struct Reference {
     /// Where the peers find the surfaces, and put theirs.
     folder: TempDir,
     time_acceleration: f64,
+    has_pool: bool,
     steps: usize,
     trace: Trace,
     /// Of disc and pin after the last step.
@@ -89,14 +91,17 @@ impl Reference {
             trace.displacement.push(sample.displacement);
             trace.contact_area.push(sample.contact_area);
             trace.pool.push(sample.pool);
+            trace.deposited.push(sample.deposited_pin + sample.deposited_disc);
         }
         let maps = simulation.snapshot(&[Map::DiscHeight, Map::PinHeight])?.maps;
         let heights = maps.into_iter().filter_map(|(_, values)| match values {
             MapValues::Float(heights) => Some(heights),
             MapValues::Status(_) => None,
         });
-        let (heights, time_acceleration) = (heights.flatten().collect(), case.parameters.time_acceleration);
-        Ok(Self { folder, time_acceleration, steps, trace, heights, simulation })
+        let heights = heights.flatten().collect();
+        let time_acceleration = case.parameters.time_acceleration;
+        let has_pool = case.parameters.plateaus.debris != DebrisRule::Local;
+        Ok(Self { folder, time_acceleration, has_pool, steps, trace, heights, simulation })
     }
 
     fn start(&self, python: &Path, kind: &str) -> Result<Peer, BenchError> {
@@ -108,6 +113,8 @@ impl Reference {
         let Self { steps, time_acceleration, .. } = *self;
         eprintln!("comparing {steps} steps with time acceleration {time_acceleration}: {name}");
         let theirs = peer.trace(steps)?;
+        // Without a pool both must stay at 0, which is no figure to report.
+        let pool = compare(name, "debris pool", &self.trace.pool, &theirs.pool)?;
         Ok(Agreement {
             peer: name.into(),
             versions: peer.versions.clone(),
@@ -115,7 +122,8 @@ impl Reference {
             steps,
             displacement: compare(name, "displacement", &self.trace.displacement, &theirs.displacement)?,
             contact_area: compare(name, "contact area", &self.trace.contact_area, &theirs.contact_area)?,
-            pool: compare(name, "debris pool", &self.trace.pool, &theirs.pool)?,
+            pool: self.has_pool.then_some(pool),
+            deposited: Some(compare(name, "deposited volume", &self.trace.deposited, &theirs.deposited)?),
             heights: compare(name, "height", &self.heights, &peer.heights(self.folder.path())?.concat())?,
         })
     }

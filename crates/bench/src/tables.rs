@@ -1,7 +1,7 @@
 //! The tables that are made from results.
 
 use crate::costs;
-use crate::document::{Benchmark, Document, Measurement, Spread};
+use crate::document::{Agreement, Benchmark, Document, Measurement, Spread};
 use crate::scaling::{STRONG, WEAK};
 use crate::table::Table;
 
@@ -232,16 +232,28 @@ fn peers(document: &Document) -> Table {
     table
 }
 
+/// A difference from ours, with the head of its column.
+type Difference = (&'static str, fn(&Agreement) -> Option<f64>);
+
 fn agreements(document: &Document) -> Table {
-    let header = ["program", "time acceleration", "steps", "displacement", "contact area", "debris pool", "heights"];
+    let all: [Difference; 5] = [
+        ("displacement", |peer| Some(peer.displacement)),
+        ("contact area", |peer| Some(peer.contact_area)),
+        ("debris pool", |peer| peer.pool),
+        ("deposited volume", |peer| peer.deposited),
+        ("heights", |peer| Some(peer.heights)),
+    ];
+    let is_known = |value: fn(&Agreement) -> Option<f64>| document.agreements.iter().any(|peer| value(peer).is_some());
+    let differences: Vec<Difference> = all.into_iter().filter(|(_, value)| is_known(*value)).collect();
+    let names = differences.iter().map(|(name, _)| *name);
+    let header: Vec<&str> = ["program", "time acceleration", "steps"].into_iter().chain(names).collect();
     let mut table = Table::new("Largest difference from ours over the largest value", &header);
     for peer in &document.agreements {
-        let differences =
-            [peer.displacement, peer.contact_area, peer.pool, peer.heights].map(|value| format!("{value:.0e}"));
         let name = format!("{} ({})", peer.peer, peer.versions);
-        table.rows.push(
-            [vec![name, peer.time_acceleration.to_string(), peer.steps.to_string()], differences.to_vec()].concat(),
-        );
+        let figures =
+            differences.iter().map(|(_, value)| value(peer).map_or("–".into(), |value| format!("{value:.0e}")));
+        let circumstances = [name, peer.time_acceleration.to_string(), peer.steps.to_string()];
+        table.rows.push(circumstances.into_iter().chain(figures).collect());
     }
     table
 }

@@ -41,6 +41,10 @@ fn positive(value: &Value) -> bool {
 
 /// What every result has: machine, build, settings, and raw times whose spread is what is given as the time.
 fn expect_complete(benchmark: &str, results: &Value) {
+    expect_complete_for("cermet.toml", benchmark, results);
+}
+
+fn expect_complete_for(scene: &str, benchmark: &str, results: &Value) {
     assert_eq!(results["benchmark"], benchmark);
     assert_eq!(results["format"], 1);
     assert!(positive(&results["began"]));
@@ -56,7 +60,7 @@ fn expect_complete(benchmark: &str, results: &Value) {
         assert!(build[field].as_str().is_some_and(|text| !text.is_empty()), "build.{field}");
     }
     let settings = &results["settings"];
-    assert_eq!(settings["scene"], "cermet.toml");
+    assert_eq!(settings["scene"], scene);
     assert_eq!((&settings["time_acceleration"], &settings["load_tolerance"]), (&1.0.into(), &1e-9.into()));
     assert_eq!(settings["quick"], true);
 
@@ -105,7 +109,8 @@ fn parts_times_the_scene_twice_and_every_variant() {
     expect_complete("parts", &results);
     let names = names(&results);
     assert_eq!(names[..2], ["the scene", "the scene once more"]);
-    for name in ["no formation, no destruction", "one pool per track", "wear of the disc", "a sample every step"] {
+    for name in ["no formation", "one debris pool, no destruction", "one debris pool per track", "a sample every step"]
+    {
         assert!(names.contains(&name), "{name} in {names:?}");
     }
 }
@@ -118,9 +123,13 @@ fn costs_runs_the_program_once_for_every_variant() {
     assert!(results["build"]["revision"].as_str().is_some_and(|text| !text.is_empty()));
     let runs = results["runs"].as_array().expect("runs");
     let names: Vec<_> = runs.iter().map(|run| run["name"].as_str().expect("a name")).collect();
-    for name in
-        ["the scene once more", "no maps", "no maps, two workers", "no maps, acceleration 8, by tolerance instead"]
-    {
+    for name in [
+        "the scene once more",
+        "no maps",
+        "no maps, two workers",
+        "no maps, one debris pool, no destruction",
+        "no maps, acceleration 8, by tolerance instead",
+    ] {
         assert_eq!(names.iter().filter(|other| **other == name).count(), 1, "{name} in {names:?}");
     }
     let named = |name: &str| runs.iter().find(|run| run["name"] == name).expect("a variant");
@@ -172,11 +181,13 @@ fn roofline_sets_traffic_against_bandwidth() {
     }
 }
 
-#[test]
-fn peers_agree_before_they_are_timed() {
+/// Checks results of the peers for a scene, which says which rule debris follows; skipped where there is no NumPy.
+fn expect_agreement(scene: &str, quantities: &[&str], without: Option<&str>) {
     let folder = folder();
     let path = folder.path().join("peers.json");
-    let output = bench(&["peers", "--quick", "--json", path.to_str().expect("a path")]);
+    let scene_path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes").join(scene);
+    let [results, scene_path] = [&path, &scene_path].map(|path| path.to_str().expect("a path"));
+    let output = bench(&["peers", scene_path, "--quick", "--json", results]);
     let errors = text(&output.stderr);
     if errors.contains("no environment with NumPy can be had") {
         eprintln!("skipped: {errors}");
@@ -184,7 +195,7 @@ fn peers_agree_before_they_are_timed() {
     }
     assert!(output.status.success(), "{errors}");
     let results: Value = serde_json::from_str(&fs::read_to_string(&path).expect("results")).expect("JSON");
-    expect_complete("peers", &results);
+    expect_complete_for(scene, "peers", &results);
     let names = names(&results);
     assert_eq!(names[0], "Plateau");
     assert!(names.contains(&"NumPy arrays"), "{names:?}");
@@ -192,21 +203,36 @@ fn peers_agree_before_they_are_timed() {
     // At the scene's time acceleration and at a large one.
     assert_eq!(agreements.len(), 2 * (names.len() - 1));
     for peer in agreements {
-        for quantity in ["displacement", "contact_area", "pool", "heights"] {
-            assert!(peer[quantity].as_f64().is_some_and(|difference| difference <= 1e-9), "{quantity} of {peer}");
+        for quantity in quantities {
+            assert!(peer[quantity].as_f64().is_some_and(|difference| difference <= 1e-10), "{quantity} of {peer}");
         }
+        assert!(without.is_none_or(|quantity| peer.get(quantity).is_none()), "{peer}");
     }
 }
 
 #[test]
+fn peers_agree_before_they_are_timed() {
+    expect_agreement("cermet.toml", &["displacement", "contact_area", "deposited", "heights"], Some("pool"));
+}
+
+#[test]
+fn peers_agree_where_debris_has_a_pool() {
+    expect_agreement("cermet-pooled.toml", &["displacement", "contact_area", "pool", "deposited", "heights"], None);
+}
+
+#[test]
 fn peers_refuse_a_scene_that_they_do_not_compute() {
-    for (set, what) in [
-        ("plateaus.debris=track", "one pool per track"),
-        ("plateaus.formation=false", "no formation"),
-        ("numerics.integrator=exponential", "exponential wear"),
+    let fraction = "plateaus.captured_fraction=0.06";
+    for (sets, what) in [
+        (&["plateaus.debris=track", fraction][..], "one pool per track"),
+        (&["plateaus.debris=contact", fraction, "plateaus.destruction=false"], "no destruction"),
+        (&["plateaus.formation=false"], "no formation"),
+        (&["plateaus.captured_resin_fraction=0.5"], "a captured fraction of its own for resin"),
+        (&["numerics.integrator=exponential"], "exponential wear"),
     ] {
-        let output = bench(&["peers", "--quick", "--set", set]);
-        assert_eq!(output.status.code(), Some(1), "{set}");
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        let output = bench(&["peers", "--quick"].into_iter().chain(sets).collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(1), "{what}");
         assert!(text(&output.stderr).contains(&format!("the scene asks for {what}")), "{}", text(&output.stderr));
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::case::{MeshSize, Source, mesh_size, repository};
 use crate::error::BenchError;
 
-/// The scenes in `data/scenes`.
+/// The scenes in `data/scenes`, but for the pooled baseline: a debris pool is a variant of each.
 pub const SHIPPED: [&str; 6] =
     ["cermet.toml", "cermet-10.toml", "cermet-100.toml", "measured.toml", "micrograph.toml", "quick.toml"];
 

@@ -1,12 +1,16 @@
 //! What is switched on or off.
 
 use super::subject::Subject;
-use crate::parts::{DISC_WEAR, FASTER_DEBRIS, SOFTER_DEBRIS};
+use crate::parts::{
+    DISC_WEAR, FASTER_DEBRIS, NO_DESTRUCTION, ONE_POOL, POOL_PER_TRACK, POOLED_FRACTION, SOFTER_DEBRIS,
+};
 
 /// The scene as it is, for the steps of the subject.
 const SCENE: &str = "the scene";
 /// The scene without maps, whose writing sets the largest memory and a good part of the time of a short run.
 const NO_MAPS: &str = "no maps";
+/// Without maps, and with the debris of the contact in one pool.
+const POOLED: &str = "no maps, one debris pool";
 /// Without maps and with few steps.
 const ONE_REVOLUTION: &str = "no maps, one revolution";
 /// That, with nearly all of its time spent on samples.
@@ -61,18 +65,20 @@ pub fn variants(subject: &Subject) -> Vec<Variant> {
     add(SCENE, NO_MAPS, &["output.maps=[]"]);
     add(NO_MAPS, "once more", &[]);
 
-    add(NO_MAPS, "no destruction", &["plateaus.destruction=false"]);
     add(NO_MAPS, "no formation", &["plateaus.formation=false"]);
     add(NO_MAPS, "no debris captured", &["plateaus.captured_fraction=0"]);
     add(NO_MAPS, "no resin", &["pin.base.uniform=primary"]);
     let nothing = ["plateaus.formation=false", "pin.base.uniform=primary", &sample_every_revolution];
     add(NO_MAPS, "nothing optional", &nothing);
     add(NO_MAPS, "exponential wear", &["numerics.integrator=exponential"]);
-    add(NO_MAPS, "one pool per track", &["plateaus.debris=track"]);
     add(NO_MAPS, "wear of the disc", &[DISC_WEAR]);
     add(NO_MAPS, "materials of build-ups given as those below", &[&same_debris]);
     add(NO_MAPS, "materials of their own for build-ups", &[SOFTER_DEBRIS, FASTER_DEBRIS]);
     add(NO_MAPS, "two workers", &["numerics.workers=2"]);
+
+    add(NO_MAPS, "one debris pool", &[ONE_POOL, POOLED_FRACTION]);
+    add(POOLED, "no destruction", &[NO_DESTRUCTION]);
+    add(POOLED, "one per track instead", &[POOL_PER_TRACK]);
 
     add(NO_MAPS, "a sample every revolution", &[&sample_every_revolution]);
     add(NO_MAPS, "a sample every 100 steps", &["output.sample_every_steps=100"]);

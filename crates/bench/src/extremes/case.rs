@@ -40,13 +40,27 @@ impl Case {
         Self { expected, ..self }
     }
 
+    /// The same with local debris, as a scene has it that says nothing else of it: all that wears may be compacted.
+    pub fn with_local_debris(mut self) -> Self {
+        self.name += ", local debris";
+        self.parameters.plateaus = PlateauRules {
+            debris: DebrisRule::Local,
+            captured_fraction: 1.0,
+            // Local debris has neither.
+            pad_share: 0.0,
+            destruction: false,
+            ..self.parameters.plateaus
+        };
+        self
+    }
+
     /// The same with another number of steps.
     pub fn of_steps(self, steps: u64) -> Self {
         Self { steps, ..self }
     }
 }
 
-/// The paper's operation, materials and cells on a small mesh, with a nominal pressure as in the paper.
+/// The paper's operation, materials and cells on a small mesh, with a nominal pressure as in the paper and one debris pool.
 pub fn paper(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters {
     let mesh = Mesh::new(rows, disc_columns, pin_columns, 20e-3, 20e-3 + rows as f64 * 50e-6)
         .unwrap_or_else(|error| unreachable!("the meshes of the cases are valid: {error}"));

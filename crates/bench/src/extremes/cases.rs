@@ -6,10 +6,15 @@ use plateau_core::state::Base;
 use super::case::{Case, Expected, paper, with_stiffness_number};
 use super::surfaces::{all as of_base, flat, rough, scaled, with_disc_cell};
 
-/// Every case; that of many steps takes `most_steps`.
+/// Every case; that of most steps takes `most_steps`.
 pub fn all(most_steps: u64) -> Vec<Case> {
-    [stiffness(), contrast(), loads(), contacts(), heights(), meshes(), bodies(), rules(), duration(most_steps)]
-        .concat()
+    let physics = [stiffness(), contrast(), loads(), contacts(), heights(), meshes(), bodies(), times()].concat();
+    [with_both_rules(physics), captured(), pad_shares(), durations(most_steps)].concat()
+}
+
+/// Each case with one debris pool, and again with local debris.
+fn with_both_rules(cases: Vec<Case>) -> Vec<Case> {
+    cases.into_iter().flat_map(|case| [case.clone(), case.with_local_debris()]).collect()
 }
 
 /// The mesh that most cases have.
@@ -135,41 +140,60 @@ fn bodies() -> Vec<Case> {
     ]
 }
 
-/// Formation and destruction at the ends of their ranges, and time.
-fn rules() -> Vec<Case> {
-    let parameters = usual();
-    let rough = rough(&parameters.mesh);
-    let case = |name: &str, change: &dyn Fn(&mut Parameters)| {
-        let mut parameters = parameters.clone();
-        change(&mut parameters);
-        Case::new(name, parameters, rough.clone())
-    };
+/// The usual case with a change.
+fn changed(name: &str, change: impl FnOnce(&mut Parameters)) -> Case {
+    let mut parameters = usual();
+    change(&mut parameters);
+    let surfaces = rough(&parameters.mesh);
+    Case::new(name, parameters, surfaces)
+}
+
+/// Steps that take very long, and steps that stand for very many.
+fn times() -> Vec<Case> {
+    vec![
+        changed("a speed of 1e-12 rad/s", |parameters| parameters.angular_velocity = 1e-12),
+        changed("a time acceleration of 1e6", |parameters| {
+            parameters.time_acceleration = 1e6;
+            parameters.integrator = Integrator::Exponential;
+        }),
+    ]
+}
+
+/// Nothing and all that wears stays in the contact; all of it with local debris is the usual case.
+fn captured() -> Vec<Case> {
     let mut cases: Vec<Case> = Vec::new();
     for pool in [DebrisRule::Contact, DebrisRule::Track] {
         for fraction in [0.0, 1.0] {
             let name = format!("captured fraction {fraction}, pool of the {}", format!("{pool:?}").to_lowercase());
-            cases.push(case(&name, &|parameters| {
+            cases.push(changed(&name, |parameters| {
                 parameters.plateaus.captured_fraction = fraction;
                 parameters.plateaus.debris = pool;
             }));
         }
     }
-    for share in [0.0, 1.0] {
-        cases.push(case(&format!("pad share {share}"), &|parameters| parameters.plateaus.pad_share = share));
-    }
-    cases.push(case("a speed of 1e-12 rad/s", &|parameters| parameters.angular_velocity = 1e-12));
-    cases.push(case("a time acceleration of 1e6", &|parameters| {
-        parameters.time_acceleration = 1e6;
-        parameters.integrator = Integrator::Exponential;
-    }));
+    let mut local = changed("captured fraction 0", |_| {}).with_local_debris();
+    local.parameters.plateaus.captured_fraction = 0.0;
+    cases.push(local);
     cases
 }
 
-/// Very many steps of two flat bodies, of which the closed form is known.
-fn duration(steps: u64) -> Vec<Case> {
-    let mut parameters = paper(1, 3, 2);
-    parameters.plateaus.captured_fraction = 0.0;
-    let surfaces = flat(&parameters.mesh, Base::Primary);
-    let name = format!("{} million steps", steps / 1_000_000);
-    vec![Case::new(name, parameters, surfaces).of_steps(steps).expecting(Expected::Recession)]
+/// All of a deposit out of the pool goes to the disc, or to the pin where it can; local debris has no such share.
+fn pad_shares() -> Vec<Case> {
+    let case = |share| {
+        changed(&format!("pad share {share}"), |parameters: &mut Parameters| parameters.plateaus.pad_share = share)
+    };
+    [0.0, 1.0].map(case).to_vec()
+}
+
+/// Very many steps of two flat bodies, of which the closed form is known. With local debris a tenth of them: a step takes
+/// longer, and does the same, for all cells touch and nothing finds room.
+fn durations(most_steps: u64) -> Vec<Case> {
+    let case = |steps: u64| {
+        let mut parameters = paper(1, 3, 2);
+        parameters.plateaus.captured_fraction = 0.0;
+        let surfaces = flat(&parameters.mesh, Base::Primary);
+        let name = format!("{} million steps", steps as f64 / 1e6);
+        Case::new(name, parameters, surfaces).of_steps(steps).expecting(Expected::Recession)
+    };
+    vec![case(most_steps), case(most_steps / 10).with_local_debris()]
 }

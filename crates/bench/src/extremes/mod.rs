@@ -4,11 +4,13 @@
 //! case       a simulation at a limit, and what must come of it
 //! surfaces   surfaces of cases
 //! cases      all of them
+//! local      what local debris keeps besides
 //! outcome    what came of a case: residuals, overshoot, readings, and whether that is within the bounds
 //! ```
 
 mod case;
 mod cases;
+mod local;
 mod outcome;
 mod surfaces;
 
@@ -29,7 +31,7 @@ use outcome::Outcome;
 #[command(after_help = "Exit status: 0 every case keeps its bounds, 1 one does not.\n\n\
                         Example:\n  extremes --into docs/stability.md")]
 pub struct Arguments {
-    /// A million steps instead of a billion where the case is the number of steps
+    /// A thousandth of the steps where their number is the case: a million instead of a billion
     #[arg(long)]
     quick: bool,
     /// Only cases whose name has this text

@@ -6,6 +6,7 @@ use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Simulation, SimulationError};
 
 use super::case::{Case, Expected};
+use super::local::LocalLaws;
 
 /// Steps of a case that are watched one by one; the others are taken in one go.
 const WATCHED: u64 = 600;
@@ -46,6 +47,8 @@ struct Measured {
     overshoot: f64,
     extra_readings: u64,
     is_finite: bool,
+    /// Law of local debris that a step broke.
+    broken_law: Option<&'static str>,
     /// Relative error of the recession of two flat bodies.
     recession_error: f64,
 }
@@ -108,6 +111,9 @@ fn defect(case: &Case, measured: &Measured) -> Option<String> {
     if measured.balance_residual > BALANCE {
         return Some("balance residual".into());
     }
+    if let Some(law) = measured.broken_law {
+        return Some(law.into());
+    }
     if case.expected != Expected::Overshoot && measured.overshoot > ROUNDING {
         return Some("overshoot".into());
     }
@@ -133,6 +139,7 @@ fn load_rounding(case: &Case) -> f64 {
 
 fn run(case: &Case, measured: &mut Measured) -> Result<(), SimulationError> {
     let mut simulation = Simulation::new(case.parameters.clone(), case.surfaces.clone())?;
+    let laws = LocalLaws::of(&case.parameters, &case.surfaces);
     let mut before = State::of(&mut simulation)?;
     for _ in 0..case.steps.min(WATCHED) {
         let step = simulation.steps_done();
@@ -141,6 +148,7 @@ fn run(case: &Case, measured: &mut Measured) -> Result<(), SimulationError> {
         measured.take(&sample);
         let after = State::of(&mut simulation)?;
         measured.is_finite &= after.is_finite();
+        measured.broken_law = measured.broken_law.or_else(|| laws.broken(&sample, &after.disc));
         measured.overshoot = measured.overshoot.max(before.overshoot(&after, case, step, sample.displacement));
         before = after;
     }
@@ -148,7 +156,9 @@ fn run(case: &Case, measured: &mut Measured) -> Result<(), SimulationError> {
     simulation.advance_to(case.steps)?;
     let last = simulation.sample()?;
     measured.take(&last);
-    measured.is_finite &= State::of(&mut simulation)?.is_finite();
+    let end = State::of(&mut simulation)?;
+    measured.is_finite &= end.is_finite();
+    measured.broken_law = measured.broken_law.or_else(|| laws.broken(&last, &end.disc));
     let course = simulation.course();
     (measured.load_residual, measured.extra_readings) = (course.largest_load_residual, course.extra_readings);
     if case.expected == Expected::Recession && last.step > first.step {
