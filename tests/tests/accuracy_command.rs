@@ -552,12 +552,13 @@ fn nothing_is_advised_that_is_slower_than_the_reference() {
 }
 
 #[test]
-fn a_smooth_disc_needs_the_model_itself_as_the_reference() {
+fn a_smooth_disc_with_pooled_debris_needs_the_model_itself_as_the_reference() {
     let directory = with_scene(&[]);
-    let smooth = ["--set", "disc.prepare.scale=0.01"];
-    let sets = ["disc.prepare.scale=0.01", "numerics.time_acceleration=2"].map(str::to_owned);
-    drop(run(&directory, "two.h5", &sets));
-    let (text, _) = measured(&directory, &[&["--ladder", "integrator", "--reference", "two.h5"], &smooth[..]].concat());
+    let smooth = ["disc.prepare.scale=0.01", "plateaus.debris=\"contact\""];
+    let sets = smooth.iter().chain(&["numerics.time_acceleration=2"]).map(|set| (*set).to_owned());
+    drop(run(&directory, "two.h5", &sets.collect::<Vec<_>>()));
+    let set = ["--set", smooth[0], "--set", smooth[1]];
+    let (text, _) = measured(&directory, &[&["--ladder", "integrator", "--reference", "two.h5"], &set[..]].concat());
     assert!(text.contains("no setting is advised: on a disc as smooth as this one"), "{text}");
     assert!(text.contains("more later"), "{text}");
 }

@@ -156,7 +156,7 @@ impl Scout {
         let area = self.run.contact_area_integral - before.contact_area_integral;
         let scouted = self.scout.contact_area_integral - scout_before.contact_area_integral;
         let acceleration = self.choice.acceleration();
-        self.choice.note(scouted / area - 1.0, self.run.time - before.time);
+        self.choice.note(scouted / area - 1.0, self.run.time - before.time, self.run.time);
         self.idle = too_smooth(self.smoothness, run)?;
         if self.idle.is_some() {
             self.choice.give_up();

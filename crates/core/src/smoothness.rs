@@ -1,4 +1,7 @@
-//! Discs too smooth for time acceleration (model 4.2, 4.4 and 4.6).
+//! Discs too smooth for time acceleration where debris is pooled (model 4.2, 4P and 4.6).
+//!
+//! With local debris (4L) the gap behind a cell of resin takes what that cell loses, wherever it touches: nothing is raised
+//! above the highest initial level, and no disc is too smooth.
 //!
 //! Resin loses its wear height at once where it touches, and its debris is compacted where the pin just is. On a rough disc
 //! the topography decides where that is, at any m. On a smooth one the debris does: with m = 1 resin touches on the
@@ -27,12 +30,13 @@ pub struct Smoothness {
 }
 
 impl Smoothness {
-    /// That of a pin; none where no resin wears or its debris is not compacted.
+    /// That of a pin; none where no resin wears, its debris is not compacted, or debris is local.
     pub fn of(parameters: &Parameters, pin_base: &[Base]) -> Option<Self> {
         let Parameters { mesh, materials, .. } = parameters;
         let wears = materials.wear_height > 0.0 && pin_base.contains(&Base::None);
-        let compacted = Needs::of(parameters).forms && parameters.plateaus.captured_of_resin() > 0.0;
-        if !(wears && compacted) {
+        let needs = Needs::of(parameters);
+        let pooled = needs.forms && !needs.local && parameters.plateaus.captured_of_resin() > 0.0;
+        if !(wears && pooled) {
             return None;
         }
         let cells = pin_base.iter().zip(mesh.area().iter().cycle());

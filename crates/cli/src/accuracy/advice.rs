@@ -5,7 +5,7 @@ use super::report::Report;
 use crate::number::{self, percent};
 
 /// Errors of the contact area for which runs are advised.
-const ERRORS: [f64; 2] = [1e-2, 1e-3];
+const ERRORS: [f64; 3] = [1e-2, 5e-3, 2e-3];
 
 /// A sentence for each of the errors, or one for all of them.
 pub fn advice(report: &Report) -> Vec<String> {

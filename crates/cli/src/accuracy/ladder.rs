@@ -14,7 +14,7 @@ const FEWEST_REVOLUTIONS: f64 = 8.0;
 /// How many cells of the scene's mesh go along one of a coarser mesh.
 pub const COARSENINGS: [usize; 3] = [2, 4, 8];
 /// Tolerances of a run that chooses its acceleration that are tried, besides the scene's own.
-const TOLERANCES: [f64; 4] = [0.01, 0.02, 0.05, 0.1];
+const TOLERANCES: [f64; 5] = [0.002, 0.005, 0.01, 0.02, 0.05];
 /// Largest acceleration of such a run, unless the scene says another.
 const LARGEST: f64 = 1000.0;
 /// Load tolerances that are tried, besides the scene's own.
@@ -172,10 +172,11 @@ mod tests {
                 "time_acceleration = 20",
                 "time_acceleration = 5",
                 "time_acceleration = 50",
+                "time_acceleration = { tolerance = 0.002, max = 1000 }",
+                "time_acceleration = { tolerance = 0.005, max = 1000 }",
                 "time_acceleration = { tolerance = 0.01, max = 1000 }",
                 "time_acceleration = { tolerance = 0.02, max = 1000 }",
                 "time_acceleration = { tolerance = 0.05, max = 1000 }",
-                "time_acceleration = { tolerance = 0.1, max = 1000 }",
                 "mesh coarsened 2 times",
                 "load_tolerance = 1e-12",
                 "load_tolerance = 1e-6",
@@ -186,13 +187,13 @@ mod tests {
                 "disc heights times 1 + 1e-4",
             ]
         );
-        assert_eq!(all[12].numerics.time_acceleration, 1.0);
-        assert_eq!(all[7].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
+        assert_eq!(all[13].numerics.time_acceleration, 1.0);
+        assert_eq!(all[8].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
         // A scene that chooses is run first, and the others with its choice.
         let chosen = Numerics { adaptive: Some(Adaptive { tolerance: 0.02, largest: 300.0 }), ..OWN.accelerated(1.0) };
         let few = rungs(&[Ladder::Tolerance, Ladder::Mesh], chosen, &accelerations, &[2], 1.0);
-        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [0.02, 0.01, 0.05, 0.1, 2.0]);
-        assert_eq!(few[4].full_name(), "time_acceleration = { tolerance = 0.02, max = 300 }, mesh coarsened 2 times");
+        assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [0.02, 0.002, 0.005, 0.01, 0.05, 2.0]);
+        assert_eq!(few[5].full_name(), "time_acceleration = { tolerance = 0.02, max = 300 }, mesh coarsened 2 times");
         // A coarser reference judges what is coarser still, and no run that may be finer.
         let few = rungs(&[Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh], OWN, &accelerations, &[2], 5.0);
         assert_eq!(few.iter().map(Rung::value).collect::<Vec<_>>(), [20.0, 50.0, 2.0]);

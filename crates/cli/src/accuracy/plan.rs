@@ -270,7 +270,7 @@ mod tests {
             let plan = plan(&task, None, seconds).unwrap();
             (plan.reference, plan.rungs.iter().filter(|rung| rung.ladder == Ladder::Tolerance).count())
         };
-        assert_eq!((beside(300.0), beside(150.0)), ((1.0, 4), (2.0, 0)));
+        assert_eq!((beside(300.0), beside(150.0)), ((1.0, 5), (2.0, 0)));
     }
 
     #[test]

@@ -35,12 +35,16 @@ pub fn differences(first: &str, second: &Table) -> Vec<Difference> {
     differences.filter(|difference| difference.first != difference.second).collect()
 }
 
-/// Every key of a table and of those in it, with its value as text.
+/// A key that had another name when older scenes were resolved, and its present name.
+const FORMER_NAME: [&str; 2] = ["plateaus.debris_pool", "plateaus.debris"];
+
+/// Every key of a table and of those in it, by its present name, with its value as text.
 fn flatten(above: &str, table: &Table, values: &mut Vec<(String, String)>) {
     for (name, value) in table {
         let path = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
         match value {
             Value::Table(table) => flatten(&path, table, values),
+            value if path == FORMER_NAME[0] => values.push((FORMER_NAME[1].to_owned(), value.to_string())),
             value => values.push((path, value.to_string())),
         }
     }
@@ -49,6 +53,16 @@ fn flatten(above: &str, table: &Table, values: &mut Vec<(String, String)>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_former_name_is_the_present_one() {
+        let differ = |present: &str, former: &str| {
+            let [present, former] = [("debris", present), ("debris_pool", former)]
+                .map(|(name, value)| format!("[plateaus]\n{name} = \"{value}\"\n"));
+            differences(&present, &former.parse().unwrap()).len()
+        };
+        assert_eq!([differ("track", "track"), differ("contact", "track"), differ("local", "contact")], [0, 1, 1]);
+    }
 
     #[test]
     fn names_every_key_with_both_values() {
