@@ -152,7 +152,7 @@ def main() -> None:
         "sets": {rule: {heights: claims.intervals(of) for heights, of in discs.items()} for rule, discs in sets.items()},
         "each_set": {
             rule: {key: {heights: [run[key] for run in of] for heights, of in discs.items()} for key in
-                   ("pin_film", "pin_covered", "sq_fibres", "sq_plateaus", "inner_over_outer")}
+                   ("pin_film", "pin_covered", "pin_loaded", "sq_fibres", "sq_pin", "inner_over_outer")}
             for rule, discs in sets.items()
         },
         "ratio": {

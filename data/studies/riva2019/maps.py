@@ -18,7 +18,10 @@ def at_the_end(file: h5py.File, end: float) -> dict[str, float]:
     """Build-up and roughness of the pin, means of the maps near the end."""
     times, base, radius = file["map_time"][:], file["pin/base"][:], file["radius"][:]
     late = np.flatnonzero((times > end - LATE) & (times < end + 1))
-    found = [of_the_pin(file["pin/height"][number], file["pin/substrate"][number], base, radius) for number in late]
+    found = [
+        of_the_pin(file["pin/height"][number], file["pin/substrate"][number], base, file["pin/pressure"][number], radius)
+        for number in late
+    ]
     return {key: float(np.mean([one[key] for one in found])) for key in found[0]} | {"maps": float(len(found))}
 
 

@@ -122,7 +122,7 @@ def numbers_of(model: Model) -> dict[str, float]:
         model.advance(min(every, total - model.taken))
         samples.append(model.sample())
         if samples[-1]["time"] > END - 56.0:
-            pins.append(of_the_pin(model.pin[0], model.pin[1], model.base, model.radius))
+            pins.append(of_the_pin(*model.pin, model.pressure, model.radius))
     series = {key: np.array([sample[key] for sample in samples]) for key in samples[0]}
     return history(series) | {key: float(np.mean([pin[key] for pin in pins])) for key in pins[0]}
 
