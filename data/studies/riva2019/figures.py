@@ -11,6 +11,7 @@ import matplotlib
 import measures
 import numpy as np
 from discs import NAMES, SCENES
+from maps import BANDS
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
 matplotlib.use("Agg")
@@ -25,9 +26,11 @@ STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
 OF_STATUS = {"cmap": STATUS, "vmin": -0.5, "vmax": 2.5}
 STATUSES = ["none (resin)", "primary", "secondary"]
 # What docs/validation.md and README.md show.
-SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial"]
+SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial", "pin"]
 # Piece of the ring that is shown, columns: the paper's 8 mm.
 PIECE = 160
+# Readings of the rule that no scene has: starred where they stand beside those that have.
+OTHER_READINGS = ("shared as a_p to a_d", "disc up to the disc ahead", "disc up to the pin ahead")
 
 plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "axes.spines.top": False,
                      "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
@@ -128,43 +131,72 @@ def filling_of_the_baseline(run: dict[str, object]) -> None:
 
 
 def contact_area() -> None:
-    """The paper's figure 14."""
-    figure, axes = plt.subplots(figsize=(5.2, 3), layout="constrained")
+    """The paper's figure 14, with pooled debris beside it."""
+    figure, axes = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
     for (heights, name), colour in zip(NAMES.items(), COLOURS, strict=True):
-        time, area = np.transpose(RESULTS["runs"][heights]["contact_area"])
-        axes.plot(time, area * 1e6, color=colour, lw=1.2, label=name)
+        for part, how in (("pooled_runs", {"lw": 0.8, "alpha": 0.55, "ls": "--"}), ("runs", {"lw": 1.3, "label": name})):
+            time, area = np.transpose(RESULTS[part][heights]["contact_area"])
+            axes.plot(time, area * 1e6, color=colour, **how)
+    axes.plot([], [], color="grey", lw=0.8, ls="--", label="pooled debris")
     axes.axvline(3000, color="grey", lw=0.6, ls=":")
-    axes.annotate("end of the paper's simulations", (3000, 0.15), textcoords="offset points", xytext=(4, 0), color="grey")
+    axes.annotate("end of the paper's simulations", (3000, 0.2), textcoords="offset points", xytext=(4, 0), color="grey")
     axes.set(xlabel="time, s", ylabel="contact area, mm², means of 50 s", xlim=(0, 7200), ylim=(0, None))
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08), ncols=2)
     save(figure, "fig14")
 
 
 def radial() -> None:
     """Filling against the radius."""
-    figure, axes = plt.subplots(figsize=(4.2, 2.8), layout="constrained")
-    of_baseline = RESULTS["sets"]["1"]
-    bands = np.array([of_baseline[f"band_{number}"] for number in range(16)]) * 100
-    radius = 20 + (np.arange(16) + 0.5) * 0.25
+    figure, (axes, inner) = plt.subplots(1, 2, figsize=(7, 2.8), layout="constrained", width_ratios=[3, 2])
+    of_baseline = RESULTS["sets"]["local"]["1"]
+    bands = np.array([of_baseline[f"band_{number}"] for number in range(BANDS)]) * 100
+    radius = 20 + (np.arange(BANDS) + 0.5) * 4 / BANDS
     axes.errorbar(radius, bands[:, 0], bands[:, 1], fmt="o", color="black", ms=3, capsize=2, lw=0.8,
-                  label="ten sets of surfaces, 95 %")
-    profile = np.array(RESULTS["runs"]["1"]["maps"]["3000"]["radial_filling"]) * 100
+                  label="ten sets of surfaces, m = 100, 95 %")
+    profile = [RESULTS["runs"]["1"]["disc"]["3000"][f"band_{number}"] * 100 for number in range(BANDS)]
     axes.plot(radius, profile, color=COLOURS[1], lw=1, label="the run with m = 1")
-    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline")
-    axes.legend()
+    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris")
+    axes.legend(loc="lower left")
+    for place, rule in enumerate(("local", "pooled")):
+        values = np.array(RESULTS["each_set"][rule]["inner_over_outer"]["1"]) * 100
+        mean, half = np.array(RESULTS["sets"][rule]["1"]["inner_over_outer"]) * 100
+        inner.plot(np.full(len(values), place), values, "o", color="grey", ms=3, alpha=0.7)
+        inner.errorbar(place + 0.2, mean, half, fmt="s", color="black", ms=4, capsize=3)
+    inner.axhline(0, color="grey", lw=0.6)
+    inner.set(title="each set, and mean with 95 %", ylabel="inner less outer half, points", xlim=(-0.4, 1.6))
+    inner.set_xticks([0.1, 1.1], ["local", "pooled"])
     save(figure, "radial")
+
+
+def pin_over_sets() -> None:
+    """What claims 3 and 4 ask of the pin, in each set of surfaces."""
+    panels = {"pin_film": ("build-up on the pin, nm", 1e9), "pin_covered": ("pin, secondary by status, %", 100),
+              "pin_loaded": ("secondary that carries load, %", 100), "sq_fibres": ("Sq of the fibres, nm", 1e9),
+              "sq_pin": ("Sq of the whole pin, µm", 1e6)}
+    figure, axes = plt.subplots(1, len(panels), figsize=(11, 2.8), layout="constrained")
+    for panel, (key, (title, factor)) in zip(axes, panels.items(), strict=True):
+        for rule, colour, place in (("local", COLOURS[1], -0.08), ("pooled", COLOURS[2], 0.08)):
+            values = np.array(list(RESULTS["each_set"][rule][key].values())) * factor
+            panel.plot(np.arange(3) + place, values, "-o", color=colour, ms=2.5, lw=0.6, alpha=0.6)
+        panel.set(title=title, xlim=(-0.4, 2.4), yscale="log" if key == "sq_fibres" else "linear")
+        panel.set_xticks(range(3), ["heights", "/ 10", "/ 100"])
+    axes[0].plot([], [], "-o", color=COLOURS[1], ms=2.5, lw=0.8, label="local")
+    axes[0].plot([], [], "-o", color=COLOURS[2], ms=2.5, lw=0.8, label="pooled")
+    axes[0].legend()
+    save(figure, "pin")
 
 
 def tornado() -> None:
     """What each choice does to four results, with the others at their defaults."""
-    outcomes = RESULTS["variants"]["outcomes"]
-    names = [name for name in outcomes if name != "default"]
-    names.sort(key=lambda name: sum(abs(outcomes[name][key]["change"][0]) for key in outcomes[name]))
-    panels = list(outcomes["default"])
-    figure, axes = plt.subplots(1, len(panels), figsize=(11, 4.6), layout="constrained", sharey=True)
+    outcomes = {name: of for name, of in RESULTS["variants"]["outcomes"].items() if name != "default"}
+    of_readings = RESULTS["readings"]["outcomes"]
+    outcomes |= {f"{name} *": of for name, of in of_readings.items() if name in OTHER_READINGS}
+    names = sorted(outcomes, key=lambda name: sum(abs(outcomes[name][key]["change"][0]) for key in outcomes[name]))
+    default_of = RESULTS["variants"]["outcomes"]["default"]
+    figure, axes = plt.subplots(1, len(default_of), figsize=(11, 5.2), layout="constrained", sharey=True)
     places = np.arange(len(names))
-    for panel, outcome in zip(axes, panels, strict=True):
-        default = outcomes["default"][outcome]["value"][0] * 100
+    for panel, outcome in zip(axes, default_of, strict=True):
+        default = default_of[outcome]["value"][0] * 100
         change = np.array([outcomes[name][outcome]["change"] for name in names]) * 100
         colours = [COLOURS[1] if value > 0 else COLOURS[2] for value in change[:, 0]]
         panel.barh(places, change[:, 0], left=default, color=colours, height=0.7)
@@ -204,6 +236,7 @@ def main() -> None:
     of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(0.5, 50))
     contact_area()
     radial()
+    pin_over_sets()
     tornado()
 
 

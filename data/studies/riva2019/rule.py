@@ -12,23 +12,30 @@ NONE, PRIMARY, SECONDARY = 0, 1, 2
 SUMS = ("contact_area", "worn_pin", "worn_resin", "deposited_pin", "deposited_disc")
 
 
+# Sums in any order, so that the compiler may take several cells at a time.
+@njit(cache=True, fastmath={"reassoc", "nsz"})
+def touching(gap, stiffness, delta):
+    """Of the cells that touch: sum of stiffness, of stiffness times gap, and their number."""
+    total, moment, count = 0.0, 0.0, 0
+    for cell in range(gap.size):
+        touches = gap[cell] < delta
+        total += stiffness[cell] if touches else 0.0
+        moment += stiffness[cell] * gap[cell] if touches else 0.0
+        count += 1 if touches else 0
+    return total, moment, count
+
+
 @njit(cache=True)
-def displacement(gap, stiffness, area, force, guess):
+def displacement(gap, stiffness, force, guess):
     """4.1: where the overlaps carry the load. Newton's method; its last step is exact on the cells that touch."""
-    delta, touching = guess, -1
+    delta, before = guess, -1
     for _ in range(1000):
-        total, moment, count = 0.0, 0.0, 0
-        for j in range(gap.shape[0]):
-            for i in range(gap.shape[1]):
-                if gap[j, i] < delta:
-                    total += stiffness[j, i] * area[i]
-                    moment += stiffness[j, i] * area[i] * gap[j, i]
-                    count += 1
+        total, moment, count = touching(gap, stiffness, delta)
         # Where nothing touches, it begins with all cells.
         following = (force + moment) / total if count > 0 else gap.max() + 1e-6
-        if following == delta or (count == touching and abs(following - delta) < 1e-18):
+        if following == delta or (count == before and abs(following - delta) < 1e-18):
             return following
-        delta, touching = following, count
+        delta, before = following, count
     return delta
 
 
@@ -55,11 +62,11 @@ def steps(first, count, disc, pin, mesh, materials, force, delta, reading, top, 
     disc: height, substrate [column, row]. pin: height, substrate, base. mesh: area and sliding distance of a cell by row.
     materials: stiffness per area by the statuses of pin and disc, wear rates by that of the pin, wear height of resin.
     reading: how debris is shared (0: the pin first, 1: as a_p to a_d), up to where the disc fills (0: `top`, 1: the disc
-    ahead, 2: the pin ahead), whether resin's debris counts.
+    ahead, 2: the pin ahead).
     """
     (z_d, b_d), (z_p, b_p, base), (area, slide) = disc, pin, mesh
     of_pair, kappa, wear_height = materials
-    shared, level, with_resin = reading
+    shared, level = reading
     columns, (pins, rows) = z_d.shape[0], z_p.shape
     gap, stiffness, lost = np.empty((pins, rows)), np.empty((pins, rows)), np.empty((pins, rows))
     plateau = np.empty((pins, rows), np.bool_)
@@ -72,14 +79,14 @@ def steps(first, count, disc, pin, mesh, materials, force, delta, reading, top, 
                 below = SECONDARY if z_d[c, i] > b_d[c, i] else PRIMARY
                 plateau[j, i] = status != NONE
                 gap[j, i] = z_p[j, i] - z_d[c, i]
-                stiffness[j, i] = of_pair[status, below]
-        delta = displacement(gap, stiffness, area, force, delta)
+                stiffness[j, i] = of_pair[status, below] * area[i]
+        delta = displacement(gap.ravel(), stiffness.ravel(), force, delta)
         # 4.2 Wear.
         for j in range(pins):
             for i in range(rows):
                 lost[j, i], pressure[j, i] = 0.0, 0.0
                 if gap[j, i] < delta:
-                    pressure[j, i] = stiffness[j, i] * (delta - gap[j, i])
+                    pressure[j, i] = stiffness[j, i] / area[i] * (delta - gap[j, i])
                     z_p[j, i], b_p[j, i], lost[j, i] = wear_of_the_pin(
                         z_p[j, i], b_p[j, i], base[j, i], pressure[j, i], slide[i], kappa, wear_height
                     )
@@ -90,7 +97,7 @@ def steps(first, count, disc, pin, mesh, materials, force, delta, reading, top, 
         for j in range(pins - 1):
             c, ahead = (j - n) % columns, (j + 1 - n) % columns
             for i in range(rows):
-                if gap[j, i] < delta or lost[j + 1, i] == 0.0 or not (with_resin or plateau[j + 1, i]):
+                if gap[j, i] < delta or lost[j + 1, i] == 0.0:
                     continue
                 clearance = z_p[j, i] - z_d[c, i] - delta
                 on_pin = max(0.0, z_p[j, i] - z_p[j + 1, i]) if plateau[j + 1, i] else 0.0

@@ -25,11 +25,10 @@ RUNS = HERE / "runs"
 RESULTS = RUNS / "readings.json"
 # As rule.steps has them.
 READINGS = {
-    "the rule as it stands": (0, 0, True),
-    "shared as a_p to a_d": (1, 0, True),
-    "disc up to the disc ahead": (0, 1, True),
-    "disc up to the pin ahead": (0, 2, True),
-    "resin's debris leaves": (0, 0, False),
+    "the rule as it stands": (0, 0),
+    "shared as a_p to a_d": (1, 0),
+    "disc up to the disc ahead": (0, 1),
+    "disc up to the pin ahead": (0, 2),
 }
 SEEDS = (1, 2, 3)
 # Length of the check, steps, and the maps that are compared.
@@ -54,7 +53,7 @@ def run(program: str, name: str, options: list[str]) -> Path:
 class Model:
     """A run of the rule from the initial state of a run file, with that file's scene."""
 
-    def __init__(self, path: Path, reading: tuple[int, int, bool]) -> None:
+    def __init__(self, path: Path, reading: tuple[int, int]) -> None:
         with h5py.File(path) as file:
             scene = tomllib.loads(file.attrs["scene"])
             disc, self.radius = file["disc/height"][0], file["radius"][:]

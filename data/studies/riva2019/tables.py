@@ -1,0 +1,246 @@
+"""The tables of the documents, from results.json."""
+
+import json
+from pathlib import Path
+
+import measures
+import numpy as np
+from discs import NAMES
+
+RESULTS = json.loads((Path(__file__).parent / "results.json").read_text())
+
+
+def value(path: str) -> object:
+    """What is at a path of keys in results.json."""
+    found = RESULTS
+    for key in path.split("/"):
+        found = found[key]
+    return found
+
+
+def shown(number: float, form: str) -> str:
+    """A number as documents have it."""
+    return format(number, form).replace("-", "−").replace(",", " ")
+
+
+def with_interval(pair: list[float], factor: float, form: str) -> str:
+    """Mean ± half width of the 95 % interval."""
+    mean, half = (entry * factor for entry in pair)
+    return f"{shown(mean, form)} ± {shown(half, form)}"
+
+
+def told(found: object, factor: float, form: str) -> str:
+    """A number, or a mean with its interval."""
+    return with_interval(found, factor, form) if isinstance(found, list) else shown(found * factor, form)
+
+
+def last_tenth(heights: str, end: float, runs: str = "runs") -> str:
+    """Mean contact area over the last tenth of a run and its standard error, mm²: of the means of 50 s that are kept of it."""
+    middles, areas = np.array(value(f"{runs}/{heights}/contact_area")).T
+    areas = areas[(middles > 0.9 * end) & (middles < end)] * 1e6
+    return with_interval([areas.mean(), measures.standard_error(areas)], 1, ".2f")
+
+
+def share(rule: str, claim: str) -> str:
+    """In how many sets of surfaces a claim holds, with the interval of that share."""
+    found = value(f"holds/{rule}/{claim}")
+    return f"{found['hits']} of {found['of']} ({found['low'] * 100:.0f} to {found['high'] * 100:.0f} %)"
+
+
+def row(*cells: str) -> str:
+    """A line of a table."""
+    return "| " + " | ".join(cells) + " |\n"
+
+
+def head(*cells: str) -> str:
+    """The first lines of a table."""
+    return row(*cells) + "|" + "---|" * len(cells) + "\n"
+
+
+def once(part: str, heights: str, key: str, end: str = "3000") -> float | None:
+    """A number of a run at its end; none where it was not kept."""
+    run = value(f"{part}/{heights}")
+    for place in ("history", "pin", "disc"):
+        if key in run.get(place, {}).get(end, {}):
+            return run[place][end][key]
+    return None
+
+
+# The paper's claims: its number, what is measured, and of each the quantity and the claim in claims.py.
+ASKED = [
+    ("1", "filled, by volume, %", "filled", 100, ".1f", "filled in order"),
+    ("1", "… near the paper's 70, 90, almost", None, 0, "", "filled as in the paper"),
+    ("2", "disc, secondary by status, %", "disc_secondary", 100, ".1f", "more on the disc"),
+    ("3", "pin, secondary by status, %", "pin_covered", 100, ".1f", "more on the pin, by status"),
+    ("3", "build-up on the pin, mean, nm", "pin_film", 1e9, ".0f", "more on the pin, by volume"),
+    ("3", "pin, secondary that carries load, %", "pin_loaded", 100, ".1f", "more on the pin, that carries load"),
+    ("4", "Sq of the fibres, nm", "sq_fibres", 1e9, ".0f", "smoother fibres"),
+    ("4", "Sq where plateaus touch, nm", "sq_touching", 1e9, ".0f", "smoother where it touches"),
+    ("4", "Sq of all plateaus, µm", "sq_plateaus", 1e6, ".2f", "smoother plateaus"),
+    ("4", "Sq of the resin, µm", "sq_resin", 1e6, ".2f", "smoother resin"),
+    ("4", "Sq of the whole pin, µm", "sq_pin", 1e6, ".2f", "smoother pin"),
+    ("5", "pressure: Gini coefficient", "pressure_gini", 1, ".3f", "more even pressure"),
+    ("6", "contact area, 2700 to 3000 s, mm²", "contact_area_mean", 1e6, ".2f", "lower contact area"),
+    ("6", "… below three quarters of either smooth disc's", None, 0, "", "less than three quarters of it"),
+    ("7", "run-in, to 90 %, s", "run_in", 1, ".0f", "longer run-in"),
+    ("7", "drift, 2000 to 3000 s, % per 1000 s", "drift", 100, ".1f", "baseline not steady"),
+    ("7", "… of heights / 10, not 0", None, 0, "", "heights / 10 not steady"),
+    ("8", "inner less outer half, percentage points", "inner_over_outer", 100, ".1f", "fuller inside"),
+    ("9", "half of the contact lies in spots below, µm", "contact_50", 1e6, ".0f", None),
+    ("10", "mean pressure of the contact, MPa", "mean_pressure", 1e-6, ".2f", "higher pressure"),
+]
+
+
+def table_claims() -> str:
+    """The paper's claims, over sets of surfaces, and of the model itself where its runs have the number."""
+    text = head(
+        "claim", "measured, after 3000 s: baseline, heights / 10, heights / 100", "local, m = 1", "local, m = 100, ten sets",
+        "holds in", "pooled, m = 100, ten sets", "holds in",
+    )
+    for number, name, key, factor, form, claim in ASKED:
+        cells = [number, name]
+        alone = [] if key is None else [once("runs", heights, key) for heights in NAMES]
+        if key == "contact_50":
+            alone = [value(f"runs/{heights}/sizes/3000/pin_contact/50") for heights in NAMES]
+        cells.append(", ".join(shown(one * factor, form) for one in alone) or yes(value(f"holds_once/{claim}/hits")))
+        for rule in ("local", "pooled"):
+            of = [] if key is None else [value(f"sets/{rule}/{heights}/{key}") for heights in NAMES]
+            cells += [", ".join(with_interval(one, factor, form) for one in of), share(rule, claim) if claim else ""]
+        text += row(*cells)
+    return text
+
+
+def yes(hits: int) -> str:
+    """Whether a claim holds in the one set of the runs."""
+    return "yes" if hits else "no"
+
+
+def table_runs() -> str:
+    """The runs without time acceleration, local and pooled."""
+    locals_, pooled = [("runs", heights, "3000") for heights in NAMES], [("pooled_runs", heights, "3000") for heights in NAMES]
+    columns = [*locals_, ("runs", "1", "7200"), *pooled]
+    if "7200" not in value("runs/1/history"):
+        columns.remove(("runs", "1", "7200"))
+    text = head("at the end, m = 1", *(
+        f"{'local' if part == 'runs' else 'pooled'}: {NAMES[heights]}" + (", 7200 s" if end == "7200" else "")
+        for part, heights, end in columns
+    ))
+
+    def line(name: str, factor: float, form: str, key: str) -> str:
+        found = [once(part, heights, key, end) for part, heights, end in columns]
+        return row(name, *("" if one is None else shown(one * factor, form) for one in found))
+
+    text += line("filled, by volume, %", 100, ".1f", "filled")
+    text += line("filled, by area (within 0.1 µm), %", 100, ".1f", "filled_area")
+    text += line("disc, secondary (any film), %", 100, ".1f", "disc_secondary")
+    text += line("build-up on the disc, mean, µm", 1e6, ".2f", "mean_build_up")
+    text += line("highest above the highest of the start, µm", 1e6, ".2f", "highest")
+    text += row("contact area, last tenth ± standard error, mm²",
+                *(last_tenth(heights, float(end), part) for part, heights, end in columns))
+    text += line("contact area, last 100 s, mm²", 1e6, ".2f", "contact_area")
+    text += line("run-in: to 90 % of that, ± 25 s", 1, ".0f", "run_in")
+    text += line("run-in: change-point, s", 1, ".0f", "change_point")
+    text += line("drift in the last third, % per 1000 s", 100, ".2f", "drift")
+    text += line("± (95 %)", 100, ".2f", "drift_error")
+    text += line("pressure: Gini coefficient", 1, ".3f", "pressure_gini")
+    text += line("pressure: coefficient of variation", 1, ".2f", "pressure_variation")
+    text += line("pressure, mean, MPa", 1e-6, ".2f", "mean_pressure")
+    text += line("pin, secondary, %", 100, ".1f", "pin_covered")
+    text += line("pin, secondary that carries load, %", 100, ".1f", "pin_loaded")
+    text += line("build-up on the pin, mean, nm", 1e9, ".0f", "pin_film")
+    text += line("Sq of the fibres, nm", 1e9, ".0f", "sq_fibres")
+    text += line("Sq of the whole pin, µm", 1e6, ".2f", "sq_pin")
+    text += line("filling, inner less outer half, percentage points", 100, ".1f", "inner_over_outer")
+    text += line("deposited / worn, %", 100, ".1f", "deposited_over_worn")
+    text += line("worn / (κ × load × distance) − 1", 1, ".1e", "bookkeeping")
+    text += line("debris balance, largest residual", 1, ".1e", "balance_residual")
+    return text
+
+
+def table_error() -> str:
+    """The same surfaces with the acceleration of the sets and without."""
+    text = head("after 3000 s, the same surfaces", *(f"{name}: m = 1, m = 100" for name in NAMES.values()))
+    for _, name, key, factor, form, _ in ASKED:
+        if key is None or key == "contact_50":
+            continue
+        pairs = [(once("runs", heights, key), once("quick", heights, key)) for heights in NAMES]
+        text += row(name, *(", ".join(shown(one * factor, form) for one in pair) for pair in pairs))
+    return text
+
+
+def table_history() -> str:
+    """Filling at the times of the maps."""
+    times = list(value("runs/1/disc"))
+    text = head("filled, by volume, %, m = 1", *(f"{time} s" for time in times))
+    for part, rule in (("runs", "local"), ("pooled_runs", "pooled")):
+        for heights, name in NAMES.items():
+            found = value(f"{part}/{heights}/disc")
+            text += row(f"{rule}: {name}", *(shown(found[time]["filled"] * 100, ".1f") if time in found else "" for time in times))
+    return text
+
+
+def table_sizes() -> str:
+    """Sizes of plateaus."""
+    text = head("diameter, µm, m = 1: 10, 50, 90 % of their area lies in smaller ones (number)", *NAMES.values())
+    names = {
+        "pin_contact": "pin, in contact",
+        "pin_plateaus": "pin, primary and secondary",
+        "pin_thick": "pin, build-up of 0.1 µm and more",
+        "disc_secondary": "disc, secondary",
+        "disc_holes": "disc, holes deeper than 1 µm",
+    }
+    for key, name in names.items():
+        cells = []
+        for heights in NAMES:
+            found = value(f"runs/{heights}/sizes/3000/{key}")
+            cells.append(", ".join(shown(found[p] * 1e6, ".0f") for p in ("10", "50", "90")) + f" ({found['count']})"
+                         if found["count"] else "none")
+        text += row(name, *cells)
+    return text
+
+
+def of_choices(part: str, names: list[str]) -> str:
+    """The numbers of some choices."""
+    text = head(
+        "m = 100 unless it says otherwise", "filled, %", "disc, secondary, %", "contact area, mm²", "run-in, s", "Gini coefficient",
+    )
+    for name in names:
+        means = value(f"{part}/means/{name}")
+        text += row(name, *(
+            ", ".join(with_interval(means[heights][key], factor, form) for heights in NAMES)
+            for key, factor, form in (("filled", 100, ".1f"), ("disc_secondary", 100, ".0f"),
+                                      ("contact_area_mean", 1e6, ".2f"), ("run_in", 1, ".0f"), ("pressure_gini", 1, ".3f"))
+        ))
+    return text
+
+
+def table_variants() -> str:
+    """Choices that scenes have."""
+    return of_choices("variants", list(value("variants/means")))
+
+
+def table_readings() -> str:
+    """Readings that no scene has."""
+    return of_choices("readings", list(value("readings/means")))
+
+
+def table_conclusions() -> str:
+    """In how many sets of surfaces every claim holds."""
+    of_scenes, of_readings = value("variants/holds"), value("readings/holds")
+    asked = [claim for claim in of_scenes["default"] if claim != "heights / 10 not steady"]
+    text = head("holds in so many of three sets", *asked)
+    others = {name: counts for name, counts in of_readings.items() if name not in of_scenes and name != "the rule as it stands"}
+    for name, counts in (of_scenes | others).items():
+        text += row(name, *(str(counts[claim]["hits"]) for claim in asked))
+    return text
+
+
+def table_symmetry() -> str:
+    """The same surfaces seen otherwise."""
+    text = head("surfaces", "filled, %", "contact area, 2700 to 3000 s, mm²", "run-in, s", "Gini coefficient of the pressure")
+    for name, found in value("symmetry").items():
+        text += row(
+            name.replace("-", " "), shown(found["filled"] * 100, ".2f"), shown(found["contact_area_mean"] * 1e6, ".3f"),
+            shown(found["run_in"], ".0f"), shown(found["pressure_gini"], ".3f"),
+        )
+    return text
