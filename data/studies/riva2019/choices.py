@@ -1,6 +1,7 @@
 """What becomes of the results with other choices: scenes of open-questions.toml, and readings that no scene has (variants.py)."""
 
 import json
+import sys
 from pathlib import Path
 
 import claims
@@ -11,6 +12,8 @@ from discs import SCENES
 from history import history
 from make_points import DEFAULT, VARIANTS
 
+# Sets of surfaces of every choice.
+SEEDS = 3
 # Of every choice and disc the numbers of each set of surfaces.
 Found = dict[str, dict[str, list[dict[str, float]]]]
 
@@ -21,24 +24,32 @@ def wear_of(variant: str) -> float:
     return float(settings["normal force"].split()[0]) * float(settings["wear rate"].split()[0])
 
 
+def whole(found: Found) -> Found:
+    """The choices of which every disc and set of surfaces is there."""
+    missing = [name for name, discs in found.items() if any(len(runs) < SEEDS for runs in discs.values())]
+    if missing:
+        print("not there:", *missing, sep="\n  ", file=sys.stderr)
+    return {name: discs for name, discs in found.items() if name not in missing}
+
+
 def of_scenes(path: Path) -> Found:
     """The variants that scenes have, from the collected study."""
     # In the order of points.csv.
     keys = [(name, heights) for name in VARIANTS for heights in SCENES]
     found = {name: {heights: [] for heights in SCENES} for name in VARIANTS}
     with h5py.File(path) as file:
-        assert set(file["state"].asstr()[:]) == {"finished"}, "not every run of open-questions.toml is finished"
+        finished = file["state"].asstr()[:] == "finished"
         names = [name for name, data in file.items() if data.ndim == 2 and name != "sample_time"]
-        for row in range(len(file["run"])):
+        for row in np.flatnonzero(finished):
             name, heights = keys[int(file["point"][row]) - 1]
             time = file["time"][:] if "time" in file else file["sample_time"][row]
             there = np.isfinite(time)
             series = {key: file[key][row][there] for key in names} | {"time": time[there]}
             found[name][heights].append((int(file["replicate"][row]), history(series, load=wear_of(name))))
-    return {
+    return whole({
         name: {heights: [numbers for _, numbers in sorted(runs, key=lambda run: run[0])] for heights, runs in discs.items()}
         for name, discs in found.items()
-    }
+    })
 
 
 def of_readings(path: Path) -> tuple[Found, list[dict[str, float]]]:
@@ -47,8 +58,8 @@ def of_readings(path: Path) -> tuple[Found, list[dict[str, float]]]:
     check, found = kept.pop("check"), {}
     for key, numbers in kept.items():
         name, heights, _ = key.rsplit(", ", 2)
-        found.setdefault(name, {}).setdefault(heights, []).append(numbers)
-    return found, check
+        found.setdefault(name, {heights: [] for heights in SCENES})[heights].append(numbers)
+    return whole(found), check
 
 
 # What the tornado charts show: a quantity, and the disc, or the two of which it is the ratio.

@@ -72,14 +72,14 @@ def save(figure, name: str) -> None:
     plt.close(figure)
 
 
-def of_three(runs: dict[str, dict], name: str, values, label: str, common=None) -> None:
-    """A map of each disc's run, side by side, on scales of their own or on a common one."""
+def of_three(runs: dict[str, dict], name: str, values, label: str, norms) -> None:
+    """A map of each disc's run, side by side; norms: the scale of each, or one for all."""
+    common = isinstance(norms, Normalize)
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
         # Where nothing is to be drawn.
         panel.set_facecolor(STATUS(0))
-        field = values(run)
-        image = draw(panel, run, field, NAMES[heights], norm=common or scale([field]))
+        image = draw(panel, run, values(run), NAMES[heights], norm=norms if common else norms(run))
         if not common:
             figure.colorbar(image, ax=panel, label=label, shrink=0.8)
     if common:
@@ -91,6 +91,11 @@ def scale(fields: list[np.ndarray]) -> Normalize:
     """From nearly the lowest to nearly the highest."""
     every = np.concatenate([field[np.isfinite(field)] for field in fields])
     return Normalize(*np.quantile(every, [0.005, 0.995]))
+
+
+def of_the_start(run: dict[str, object]) -> Normalize:
+    """The scale of the disc's heights at the start, so that what is open looks as it did then."""
+    return scale([at(run, "disc/height", 0) * 1e6])
 
 
 def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int | None = None) -> None:
@@ -228,12 +233,12 @@ def main() -> None:
     runs = {heights: load(scene) for heights, scene in SCENES.items()}
     inputs(runs["1"])
     filling_of_the_baseline(runs["1"])
-    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm")
+    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm", of_the_start)
     status_of_three(runs, "fig10", "disc/status", PIECE)
     of_three(runs, "fig10b", build_up, "build-up, µm", scale([build_up(run) for run in runs.values()]))
     of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", scale([pin_height(run) for run in runs.values()]))
     status_of_three(runs, "fig12", "pin/status")
-    of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(0.5, 50))
+    of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(1, 30))
     contact_area()
     radial()
     pin_over_sets()

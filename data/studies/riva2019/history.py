@@ -1,5 +1,7 @@
 """What the series of a run say up to a time."""
 
+from pathlib import Path
+
 import h5py
 import measures
 import numpy as np
@@ -15,10 +17,18 @@ AVERAGED = ("pressure_variation", "pressure_gini", "mean_pressure", "pin_sq", "d
 AT_THE_END = ("disc_secondary", "worn_pin", "worn_resin", "worn_disc")
 
 
+def opened(path: Path) -> h5py.File:
+    """A run file, also one that is being written."""
+    try:
+        return h5py.File(path)
+    except OSError:
+        return h5py.File(path, swmr=True)
+
+
 def series_of(file: h5py.File) -> dict[str, np.ndarray]:
-    """All series of a run that came to its end, and their time."""
-    assert file.attrs["state"] == "finished", f"{file.filename} is {file.attrs['state']}"
-    return {name: values[:] for name, values in file["series"].items()} | {"time": file["time"][:]}
+    """All series of a run as far as it came, and their time."""
+    time = file["time"][:]
+    return {name: values[: len(time)] for name, values in file["series"].items()} | {"time": time}
 
 
 def at(time: np.ndarray, values: np.ndarray, moment: float) -> float:

@@ -77,8 +77,7 @@ of_sets() {
         simulate sets "quick-$scale" --set "disc.prepare.scale=$scale"
         for seed in 1 2 3 4 5 6 7 8 9 10; do
             with_set sets "set-local-$seed-$scale" "$seed" "$seed" "$scale"
-            with_set sets "set-pooled-$seed-$scale" "$seed" "$seed" "$scale" --set 'plateaus.debris="contact"' \
-                --set plateaus.captured_fraction=0.06
+            with_set pooled-sets "set-pooled-$seed-$scale" "$seed" "$seed" "$scale"
         done
     done
     # Other pins on the disc of the first set.

@@ -1,13 +1,16 @@
 """The tables of the documents, from results.json."""
 
 import json
+import tomllib
 from pathlib import Path
 
 import measures
 import numpy as np
-from discs import NAMES
+from discs import NAMES, SCENES
+from make_points import DEFAULT
 
-RESULTS = json.loads((Path(__file__).parent / "results.json").read_text())
+HERE = Path(__file__).parent
+RESULTS = json.loads((HERE / "results.json").read_text())
 
 
 def value(path: str) -> object:
@@ -43,8 +46,38 @@ def last_tenth(heights: str, end: float, runs: str = "runs") -> str:
 
 def share(rule: str, claim: str) -> str:
     """In how many sets of surfaces a claim holds, with the interval of that share."""
-    found = value(f"holds/{rule}/{claim}")
+    found = RESULTS["holds"][rule][claim]
     return f"{found['hits']} of {found['of']} ({found['low'] * 100:.0f} to {found['high'] * 100:.0f} %)"
+
+
+def m_of_one(part: str, heights: str) -> str:
+    """The time acceleration of a run; runs that were kept are without."""
+    return f"{RESULTS[part][heights].get('acceleration', 1.0):g}"
+
+
+def m_of(part: str) -> str:
+    """The time acceleration of a part of the study: of the runs what they have, of others what their scene says."""
+    if part != "runs":
+        return f"{accelerations()[part]:g}"
+    found = [m_of_one("runs", heights) for heights in NAMES]
+    return found[0] if len(set(found)) == 1 else ", ".join(found)
+
+
+def acceleration(scene: Path) -> float:
+    """The time acceleration of a scene, or of the one that it extends."""
+    found = tomllib.loads(scene.read_text())
+    given = found.get("numerics", {}).get("time_acceleration")
+    return acceleration(scene.parent / found["extends"]) if given is None else float(given)
+
+
+def accelerations() -> dict[str, float]:
+    """The time acceleration of every part of the study, as scenes have it: numbers of different ones are not compared."""
+    of_runs = {acceleration(HERE / f"{scene}.toml") for scene in [*SCENES.values(), "pooled"]}
+    assert len(of_runs) == 1, f"the runs have accelerations {of_runs}"
+    others = {name: acceleration(HERE / f"{name}.toml") for name in ("sets", "pooled-sets", "symmetry")}
+    variants = float(DEFAULT["time acceleration"])
+    assert variants == acceleration(HERE / "reduced.toml")
+    return {"runs": of_runs.pop(), "variants": variants} | others
 
 
 def row(*cells: str) -> str:
@@ -94,15 +127,16 @@ ASKED = [
 def table_claims() -> str:
     """The paper's claims, over sets of surfaces, and of the model itself where its runs have the number."""
     text = head(
-        "claim", "measured, after 3000 s: baseline, heights / 10, heights / 100", "local, m = 1", "local, m = 100, ten sets",
-        "holds in", "pooled, m = 100, ten sets", "holds in",
+        "claim", "measured, after 3000 s: baseline, heights / 10, heights / 100", f"local, m = {m_of('runs')}",
+        f"local, m = {m_of('sets')}, ten sets", "holds in", f"pooled, m = {m_of('pooled-sets')}, ten sets", "holds in",
     )
     for number, name, key, factor, form, claim in ASKED:
         cells = [number, name]
+        # Of the model itself: numbers, or whether it holds.
         alone = [] if key is None else [once("runs", heights, key) for heights in NAMES]
         if key == "contact_50":
             alone = [value(f"runs/{heights}/sizes/3000/pin_contact/50") for heights in NAMES]
-        cells.append(", ".join(shown(one * factor, form) for one in alone) or yes(value(f"holds_once/{claim}/hits")))
+        cells.append(", ".join(shown(one * factor, form) for one in alone) or yes(RESULTS["holds_once"][claim]["hits"]))
         for rule in ("local", "pooled"):
             of = [] if key is None else [value(f"sets/{rule}/{heights}/{key}") for heights in NAMES]
             cells += [", ".join(with_interval(one, factor, form) for one in of), share(rule, claim) if claim else ""]
@@ -121,8 +155,8 @@ def table_runs() -> str:
     columns = [*locals_, ("runs", "1", "7200"), *pooled]
     if "7200" not in value("runs/1/history"):
         columns.remove(("runs", "1", "7200"))
-    text = head("at the end, m = 1", *(
-        f"{'local' if part == 'runs' else 'pooled'}: {NAMES[heights]}" + (", 7200 s" if end == "7200" else "")
+    text = head("at the end", *(
+        f"{'local' if part == 'runs' else 'pooled'}: {NAMES[heights]}, {end} s, m = {m_of_one(part, heights)}"
         for part, heights, end in columns
     ))
 
@@ -158,30 +192,36 @@ def table_runs() -> str:
 
 
 def table_error() -> str:
-    """The same surfaces with the acceleration of the sets and without."""
-    text = head("after 3000 s, the same surfaces", *(f"{name}: m = 1, m = 100" for name in NAMES.values()))
-    for _, name, key, factor, form, _ in ASKED:
-        if key is None or key == "contact_50":
-            continue
-        pairs = [(once("runs", heights, key), once("quick", heights, key)) for heights in NAMES]
-        text += row(name, *(", ".join(shown(one * factor, form) for one in pair) for pair in pairs))
+    """The acceleration of the sets and the model itself, on the same surfaces."""
+    found = value("exactness")
+    text = head("the same surfaces: m = 1, m = 100", *(f"{NAMES[heights]}, at {of['until']:.0f} s" for heights, of in found.items()))
+    asked = {key: (name, factor, form) for _, name, key, factor, form, _ in ASKED if key}
+    asked["drift"] = ("drift in the last third, % per 1000 s", 100, ".1f")
+    asked["contact_area_mean"] = ("contact area, last tenth, mm²", 1e6, ".2f")
+    for key, (name, factor, form) in asked.items():
+        if any(key in of["numbers"] for of in found.values()):
+            pairs = [of["numbers"].get(key, []) for of in found.values()]
+            text += row(name, *(", ".join(shown(one * factor, form) for one in pair) for pair in pairs))
+    text += row("contact area over windows of 100 s, root mean square difference, %", *(shown(of["mean"] * 100, ".2f") for of in found.values()))
+    text += row("… largest difference, %", *(shown(of["worst"] * 100, ".2f") for of in found.values()))
     return text
 
 
 def table_history() -> str:
     """Filling at the times of the maps."""
     times = list(value("runs/1/disc"))
-    text = head("filled, by volume, %, m = 1", *(f"{time} s" for time in times))
+    text = head("filled, by volume, %", *(f"{time} s" for time in times))
     for part, rule in (("runs", "local"), ("pooled_runs", "pooled")):
         for heights, name in NAMES.items():
             found = value(f"{part}/{heights}/disc")
-            text += row(f"{rule}: {name}", *(shown(found[time]["filled"] * 100, ".1f") if time in found else "" for time in times))
+            text += row(f"{rule}: {name}, m = {m_of_one(part, heights)}", *(shown(found[time]["filled"] * 100, ".1f") if time in found else "" for time in times))
     return text
 
 
 def table_sizes() -> str:
     """Sizes of plateaus."""
-    text = head("diameter, µm, m = 1: 10, 50, 90 % of their area lies in smaller ones (number)", *NAMES.values())
+    text = head("diameter, µm, of what holds 10, 50, 90 % of the area (number)",
+                *(f"{name}, m = {m_of_one('runs', heights)}" for heights, name in NAMES.items()))
     names = {
         "pin_contact": "pin, in contact",
         "pin_plateaus": "pin, primary and secondary",
@@ -202,7 +242,7 @@ def table_sizes() -> str:
 def of_choices(part: str, names: list[str]) -> str:
     """The numbers of some choices."""
     text = head(
-        "m = 100 unless it says otherwise", "filled, %", "disc, secondary, %", "contact area, mm²", "run-in, s", "Gini coefficient",
+        f"m = {m_of('variants')} unless it says otherwise", "filled, %", "disc, secondary, %", "contact area, mm²", "run-in, s", "Gini coefficient",
     )
     for name in names:
         means = value(f"{part}/means/{name}")

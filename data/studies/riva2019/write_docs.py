@@ -10,34 +10,15 @@ the mean contact area of a run at m = 1 over the last tenth of the time to its e
 
 import re
 import sys
-import tomllib
 from pathlib import Path
 
 import tables
-from discs import NAMES, SCENES
-from make_points import DEFAULT
-from tables import last_tenth, share, told, value
+from discs import NAMES
+from tables import last_tenth, m_of, share, told, value
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[2]
 MARKS = "<!-- found by data/studies/riva2019 -->\n", "<!-- end of what was found -->\n"
-
-
-def acceleration(scene: Path) -> float:
-    """The time acceleration of a scene, or of the one that it extends."""
-    found = tomllib.loads(scene.read_text())
-    given = found.get("numerics", {}).get("time_acceleration")
-    return acceleration(scene.parent / found["extends"]) if given is None else float(given)
-
-
-def accelerations() -> dict[str, float]:
-    """The time acceleration of every part of the study: numbers of different ones are not compared."""
-    of_runs = {acceleration(HERE / f"{scene}.toml") for scene in [*SCENES.values(), "pooled"]}
-    assert len(of_runs) == 1, f"the runs have accelerations {of_runs}"
-    others = {name: acceleration(HERE / f"{name}.toml") for name in ("sets", "symmetry")}
-    # Tables have it in their heads.
-    assert others["sets"] == float(DEFAULT["time acceleration"]) == acceleration(HERE / "reduced.toml") == 100
-    return {"runs": of_runs.pop(), "variants": float(DEFAULT["time acceleration"])} | others
 
 
 def one_of(path: str, factor: float, form: str | None) -> str:
@@ -56,14 +37,19 @@ def filled_in(template: str) -> str:
         if what.startswith("table "):
             return getattr(tables, "table_" + what.removeprefix("table "))().rstrip("\n")
         if what.startswith("m "):
-            return f"{accelerations()[what.removeprefix('m ')]:g}"
+            return m_of(what.removeprefix("m "))
         if what.startswith("last tenth "):
             heights, end = what.removeprefix("last tenth ").split()
             return last_tenth(heights, float(end))
         if what.startswith("holds "):
             return share(*what.removeprefix("holds ").split(" ", 1))
         path, *rest = what.split("|")
-        return one_of(path, float(rest[0]) if len(rest) == 2 else 1.0, rest[-1] if rest else None)
+        try:
+            return one_of(path, float(rest[0]) if len(rest) == 2 else 1.0, rest[-1] if rest else None)
+        except KeyError:
+            # Of a study that is not complete.
+            print(f"results.json has no {path}", file=sys.stderr)
+            return "(not run)"
 
     return re.sub(r"\{\{(.+?)\}\}", one, template)
 
