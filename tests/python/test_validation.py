@@ -115,16 +115,17 @@ class Documents(unittest.TestCase):
 
     def test_numbers_have_their_time_acceleration_beside_them(self) -> None:
         """A number of m = 100 beside one of m = 1, without either, would make two of one contact area."""
-        parts = {"runs", "sets", "variants", "readings", "symmetry"}
         for name in ("readme.md.in", "validation.md.in"):
             text = (STUDY / name).read_text()
             # Runs are what is spoken of unless it says otherwise, which is said first; all that is varied has a section.
             self.assertIn("{{m runs}}", text[: text.index("{{runs/")], name)
             # Where a piece begins that is read by itself: a paragraph, a list item, a row, a heading.
             for piece in re.split(r"\n(?=\n|- |\d\. |\||#)", text):
-                found = set(re.findall(r"\{\{(\w+)/[^}]*(?:contact_area|run_in|pressure|pin_|sq_|drift|filled|inner)", piece))
-                for part in found & parts - {"runs", "variants", "readings"}:
-                    self.assertIn(f"{{{{m {part}}}}}", piece, f"{name}: {piece}")
+                found = re.findall(r"\{\{(\w+)/(\w+)/[^}]*(?:contact|run_in|pressure|pin_|sq_|drift|filled|inner)", piece)
+                for part, rule in found:
+                    if part in ("sets", "ratio", "symmetry", "pins"):
+                        part = {"symmetry": "symmetry"}.get(part, "pooled-sets" if rule == "pooled" else "sets")
+                        self.assertIn(f"{{{{m {part}}}}}", piece, f"{name}: {piece}")
             for section in re.split(r"\n(?=## )", text):
                 if re.search(r"\{\{(variants|readings)/means|\{\{table (variants|readings)\}\}", section):
                     self.assertIn("{{m variants}}", section, name)

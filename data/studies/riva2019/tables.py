@@ -17,7 +17,7 @@ def value(path: str) -> object:
     """What is at a path of keys in results.json."""
     found = RESULTS
     for key in path.split("/"):
-        found = found[key]
+        found = found[int(key)] if isinstance(found, list) else found[key]
     return found
 
 
