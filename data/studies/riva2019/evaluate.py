@@ -17,7 +17,7 @@ import maps
 import measures
 import numpy as np
 from discs import SCENES
-from history import END, LONG_END, history, opened, series_of, window_means
+from history import END, LONG_END, at, history, opened, series_of, window_means
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
@@ -31,6 +31,8 @@ WAYS = ["as-they-are", "other-direction", "inside-out", "half-a-turn"]
 STEP = 60 / 850 / 2764
 # Wear rate of plateaus on the pin times load, m3/m.
 WEAR = 5e-14 * 47
+# Time of the comparison of the start of runs, s.
+START = 100.0
 
 
 def run_numbers(path: Path) -> dict[str, object]:
@@ -47,7 +49,8 @@ def run_numbers(path: Path) -> dict[str, object]:
             "revision": str(file.attrs["source_revision"]),
             "host": str(file.attrs["host"]),
             "wall_time": float(file.attrs.get("wall_time", np.nan)),
-            "acceleration": float(tomllib.loads(file.attrs["scene"])["numerics"]["time_acceleration"]),
+            "acceleration": acceleration(file),
+            "steps": round(float(series["time"][-1]) / STEP / acceleration(file)),
             "history": {f"{end:.0f}": history(series, end, WEAR) for end in ends},
             "pin": {f"{end:.0f}": maps.at_the_end(file, end) for end in ends},
             "disc": {f"{moment:.0f}": maps.of_the_disc(file, moment) for moment in times if moment not in late},
@@ -80,8 +83,8 @@ def of_sets(rule: str) -> dict[str, list[dict[str, float]]]:
 
 
 def of_the_model(quick: dict[str, object]) -> dict[str, object]:
-    """The runs without time acceleration. Of a disc whose run has not come to the end of the paper's, the run with the
-    acceleration of the sets stands in, and documents say so."""
+    """The runs of one set of surfaces, without time acceleration if run.sh made them. Of a disc whose run has not come to the end of
+    the paper's, the run with the acceleration of the sets stands in, and documents say so."""
     runs = {}
     for heights, scene in SCENES.items():
         path = RUNS / f"{scene}.h5"
@@ -93,19 +96,24 @@ def of_the_model(quick: dict[str, object]) -> dict[str, object]:
     return runs
 
 
+def acceleration(file: h5py.File) -> float:
+    """The time acceleration of a run."""
+    return float(tomllib.loads(file.attrs["scene"])["numerics"]["time_acceleration"])
+
+
 def exactness() -> dict[str, dict[str, object]]:
-    """The acceleration of the sets against the model itself, on the same surfaces, as far as the latter came: each number twice,
-    and the largest difference of contact areas over windows of 100 s."""
+    """The acceleration of the sets against that of the runs, on the same surfaces, as far as the latter came: each number twice, and
+    differences of contact areas over windows of 100 s."""
     found = {}
     for heights, scene in SCENES.items():
         until = min(END, reached(RUNS / f"{scene}.h5") // 100 * 100)
-        if until < 500:
+        if until < 500 or reached(RUNS / f"quick-{heights}.h5") < END:
             continue
         pairs = []
         for name in (scene, f"quick-{heights}"):
             with opened(RUNS / f"{name}.h5") as file:
                 series = series_of(file)
-                numbers = history(series, until)
+                numbers = history(series, until) | {"acceleration": acceleration(file)}
                 areas = window_means(series["time"], series["contact_area_integral"], until, 100.0)[1]
                 pairs.append((numbers | (maps.at_the_end(file, END) if until == END else {}), areas))
         (exact, exact_areas), (near, near_areas) = pairs
@@ -115,6 +123,25 @@ def exactness() -> dict[str, dict[str, object]]:
             "worst": float(np.abs(near_areas / exact_areas - 1).max()),
             "mean": float(np.sqrt(((near_areas - exact_areas) ** 2).sum() / (exact_areas**2).sum())),
         }
+    return found
+
+
+def starts() -> dict[str, dict[str, object]]:
+    """The first 100 s with several accelerations, among them the starts of runs without any where there are such
+    (runs/start-HEIGHTS.h5)."""
+    found = {}
+    for heights, scene in SCENES.items():
+        of_disc = []
+        for path in [RUNS / f"{name}-{heights}.h5" for name in ("start", "quick")] + [RUNS / f"{scene}.h5"]:
+            if reached(path) < START:
+                continue
+            with opened(path) as file:
+                series = series_of(file)
+                numbers = {key: at(series["time"], series[key], START) for key in ("filled_fraction", "disc_secondary")}
+                # Its mean from half of the time on.
+                area = window_means(series["time"], series["contact_area_integral"], START, START / 2)[1][1]
+                of_disc.append({"acceleration": acceleration(file), "contact_area": float(area), **numbers})
+        found[heights] = sorted(of_disc, key=lambda one: one["acceleration"])
     return found
 
 
@@ -197,7 +224,7 @@ def as_text(results: object) -> str:
 
 
 def main() -> None:
-    quick = {heights: run_numbers(RUNS / f"quick-{heights}.h5") for heights in SCENES}
+    quick = {heights: run_numbers(path) for heights in SCENES for path in there([RUNS / f"quick-{heights}.h5"])}
     runs = of_the_model(quick)
     sets = {rule: of_sets(rule) for rule in RULES}
     seen_otherwise = symmetry()
@@ -213,6 +240,7 @@ def main() -> None:
         "runs": runs,
         "pooled_runs": pooled_runs(),
         "exactness": exactness(),
+        "starts": starts(),
         "quick": {heights: {"wall_time": run["wall_time"]} for heights, run in quick.items()},
         "sets": {rule: {heights: claims.intervals(of) for heights, of in discs.items()} for rule, discs in sets.items()},
         "each_set": {

@@ -6,13 +6,14 @@ usage: figures.py, in the environment .venv of the checkout, after evaluate.py; 
 import json
 from pathlib import Path
 
-import h5py
 import matplotlib
 import measures
 import numpy as np
 from discs import NAMES, SCENES
+from history import opened
 from maps import BANDS
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
+from tables import m_of, m_of_one
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
@@ -38,7 +39,7 @@ plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "ax
 
 def load(scene: str) -> dict[str, object]:
     """What is drawn of a run."""
-    with h5py.File(HERE / "runs" / f"{scene}.h5") as file:
+    with opened(HERE / "runs" / f"{scene}.h5") as file:
         fields = ["disc/height", "disc/substrate", "disc/status", "pin/height", "pin/substrate", "pin/status", "pin/pressure"]
         run = {field: file[field][:] for field in fields}
         run |= {"times": file["map_time"][:], "radius": file["radius"][:], "base": file["pin/base"][:]}
@@ -139,10 +140,10 @@ def contact_area() -> None:
     """The paper's figure 14, with pooled debris beside it."""
     figure, axes = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
     for (heights, name), colour in zip(NAMES.items(), COLOURS, strict=True):
-        for part, how in (("pooled_runs", {"lw": 0.8, "alpha": 0.55, "ls": "--"}), ("runs", {"lw": 1.3, "label": name})):
+        for part, how in (("pooled_runs", {"lw": 0.8, "alpha": 0.55, "ls": "--"}), ("runs", {"lw": 1.3, "label": f"{name}, m = {m_of_one('runs', heights)}"})):
             time, area = np.transpose(RESULTS[part][heights]["contact_area"])
             axes.plot(time, area * 1e6, color=colour, **how)
-    axes.plot([], [], color="grey", lw=0.8, ls="--", label="pooled debris")
+    axes.plot([], [], color="grey", lw=0.8, ls="--", label="pooled debris, m = 1")
     axes.axvline(3000, color="grey", lw=0.6, ls=":")
     axes.annotate("end of the paper's simulations", (3000, 0.2), textcoords="offset points", xytext=(4, 0), color="grey")
     axes.set(xlabel="time, s", ylabel="contact area, mm², means of 50 s", xlim=(0, 7200), ylim=(0, None))
@@ -157,9 +158,9 @@ def radial() -> None:
     bands = np.array([of_baseline[f"band_{number}"] for number in range(BANDS)]) * 100
     radius = 20 + (np.arange(BANDS) + 0.5) * 4 / BANDS
     axes.errorbar(radius, bands[:, 0], bands[:, 1], fmt="o", color="black", ms=3, capsize=2, lw=0.8,
-                  label="ten sets of surfaces, m = 100, 95 %")
+                  label=f"sets of surfaces, m = {m_of('sets')}, 95 %")
     profile = [RESULTS["runs"]["1"]["disc"]["3000"][f"band_{number}"] * 100 for number in range(BANDS)]
-    axes.plot(radius, profile, color=COLOURS[1], lw=1, label="the run with m = 1")
+    axes.plot(radius, profile, color=COLOURS[1], lw=1, label=f"one set, m = {m_of_one('runs', '1')}")
     axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris")
     axes.legend(loc="lower left")
     for place, rule in enumerate(("local", "pooled")):

@@ -128,7 +128,8 @@ def table_claims() -> str:
     """The paper's claims, over sets of surfaces, and of the model itself where its runs have the number."""
     text = head(
         "claim", "measured, after 3000 s: baseline, heights / 10, heights / 100", f"local, m = {m_of('runs')}",
-        f"local, m = {m_of('sets')}, ten sets", "holds in", f"pooled, m = {m_of('pooled-sets')}, ten sets", "holds in",
+        f"local, m = {m_of('sets')}, {value('set_count/local')} sets", "holds in",
+        f"pooled, m = {m_of('pooled-sets')}, {value('set_count/pooled')} sets", "holds in",
     )
     for number, name, key, factor, form, claim in ASKED:
         cells = [number, name]
@@ -194,7 +195,10 @@ def table_runs() -> str:
 def table_error() -> str:
     """The acceleration of the sets and the model itself, on the same surfaces."""
     found = value("exactness")
-    text = head("the same surfaces: m = 1, m = 100", *(f"{NAMES[heights]}, at {of['until']:.0f} s" for heights, of in found.items()))
+    text = head("the same surfaces", *(
+        f"{NAMES[heights]}, at {of['until']:.0f} s: m = " + ", ".join(f"{m:g}" for m in of["numbers"]["acceleration"])
+        for heights, of in found.items()
+    ))
     asked = {key: (name, factor, form) for _, name, key, factor, form, _ in ASKED if key}
     asked["drift"] = ("drift in the last third, % per 1000 s", 100, ".1f")
     asked["contact_area_mean"] = ("contact area, last tenth, mm²", 1e6, ".2f")
@@ -204,6 +208,16 @@ def table_error() -> str:
             text += row(name, *(", ".join(shown(one * factor, form) for one in pair) for pair in pairs))
     text += row("contact area over windows of 100 s, root mean square difference, %", *(shown(of["mean"] * 100, ".2f") for of in found.values()))
     text += row("… largest difference, %", *(shown(of["worst"] * 100, ".2f") for of in found.values()))
+    return text
+
+
+def table_starts() -> str:
+    """The first 100 s with several accelerations."""
+    text = head("after 100 s", "m", "contact area, 50 to 100 s, mm²", "filled, %", "disc, secondary, %")
+    for heights, runs in value("starts").items():
+        for one in runs:
+            text += row(NAMES[heights], f"{one['acceleration']:g}", shown(one["contact_area"] * 1e6, ".2f"),
+                        shown(one["filled_fraction"] * 100, ".2f"), shown(one["disc_secondary"] * 100, ".1f"))
     return text
 
 
