@@ -11,9 +11,8 @@ import numpy as np
 from discs import SCENES
 from history import history
 from make_points import DEFAULT, VARIANTS
+from readings import READINGS, SEEDS
 
-# Sets of surfaces of every choice.
-SEEDS = 3
 # Of every choice and disc the numbers of each set of surfaces.
 Found = dict[str, dict[str, list[dict[str, float]]]]
 
@@ -26,7 +25,7 @@ def wear_of(variant: str) -> float:
 
 def whole(found: Found) -> Found:
     """The choices of which every disc and set of surfaces is there."""
-    missing = [name for name, discs in found.items() if any(len(runs) < SEEDS for runs in discs.values())]
+    missing = [name for name, discs in found.items() if any(len(runs) < len(SEEDS) for runs in discs.values())]
     if missing:
         print("not there:", *missing, sep="\n  ", file=sys.stderr)
     return {name: discs for name, discs in found.items() if name not in missing}
@@ -37,6 +36,8 @@ def of_scenes(path: Path) -> Found:
     # In the order of points.csv.
     keys = [(name, heights) for name in VARIANTS for heights in SCENES]
     found = {name: {heights: [] for heights in SCENES} for name in VARIANTS}
+    if not path.exists():
+        return whole(found)
     with h5py.File(path) as file:
         finished = file["state"].asstr()[:] == "finished"
         names = [name for name, data in file.items() if data.ndim == 2 and name != "sample_time"]
@@ -55,10 +56,10 @@ def of_scenes(path: Path) -> Found:
 def of_readings(path: Path) -> tuple[Found, list[dict[str, float]]]:
     """The readings that no scene has, and how the rule as it stands agrees with the program."""
     kept = json.loads(path.read_text())
-    check, found = kept.pop("check"), {}
+    check, found = kept.pop("check"), {name: {heights: [] for heights in SCENES} for name in READINGS}
     for key, numbers in kept.items():
         name, heights, _ = key.rsplit(", ", 2)
-        found.setdefault(name, {heights: [] for heights in SCENES})[heights].append(numbers)
+        found[name][heights].append(numbers)
     return whole(found), check
 
 
@@ -81,6 +82,8 @@ def outcome(discs: dict[str, list[dict[str, float]]], what: tuple[str, str, str 
 def summary(found: Found, default: str) -> dict[str, object]:
     """Means over the sets of surfaces with 95 % intervals, what holds of the claims, and changes against the default."""
     means, holds, outcomes = {}, {}, {}
+    if default not in found:
+        return {}
     for name, discs in found.items():
         means[name] = {heights: claims.intervals(runs) for heights, runs in discs.items()}
         holds[name] = claims.holds(discs)

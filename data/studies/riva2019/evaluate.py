@@ -198,8 +198,8 @@ def books(runs: list[dict[str, float]]) -> dict[str, float]:
 def core_hours() -> float:
     """Wall time of all runs of the program, each of which has one worker, h."""
     seconds = 0.0
-    for path in [*RUNS.glob("*.h5"), HERE / "open-questions/results.h5"]:
-        with h5py.File(path) as file:
+    for path in [*RUNS.glob("*.h5"), *HERE.glob("open-questions/results.h5")]:
+        with opened(path) as file:
             seconds += float(file.attrs.get("wall_time", 0.0))
             seconds += float(file["wall_time"][:].sum()) if "wall_time" in file else 0.0
     return seconds / 3600

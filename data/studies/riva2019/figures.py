@@ -243,7 +243,8 @@ def main() -> None:
     contact_area()
     radial()
     pin_over_sets()
-    tornado()
+    if RESULTS["variants"] and RESULTS["readings"]:
+        tornado()
 
 
 if __name__ == "__main__":

@@ -157,7 +157,9 @@ def wilson(hits: int, of: int) -> tuple[float, float]:
 
 
 def interval(values: list[float]) -> tuple[float, float]:
-    """Mean, and the half width of its 95 % interval by Student's t."""
+    """Mean, and the half width of its 95 % interval by Student's t; of a single value no number."""
     sample = np.asarray(values, float)
+    if len(sample) < 2:
+        return float(sample.mean()), float("nan")
     half = stats.t.ppf(0.975, len(sample) - 1) * sample.std(ddof=1) / np.sqrt(len(sample))
     return float(sample.mean()), float(half)

@@ -27,8 +27,10 @@ def shown(number: float, form: str) -> str:
 
 
 def with_interval(pair: list[float], factor: float, form: str) -> str:
-    """Mean ± half width of the 95 % interval."""
+    """Mean ± half width of the 95 % interval, where there is one."""
     mean, half = (entry * factor for entry in pair)
+    if half != half:
+        return shown(mean, form)
     return f"{shown(mean, form)} ± {shown(half, form)}"
 
 
@@ -253,8 +255,9 @@ def table_sizes() -> str:
     return text
 
 
-def of_choices(part: str, names: list[str]) -> str:
+def of_choices(part: str) -> str:
     """The numbers of some choices."""
+    names = list(value(f"{part}/means")) if value(part) else []
     text = head(
         f"m = {m_of('variants')} unless it says otherwise", "filled, %", "disc, secondary, %", "contact area, mm²", "run-in, s", "Gini coefficient",
     )
@@ -270,17 +273,19 @@ def of_choices(part: str, names: list[str]) -> str:
 
 def table_variants() -> str:
     """Choices that scenes have."""
-    return of_choices("variants", list(value("variants/means")))
+    return of_choices("variants")
 
 
 def table_readings() -> str:
     """Readings that no scene has."""
-    return of_choices("readings", list(value("readings/means")))
+    return of_choices("readings")
 
 
 def table_conclusions() -> str:
     """In how many sets of surfaces every claim holds."""
-    of_scenes, of_readings = value("variants/holds"), value("readings/holds")
+    of_scenes, of_readings = (value(part).get("holds", {}) for part in ("variants", "readings"))
+    if not of_scenes:
+        return "(not run)"
     asked = [claim for claim in of_scenes["default"] if claim != "heights / 10 not steady"]
     text = head("holds in so many of three sets", *asked)
     others = {name: counts for name, counts in of_readings.items() if name not in of_scenes and name != "the rule as it stands"}

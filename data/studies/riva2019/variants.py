@@ -18,19 +18,12 @@ import numpy as np
 from discs import SCENES
 from history import END, history
 from pin import of_the_pin
+from readings import READINGS, SEEDS
 from rule import SUMS, steps
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
 RESULTS = RUNS / "readings.json"
-# As rule.steps has them.
-READINGS = {
-    "the rule as it stands": (0, 0),
-    "shared as a_p to a_d": (1, 0),
-    "disc up to the disc ahead": (0, 1),
-    "disc up to the pin ahead": (0, 2),
-}
-SEEDS = (1, 2, 3)
 # Length of the check, steps, and the maps that are compared.
 CHECKED = (1, 5000, 10_000, 20_000)
 
