@@ -17,15 +17,15 @@ import maps
 import measures
 import numpy as np
 from discs import SCENES
-from history import END, LONG_END, at, history, opened, series_of, window_means
+from history import END, LONG_END, at, history, opened, reached, run_of, series_of, window_means
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
 # As run.sh has them. What is not there yet is left out, and said.
 SETS = range(1, 11)
 RULES = ("local", "pooled")
-# Pins on one and the same disc: the numbers of their surfaces.
-PINS = range(1, 6)
+# Runs with other pins on one and the same disc, the baseline of the first set and of the runs of one set of surfaces.
+PINS = ["set-local-1-1", *(f"pin-{number}" for number in (2, 3, 4, 5))]
 WAYS = ["as-they-are", "other-direction", "inside-out", "half-a-turn"]
 # Duration of a step, s: 2764 columns, 850 rpm.
 STEP = 60 / 850 / 2764
@@ -59,14 +59,6 @@ def run_numbers(path: Path) -> dict[str, object]:
         }
 
 
-def reached(path: Path) -> float:
-    """The time that a run came to; 0 where there is none."""
-    if not path.exists():
-        return 0.0
-    with opened(path) as file:
-        return float(file["time"][-1])
-
-
 def there(paths: list[Path]) -> list[Path]:
     """The runs that came to the end, of some."""
     missing = [path.name for path in paths if reached(path) < END]
@@ -82,18 +74,14 @@ def of_sets(rule: str) -> dict[str, list[dict[str, float]]]:
     return {heights: [flat(run_numbers(of_set[disc])) for of_set in whole] for disc, heights in enumerate(SCENES)}
 
 
-def of_the_model(quick: dict[str, object]) -> dict[str, object]:
+def of_the_model() -> dict[str, object]:
     """The runs of one set of surfaces, without time acceleration if run.sh made them. Of a disc whose run has not come to the end of
     the paper's, the run with the acceleration of the sets stands in, and documents say so."""
-    runs = {}
-    for heights, scene in SCENES.items():
-        path = RUNS / f"{scene}.h5"
-        if reached(path) >= END:
-            runs[heights] = run_numbers(path)
-        else:
-            print(f"{path.name} is at {reached(path):.0f} s of {END:.0f}; its run with time acceleration stands in", file=sys.stderr)
-            runs[heights] = quick[heights]
-    return runs
+    paths = {heights: run_of(RUNS, heights) for heights in SCENES}
+    for heights, path in paths.items():
+        if SCENES[heights] != path.stem:
+            print(f"{path.name} stands in for {SCENES[heights]}.h5", file=sys.stderr)
+    return {heights: run_numbers(path) for heights, path in paths.items()}
 
 
 def acceleration(file: h5py.File) -> float:
@@ -162,7 +150,7 @@ def pooled_runs() -> dict[str, object]:
 def pins_on_one_disc() -> dict[str, object]:
     """Whether the disc decides which lowlands stay open: the same disc, the baseline of one set, under several pins."""
     depths, inner = [], []
-    paths = there([RUNS / (f"pin-{pin}.h5" if pin > 1 else "set-local-1-1.h5") for pin in PINS])
+    paths = there([run_of(RUNS, "1"), *(RUNS / f"{pin}.h5" for pin in PINS)])
     if len(paths) < 2:
         return {}
     for path in paths:
@@ -224,14 +212,13 @@ def as_text(results: object) -> str:
 
 
 def main() -> None:
-    quick = {heights: run_numbers(path) for heights in SCENES for path in there([RUNS / f"quick-{heights}.h5"])}
-    runs = of_the_model(quick)
-    sets = {rule: of_sets(rule) for rule in RULES}
+    runs = of_the_model()
+    sets = {rule: discs for rule in RULES if (discs := of_sets(rule))["1"]}
     seen_otherwise = symmetry()
     scenes = choices.of_scenes(HERE / "open-questions/results.h5")
     readings, check = choices.of_readings(RUNS / "readings.json")
     every = [
-        *(list(run["history"].values())[-1] for run in [*runs.values(), *quick.values()]),
+        *(list(run["history"].values())[-1] for run in runs.values()),
         *seen_otherwise.values(),
         *(run for of_rule in sets.values() for of_disc in of_rule.values() for run in of_disc),
         *(run for discs in scenes.values() for of_disc in discs.values() for run in of_disc),
@@ -241,7 +228,6 @@ def main() -> None:
         "pooled_runs": pooled_runs(),
         "exactness": exactness(),
         "starts": starts(),
-        "quick": {heights: {"wall_time": run["wall_time"]} for heights, run in quick.items()},
         "sets": {rule: {heights: claims.intervals(of) for heights, of in discs.items()} for rule, discs in sets.items()},
         "each_set": {
             rule: {key: {heights: [run[key] for run in of] for heights, of in discs.items()} for key in
@@ -256,7 +242,7 @@ def main() -> None:
         "holds_once": claims.holds({heights: [flat(run)] for heights, run in runs.items()}),
         "pins": pins_on_one_disc(),
         "symmetry": seen_otherwise,
-        "set_count": {rule: len(discs["1"]) for rule, discs in sets.items()},
+        "set_count": {rule: len(sets[rule]["1"]) if rule in sets else 0 for rule in RULES},
         "variants": choices.summary(scenes, "default"),
         "readings": choices.summary(readings, "the rule as it stands"),
         "check": {"steps": max(one["steps"] for one in check), "worst": max(max(one["disc"], one["pin"]) for one in check)},

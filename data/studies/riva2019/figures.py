@@ -9,8 +9,8 @@ from pathlib import Path
 import matplotlib
 import measures
 import numpy as np
-from discs import NAMES, SCENES
-from history import opened
+from discs import NAMES
+from history import END, LONG_END, opened, run_of
 from maps import BANDS
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
 from tables import m_of, m_of_one
@@ -37,14 +37,18 @@ plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "ax
                      "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
 
 
-def load(scene: str) -> dict[str, object]:
-    """What is drawn of a run."""
-    with opened(HERE / "runs" / f"{scene}.h5") as file:
-        fields = ["disc/height", "disc/substrate", "disc/status", "pin/height", "pin/substrate", "pin/status", "pin/pressure"]
-        run = {field: file[field][:] for field in fields}
-        run |= {"times": file["map_time"][:], "radius": file["radius"][:], "base": file["pin/base"][:]}
-        # Columns are as long as at the mean radius.
-        run["column"] = 2 * np.pi * run["radius"].mean() / run["disc/height"].shape[1]
+def load(path: Path) -> dict[str, object]:
+    """What is drawn of a run: maps of the start and the ends. Statuses follow from heights, and the coating does not wear."""
+    with opened(path) as file:
+        times = file["map_time"][:]
+        chosen = sorted({int(np.argmin(np.abs(times - moment))) for moment in (0.0, END, LONG_END)})
+        run = {field: file[field][chosen] for field in ("disc/height", "pin/height", "pin/substrate", "pin/pressure")}
+        run |= {"times": times[chosen], "radius": file["radius"][:], "base": file["pin/base"][:]}
+    run["disc/build-up"] = run["disc/height"] - run["disc/height"][0]
+    run["disc/status"] = np.where(run["disc/build-up"] > 0, 2, 1)
+    run["pin/status"] = np.where(run["pin/height"] < run["pin/substrate"], 2, run["base"])
+    # Columns are as long as at the mean radius.
+    run["column"] = 2 * np.pi * run["radius"].mean() / run["disc/height"].shape[1]
     return run
 
 
@@ -103,7 +107,7 @@ def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int |
     """Status maps, side by side."""
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.5), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
-        draw(panel, run, at(run, field, 3000)[:columns], NAMES[heights], **OF_STATUS)
+        draw(panel, run, at(run, field, END)[:columns], NAMES[heights], **OF_STATUS)
     patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
     figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
     save(figure, name)
@@ -128,9 +132,10 @@ def inputs(run: dict[str, object]) -> None:
 
 def filling_of_the_baseline(run: dict[str, object]) -> None:
     """The paper's figure 8, and the length of the real test."""
-    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
-    for panel, moment in zip(axes, (0, 3000, 7200), strict=True):
-        image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment} s",
+    moments = [moment for moment in (0.0, END, LONG_END) if np.abs(run["times"] - moment).min() < 1]
+    figure, axes = plt.subplots(1, len(moments), figsize=(10, 2.4), layout="constrained")
+    for panel, moment in zip(axes, moments, strict=True):
+        image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s",
                      norm=Normalize(-10, 10))
     figure.colorbar(image, ax=axes, label="height, µm", shrink=0.8, extend="both")
     save(figure, "fig08")
@@ -163,14 +168,14 @@ def radial() -> None:
     axes.plot(radius, profile, color=COLOURS[1], lw=1, label=f"one set, m = {m_of_one('runs', '1')}")
     axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris")
     axes.legend(loc="lower left")
-    for place, rule in enumerate(("local", "pooled")):
+    for place, rule in enumerate(RESULTS["each_set"]):
         values = np.array(RESULTS["each_set"][rule]["inner_over_outer"]["1"]) * 100
         mean, half = np.array(RESULTS["sets"][rule]["1"]["inner_over_outer"]) * 100
         inner.plot(np.full(len(values), place), values, "o", color="grey", ms=3, alpha=0.7)
         inner.errorbar(place + 0.2, mean, half, fmt="s", color="black", ms=4, capsize=3)
     inner.axhline(0, color="grey", lw=0.6)
     inner.set(title="each set, and mean with 95 %", ylabel="inner less outer half, points", xlim=(-0.4, 1.6))
-    inner.set_xticks([0.1, 1.1], ["local", "pooled"])
+    inner.set_xticks(np.arange(len(RESULTS["each_set"])) + 0.1, list(RESULTS["each_set"]))
     save(figure, "radial")
 
 
@@ -182,6 +187,8 @@ def pin_over_sets() -> None:
     figure, axes = plt.subplots(1, len(panels), figsize=(11, 2.8), layout="constrained")
     for panel, (key, (title, factor)) in zip(axes, panels.items(), strict=True):
         for rule, colour, place in (("local", COLOURS[1], -0.08), ("pooled", COLOURS[2], 0.08)):
+            if rule not in RESULTS["each_set"]:
+                continue
             values = np.array(list(RESULTS["each_set"][rule][key].values())) * factor
             panel.plot(np.arange(3) + place, values, "-o", color=colour, ms=2.5, lw=0.6, alpha=0.6)
         panel.set(title=title, xlim=(-0.4, 2.4), yscale="log" if key == "sq_fibres" else "linear")
@@ -215,28 +222,28 @@ def tornado() -> None:
 
 def build_up(run: dict[str, object]) -> np.ndarray:
     """Of the piece of the ring that is shown, µm."""
-    return (at(run, "disc/height", 3000) - at(run, "disc/substrate", 3000))[:PIECE] * 1e6
+    return at(run, "disc/build-up", END)[:PIECE] * 1e6
 
 
 def pin_height(run: dict[str, object]) -> np.ndarray:
     """Toward the disc, above the mean fibre, µm."""
-    height = -at(run, "pin/height", 3000) * 1e6
+    height = -at(run, "pin/height", END) * 1e6
     return height - height[run["base"] == 1].mean()
 
 
 def pressure(run: dict[str, object]) -> np.ndarray:
     """Where there is contact, MPa."""
-    field = at(run, "pin/pressure", 3000) * 1e-6
+    field = at(run, "pin/pressure", END) * 1e-6
     return np.where(field > 0, field, np.nan)
 
 
 def main() -> None:
-    runs = {heights: load(scene) for heights, scene in SCENES.items()}
+    runs = {heights: load(run_of(HERE / "runs", heights)) for heights in NAMES}
     inputs(runs["1"])
     filling_of_the_baseline(runs["1"])
-    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm", of_the_start)
+    of_three(runs, "fig09", lambda run: at(run, "disc/height", END)[:PIECE] * 1e6, "height, µm", of_the_start)
     status_of_three(runs, "fig10", "disc/status", PIECE)
-    of_three(runs, "fig10b", build_up, "build-up, µm", scale([build_up(run) for run in runs.values()]))
+    of_three(runs, "fig10b", build_up, "build-up, µm", lambda run: scale([build_up(run)]))
     of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", scale([pin_height(run) for run in runs.values()]))
     status_of_three(runs, "fig12", "pin/status")
     of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(1, 30))

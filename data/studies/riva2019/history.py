@@ -5,6 +5,7 @@ from pathlib import Path
 import h5py
 import measures
 import numpy as np
+from discs import SCENES
 
 # Times of the paper's results and, for the baseline, of the end of the real test, s.
 END, LONG_END = 3000.0, 7200.0
@@ -23,6 +24,20 @@ def opened(path: Path) -> h5py.File:
         return h5py.File(path)
     except OSError:
         return h5py.File(path, swmr=True)
+
+
+def reached(path: Path) -> float:
+    """The time that a run came to; 0 where there is none."""
+    if not path.exists():
+        return 0.0
+    with opened(path) as file:
+        return float(file["time"][-1])
+
+
+def run_of(runs: Path, heights: str) -> Path:
+    """The run of a disc that came to the end of the paper's: that of its scene, or else that with the acceleration of the sets."""
+    path = runs / f"{SCENES[heights]}.h5"
+    return path if reached(path) >= END else runs / f"quick-{heights}.h5"
 
 
 def series_of(file: h5py.File) -> dict[str, np.ndarray]:

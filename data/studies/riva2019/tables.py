@@ -141,6 +141,9 @@ def table_claims() -> str:
             alone = [value(f"runs/{heights}/sizes/3000/pin_contact/50") for heights in NAMES]
         cells.append(", ".join(shown(one * factor, form) for one in alone) or yes(RESULTS["holds_once"][claim]["hits"]))
         for rule in ("local", "pooled"):
+            if rule not in RESULTS["sets"]:
+                cells += ["(not run)", ""]
+                continue
             of = [] if key is None else [value(f"sets/{rule}/{heights}/{key}") for heights in NAMES]
             cells += [", ".join(with_interval(one, factor, form) for one in of), share(rule, claim) if claim else ""]
         text += row(*cells)

@@ -4,7 +4,8 @@ usage: write_docs.py [--check]: with --check only says whether they agree, as ex
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
 format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py, `{{m runs}}` the
-time acceleration of a part of the study, `{{holds RULE CLAIM}}` in how many sets a claim holds, and `{{last tenth HEIGHTS END}}`
+time acceleration of a part of the study; between `{{if PATH}}`, `{{else}}` and `{{end}}` stands what depends on a part that may
+not be there yet; `{{holds RULE CLAIM}}` in how many sets a claim holds, and `{{last tenth HEIGHTS END}}`
 the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
 """
 
@@ -30,8 +31,21 @@ def one_of(path: str, factor: float, form: str | None) -> str:
     return told(value(path), factor, form)
 
 
+def there(path: str) -> bool:
+    """Whether results.json has a part, and something in it."""
+    try:
+        return bool(value(path))
+    except KeyError:
+        return False
+
+
 def filled_in(template: str) -> str:
-    """A template with its numbers."""
+    """A template with its numbers, and without what belongs to parts of the study that are not there."""
+    template = re.sub(
+        r"\{\{if (.+?)\}\}\n(.*?)\{\{else\}\}\n(.*?)\{\{end\}\}\n",
+        lambda match: match.group(2) if there(match.group(1)) else match.group(3), template, flags=re.DOTALL,
+    )
+
     def one(match: re.Match) -> str:
         what = match.group(1)
         if what.startswith("table "):
@@ -41,10 +55,10 @@ def filled_in(template: str) -> str:
         if what.startswith("last tenth "):
             heights, end = what.removeprefix("last tenth ").split()
             return last_tenth(heights, float(end))
-        if what.startswith("holds "):
-            return share(*what.removeprefix("holds ").split(" ", 1))
         path, *rest = what.split("|")
         try:
+            if what.startswith("holds "):
+                return share(*what.removeprefix("holds ").split(" ", 1))
             return one_of(path, float(rest[0]) if len(rest) == 2 else 1.0, rest[-1] if rest else None)
         except KeyError:
             # Of a study that is not complete.
