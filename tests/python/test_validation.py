@@ -13,6 +13,7 @@ sys.path.insert(0, str(STUDY))
 import discs  # noqa: E402, where the study is
 import make_points  # noqa: E402, where the study is
 import measures  # noqa: E402
+import tables  # noqa: E402, where the study is
 import write_docs  # noqa: E402, where the study is
 
 ROOT = STUDY.parents[2]
@@ -85,6 +86,20 @@ class Measures(unittest.TestCase):
         areas = np.full(9, np.pi / 4)
         self.assertEqual(set(measures.diameters(areas, [10, 50, 90]).values()), {1.0})
 
+    def test_roughness_and_gini_count_areas(self) -> None:
+        # Heights of 0 and 4 with weights of 3 and 1: mean 1, mean square (3·1 + 1·9)/4.
+        self.assertAlmostEqual(measures.sq(np.array([0.0, 4.0]), np.array([3.0, 1.0])), 3**0.5)
+        # All alike: even. Half of the area carries all but a little, the rest almost nothing: nearly 1/2.
+        self.assertAlmostEqual(measures.gini(np.array([[2.0, 2.0], [2.0, 0.0]]), self.radius), 0.0)
+        self.assertAlmostEqual(measures.gini(np.array([[1e-9], [1.0]]), np.ones(1)), 0.5)
+
+    def test_wilson_interval_of_a_known_table(self) -> None:
+        # Ten of ten: from 1/(1 + z²/10); none of ten is its mirror image.
+        low, high = measures.wilson(10, 10)
+        self.assertAlmostEqual(low, 1 / (1 + 1.959964**2 / 10), places=6)
+        self.assertAlmostEqual(high, 1.0)
+        self.assertAlmostEqual(measures.wilson(0, 10)[1], 1 - low)
+
     def test_interval_of_a_known_table(self) -> None:
         # Student's t for two degrees of freedom and 95 %, 4.302653; standard deviation 1.
         mean, half = measures.interval([1.0, 2.0, 3.0])
@@ -99,34 +114,40 @@ class Documents(unittest.TestCase):
         self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
 
     def test_numbers_have_their_time_acceleration_beside_them(self) -> None:
-        """A number of m = 500 beside one of m = 1, without either, once made two of one contact area."""
-        parts = {"runs", "sets", "variants", "symmetry"}
+        """A number of m = 100 beside one of m = 1, without either, would make two of one contact area."""
         for name in ("readme.md.in", "validation.md.in"):
             text = (STUDY / name).read_text()
             # Runs are what is spoken of unless it says otherwise, which is said first; all that is varied has a section.
             self.assertIn("{{m runs}}", text[: text.index("{{runs/")], name)
             # Where a piece begins that is read by itself: a paragraph, a list item, a row, a heading.
             for piece in re.split(r"\n(?=\n|- |\d\. |\||#)", text):
-                found = set(re.findall(r"\{\{(\w+)/[^}]*(?:contact_area|run_in|pressure|pin_sq|drift|covered)", piece)) & parts
-                for part in found - {"runs", "variants"}:
-                    self.assertIn(f"{{{{m {part}}}}}", piece, f"{name}: {piece}")
+                found = re.findall(r"\{\{(\w+)/(\w+)/[^}]*(?:contact|run_in|pressure|pin_|sq_|drift|filled|inner)", piece)
+                for part, rule in found:
+                    if part in ("sets", "ratio", "symmetry", "pins"):
+                        part = {"symmetry": "symmetry"}.get(part, "pooled-sets" if rule == "pooled" else "sets")
+                        self.assertIn(f"{{{{m {part}}}}}", piece, f"{name}: {piece}")
             for section in re.split(r"\n(?=## )", text):
-                if "{{variants/means" in section or "{{table variants}}" in section:
+                if re.search(r"\{\{(variants|readings)/means|\{\{table (variants|readings)\}\}", section):
                     self.assertIn("{{m variants}}", section, name)
-        self.assertEqual(write_docs.accelerations(), {"runs": 1.0, "sets": 500.0, "variants": 200.0, "symmetry": 200.0})
+        expected = {"runs": 1.0, "sets": 100.0, "pooled-sets": 500.0, "variants": 500.0, "symmetry": 100.0}
+        self.assertEqual(tables.accelerations(), expected)
 
     def test_the_first_screen_has_one_number_for_one_thing(self) -> None:
         readme = (ROOT / "README.md").read_text().split(write_docs.MARKS[0])[1].split(write_docs.MARKS[1])[0]
         validation = (ROOT / "docs/validation.md").read_text()
         for heights in ("1", "0.1", "0.01"):
-            area = write_docs.last_tenth(heights, 3000.0)
+            area = tables.last_tenth(heights, 3000.0)
             self.assertIn(area, readme)
             self.assertIn(area, validation)
-            run_in = write_docs.value(f"runs/{heights}/history/3000/run_in")
+            run_in = tables.value(f"runs/{heights}/history/3000/run_in")
             self.assertIn(f"{run_in:.0f}", readme)
         # What stands in a list of findings without another m is of the model.
         for line in re.findall(r"^\d\. .*", (STUDY / "readme.md.in").read_text(), re.MULTILINE):
             self.assertNotIn("{{sets/", line)
+
+    def test_the_rule_was_checked_against_the_program(self) -> None:
+        self.assertGreaterEqual(tables.value("check/steps"), 5000)
+        self.assertLess(tables.value("check/worst"), 1e-12)
 
     def test_points_are_those_of_the_variants(self) -> None:
         lines = [line for line in (STUDY / "points.csv").read_text().splitlines() if not line.startswith("#")]

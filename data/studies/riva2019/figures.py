@@ -6,12 +6,14 @@ usage: figures.py, in the environment .venv of the checkout, after evaluate.py; 
 import json
 from pathlib import Path
 
-import h5py
 import matplotlib
 import measures
 import numpy as np
-from discs import NAMES, SCENES
+from discs import NAMES
+from history import END, LONG_END, opened, run_of
+from maps import BANDS
 from matplotlib.colors import ListedColormap, LogNorm, Normalize
+from tables import m_of, m_of_one
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402, after the choice of what draws
@@ -25,22 +27,28 @@ STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
 OF_STATUS = {"cmap": STATUS, "vmin": -0.5, "vmax": 2.5}
 STATUSES = ["none (resin)", "primary", "secondary"]
 # What docs/validation.md and README.md show.
-SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial"]
+SHOWN = ["fig08", "fig09", "fig13", "fig14", "tornado", "radial", "pin"]
 # Piece of the ring that is shown, columns: the paper's 8 mm.
 PIECE = 160
+# Readings of the rule that no scene has: starred where they stand beside those that have.
+OTHER_READINGS = ("shared as a_p to a_d", "disc up to the disc ahead", "disc up to the pin ahead")
 
 plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "axes.spines.top": False,
                      "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
 
 
-def load(scene: str) -> dict[str, object]:
-    """What is drawn of a run."""
-    with h5py.File(HERE / "runs" / f"{scene}.h5") as file:
-        fields = ["disc/height", "disc/substrate", "disc/status", "pin/height", "pin/substrate", "pin/status", "pin/pressure"]
-        run = {field: file[field][:] for field in fields}
-        run |= {"times": file["map_time"][:], "radius": file["radius"][:], "base": file["pin/base"][:]}
-        # Columns are as long as at the mean radius.
-        run["column"] = 2 * np.pi * run["radius"].mean() / run["disc/height"].shape[1]
+def load(path: Path) -> dict[str, object]:
+    """What is drawn of a run: maps of the start and the ends. Statuses follow from heights, and the coating does not wear."""
+    with opened(path) as file:
+        times = file["map_time"][:]
+        chosen = sorted({int(np.argmin(np.abs(times - moment))) for moment in (0.0, END, LONG_END)})
+        run = {field: file[field][chosen] for field in ("disc/height", "pin/height", "pin/substrate", "pin/pressure")}
+        run |= {"times": times[chosen], "radius": file["radius"][:], "base": file["pin/base"][:]}
+    run["disc/build-up"] = run["disc/height"] - run["disc/height"][0]
+    run["disc/status"] = np.where(run["disc/build-up"] > 0, 2, 1)
+    run["pin/status"] = np.where(run["pin/height"] < run["pin/substrate"], 2, run["base"])
+    # Columns are as long as at the mean radius.
+    run["column"] = 2 * np.pi * run["radius"].mean() / run["disc/height"].shape[1]
     return run
 
 
@@ -69,14 +77,14 @@ def save(figure, name: str) -> None:
     plt.close(figure)
 
 
-def of_three(runs: dict[str, dict], name: str, values, label: str, common=None) -> None:
-    """A map of each disc's run, side by side, on scales of their own or on a common one."""
+def of_three(runs: dict[str, dict], name: str, values, label: str, norms) -> None:
+    """A map of each disc's run, side by side; norms: the scale of each, or one for all."""
+    common = isinstance(norms, Normalize)
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
         # Where nothing is to be drawn.
         panel.set_facecolor(STATUS(0))
-        field = values(run)
-        image = draw(panel, run, field, NAMES[heights], norm=common or scale([field]))
+        image = draw(panel, run, values(run), NAMES[heights], norm=norms if common else norms(run))
         if not common:
             figure.colorbar(image, ax=panel, label=label, shrink=0.8)
     if common:
@@ -90,11 +98,16 @@ def scale(fields: list[np.ndarray]) -> Normalize:
     return Normalize(*np.quantile(every, [0.005, 0.995]))
 
 
+def of_the_start(run: dict[str, object]) -> Normalize:
+    """The scale of the disc's heights at the start, so that what is open looks as it did then."""
+    return scale([at(run, "disc/height", 0) * 1e6])
+
+
 def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int | None = None) -> None:
     """Status maps, side by side."""
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.5), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
-        draw(panel, run, at(run, field, 3000)[:columns], NAMES[heights], **OF_STATUS)
+        draw(panel, run, at(run, field, END)[:columns], NAMES[heights], **OF_STATUS)
     patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
     figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
     save(figure, name)
@@ -119,52 +132,84 @@ def inputs(run: dict[str, object]) -> None:
 
 def filling_of_the_baseline(run: dict[str, object]) -> None:
     """The paper's figure 8, and the length of the real test."""
-    figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
-    for panel, moment in zip(axes, (0, 3000, 7200), strict=True):
-        image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment} s",
+    moments = [moment for moment in (0.0, END, LONG_END) if np.abs(run["times"] - moment).min() < 1]
+    figure, axes = plt.subplots(1, len(moments), figsize=(10, 2.4), layout="constrained")
+    for panel, moment in zip(axes, moments, strict=True):
+        image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s",
                      norm=Normalize(-10, 10))
     figure.colorbar(image, ax=axes, label="height, µm", shrink=0.8, extend="both")
     save(figure, "fig08")
 
 
 def contact_area() -> None:
-    """The paper's figure 14."""
-    figure, axes = plt.subplots(figsize=(5.2, 3), layout="constrained")
+    """The paper's figure 14, with pooled debris beside it."""
+    figure, axes = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
     for (heights, name), colour in zip(NAMES.items(), COLOURS, strict=True):
-        time, area = np.transpose(RESULTS["runs"][heights]["contact_area"])
-        axes.plot(time, area * 1e6, color=colour, lw=1.2, label=name)
+        for part, how in (("pooled_runs", {"lw": 0.8, "alpha": 0.55, "ls": "--"}), ("runs", {"lw": 1.3, "label": f"{name}, m = {m_of_one('runs', heights)}"})):
+            time, area = np.transpose(RESULTS[part][heights]["contact_area"])
+            axes.plot(time, area * 1e6, color=colour, **how)
+    axes.plot([], [], color="grey", lw=0.8, ls="--", label="pooled debris, m = 1")
     axes.axvline(3000, color="grey", lw=0.6, ls=":")
-    axes.annotate("end of the paper's simulations", (3000, 0.15), textcoords="offset points", xytext=(4, 0), color="grey")
+    axes.annotate("end of the paper's simulations", (3000, 0.2), textcoords="offset points", xytext=(4, 0), color="grey")
     axes.set(xlabel="time, s", ylabel="contact area, mm², means of 50 s", xlim=(0, 7200), ylim=(0, None))
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08), ncols=2)
     save(figure, "fig14")
 
 
 def radial() -> None:
     """Filling against the radius."""
-    figure, axes = plt.subplots(figsize=(4.2, 2.8), layout="constrained")
-    of_baseline = RESULTS["sets"]["1"]
-    bands = np.array([of_baseline[f"band_{number}"] for number in range(16)]) * 100
-    radius = 20 + (np.arange(16) + 0.5) * 0.25
+    figure, (axes, inner) = plt.subplots(1, 2, figsize=(7, 2.8), layout="constrained", width_ratios=[3, 2])
+    of_baseline = RESULTS["sets"]["local"]["1"]
+    bands = np.array([of_baseline[f"band_{number}"] for number in range(BANDS)]) * 100
+    radius = 20 + (np.arange(BANDS) + 0.5) * 4 / BANDS
     axes.errorbar(radius, bands[:, 0], bands[:, 1], fmt="o", color="black", ms=3, capsize=2, lw=0.8,
-                  label="ten sets of surfaces, 95 %")
-    profile = np.array(RESULTS["runs"]["1"]["maps"]["3000"]["radial_filling"]) * 100
-    axes.plot(radius, profile, color=COLOURS[1], lw=1, label="the run with m = 1")
-    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline")
-    axes.legend()
+                  label=f"sets of surfaces, m = {m_of('sets')}, 95 %")
+    profile = [RESULTS["runs"]["1"]["disc"]["3000"][f"band_{number}"] * 100 for number in range(BANDS)]
+    axes.plot(radius, profile, color=COLOURS[1], lw=1, label=f"one set, m = {m_of_one('runs', '1')}")
+    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris")
+    axes.legend(loc="lower left")
+    for place, rule in enumerate(RESULTS["each_set"]):
+        values = np.array(RESULTS["each_set"][rule]["inner_over_outer"]["1"]) * 100
+        mean, half = np.array(RESULTS["sets"][rule]["1"]["inner_over_outer"]) * 100
+        inner.plot(np.full(len(values), place), values, "o", color="grey", ms=3, alpha=0.7)
+        inner.errorbar(place + 0.2, mean, half, fmt="s", color="black", ms=4, capsize=3)
+    inner.axhline(0, color="grey", lw=0.6)
+    inner.set(title="each set, and mean with 95 %", ylabel="inner less outer half, points", xlim=(-0.4, 1.6))
+    inner.set_xticks(np.arange(len(RESULTS["each_set"])) + 0.1, list(RESULTS["each_set"]))
     save(figure, "radial")
+
+
+def pin_over_sets() -> None:
+    """What claims 3 and 4 ask of the pin, in each set of surfaces."""
+    panels = {"pin_film": ("build-up on the pin, nm", 1e9), "pin_covered": ("pin, secondary by status, %", 100),
+              "pin_loaded": ("secondary that carries load, %", 100), "sq_fibres": ("Sq of the fibres, nm", 1e9),
+              "sq_pin": ("Sq of the whole pin, µm", 1e6)}
+    figure, axes = plt.subplots(1, len(panels), figsize=(11, 2.8), layout="constrained")
+    for panel, (key, (title, factor)) in zip(axes, panels.items(), strict=True):
+        for rule, colour, place in (("local", COLOURS[1], -0.08), ("pooled", COLOURS[2], 0.08)):
+            if rule not in RESULTS["each_set"]:
+                continue
+            values = np.array(list(RESULTS["each_set"][rule][key].values())) * factor
+            panel.plot(np.arange(3) + place, values, "-o", color=colour, ms=2.5, lw=0.6, alpha=0.6)
+        panel.set(title=title, xlim=(-0.4, 2.4), yscale="log" if key == "sq_fibres" else "linear")
+        panel.set_xticks(range(3), ["heights", "/ 10", "/ 100"])
+    axes[0].plot([], [], "-o", color=COLOURS[1], ms=2.5, lw=0.8, label="local")
+    axes[0].plot([], [], "-o", color=COLOURS[2], ms=2.5, lw=0.8, label="pooled")
+    axes[0].legend()
+    save(figure, "pin")
 
 
 def tornado() -> None:
     """What each choice does to four results, with the others at their defaults."""
-    outcomes = RESULTS["variants"]["outcomes"]
-    names = [name for name in outcomes if name != "default"]
-    names.sort(key=lambda name: sum(abs(outcomes[name][key]["change"][0]) for key in outcomes[name]))
-    panels = list(outcomes["default"])
-    figure, axes = plt.subplots(1, len(panels), figsize=(11, 4.6), layout="constrained", sharey=True)
+    outcomes = {name: of for name, of in RESULTS["variants"]["outcomes"].items() if name != "default"}
+    of_readings = RESULTS["readings"]["outcomes"]
+    outcomes |= {f"{name} *": of for name, of in of_readings.items() if name in OTHER_READINGS}
+    names = sorted(outcomes, key=lambda name: sum(abs(outcomes[name][key]["change"][0]) for key in outcomes[name]))
+    default_of = RESULTS["variants"]["outcomes"]["default"]
+    figure, axes = plt.subplots(1, len(default_of), figsize=(11, 5.2), layout="constrained", sharey=True)
     places = np.arange(len(names))
-    for panel, outcome in zip(axes, panels, strict=True):
-        default = outcomes["default"][outcome]["value"][0] * 100
+    for panel, outcome in zip(axes, default_of, strict=True):
+        default = default_of[outcome]["value"][0] * 100
         change = np.array([outcomes[name][outcome]["change"] for name in names]) * 100
         colours = [COLOURS[1] if value > 0 else COLOURS[2] for value in change[:, 0]]
         panel.barh(places, change[:, 0], left=default, color=colours, height=0.7)
@@ -177,34 +222,36 @@ def tornado() -> None:
 
 def build_up(run: dict[str, object]) -> np.ndarray:
     """Of the piece of the ring that is shown, µm."""
-    return (at(run, "disc/height", 3000) - at(run, "disc/substrate", 3000))[:PIECE] * 1e6
+    return at(run, "disc/build-up", END)[:PIECE] * 1e6
 
 
 def pin_height(run: dict[str, object]) -> np.ndarray:
     """Toward the disc, above the mean fibre, µm."""
-    height = -at(run, "pin/height", 3000) * 1e6
+    height = -at(run, "pin/height", END) * 1e6
     return height - height[run["base"] == 1].mean()
 
 
 def pressure(run: dict[str, object]) -> np.ndarray:
     """Where there is contact, MPa."""
-    field = at(run, "pin/pressure", 3000) * 1e-6
+    field = at(run, "pin/pressure", END) * 1e-6
     return np.where(field > 0, field, np.nan)
 
 
 def main() -> None:
-    runs = {heights: load(scene) for heights, scene in SCENES.items()}
+    runs = {heights: load(run_of(HERE / "runs", heights)) for heights in NAMES}
     inputs(runs["1"])
     filling_of_the_baseline(runs["1"])
-    of_three(runs, "fig09", lambda run: at(run, "disc/height", 3000)[:PIECE] * 1e6, "height, µm")
+    of_three(runs, "fig09", lambda run: at(run, "disc/height", END)[:PIECE] * 1e6, "height, µm", of_the_start)
     status_of_three(runs, "fig10", "disc/status", PIECE)
-    of_three(runs, "fig10b", build_up, "build-up, µm", scale([build_up(run) for run in runs.values()]))
+    of_three(runs, "fig10b", build_up, "build-up, µm", lambda run: scale([build_up(run)]))
     of_three(runs, "fig11", pin_height, "height above the mean fibre, µm", scale([pin_height(run) for run in runs.values()]))
     status_of_three(runs, "fig12", "pin/status")
-    of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(0.5, 50))
+    of_three(runs, "fig13", pressure, "pressure, MPa", LogNorm(1, 30))
     contact_area()
     radial()
-    tornado()
+    pin_over_sets()
+    if RESULTS["variants"] and RESULTS["readings"]:
+        tornado()
 
 
 if __name__ == "__main__":

@@ -21,6 +21,29 @@ def share(cells: np.ndarray, radius: np.ndarray) -> float:
     return mean(cells.astype(float), radius)
 
 
+def sq(heights: np.ndarray, weights: np.ndarray) -> float:
+    """Root mean square of heights about their mean, each counted with its weight."""
+    middle = np.average(heights, weights=weights)
+    return float(np.sqrt(np.average((heights - middle) ** 2, weights=weights)))
+
+
+def gini(pressure: np.ndarray, radius: np.ndarray) -> float:
+    """Gini coefficient of the pressure over the cells in contact, each counted with its area: 0 is even."""
+    touching = pressure > 0
+    order = np.argsort(pressure[touching])
+    values = pressure[touching][order]
+    areas = np.broadcast_to(radius, pressure.shape)[touching][order]
+    areas = areas / areas.sum()
+    load = np.cumsum(values * areas) / (values * areas).sum()
+    # Twice the area between the diagonal and the curve of the load over the area.
+    return float(1 - (areas * (load + np.r_[0.0, load[:-1]])).sum())
+
+
+def area_in_contact(pressure: np.ndarray, area: np.ndarray) -> float:
+    """Area of the cells that touch, from the area of a cell of each row."""
+    return float(((pressure > 0) * area).sum())
+
+
 def filled_volume(initial: np.ndarray, height: np.ndarray, radius: np.ndarray) -> float:
     """Part of the volume below the highest initial height that is filled (model.md section 5)."""
     top = initial.max()
@@ -125,8 +148,18 @@ def open_where_deepest(initial: np.ndarray, height: np.ndarray, radius: np.ndarr
     return float(still[deepest].sum() / still.sum()) if still.any() else 0.0
 
 
+def wilson(hits: int, of: int) -> tuple[float, float]:
+    """95 % interval of a share of which so many of so many were seen, by Wilson's score."""
+    z, share_seen = stats.norm.ppf(0.975), hits / of
+    middle = (share_seen + z**2 / (2 * of)) / (1 + z**2 / of)
+    half = z / (1 + z**2 / of) * np.sqrt(share_seen * (1 - share_seen) / of + z**2 / (4 * of**2))
+    return float(max(middle - half, 0.0)), float(min(middle + half, 1.0))
+
+
 def interval(values: list[float]) -> tuple[float, float]:
-    """Mean, and the half width of its 95 % interval by Student's t."""
+    """Mean, and the half width of its 95 % interval by Student's t; of a single value no number."""
     sample = np.asarray(values, float)
+    if len(sample) < 2:
+        return float(sample.mean()), float("nan")
     half = stats.t.ppf(0.975, len(sample) - 1) * sample.std(ddof=1) / np.sqrt(len(sample))
     return float(sample.mean()), float(half)

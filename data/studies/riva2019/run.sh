@@ -1,9 +1,13 @@
 #!/bin/sh
-# The whole study: runs without time acceleration of the paper's three discs, checks of symmetry, and what the paper leaves open;
-# then all numbers, figures and tables. Takes one to two hours on two cores. Called again after it was stopped, it goes on.
+# The whole study: runs without time acceleration of the paper's three discs with local and with pooled debris, sets of surfaces,
+# checks of symmetry, and what the local rule rests on; then all numbers, figures and tables. Takes one to two hours on two
+# cores. Called again after it was stopped, it goes on.
 #
-# usage: data/studies/riva2019/run.sh
+# usage: data/studies/riva2019/run.sh [--keep-pooled]
+#   --keep-pooled  without the runs with pooled debris and without time acceleration: their numbers are those that were kept in
+#                  pooled-kept.json, which saves half an hour
 set -u
+case ${1:-} in '' | --keep-pooled) keep=${1:-} ;; *) echo "usage: run.sh [--keep-pooled]" >&2 && exit 2 ;; esac
 cd "$(dirname "$0")/../../.." || exit 1
 root=$PWD
 study=data/studies/riva2019
@@ -18,6 +22,15 @@ with_lock .venv.lock install_readers || exit 1
 python="$root/.venv/bin/python -B"
 mkdir -p "$runs"
 
+# The environment in which other readings of the rule are compiled, .venv-study.
+install_compiler() {
+    make_venv "$root/.venv-study"
+    cmp -s "$study/requirements.txt" "$root/.venv-study/installed.txt" && return 0
+    "$root/.venv-study/bin/python" -m pip install --quiet -r "$study/requirements.txt" &&
+        cp "$study/requirements.txt" "$root/.venv-study/installed.txt"
+}
+with_lock .venv-study.lock install_compiler || exit 1
+
 # simulate SCENE NAME [SET...]: a run with one worker, or the rest of it.
 simulate() {
     scene=$1
@@ -27,15 +40,27 @@ simulate() {
         die "$name failed: $(tail -n 1 "$runs/$name.log")"
 }
 
-# One core each: the long run, and all else, of which it makes a part when it is done.
-(
+# with_set SCENE NAME DISC PIN SCALE [SET...]: the same with the surfaces of these numbers.
+with_set() {
+    scene=$1
+    name=$2
+    set -- "$@" --set "disc.surface.synthetic.seed=$3" --set "pin.base.synthetic.seed=$4" \
+        --set "pin.surface.synthetic.seed=$4" --set "disc.prepare.scale=$5"
+    shift 5
+    simulate "$scene" "$name" "$@"
+}
+
+of_the_model() {
     simulate baseline baseline
-    "$program" sweep run "$study/open-questions.toml" --jobs 1 --task 1/2 >/dev/null 2>"$runs/open-questions-1.log"
-) &
-long=$!
-(
-    simulate heights-10 heights-10
-    simulate heights-100 heights-100
+    if [ "$keep" ]; then
+        return 0
+    fi
+    for scale in 1 0.1 0.01; do
+        simulate pooled "pooled-$scale" --set "disc.prepare.scale=$scale"
+    done
+}
+
+of_symmetry() {
     # The initial maps of any run of the baseline do.
     simulate baseline begin --set 'operation.duration="1 s"' --set 'output.maps_at=["0 s"]'
     # shellcheck disable=SC2086
@@ -44,13 +69,35 @@ long=$!
         simulate symmetry "$way" --set "disc.surface.dataset=\"/$way/disc\"" \
             --set "pin.surface.dataset=\"/$way/pin\"" --set "pin.base.dataset=\"/$way/base\""
     done
-    for seed in 1 2 3 4 5 6 7 8 9 10; do
-        for scale in 1 0.1 0.01; do
-            simulate sets "set-$seed-$scale" --set "disc.surface.synthetic.seed=$seed" \
-                --set "pin.base.synthetic.seed=$seed" --set "pin.surface.synthetic.seed=$seed" \
-                --set "disc.prepare.scale=$scale"
+}
+
+of_sets() {
+    for scale in 1 0.1 0.01; do
+        # The surfaces of the runs without acceleration.
+        simulate sets "quick-$scale" --set "disc.prepare.scale=$scale"
+        for seed in 1 2 3 4 5 6 7 8 9 10; do
+            with_set sets "set-local-$seed-$scale" "$seed" "$seed" "$scale"
+            with_set pooled-sets "set-pooled-$seed-$scale" "$seed" "$seed" "$scale"
         done
     done
+    # Other pins on the disc of the first set.
+    for pin in 2 3 4 5; do
+        with_set sets "pin-$pin" 1 "$pin" 1
+    done
+}
+
+# One core each: the longest runs, and all else.
+(
+    of_the_model
+    "$program" sweep run "$study/open-questions.toml" --jobs 1 --task 1/2 >/dev/null 2>"$runs/open-questions-1.log"
+) &
+long=$!
+(
+    simulate heights-10 heights-10
+    simulate heights-100 heights-100
+    of_symmetry
+    of_sets
+    "$root/.venv-study/bin/python" -B "$study/variants.py" "$program" || exit 1
     "$program" sweep run "$study/open-questions.toml" --jobs 1 --task 2/2 >/dev/null 2>"$runs/open-questions-2.log"
 ) || die 'the study is not complete; call this again to go on'
 wait $long || die 'the baseline is not complete; call this again to go on'

@@ -1,0 +1,36 @@
+"""What maps of the pin say of build-up and roughness, by what lies below: fibres, resin, plateaus."""
+
+import measures
+import numpy as np
+
+# Build-up from which a cell counts as covered by more than a film, m.
+THICK = 0.1e-6
+
+
+def of_the_pin(
+    height: np.ndarray, substrate: np.ndarray, base: np.ndarray, pressure: np.ndarray, radius: np.ndarray
+) -> dict[str, float]:
+    """Build-up and roughness of the pin at a moment. Resin that touches loses 5 um at once, so the moment matters: means
+    over several cycles of the resin do not depend on it."""
+    film, fibre = substrate - height, base == 1
+    weights = np.broadcast_to(radius, height.shape)
+
+    def part(cells: np.ndarray, of: np.ndarray) -> float:
+        return float(weights[cells & of].sum() / weights[of].sum())
+
+    secondary = film > 0
+    touching = (pressure > 0) & (secondary | fibre)
+    return {
+        "pin_film": measures.mean(film, radius),
+        "pin_covered": measures.share(secondary, radius),
+        "pin_covered_fibres": part(secondary, fibre),
+        "pin_covered_resin": part(secondary, ~fibre),
+        # Build-up that carries load.
+        "pin_loaded": measures.share(secondary & (pressure > 0), radius),
+        "pin_thick": measures.share(film >= THICK, radius),
+        "sq_fibres": measures.sq(height[fibre], weights[fibre]),
+        "sq_resin": measures.sq(height[~fibre], weights[~fibre]),
+        "sq_plateaus": measures.sq(height[secondary | fibre], weights[secondary | fibre]),
+        "sq_touching": measures.sq(height[touching], weights[touching]),
+        "sq_pin": measures.sq(height, weights),
+    }
