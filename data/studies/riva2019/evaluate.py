@@ -41,7 +41,7 @@ def run_numbers(path: Path) -> dict[str, object]:
         series, times = series_of(file), file["map_time"][1:]
         ends = [end for end in (END, LONG_END) if end < series["time"][-1] + 1]
         assert ends, f"{path} came to {series['time'][-1]:.0f} s only"
-        middles, area = window_means(series["time"], series["contact_area_integral"], ends[-1])
+        middles, area = window_means(series["time"], series["contact_area_integral"], (series["time"][-1] + 1) // 50 * 50)
         # Of the maps near an end, which pin.py averages, the last is enough for the disc.
         late = [moment for moment in times if any(end - maps.LATE < moment < end - 1 for end in ends)]
         return {

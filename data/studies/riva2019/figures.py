@@ -166,7 +166,7 @@ def radial() -> None:
                   label=f"sets of surfaces, m = {m_of('sets')}, 95 %")
     profile = [RESULTS["runs"]["1"]["disc"]["3000"][f"band_{number}"] * 100 for number in range(BANDS)]
     axes.plot(radius, profile, color=COLOURS[1], lw=1, label=f"one set, m = {m_of_one('runs', '1')}")
-    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris")
+    axes.set(xlabel="radius, mm", ylabel="filled at 3000 s, %", title="baseline, local debris", ylim=(30, 100))
     axes.legend(loc="lower left")
     for place, rule in enumerate(RESULTS["each_set"]):
         values = np.array(RESULTS["each_set"][rule]["inner_over_outer"]["1"]) * 100
@@ -174,7 +174,7 @@ def radial() -> None:
         inner.plot(np.full(len(values), place), values, "o", color="grey", ms=3, alpha=0.7)
         inner.errorbar(place + 0.2, mean, half, fmt="s", color="black", ms=4, capsize=3)
     inner.axhline(0, color="grey", lw=0.6)
-    inner.set(title="each set, and mean with 95 %", ylabel="inner less outer half, points", xlim=(-0.4, 1.6))
+    inner.set(title="each set, and mean with 95 %", ylabel="inner less outer half, points", xlim=(-0.4, 1.6), ylim=(-15, 15))
     inner.set_xticks(np.arange(len(RESULTS["each_set"])) + 0.1, list(RESULTS["each_set"]))
     save(figure, "radial")
 
