@@ -554,10 +554,10 @@ fn nothing_is_advised_that_is_slower_than_the_reference() {
 #[test]
 fn a_smooth_disc_with_pooled_debris_needs_the_model_itself_as_the_reference() {
     let directory = with_scene(&[]);
-    let smooth = ["disc.prepare.scale=0.01", "plateaus.debris=\"contact\""];
+    let smooth = ["disc.prepare.scale=0.01", "plateaus.debris=contact", "plateaus.captured_fraction=0.06"];
     let sets = smooth.iter().chain(&["numerics.time_acceleration=2"]).map(|set| (*set).to_owned());
     drop(run(&directory, "two.h5", &sets.collect::<Vec<_>>()));
-    let set = ["--set", smooth[0], "--set", smooth[1]];
+    let set: Vec<&str> = smooth.iter().flat_map(|set| ["--set", set]).collect();
     let (text, _) = measured(&directory, &[&["--ladder", "integrator", "--reference", "two.h5"], &set[..]].concat());
     assert!(text.contains("no setting is advised: on a disc as smooth as this one"), "{text}");
     assert!(text.contains("more later"), "{text}");

@@ -71,12 +71,20 @@ fn workers_agree_on_every_bit_where_the_acceleration_changes() {
 
 /// Runs `quick.toml`, changed, for `duration` seconds, and opens its run file.
 fn run(duration: u32, sets: &[String]) -> RunFile {
+    run_on(1, duration, sets)
+}
+
+/// The same with so many workers, maybe more than there are cores.
+fn run_on(workers: u32, duration: u32, sets: &[String]) -> RunFile {
     let directory = WorkingDirectory::new();
     let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
     let usual =
         [format!("operation.duration={duration} s"), "output.maps=[]".into(), "output.sample_every=0.5 s".into()];
     arguments.extend(usual.iter().chain(sets).flat_map(|set| ["--set".to_owned(), set.clone()]));
-    directory.plateau(arguments).quiet_success();
+    arguments.extend(["--workers".to_owned(), workers.to_string()]);
+    let done = directory.plateau(arguments);
+    assert_eq!(done.status, Some(0), "{}", done.stderr);
+    assert!(workers > 1 || done.stderr.is_empty(), "{}", done.stderr);
     RunFile::open(directory.path("run.h5"))
 }
 
@@ -147,7 +155,7 @@ fn the_tolerance_is_kept_with_pooled_debris_on_rough_discs() {
 #[test]
 fn no_bit_of_a_run_that_chooses_depends_on_the_workers() {
     let chosen = |workers: u32| {
-        let run = run(20, &[CHOSEN.to_owned(), format!("numerics.workers={workers}")]);
+        let run = run_on(workers, 20, &[CHOSEN.to_owned()]);
         let series = ["time_acceleration", "acceleration_error", "contact_area_integral", "filled_fraction"];
         let bits =
             |name: &str| run.floats(&format!("/series/{name}")).into_iter().map(f64::to_bits).collect::<Vec<_>>();
@@ -202,16 +210,17 @@ fn a_disc_too_smooth_is_not_accelerated_where_debris_is_pooled() {
         assert_eq!(done.stderr.contains("as smooth as this"), !chosen, "{}", done.stderr);
         chosen
     };
-    let (smooth, pool) = ("disc.surface.synthetic.rms_height=0.1 um", "plateaus.debris=\"contact\"");
-    assert!(run(&[pool]));
-    assert!(!run(&[smooth, pool]));
+    let (smooth, pool) = ("disc.surface.synthetic.rms_height=0.1 um", "plateaus.debris=contact");
+    let captured = "plateaus.captured_fraction=0.06";
+    assert!(run(&[pool, captured]));
+    assert!(!run(&[smooth, pool, captured]));
     // Local debris goes where the cell ahead was: no disc is too smooth.
     assert!(run(&[smooth]));
     // Without debris that is compacted, nothing depends on where resin touches.
     assert!(run(&[smooth, pool, "plateaus.captured_fraction=0"]));
-    assert!(run(&[smooth, pool, "plateaus.formation=false"]));
+    assert!(run(&[smooth, pool, captured, "plateaus.formation=false"]));
     // Where the pin hardly wears, the disc is rough enough.
-    assert!(run(&[smooth, pool, "materials.pin_primary.specific_wear_rate=1e-15 1/Pa"]));
+    assert!(run(&[smooth, pool, captured, "materials.pin_primary.specific_wear_rate=1e-15 1/Pa"]));
 }
 
 #[test]
