@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn what_changes_its_sign_counts_too() {
         // ± 10 % from one look to the next is noise that means take away, but not all of it.
-        let noise = |look: u32, _: f64| if look % 2 == 0 { 0.1 } else { -0.1 };
+        let noise = |look: u32, _: f64| if look.is_multiple_of(2) { 0.1 } else { -0.1 };
         let noisy = settled(Choice::within(0.01, 1000.0, 100.0, 1.0), noise);
         assert!(noisy < 20.0, "{noisy}");
     }
