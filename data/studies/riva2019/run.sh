@@ -1,6 +1,6 @@
 #!/bin/sh
 # The whole study: runs without time acceleration of the paper's three discs with local and with pooled debris, sets of surfaces,
-# checks of symmetry, and what the local rule rests on; then all numbers, figures and tables. Takes one to two hours on two
+# checks of symmetry, and what the local rule rests on; then all numbers, figures and tables. Takes two hours or more on two
 # cores. Called again after it was stopped, it goes on.
 #
 # usage: data/studies/riva2019/run.sh [--keep-pooled]
