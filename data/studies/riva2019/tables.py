@@ -155,8 +155,37 @@ def yes(hits: int) -> str:
     return "yes" if hits else "no"
 
 
+# What the table of the runs tells of each, up to the contact area of the last tenth and from there on: name, factor, form, quantity.
+FILLING = [
+    ("filled, by volume, %", 100, ".1f", "filled"),
+    ("filled, by area (within 0.1 µm), %", 100, ".1f", "filled_area"),
+    ("disc, secondary (any film), %", 100, ".1f", "disc_secondary"),
+    ("build-up on the disc, mean, µm", 1e6, ".2f", "mean_build_up"),
+    ("highest above the highest of the start, µm", 1e6, ".2f", "highest"),
+]
+CONTACT = [
+    ("contact area, last 100 s, mm²", 1e6, ".2f", "contact_area"),
+    ("run-in: to 90 % of that, ± 25 s", 1, ".0f", "run_in"),
+    ("run-in: change-point, s", 1, ".0f", "change_point"),
+    ("drift in the last third, % per 1000 s", 100, ".2f", "drift"),
+    ("± (95 %)", 100, ".2f", "drift_error"),
+    ("pressure: Gini coefficient", 1, ".3f", "pressure_gini"),
+    ("pressure: coefficient of variation", 1, ".2f", "pressure_variation"),
+    ("pressure, mean, MPa", 1e-6, ".2f", "mean_pressure"),
+    ("pin, secondary, %", 100, ".1f", "pin_covered"),
+    ("pin, secondary that carries load, %", 100, ".1f", "pin_loaded"),
+    ("build-up on the pin, mean, nm", 1e9, ".0f", "pin_film"),
+    ("Sq of the fibres, nm", 1e9, ".0f", "sq_fibres"),
+    ("Sq of the whole pin, µm", 1e6, ".2f", "sq_pin"),
+    ("filling, inner less outer half, percentage points", 100, ".1f", "inner_over_outer"),
+    ("deposited / worn, %", 100, ".1f", "deposited_over_worn"),
+    ("worn / (κ × load × distance) − 1", 1, ".1e", "bookkeeping"),
+    ("debris balance, largest residual", 1, ".1e", "balance_residual"),
+]
+
+
 def table_runs() -> str:
-    """The runs without time acceleration, local and pooled."""
+    """The runs of one set of surfaces, local and pooled."""
     locals_, pooled = [("runs", heights, "3000") for heights in NAMES], [("pooled_runs", heights, "3000") for heights in NAMES]
     columns = [*locals_, ("runs", "1", "7200"), *pooled]
     if "7200" not in value("runs/1/history"):
@@ -166,35 +195,16 @@ def table_runs() -> str:
         for part, heights, end in columns
     ))
 
-    def line(name: str, factor: float, form: str, key: str) -> str:
-        found = [once(part, heights, key, end) for part, heights, end in columns]
-        return row(name, *("" if one is None else shown(one * factor, form) for one in found))
+    def lines(asked: list[tuple[str, float, str, str]]) -> str:
+        text = ""
+        for name, factor, form, key in asked:
+            found = [once(part, heights, key, end) for part, heights, end in columns]
+            text += row(name, *("" if one is None else shown(one * factor, form) for one in found))
+        return text
 
-    text += line("filled, by volume, %", 100, ".1f", "filled")
-    text += line("filled, by area (within 0.1 µm), %", 100, ".1f", "filled_area")
-    text += line("disc, secondary (any film), %", 100, ".1f", "disc_secondary")
-    text += line("build-up on the disc, mean, µm", 1e6, ".2f", "mean_build_up")
-    text += line("highest above the highest of the start, µm", 1e6, ".2f", "highest")
-    text += row("contact area, last tenth ± standard error, mm²",
-                *(last_tenth(heights, float(end), part) for part, heights, end in columns))
-    text += line("contact area, last 100 s, mm²", 1e6, ".2f", "contact_area")
-    text += line("run-in: to 90 % of that, ± 25 s", 1, ".0f", "run_in")
-    text += line("run-in: change-point, s", 1, ".0f", "change_point")
-    text += line("drift in the last third, % per 1000 s", 100, ".2f", "drift")
-    text += line("± (95 %)", 100, ".2f", "drift_error")
-    text += line("pressure: Gini coefficient", 1, ".3f", "pressure_gini")
-    text += line("pressure: coefficient of variation", 1, ".2f", "pressure_variation")
-    text += line("pressure, mean, MPa", 1e-6, ".2f", "mean_pressure")
-    text += line("pin, secondary, %", 100, ".1f", "pin_covered")
-    text += line("pin, secondary that carries load, %", 100, ".1f", "pin_loaded")
-    text += line("build-up on the pin, mean, nm", 1e9, ".0f", "pin_film")
-    text += line("Sq of the fibres, nm", 1e9, ".0f", "sq_fibres")
-    text += line("Sq of the whole pin, µm", 1e6, ".2f", "sq_pin")
-    text += line("filling, inner less outer half, percentage points", 100, ".1f", "inner_over_outer")
-    text += line("deposited / worn, %", 100, ".1f", "deposited_over_worn")
-    text += line("worn / (κ × load × distance) − 1", 1, ".1e", "bookkeeping")
-    text += line("debris balance, largest residual", 1, ".1e", "balance_residual")
-    return text
+    area = row("contact area, last tenth ± standard error, mm²",
+               *(last_tenth(heights, float(end), part) for part, heights, end in columns))
+    return text + lines(FILLING) + area + lines(CONTACT)
 
 
 def table_error() -> str:
