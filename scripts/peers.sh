@@ -1,6 +1,6 @@
 #!/bin/sh
 # Prints the Python of an environment with the packages that the benchmark `plateau-bench peers` needs; installs them
-# into .venv-peers in the checkout at first. Without Numba there is NumPy alone. Messages go to standard error.
+# into .venv-peers in the checkout at first. Messages go to standard error.
 set -u
 
 root=$(CDPATH='' cd -P "${0%/*}/.." && pwd -P) || exit 1
@@ -15,12 +15,8 @@ install() {
     make_venv "$environment"
     ! cmp -s "$requirements" "$environment/installed.txt" || return 0
     say "installing $(tr '\n' ' ' <"$requirements")into $environment"
-    if "$environment/bin/python" -m pip install --quiet -r "$requirements"; then
-        cp "$requirements" "$environment/installed.txt"
-    else
-        say "Numba cannot be installed, going on with NumPy alone"
-        "$environment/bin/python" -m pip install --quiet numpy || die "NumPy cannot be installed either, see above"
-    fi
+    "$environment/bin/python" -m pip install --quiet -r "$requirements" || die "Numba cannot be installed, see above"
+    cp "$requirements" "$environment/installed.txt"
 }
 
 with_lock "$environment.lock" install >&2 || exit 1

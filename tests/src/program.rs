@@ -6,7 +6,6 @@ use std::fs::{self, File};
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
@@ -58,13 +57,6 @@ pub fn quick_scene_with(edits: &[(&str, &str)]) -> String {
         text = text.replace(old, new);
     }
     text
-}
-
-/// Held while an HDF5 file is written here, and while a command is started: a command that starts in between would inherit
-/// the open file with its lock, and another one could not open it.
-pub fn no_open_hdf5_file() -> MutexGuard<'static, ()> {
-    static STARTING: Mutex<()> = Mutex::new(());
-    STARTING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// What a command said and how it ended.
@@ -183,9 +175,7 @@ pub fn run(mut command: Command) -> Outcome {
     // Files and not pipes: nobody has to read them while the command runs.
     let mut output = [tempfile::tempfile().expect("a temporary file"), tempfile::tempfile().expect("another one")];
     let [stdout, stderr] = output.each_ref().map(|file| file.try_clone().expect("a second handle"));
-    let starting = no_open_hdf5_file();
     let mut child = command.stdin(Stdio::null()).stdout(stdout).stderr(stderr).spawn().expect("the command");
-    drop(starting);
     let mut status = None;
     let ended = wait_until(|| {
         status = child.try_wait().expect("the state of the command");

@@ -54,6 +54,28 @@ pub fn differences_of_start(whole: &BTreeMap<String, Content>, part: &BTreeMap<S
     paths.filter(differs).cloned().collect()
 }
 
+/// How a test opens every HDF5 file: without a lock. Commands that other tests start in the meantime inherit the open file, and a
+/// lock would stay as long as they run.
+fn without_lock(path: impl AsRef<Path>, mode: OpenMode) -> hdf5::Result<hdf5::File> {
+    hdf5::File::with_options().with_fapl(|list| list.file_locking(false)).open_as(path, mode)
+}
+
+/// A new HDF5 file that a test fills.
+///
+/// # Panics
+/// When it cannot be made.
+pub fn created(path: impl AsRef<Path>) -> hdf5::File {
+    without_lock(path, OpenMode::Create).expect("a new HDF5 file")
+}
+
+/// An HDF5 file that a test changes.
+///
+/// # Panics
+/// When it cannot be opened.
+pub fn changed(path: impl AsRef<Path>) -> hdf5::File {
+    without_lock(path, OpenMode::ReadWrite).expect("an HDF5 file")
+}
+
 /// An HDF5 file that is read. Whatever cannot be read ends the test.
 #[derive(Debug)]
 pub struct RunFile {
@@ -67,7 +89,7 @@ impl RunFile {
     /// When it cannot be opened.
     pub fn open(path: impl AsRef<Path>) -> Self {
         let path = path.as_ref();
-        let file = hdf5::File::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let file = without_lock(path, OpenMode::Read).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         Self { file }
     }
 
@@ -76,9 +98,7 @@ impl RunFile {
     /// # Errors
     /// Those of the HDF5 library.
     pub fn follow(path: impl AsRef<Path>) -> hdf5::Result<Self> {
-        let mut options = hdf5::File::with_options();
-        let file = options.with_fapl(|list| list.file_locking(false)).open_as(path, OpenMode::ReadSWMR)?;
-        Ok(Self { file })
+        without_lock(path, OpenMode::ReadSWMR).map(|file| Self { file })
     }
 
     /// Whether there is an object of that path.

@@ -9,8 +9,8 @@ use std::time::Duration;
 use hdf5::types::VarLenUnicode;
 use ndarray::{Array2, ArrayView2};
 use plateau_tests::figure::Figure;
-use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, quick_scene_with, repository, wait_until};
-use plateau_tests::run_file::RunFile;
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository, wait_until};
+use plateau_tests::run_file::{RunFile, changed, created};
 
 /// Windows of the small scene, s: whole revolutions (60 s/850) of the runs with 1, 2, 5, 10 and 20 times the speed of time,
 /// and not narrower than 5 s.
@@ -226,15 +226,12 @@ fn a_coarser_mesh_is_averaged_by_area() {
         })
     };
     let first = run(&directory, "first.h5", &["output.maps_at=[\"0 s\"]".to_owned()]);
-    {
-        let _starting = no_open_hdf5_file();
-        let file = hdf5::File::create(directory.path("coarse.h5")).unwrap();
-        for body in ["disc", "pin"] {
-            let heights = coarse(&first.map(&format!("/{body}/height"), 0));
-            file.new_dataset_builder().with_data(ArrayView2::from(&heights)).create(body).unwrap();
-        }
-        file.close().unwrap();
+    let file = created(directory.path("coarse.h5"));
+    for body in ["disc", "pin"] {
+        let heights = coarse(&first.map(&format!("/{body}/height"), 0));
+        file.new_dataset_builder().with_data(ArrayView2::from(&heights)).create(body).unwrap();
     }
+    file.close().unwrap();
     let sets = [
         "mesh.rows=10",
         "mesh.disc_columns=345",
@@ -367,13 +364,10 @@ fn bad_input_is_refused() {
     drop(run(&directory, "other.h5", &[fine.to_vec(), vec!["operation.normal_force=6 N".to_owned()]].concat()));
     drop(run(&directory, "short.h5", &[fine.to_vec(), vec!["operation.duration=10 s".to_owned()]].concat()));
     fs::copy(directory.path("good.h5"), directory.path("stopped.h5")).unwrap();
-    {
-        let _starting = no_open_hdf5_file();
-        let file = hdf5::File::open_rw(directory.path("stopped.h5")).unwrap();
-        let state: VarLenUnicode = "interrupted".parse().unwrap();
-        file.attr("state").unwrap().write_scalar(&state).unwrap();
-        file.close().unwrap();
-    }
+    let file = changed(directory.path("stopped.h5"));
+    let state: VarLenUnicode = "interrupted".parse().unwrap();
+    file.attr("state").unwrap().write_scalar(&state).unwrap();
+    file.close().unwrap();
     let model = ["--set", "numerics.time_acceleration=1"];
     let chosen = ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 20 }"];
     let cases: [(&[&str], &[&str]); 14] = [
@@ -539,12 +533,9 @@ fn nothing_is_advised_from_a_reference_that_is_hardly_better() {
 fn nothing_is_advised_that_is_slower_than_the_reference() {
     let directory = with_scene(&[]);
     drop(run(&directory, "quick.h5", &["numerics.time_acceleration=1".to_owned()]));
-    {
-        let _starting = no_open_hdf5_file();
-        let file = hdf5::File::open_rw(directory.path("quick.h5")).unwrap();
-        file.attr("wall_time").unwrap().write_scalar(&1e-9).unwrap();
-        file.close().unwrap();
-    }
+    let file = changed(directory.path("quick.h5"));
+    file.attr("wall_time").unwrap().write_scalar(&1e-9).unwrap();
+    file.close().unwrap();
     let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
     assert!(text.contains("no setting is advised: no other run is quicker than the reference"), "{text}");
     assert!(!text.contains("error in contact area use"), "{text}");

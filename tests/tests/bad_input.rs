@@ -5,7 +5,8 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 
 use hdf5::H5Type;
 use ndarray::{Array2, ArrayView2};
-use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, quick_scene_with, run};
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run};
+use plateau_tests::run_file::created;
 
 /// One wrong input: what is put into the working directory, and what the program is asked then.
 struct Case {
@@ -49,8 +50,7 @@ fn surface_file(
 /// Writes a dataset `/heights` of this shape (columns, rows) into `surface.h5`.
 fn heights<T: H5Type + Clone>(directory: &WorkingDirectory, shape: (usize, usize), values: impl Fn(usize) -> T) {
     let values = Array2::from_shape_fn(shape, |(column, row)| values(column * shape.1 + row));
-    let _starting = no_open_hdf5_file();
-    let file = hdf5::File::create(directory.path("surface.h5")).unwrap();
+    let file = created(directory.path("surface.h5"));
     file.new_dataset_builder().with_data(ArrayView2::from(&values)).create("heights").unwrap();
     file.close().unwrap();
 }

@@ -1,6 +1,6 @@
 //! The tables in docs are made from the same source as the program: the schema of scenes and the list of quantities.
 //!
-//! Where a table differs the test fails; `UPDATE_DOCS=1 cargo test --release -p plateau-tests --test documentation`
+//! Where a table differs the test fails; `UPDATE_DOCS=1 cargo test --release -p plateau-tests --test end_to_end documentation`
 //! writes it anew.
 
 use std::fmt::Write as _;

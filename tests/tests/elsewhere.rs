@@ -6,14 +6,14 @@ use std::path::Path;
 use std::process::Command;
 
 use hdf5::File;
-use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, run, scene};
+use plateau_tests::program::{Outcome, WorkingDirectory, run, scene};
+use plateau_tests::run_file::{changed, created};
 
 const SHAPE: (usize, usize) = (690, 20);
 
 /// Makes an HDF5 file.
 fn hdf5_file(path: &Path, fill: impl FnOnce(&File) -> hdf5::Result<()>) {
-    let _writing = no_open_hdf5_file();
-    let file = File::create(path).unwrap();
+    let file = created(path);
     fill(&file).unwrap();
     file.close().unwrap();
 }
@@ -133,19 +133,18 @@ fn run_files_must_be_whole_too() {
     let directory = WorkingDirectory::new();
     let arguments = ["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.duration=2 s"];
     assert_eq!(directory.plateau(arguments).status, Some(0));
-    let changed = |name: &str, change: fn(&File) -> hdf5::Result<()>| {
+    let with_change = |name: &str, change: fn(&File) -> hdf5::Result<()>| {
         fs::copy(directory.path("run.h5"), directory.path(name)).unwrap();
-        let _writing = no_open_hdf5_file();
-        let file = File::open_rw(directory.path(name)).unwrap();
+        let file = changed(directory.path(name));
         change(&file).unwrap();
         file.close().unwrap();
     };
-    changed("link.h5", |file| {
+    with_change("link.h5", |file| {
         file.unlink("time")?;
         file.link_external("run.h5", "/time", "time")
     });
     assert_refused(read_as_run(&directory, "link.h5"), &[2], "/time links to /time in run.h5");
-    changed("hollow.h5", |file| {
+    with_change("hollow.h5", |file| {
         file.unlink("time")?;
         file.new_dataset::<f64>().chunk(1024).shape(1_usize << 40).create("time")?;
         Ok(())

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::Stdio;
 
 use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
-use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::run_file::{RunFile, changed, differences};
 use plateau_tests::scenes::Stream;
 
 /// A short run with maps of two moments.
@@ -69,7 +69,7 @@ fn what_is_damaged_is_named() {
 
     // What HDF5 sees nothing wrong with: values written by somebody else.
     directory.write("value.h5", &whole);
-    let file = hdf5::File::open_rw(directory.path("value.h5")).unwrap();
+    let file = changed(directory.path("value.h5"));
     file.dataset("series/pool").unwrap().write_slice(&[1.0], 3..4).unwrap();
     file.close().unwrap();
     let (status, document) = verdict(&directory, "value.h5");
@@ -77,7 +77,7 @@ fn what_is_damaged_is_named() {
 
     // A link that leads elsewhere.
     directory.write("link.h5", &whole);
-    let file = hdf5::File::open_rw(directory.path("link.h5")).unwrap();
+    let file = changed(directory.path("link.h5"));
     file.unlink("series/time").unwrap();
     file.link_soft("/radius", "series/time").unwrap();
     file.close().unwrap();

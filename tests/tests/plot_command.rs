@@ -5,8 +5,8 @@ use std::process::Stdio;
 
 use image::{Rgb, RgbImage};
 use plateau_tests::figure::{Figure, Frame, Panel};
-use plateau_tests::program::{Outcome, WorkingDirectory, kill, no_open_hdf5_file, quick_scene_with, scene, wait_until};
-use plateau_tests::run_file::RunFile;
+use plateau_tests::program::{Outcome, WorkingDirectory, kill, quick_scene_with, scene, wait_until};
+use plateau_tests::run_file::{RunFile, changed};
 
 /// Colour of the first run.
 const FIRST_RUN: &str = "#0072B2";
@@ -356,12 +356,9 @@ fn what_was_not_recorded_is_left_out_and_said_so() {
 #[test]
 fn a_run_without_samples_has_maps_only() {
     let directory = short();
-    {
-        let _starting = no_open_hdf5_file();
-        let file = hdf5::File::open_rw(directory.path("run.h5")).unwrap();
-        file.dataset("time").unwrap().resize(0).unwrap();
-        file.close().unwrap();
-    }
+    let file = changed(directory.path("run.h5"));
+    file.dataset("time").unwrap().resize(0).unwrap();
+    file.close().unwrap();
     let outcome = directory.plateau(["plot", "run.h5"]);
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
     assert_eq!(only(&outcome), ["plateau: run.h5 has no samples: left out of contact-area, filled, debris"]);

@@ -8,8 +8,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
 use hdf5::types::VarLenUnicode;
-use plateau_tests::program::{WorkingDirectory, no_open_hdf5_file, quick_scene_with, scene};
-use plateau_tests::run_file::RunFile;
+use plateau_tests::program::{WorkingDirectory, quick_scene_with, scene};
+use plateau_tests::run_file::{RunFile, changed, created};
 use serde_json::Value;
 
 /// Where the maps of the page are in a run file.
@@ -273,8 +273,7 @@ fn one_cell_is_enough() {
 
 /// Changes a run file.
 fn change(directory: &WorkingDirectory, name: &str, change: impl Fn(&hdf5::File)) {
-    let _starting = no_open_hdf5_file();
-    let file = hdf5::File::open_rw(directory.path(name)).unwrap();
+    let file = changed(directory.path(name));
     change(&file);
     file.close().unwrap();
 }
@@ -328,8 +327,7 @@ fn what_is_no_run_file_is_refused() {
     directory.write("text.h5", "no HDF5");
     directory.write("taken.html", "mine");
     {
-        let _starting = no_open_hdf5_file();
-        hdf5::File::create(directory.path("foreign.h5")).unwrap().close().unwrap();
+        created(directory.path("foreign.h5")).close().unwrap();
     }
     let before = directory.content();
     for (arguments, message) in [

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, no_open_hdf5_file, quick_scene_with, repository};
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository};
+use plateau_tests::run_file::{RunFile, created};
 use serde_json::Value;
 
 /// The measured surface that comes with the project: an AFM scan, of which `values.json` of the shared surfaces has the
@@ -146,12 +147,10 @@ fn heights_that_are_unrelated_from_point_to_point_have_no_length() {
 fn without_a_pitch_what_needs_none_is_given() {
     let directory = WorkingDirectory::new();
     let heights: Vec<f64> = (0..12 * 10).map(|point| 1e-6 * f64::from(point * point % 17)).collect();
-    let starting = no_open_hdf5_file();
-    let file = hdf5::File::create(directory.path("heights.h5")).unwrap();
+    let file = created(directory.path("heights.h5"));
     let heights = ndarray::ArrayView2::from_shape((12, 10), &heights).unwrap();
     file.new_dataset_builder().with_data(heights).create("height").unwrap();
     file.close().unwrap();
-    drop(starting);
     let without = json(directory.plateau(["surface", "heights.h5", "--dataset", "height", "--json"]));
     let with =
         json(directory.plateau(["surface", "heights.h5", "--dataset", "height", "--json", "--pitch", "2 um, 0.5 um"]));
@@ -315,8 +314,6 @@ fn a_scene_shows_what_it_makes_of_its_surfaces() {
 
 #[test]
 fn roughness_is_in_the_run_file_on_request() {
-    use plateau_tests::run_file::RunFile;
-
     let directory = WorkingDirectory::new();
     let edits = [
         ("duration = \"60 s\"", "steps = 25"),

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
 use hdf5::types::VarLenUnicode;
-use plateau_tests::program::{WorkingDirectory, kill, no_open_hdf5_file, quick_scene_with, wait_until};
-use plateau_tests::run_file::RunFile;
+use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, wait_until};
+use plateau_tests::run_file::{RunFile, changed};
 
 /// A run that does not end by itself while a test goes on; it has samples when this returns.
 fn endless_run(directory: &WorkingDirectory, file: &str) -> Child {
@@ -61,8 +61,7 @@ fn a_finished_run_is_told_with_its_last_sample() {
 
 /// Makes a finished run one that failed, as the program writes it.
 fn fail(path: &Path, reason: &str) {
-    let _starting = no_open_hdf5_file();
-    let file = hdf5::File::open_rw(path).unwrap();
+    let file = changed(path);
     let text = |text: &str| text.parse::<VarLenUnicode>().unwrap();
     file.attr("state").unwrap().write_scalar(&text("failed")).unwrap();
     file.new_attr::<VarLenUnicode>().create("error").unwrap().write_scalar(&text(reason)).unwrap();

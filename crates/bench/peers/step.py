@@ -1,6 +1,6 @@
-"""The model (docs/model.md) as it is written in Python: Numba loops (loops.py) or NumPy arrays (arrays.py).
+"""The model (docs/model.md) as it is written in Python: loops that Numba compiles (loops.py).
 
-    step.py numba|numpy DIRECTORY
+    step.py DIRECTORY
 
 reads scene.json and the surfaces from DIRECTORY, tells its versions, then answers requests, one JSON text a line:
 
@@ -21,7 +21,9 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
+import numba
 import numpy as np
+from loops import step
 
 
 class Fields(NamedTuple):
@@ -127,15 +129,8 @@ def answer(simulation, directory, request):
 
 
 def main():
-    kind, directory = sys.argv[1], Path(sys.argv[2])
-    versions = f"Python {platform.python_version()}, NumPy {np.__version__}"
-    if kind == "numba":
-        import numba
-        from loops import step
-
-        versions += f", Numba {numba.__version__}"
-    else:
-        from arrays import step
+    directory = Path(sys.argv[1])
+    versions = f"Python {platform.python_version()}, NumPy {np.__version__}, Numba {numba.__version__}"
     simulation = Simulation(step, directory)
     print(json.dumps({"versions": versions}), flush=True)
     for line in sys.stdin:

@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::costs::{self, CostOptions};
 use crate::error::BenchError;
 use crate::session::{Options, WorkerOptions};
-use crate::{kernel, parts, peers, report, roofline, scaling};
+use crate::{kernel, parts, peers, report, scaling};
 
 /// How long a step of Plateau takes, and why.
 #[derive(Debug, Parser)]
@@ -32,12 +32,9 @@ enum Command {
     /// Run the program with optional parts and outputs on and off: time, memory and size of the run file
     #[command(after_help = "Example:\n  plateau-bench costs --json costs.json")]
     Costs(CostOptions),
-    /// Set what a step moves against the bandwidth of caches and memory
-    #[command(after_help = "Example:\n  plateau-bench roofline --json roofline.json")]
-    Roofline(WorkerOptions),
-    /// Time the same step written in Python, as Numba loops and as NumPy arrays
+    /// Time the same step written in Python, as loops that Numba compiles
     #[command(
-        after_help = "Installs Numba and NumPy into .venv-peers in the checkout.\n\nExample:\n  plateau-bench peers --json peers.json"
+        after_help = "Installs Numba into .venv-peers in the checkout.\n\nExample:\n  plateau-bench peers --json peers.json"
     )]
     Peers(Options),
     /// Make Markdown tables from results
@@ -64,7 +61,6 @@ impl Arguments {
             Command::Scaling(options) => scaling::scaling(options),
             Command::Parts(options) => parts::parts(options),
             Command::Costs(options) => costs::costs(options),
-            Command::Roofline(options) => roofline::roofline(options),
             Command::Peers(options) => peers::peers(options),
             Command::Report(options) => report::report(&options),
         }

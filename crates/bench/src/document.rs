@@ -23,15 +23,13 @@ pub enum Benchmark {
     Parts,
     /// Runs of the program with optional parts on and off.
     Costs,
-    /// What a step moves against what caches and memory give.
-    Roofline,
     /// The same step in Python.
     Peers,
 }
 
 impl Benchmark {
     /// All of them, in the order in which they are reported.
-    pub const ALL: [Self; 6] = [Self::Kernel, Self::Scaling, Self::Parts, Self::Costs, Self::Roofline, Self::Peers];
+    pub const ALL: [Self; 5] = [Self::Kernel, Self::Scaling, Self::Parts, Self::Costs, Self::Peers];
 
     /// Name of the subcommand.
     pub fn name(self) -> &'static str {
@@ -40,7 +38,6 @@ impl Benchmark {
             Self::Scaling => "scaling",
             Self::Parts => "parts",
             Self::Costs => "costs",
-            Self::Roofline => "roofline",
             Self::Peers => "peers",
         }
     }
@@ -66,10 +63,6 @@ pub struct Document {
     /// Runs of the program, scene by scene in the order of the race (costs).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub runs: Vec<RunCost>,
-    /// What caches and memory give (roofline).
-    pub bandwidths: Vec<Bandwidth>,
-    /// What a step moves (roofline).
-    pub traffic: Vec<StepTraffic>,
     /// How well the peers agree with us (peers).
     pub agreements: Vec<Agreement>,
     /// What a reader must know besides.
@@ -182,46 +175,6 @@ pub struct RunCost {
     pub file_bytes: u64,
 }
 
-/// What a cache or the memory gives to a loop.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Bandwidth {
-    /// Where the data are: L1, L2, .., memory, or the working set of a mesh.
-    pub place: String,
-    /// Bytes over which the loop goes, of each thread.
-    pub working_set_bytes: usize,
-    /// Threads that did so at once, each with data of its own.
-    pub threads: usize,
-    /// Read: every value is added up. 10⁹ bytes a second, all threads together; as the others.
-    pub read: Spread,
-    /// Copy: one half is written to the other; read and written bytes count.
-    pub copy: Spread,
-    /// Update: every value is read, changed and written where it was; both ways count.
-    pub update: Spread,
-}
-
-/// What a step moves, and how long that takes at least.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StepTraffic {
-    /// Mesh.
-    pub mesh: MeshSize,
-    /// Workers.
-    pub workers: usize,
-    /// Bytes that a step must read.
-    pub read_bytes: f64,
-    /// Bytes that a step must write.
-    pub written_bytes: f64,
-    /// Bytes that a step goes over.
-    pub working_set_bytes: usize,
-    /// Median time of a step.
-    pub microseconds_per_step: f64,
-    /// Bytes moved over median time, 10⁹ bytes a second.
-    pub moved: f64,
-    /// What an update in place of as many bytes reaches, 10⁹ bytes a second.
-    pub bandwidth: f64,
-    /// `moved` over `bandwidth`.
-    pub fraction: f64,
-}
-
 /// How well a peer agrees with us: largest difference over largest value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Agreement {
@@ -259,8 +212,6 @@ impl Document {
             settings,
             measurements: Vec::new(),
             runs: Vec::new(),
-            bandwidths: Vec::new(),
-            traffic: Vec::new(),
             agreements: Vec::new(),
             notes: Vec::new(),
         }

@@ -54,22 +54,18 @@ pub enum BenchError {
         /// After the tables.
         end: String,
     },
-    /// A peer does not run as it should.
-    #[error("{peer}: {problem}")]
+    /// The peer does not run as it should.
+    #[error("the step in Python: {problem}")]
     Peer {
-        /// Which.
-        peer: String,
         /// What it said.
         problem: String,
     },
-    /// A peer computes something else.
+    /// The peer computes something else.
     #[error(
-        "{peer} computes something else: value {index} of {quantity} is {theirs:e} and ours {ours:e}, which differ by \
+        "the step in Python is another: value {index} of {quantity} is {theirs:e} and ours {ours:e}, which differ by \
          more than {tolerance:e} of the largest value; their times cannot be compared"
     )]
     Disagreement {
-        /// Which.
-        peer: String,
         /// Of what: a series over the steps, or a field over the cells.
         quantity: &'static str,
         /// Which step or cell, counted from 0.
@@ -99,9 +95,9 @@ pub enum BenchError {
         /// What it said.
         problem: String,
     },
-    /// The scene asks for what the peers do not compute.
+    /// The scene asks for what the peer does not compute.
     #[error(
-        "the peers compute explicit wear of the pin on a disc that does not wear, build-ups as what they lie on, and \
+        "the step in Python has explicit wear of the pin on a disc that does not wear, build-ups as what they lie on, and \
          local debris, or one debris pool with formation and destruction; the scene asks for {0}"
     )]
     NotForPeers(&'static str),

@@ -2,18 +2,16 @@
 //! input (the program `extremes`).
 //!
 //! ```text
-//! kernel, scaling, parts, roofline, peers   one benchmark each: what is set against what
+//! kernel, scaling, parts, peer   one benchmark each: what is set against what
 //! costs      another one: runs of the program with optional parts on and off
 //! case       scene -> parameters and surfaces, on meshes of several sizes
 //! stepper    a simulation as something that can be timed: the only calls of core's time loop
 //! race       times several things in turn
-//! bandwidth  what the caches and the memory give          traffic    what a step must move
 //! document   results as JSON                              tables     the tables made from them
 //! extremes   cases at the limits of the model, each with the bounds that it must keep
 //! ```
 
 pub mod arguments;
-mod bandwidth;
 mod build;
 mod case;
 mod costs;
@@ -27,10 +25,8 @@ mod peer;
 mod peers;
 mod race;
 mod report;
-mod roofline;
 mod scaling;
 mod session;
 mod stepper;
 mod table;
 mod tables;
-mod traffic;

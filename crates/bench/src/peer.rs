@@ -17,14 +17,9 @@ use crate::case::{Case, repository};
 use crate::error::BenchError;
 use crate::race::Runner;
 
-/// Memory that the system's allocator (glibc) keeps instead of giving it back and asking anew for every array: without
-/// it NumPy would spend more than half of a step on that.
-const KEPT_MEMORY: (&str, &str) = ("MALLOC_TOP_PAD_", "67108864");
-
 /// The process.
 #[derive(Debug)]
 pub struct Peer {
-    name: String,
     /// Versions of Python and its packages.
     pub versions: String,
     child: Child,
@@ -62,17 +57,16 @@ pub struct Trace {
 struct Nothing {}
 
 impl Peer {
-    /// Starts `python step.py KIND DIRECTORY`.
-    pub fn start(python: &Path, kind: &str, directory: &Path) -> Result<Self, BenchError> {
+    /// Starts `python step.py DIRECTORY`.
+    pub fn start(python: &Path, directory: &Path) -> Result<Self, BenchError> {
         let program = repository().join("crates/bench/peers/step.py");
         let mut command = Command::new(python);
-        command.arg("-B").arg(program).arg(kind).arg(directory).stdin(Stdio::piped()).stdout(Stdio::piped());
-        command.env(KEPT_MEMORY.0, KEPT_MEMORY.1);
+        command.arg("-B").arg(program).arg(directory).stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(BenchError::file(python))?;
         let (requests, answers) = (child.stdin.take(), child.stdout.take());
-        let answers = answers.ok_or_else(|| problem(kind, "it has no standard output"))?;
-        let (name, versions, answers) = (kind.to_owned(), String::new(), BufReader::new(answers));
-        let mut peer = Self { name, versions, child, requests, answers, load_evaluations_per_step: None, steps: 0 };
+        let answers = answers.ok_or_else(|| problem("it has no standard output"))?;
+        let (versions, answers) = (String::new(), BufReader::new(answers));
+        let mut peer = Self { versions, child, requests, answers, load_evaluations_per_step: None, steps: 0 };
         peer.versions = peer.answer::<Greeting>()?.versions;
         Ok(peer)
     }
@@ -95,17 +89,17 @@ impl Peer {
     }
 
     fn ask<A: DeserializeOwned>(&mut self, request: &Value) -> Result<A, BenchError> {
-        let requests = self.requests.as_mut().ok_or_else(|| problem(&self.name, "it has no standard input"))?;
-        writeln!(requests, "{request}").map_err(|error| problem(&self.name, error))?;
+        let requests = self.requests.as_mut().ok_or_else(|| problem("it has no standard input"))?;
+        writeln!(requests, "{request}").map_err(problem)?;
         self.answer()
     }
 
     fn answer<A: DeserializeOwned>(&mut self) -> Result<A, BenchError> {
         let mut line = String::new();
         match self.answers.read_line(&mut line) {
-            Ok(0) => Err(problem(&self.name, "it ended, see above")),
-            Ok(_) => serde_json::from_str(&line).map_err(|error| problem(&self.name, format!("{error} in {line:?}"))),
-            Err(error) => Err(problem(&self.name, error)),
+            Ok(0) => Err(problem("it ended, see above")),
+            Ok(_) => serde_json::from_str(&line).map_err(|error| problem(format!("{error} in {line:?}"))),
+            Err(error) => Err(problem(error)),
         }
     }
 }
@@ -131,17 +125,17 @@ impl Drop for Peer {
     }
 }
 
-fn problem(peer: &str, problem: impl ToString) -> BenchError {
-    BenchError::Peer { peer: peer.into(), problem: problem.to_string() }
+fn problem(problem: impl ToString) -> BenchError {
+    BenchError::Peer { problem: problem.to_string() }
 }
 
-/// A Python with NumPy, and with Numba where it can be had; installs them if need be.
+/// A Python with Numba; installs it if need be.
 pub fn python() -> Result<PathBuf, BenchError> {
     let script = repository().join("scripts/peers.sh");
     let output =
         Command::new("sh").arg(&script).stderr(Stdio::inherit()).output().map_err(BenchError::file(&script))?;
     if !output.status.success() {
-        return Err(problem("Python", "no environment with NumPy can be had, see above"));
+        return Err(problem("no environment with Numba can be had, see above"));
     }
     Ok(String::from_utf8_lossy(&output.stdout).trim_end().into())
 }
@@ -183,7 +177,7 @@ pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
     write("pin_base.u8", &surfaces.pin_base.iter().map(|base| *base as u8).collect::<Vec<_>>())
 }
 
-/// The peers do what the paper's scene needs, with local debris or one pool, and nothing else.
+/// The peer does what the paper's scene needs, with local debris or one pool, and nothing else.
 fn supported(parameters: &Parameters) -> Result<(), BenchError> {
     let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
     let rules = &parameters.plateaus;

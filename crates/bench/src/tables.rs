@@ -12,7 +12,6 @@ pub fn tables(document: &Document) -> Vec<Table> {
         Benchmark::Scaling => vec![strong(document), weak(document), sizes(document)],
         Benchmark::Parts => vec![parts(document)],
         Benchmark::Costs => costs::table::tables(document),
-        Benchmark::Roofline => vec![bandwidths(document), traffic(document)],
         Benchmark::Peers => vec![peers(document), agreements(document)],
     };
     tables.retain(|table| !table.rows.is_empty());
@@ -170,43 +169,6 @@ fn parts(document: &Document) -> Table {
             evaluations(step),
             format!("{:.3}", ratio.median),
             format!("{:.3} – {:.3}", ratio.minimum, ratio.maximum),
-        ]);
-    }
-    table
-}
-
-fn bandwidths(document: &Document) -> Table {
-    let header = ["where", "threads", "KiB each", "read GB/s", "copy GB/s", "update GB/s", "range"];
-    let mut table =
-        Table::new("Bandwidth of caches and memory, and at the working set of a step on each mesh", &header);
-    for row in &document.bandwidths {
-        table.rows.push(vec![
-            row.place.clone(),
-            row.threads.to_string(),
-            (row.working_set_bytes / 1024).to_string(),
-            number(row.read.median),
-            number(row.copy.median),
-            number(row.update.median),
-            range(row.update),
-        ]);
-    }
-    table
-}
-
-fn traffic(document: &Document) -> Table {
-    let header = ["mesh", "workers", "kB read", "kB written", "µs at least", "µs per step", "GB/s", "of the bandwidth"];
-    let mut table = Table::new("What a step must move", &header);
-    for step in &document.traffic {
-        let least = (step.read_bytes + step.written_bytes) / (step.bandwidth * 1e3);
-        table.rows.push(vec![
-            step.mesh.to_string(),
-            step.workers.to_string(),
-            number(step.read_bytes / 1e3),
-            number(step.written_bytes / 1e3),
-            number(least),
-            number(step.microseconds_per_step),
-            number(step.moved),
-            percent(step.fraction),
         ]);
     }
     table

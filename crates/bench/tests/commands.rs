@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const BENCHMARKS: [&str; 6] = ["kernel", "scaling", "parts", "costs", "roofline", "peers"];
+const BENCHMARKS: [&str; 5] = ["kernel", "scaling", "parts", "costs", "peers"];
 
 fn bench(arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_plateau-bench"));
@@ -160,28 +160,7 @@ fn costs_says_what_is_wrong_with_its_program_and_its_scenes() {
     assert!(text(&output.stderr).contains("output.sample_every"), "{}", text(&output.stderr));
 }
 
-#[test]
-fn roofline_sets_traffic_against_bandwidth() {
-    let (results, _) = quick(&folder(), "roofline");
-    expect_complete("roofline", &results);
-    let bandwidths = results["bandwidths"].as_array().expect("bandwidths");
-    assert!(bandwidths.iter().any(|row| row["place"] == "memory"));
-    for row in bandwidths {
-        for way in ["read", "copy", "update"] {
-            assert!(positive(&row[way]["median"]), "{way} of {row}");
-        }
-    }
-    for step in results["traffic"].as_array().expect("traffic") {
-        // Three heights and two bits read, three heights written, for each cell of the paper's scene.
-        let mesh = &step["mesh"];
-        let cells = (mesh["rows"].as_f64().unwrap_or(0.0)) * mesh["pin_columns"].as_f64().unwrap_or(0.0);
-        assert_eq!(step["read_bytes"].as_f64(), Some(24.25 * cells));
-        assert_eq!(step["written_bytes"].as_f64(), Some(24.0 * cells));
-        assert!(positive(&step["fraction"]));
-    }
-}
-
-/// Checks results of the peers for a scene, which says which rule debris follows; skipped where there is no NumPy.
+/// Checks results of the peers for a scene, which says which rule debris follows; skipped where there is no Numba.
 fn expect_agreement(scene: &str, quantities: &[&str], without: Option<&str>) {
     let folder = folder();
     let path = folder.path().join("peers.json");
@@ -189,7 +168,7 @@ fn expect_agreement(scene: &str, quantities: &[&str], without: Option<&str>) {
     let [results, scene_path] = [&path, &scene_path].map(|path| path.to_str().expect("a path"));
     let output = bench(&["peers", scene_path, "--quick", "--json", results]);
     let errors = text(&output.stderr);
-    if errors.contains("no environment with NumPy can be had") {
+    if errors.contains("no environment with Numba can be had") {
         eprintln!("skipped: {errors}");
         return;
     }
@@ -197,11 +176,10 @@ fn expect_agreement(scene: &str, quantities: &[&str], without: Option<&str>) {
     let results: Value = serde_json::from_str(&fs::read_to_string(&path).expect("results")).expect("JSON");
     expect_complete_for(scene, "peers", &results);
     let names = names(&results);
-    assert_eq!(names[0], "Plateau");
-    assert!(names.contains(&"NumPy arrays"), "{names:?}");
+    assert_eq!(names, ["Plateau", "Numba loops"]);
     let agreements = results["agreements"].as_array().expect("agreements");
     // At the scene's time acceleration and at a large one.
-    assert_eq!(agreements.len(), 2 * (names.len() - 1));
+    assert_eq!(agreements.len(), 2);
     for peer in agreements {
         for quantity in quantities {
             assert!(peer[quantity].as_f64().is_some_and(|difference| difference <= 1e-10), "{quantity} of {peer}");

@@ -33,25 +33,35 @@ fn is_writing(process: u32, file: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use std::fs::File;
+    use std::path::Path;
     use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
 
     use super::writer_of;
+
+    /// Soon the writer is this one. A process that another test starts has the files of this one for a moment.
+    fn assert_writer(path: &Path, expected: Option<u32>) {
+        let start = Instant::now();
+        while writer_of(path) != expected {
+            assert!(start.elapsed() < Duration::from_secs(30), "{:?}, expected {expected:?}", writer_of(path));
+        }
+    }
 
     #[test]
     fn only_another_process_that_writes_is_found() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("file");
         let own = File::create(&path).unwrap();
-        assert_eq!(writer_of(&path), None);
+        assert_writer(&path, None);
         let sleep = |file: File| Command::new("sleep").arg("60").stdout(Stdio::from(file)).spawn().unwrap();
         let mut reader = sleep(File::open(&path).unwrap());
-        assert_eq!(writer_of(&path), None);
+        assert_writer(&path, None);
         let mut writer = sleep(own);
-        assert_eq!(writer_of(&path), Some(writer.id()));
+        assert_writer(&path, Some(writer.id()));
         for process in [&mut reader, &mut writer] {
             process.kill().unwrap();
             process.wait().unwrap();
         }
-        assert_eq!(writer_of(&path), None);
+        assert_writer(&path, None);
     }
 }

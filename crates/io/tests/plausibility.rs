@@ -1,8 +1,5 @@
 //! Scenes that are legal and cannot be meant: each rule just beyond its bound and just inside it.
 
-#[expect(dead_code, reason = "only its sample is needed")]
-mod fixtures;
-
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
@@ -247,7 +244,7 @@ fn sample(time: f64) -> Sample {
         pin_primary: 1.0,
         pin_secondary: 0.0,
         disc_secondary: 0.0,
-        ..fixtures::sample(0)
+        ..crate::fixtures::sample(0)
     }
 }
 

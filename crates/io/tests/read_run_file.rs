@@ -1,11 +1,9 @@
 //! Run files are read back as they were sent; what is none, or is damaged, is told.
 
-mod fixtures;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use fixtures::{header, sample, small, snapshot};
+use crate::fixtures::{header, sample, small, snapshot};
 use plateau_core::observe::{Map, QUANTITIES};
 use plateau_io::run_file::{End, ReadError, RunFile, RunWriter, State};
 

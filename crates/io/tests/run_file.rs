@@ -1,13 +1,11 @@
 //! Run files: what is in them, what is never overwritten, and what is left when something fails.
 
-mod fixtures;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use fixtures::{header, sample, small, snapshot};
+use crate::fixtures::{header, sample, small, snapshot};
 use hdf5::file::OpenMode;
 use hdf5::types::VarLenUnicode;
 use plateau_core::observe::{Map, MapValues, QUANTITIES};
@@ -252,7 +250,7 @@ fn a_reader_sees_a_sample_within_a_second() {
 fn child(function: &str, shell: &str, path: &Path) -> Command {
     let mut command = Command::new("sh");
     command
-        .args(["-c", &format!("{shell} exec \"$0\" --ignored --exact {function} --nocapture")])
+        .args(["-c", &format!("{shell} exec \"$0\" --ignored --exact run_file::{function} --nocapture")])
         .arg(std::env::current_exe().unwrap())
         .env("RUN_FILE", path)
         .stdout(Stdio::piped())
@@ -425,7 +423,7 @@ fn child_fills_the_disk() {
     assert_eq!(writer.finish(&End::Finished).unwrap_err(), error);
 }
 
-/// For the scripts in tests/python: `RUN_FILE=run.h5 cargo test … -- --ignored --exact writes_a_run_for_the_readers`.
+/// For the scripts in tests/python: `RUN_FILE=run.h5 cargo test … -- --ignored --exact run_file::writes_a_run_for_the_readers`.
 #[test]
 #[ignore = "writes the file named by RUN_FILE, for three seconds"]
 fn writes_a_run_for_the_readers() {

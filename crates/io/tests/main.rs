@@ -1,0 +1,19 @@
+//! What the crate promises, from outside. One program, for every one that is linked takes time.
+
+mod bad_scenes;
+mod description;
+mod fixtures;
+mod fuzz_surfaces;
+mod good_scenes;
+mod heights;
+mod hostile_tables;
+mod micrograph;
+mod plausibility;
+mod read_run_file;
+mod run_file;
+mod sdf;
+mod sdf_dialects;
+mod surfaces;
+mod tables;
+mod writing;
+mod x3p;

@@ -1,0 +1,6 @@
+//! What the crate promises, from outside. One program, for every one that is linked takes time.
+
+mod coverage;
+mod designs;
+mod effects;
+mod effects_of_odd_data;
