@@ -39,6 +39,15 @@ fn measured(directory: &WorkingDirectory, arguments: &[&str]) -> (String, Vec<Ro
     (text, rows(&fs::read_to_string(directory.path("accuracy/accuracy.csv")).unwrap()))
 }
 
+/// All that was found, as JSON.
+fn document(directory: &WorkingDirectory) -> serde_json::Value {
+    serde_json::from_str(&fs::read_to_string(directory.path("accuracy/accuracy.json")).unwrap()).unwrap()
+}
+
+fn number_of(value: &serde_json::Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("found {value}, expected a number"))
+}
+
 /// The rows of a CSV text; texts may stand in quotation marks.
 fn rows(csv: &str) -> Vec<Row> {
     let cells = |line: &str| {
@@ -111,13 +120,13 @@ fn weighted_rms(field: &[f64], radii: &[f64], about_mean: bool) -> f64 {
 #[test]
 fn every_error_is_that_of_the_run_files() {
     let directory = with_scene(&[]);
-    let ladders = ["time_acceleration", "load_tolerance", "integrator", "perturbation"];
+    let ladders = ["time_acceleration", "integrator", "perturbation"];
     let (text, rows) = measured(&directory, &["--ladder", &ladders.join(",")]);
     // 20 s are 283 revolutions: with 8 of them at least, m goes up to 35.
     let accelerations: Vec<&str> =
         rows.iter().filter(|row| row["ladder"] == "time_acceleration").map(|row| row["value"].as_str()).collect();
     assert_eq!(accelerations, ["2.0", "5.0", "10.0", "20.0"]);
-    assert_eq!(rows.len(), 4 + 3 + 1 + 3, "{text}");
+    assert_eq!(rows.len(), 4 + 1 + 3, "{text}");
     assert!(text.contains("3 of 5.647 s"), "{text}");
 
     let reference = run(&directory, "reference.h5", &["numerics.time_acceleration=1".to_owned()]);
@@ -126,7 +135,6 @@ fn every_error_is_that_of_the_run_files() {
     for row in &rows {
         let sets = [
             format!("numerics.time_acceleration={}", row["time_acceleration"]),
-            format!("contact.load_tolerance={}", row["load_tolerance"]),
             format!("numerics.integrator={}", row["integrator"]),
             format!("disc.prepare.scale={:?}", 1.0 + number(row, "perturbation")),
         ];
@@ -186,7 +194,7 @@ fn orders_front_and_advice_follow_from_the_table() {
         assert_eq!(!pair[1]["order_note"].is_empty(), means_nothing, "{pair:?}");
     }
     // What took as long as the reference is no choice.
-    let longest = RunFile::open(directory.path("accuracy/accuracy.h5")).number("reference_wall_time");
+    let longest = number_of(&document(&directory)["reference"]["wall_time"]);
     let quicker: Vec<&Row> = rows.iter().filter(|row| point(row).0 < longest).collect();
     for row in &rows {
         let (time, error) = point(row);
@@ -278,9 +286,9 @@ fn a_run_file_is_as_good_a_reference_as_a_run() {
                 expect_near(number(read, name), number(made, name), tolerance, &format!("{file}, {name}"));
             }
         }
-        let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
-        assert_eq!(results.text("reference_file"), file);
-        assert_eq!(results.text("reference_sha256").len(), 64);
+        let results = document(&directory);
+        assert_eq!(results["reference"]["file"], file);
+        assert_eq!(results["reference"]["sha256"].as_str().map(str::len), Some(64));
     }
     // Where windows end between samples, they are as wide as twenty of these: 6 s, which is in units of 20 revolutions five.
     let (text, _) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "other.h5"]);
@@ -300,7 +308,7 @@ fn every_file_has_the_same_numbers() {
     let json = directory.plateau(arguments).quiet_success();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let rows = rows(&fs::read_to_string(directory.path("accuracy/accuracy.csv")).unwrap());
-    let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
+    assert_eq!(document(&directory), json);
     for name in [
         "wall_time",
         "steps",
@@ -311,24 +319,17 @@ fn every_file_has_the_same_numbers() {
         "on_front",
     ] {
         let expected: Vec<f64> = rows.iter().map(|row| number(row, name)).collect();
-        assert_eq!(results.floats(name), expected, "{name}");
         for (run, expected) in json["runs"].as_array().unwrap().iter().zip(expected) {
             expect_near(run[name].as_f64().unwrap(), expected, 1e-15 * expected.abs(), name);
         }
     }
-    assert_eq!(results.text("state"), "finished");
-    assert_eq!(results.number("reference_time_acceleration"), 1.0);
-    assert_eq!(results.number("reference_contact_area_error"), 0.0);
+    assert_eq!(json["state"], "finished");
+    assert_eq!(json["reference"]["time_acceleration"].as_f64(), Some(1.0));
     assert_eq!(json["reference"]["contact_area_error"].as_f64(), Some(0.0));
-    let advice: Vec<&str> = json["advice"].as_array().unwrap().iter().map(|line| line.as_str().unwrap()).collect();
-    assert_eq!(results.text("advice"), advice.join("\n"));
-    expect_near(results.number("window_width"), WINDOW, 1e-12, "width");
-    for (number, end) in results.floats("window_end").into_iter().enumerate() {
-        expect_near(end, (number + 1) as f64 * WINDOW, 1e-12, "end");
-    }
-    let (areas, expected) = (results.floats("contact_area"), results.floats("reference_contact_area"));
-    for (areas, row) in areas.chunks(WINDOWS).zip(&rows) {
-        expect_near(error(areas, &expected), number(row, "contact_area_error"), 1e-15, "error");
+    expect_near(number_of(&json["window_width"]), WINDOW, 1e-12, "width");
+    assert_eq!(json["windows"], WINDOWS);
+    for name in ["program", "source_revision", "host", "scene"] {
+        assert!(json[name].as_str().is_some_and(|text| !text.is_empty()), "{name}");
     }
 
     let figure = Figure::read(&fs::read_to_string(directory.path("accuracy/accuracy.svg")).unwrap());
@@ -373,7 +374,7 @@ fn bad_input_is_refused() {
     let cases: [(&[&str], &[&str]); 14] = [
         (
             &["scene.toml", "--ladder", "steps"],
-            &["'steps'", "time_acceleration, tolerance, mesh, load_tolerance, integrator, perturbation"],
+            &["'steps'", "time_acceleration, tolerance, mesh, integrator, perturbation"],
         ),
         (&["scene.toml", "--budget", "10"], &["'10'", "a time such as"]),
         (&["scene.toml", "--budget", "0 s"], &["expected more than 0 s"]),
@@ -460,12 +461,12 @@ fn a_small_budget_has_a_reference_between_the_model_and_the_scene() {
         text.contains("the finest that the budget of 20.0 s allows; for 1, the model itself, give --budget"),
         "{text}"
     );
-    let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
-    let reference = results.number("reference_time_acceleration");
+    let results = document(&directory);
+    let reference = number_of(&results["reference"]["time_acceleration"]);
     assert!(1.0 < reference && reference < 1000.0, "{text}");
     assert!(rows.iter().all(|row| number(row, "time_acceleration") > reference), "{text}");
     assert!(rows.iter().any(|row| row["value"] == "1000.0"), "{text}");
-    assert!(results.number("reference_contact_area_error") > 0.0, "{text}");
+    assert!(number_of(&results["reference"]["contact_area_error"]) > 0.0, "{text}");
 }
 
 #[test]
@@ -473,9 +474,9 @@ fn the_own_error_of_a_reference_is_that_of_its_opening_and_grows_with_the_scene(
     let directory = with_scene(&[]);
     drop(run(&directory, "five.h5", &["numerics.time_acceleration=5".to_owned()]));
     let (text, rows) = measured(&directory, &["--ladder", "integrator,mesh", "--reference", "five.h5"]);
-    let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
+    let results = document(&directory);
     // Windows of the opening are whole revolutions with 5 and with 20: as wide as those of all runs.
-    let end = results.number("reference_opening_end");
+    let end = number_of(&results["reference"]["opening_end"]);
     let windows = (end / WINDOW).round() as usize;
     assert!((1..=WINDOWS).contains(&windows) && (end / WINDOW - windows as f64).abs() < 1e-12, "{end}");
     let areas = |time_acceleration: &str| {
@@ -486,10 +487,10 @@ fn the_own_error_of_a_reference_is_that_of_its_opening_and_grows_with_the_scene(
     };
     let [model, reference, scene] = ["1", "5", "20"].map(areas);
     let opening = error(&reference, &model);
-    expect_near(results.number("reference_opening_error"), opening, 1e-12, "error in the opening");
+    expect_near(number_of(&results["reference"]["opening_error"]), opening, 1e-12, "error in the opening");
     let own = rows.iter().find(|row| row["value"] == "20.0").expect("the scene's own run");
     let growth = (number(own, "contact_area_error") / error(&scene, &reference)).max(1.0);
-    let own_error = results.number("reference_contact_area_error");
+    let own_error = number_of(&results["reference"]["contact_area_error"]);
     expect_near(own_error, opening * growth, 1e-12, "own error");
     assert!(own_error > 0.0 && text.contains(" in contact area: "), "{text}");
     for row in &rows {
@@ -510,18 +511,15 @@ fn nothing_is_advised_from_a_reference_that_is_hardly_better() {
     let directory = with_scene(&[]);
     drop(run(&directory, "half.h5", &["numerics.time_acceleration=10".to_owned()]));
     let (text, rows) = measured(&directory, &["--ladder", "integrator", "--reference", "half.h5"]);
-    let results = RunFile::open(directory.path("accuracy/accuracy.h5"));
-    let own_error = results.number("reference_contact_area_error");
+    let results = document(&directory);
+    let own_error = number_of(&results["reference"]["contact_area_error"]);
     for row in &rows {
         assert!(number(row, "contact_area_error") < 3.0 * own_error, "{own_error}: {row:?}");
         assert_eq!([number(row, "above_reference_error"), number(row, "on_front")], [0.0, 0.0]);
     }
-    let advice = results.text("advice");
-    assert!(advice.starts_with("no setting is advised") && !advice.contains('\n'), "{advice}");
-    assert!(
-        text.contains(&advice) && text.contains("in brackets: the reference's own error is of that size"),
-        "{text}"
-    );
+    let advice = results["advice"][0].as_str().unwrap();
+    assert!(advice.starts_with("no setting is advised") && results["advice"][1].is_null(), "{advice}");
+    assert!(text.contains(advice) && text.contains("in brackets: the reference's own error is of that size"), "{text}");
     assert!(!text.contains("error in contact area use"), "{text}");
 
     let figure = Figure::read(&fs::read_to_string(directory.path("accuracy/accuracy.svg")).unwrap());

@@ -1,19 +1,41 @@
 //! What was found, as CSV and as JSON.
 
+use plateau_io::dataset_file::now;
+use plateau_io::run_file::InputFile;
 use serde_json::{Map, Value, json};
 
 use super::advice::advice;
 use super::columns::{COLUMNS, TEXT_COLUMNS};
 use super::report::{Report, Row};
 use crate::csv_table::csv_table;
+use crate::{machine, version};
+
+/// How the runs were made.
+#[derive(Debug, Clone)]
+pub struct Making {
+    /// The whole resolved scene.
+    pub scene: String,
+    /// Files that the scene reads.
+    pub inputs: Vec<InputFile>,
+    /// Workers.
+    pub workers: usize,
+    /// Instruction set.
+    pub instruction_set: &'static str,
+    /// Budget, s.
+    pub budget: f64,
+    /// When it was started.
+    pub start_time: String,
+    /// Whether all runs were made: `finished`, or `interrupted`.
+    pub state: &'static str,
+}
 
 /// A line of names and one line for each row; what is not known is empty.
 pub fn csv(rows: &[Row]) -> String {
-    let names = TEXT_COLUMNS.iter().map(|column| column.name).chain(COLUMNS.iter().map(|column| column.name));
+    let names = TEXT_COLUMNS.iter().map(|(name, _)| *name).chain(COLUMNS.iter().map(|(name, _)| *name));
     let header: Vec<String> = names.map(str::to_owned).collect();
     let lines = rows.iter().map(|row| {
-        let texts = TEXT_COLUMNS.iter().map(|column| (column.value)(row));
-        texts.chain(COLUMNS.iter().map(|column| number((column.value)(row)))).collect()
+        let texts = TEXT_COLUMNS.iter().map(|(_, value)| value(row));
+        texts.chain(COLUMNS.iter().map(|(_, value)| number(value(row)))).collect()
     });
     csv_table(std::iter::once(header).chain(lines))
 }
@@ -24,17 +46,23 @@ fn number(value: f64) -> String {
 }
 
 /// One JSON document; what is not known is null.
-pub fn json(report: &Report) -> String {
+pub fn json(report: &Report, making: &Making) -> String {
     let reference = &report.reference;
     let made = &reference.provenance;
     let document = json!({
         "title": report.title,
+        "state": making.state,
         "reference": {
             "file": made.file.as_ref().map(|file| &file.path),
+            "sha256": made.file.as_ref().map(|file| &file.sha256),
             "time_acceleration": reference.time_acceleration,
             "steps": reference.outcome.steps,
             "wall_time": reference.outcome.wall_time,
             "workers": made.workers,
+            "program": made.program,
+            "source_revision": made.source_revision,
+            "host": made.host,
+            "start_time": made.start_time,
             "contact_area_error": report.own_error.contact_area(),
             "opening_error": report.own_error.opening,
             "opening_end": report.own_error.end,
@@ -44,14 +72,25 @@ pub fn json(report: &Report) -> String {
         "runs": report.rows.iter().map(row).collect::<Vec<_>>(),
         "advice": advice(report),
         "notes": report.notes,
+        "program": version::program(),
+        "source_revision": version::REVISION,
+        "host": machine::host(),
+        "processor": machine::processor(),
+        "workers": making.workers,
+        "instruction_set": making.instruction_set,
+        "budget": making.budget,
+        "start_time": making.start_time,
+        "end_time": now(),
+        "inputs": making.inputs,
+        "scene": making.scene,
     });
     format!("{document:#}\n")
 }
 
 fn row(row: &Row) -> Value {
-    let texts = TEXT_COLUMNS.iter().map(|column| (column.name.to_owned(), Value::from((column.value)(row))));
+    let texts = TEXT_COLUMNS.iter().map(|(name, value)| ((*name).to_owned(), Value::from(value(row))));
     // JSON has no NaN: such a number becomes null.
-    let numbers = COLUMNS.iter().map(|column| (column.name.to_owned(), Value::from((column.value)(row))));
+    let numbers = COLUMNS.iter().map(|(name, value)| ((*name).to_owned(), Value::from(value(row))));
     Value::Object(texts.chain(numbers).collect::<Map<_, _>>())
 }
 

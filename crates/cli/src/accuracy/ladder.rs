@@ -17,8 +17,6 @@ pub const COARSENINGS: [usize; 3] = [2, 4, 8];
 const TOLERANCES: [f64; 5] = [0.002, 0.005, 0.01, 0.02, 0.05];
 /// Largest acceleration of such a run, unless the scene says another.
 const LARGEST: f64 = 1000.0;
-/// Load tolerances that are tried, besides the scene's own.
-const LOAD_TOLERANCES: [f64; 4] = [1e-12, 1e-9, 1e-6, 1e-3];
 /// Parts of themselves by which initial heights are changed.
 const PERTURBATIONS: [f64; 3] = [1e-9, 1e-6, 1e-4];
 
@@ -38,7 +36,6 @@ impl Rung {
             Ladder::TimeAcceleration => self.numerics.time_acceleration,
             Ladder::Tolerance => self.numerics.adaptive.map_or(f64::NAN, |adaptive| adaptive.tolerance),
             Ladder::Mesh => self.numerics.coarsening as f64,
-            Ladder::LoadTolerance => self.numerics.load_tolerance,
             Ladder::Integrator => f64::NAN,
             Ladder::Perturbation => self.numerics.perturbation,
         }
@@ -50,7 +47,6 @@ impl Rung {
             Ladder::TimeAcceleration => format!("time_acceleration = {}", self.value()),
             Ladder::Tolerance => self.numerics.acceleration(),
             Ladder::Mesh => format!("mesh coarsened {} times", self.value()),
-            Ladder::LoadTolerance => format!("load_tolerance = {:e}", self.value()),
             Ladder::Integrator => format!("integrator = \"{}\"", integrator_name(self.numerics.integrator)),
             Ladder::Perturbation => format!("disc heights times 1 + {:e}", self.value()),
         }
@@ -111,12 +107,6 @@ pub fn rungs(
             Ladder::Mesh => {
                 rungs.extend(coarsenings.iter().map(|factor| rung(*ladder, Numerics { coarsening: *factor, ..own })));
             }
-            Ladder::LoadTolerance => rungs.extend(
-                LOAD_TOLERANCES
-                    .iter()
-                    .filter(|tolerance| **tolerance != own.load_tolerance)
-                    .map(|tolerance| rung(*ladder, Numerics { load_tolerance: *tolerance, ..own })),
-            ),
             Ladder::Integrator => {
                 let integrator = match own.integrator {
                     Integrator::Explicit => Integrator::Exponential,
@@ -140,7 +130,6 @@ mod tests {
     const OWN: Numerics = Numerics {
         time_acceleration: 20.0,
         coarsening: 1,
-        load_tolerance: 1e-9,
         integrator: Integrator::Explicit,
         perturbation: 0.0,
         adaptive: None,
@@ -156,14 +145,7 @@ mod tests {
     #[test]
     fn rungs_are_coarser_than_the_reference_and_differ_in_one_thing() {
         let accelerations = [1.0, 5.0, 20.0, 50.0];
-        let all = [
-            Ladder::TimeAcceleration,
-            Ladder::Tolerance,
-            Ladder::Mesh,
-            Ladder::LoadTolerance,
-            Ladder::Integrator,
-            Ladder::Perturbation,
-        ];
+        let all = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh, Ladder::Integrator, Ladder::Perturbation];
         let all = rungs(&all, OWN, &accelerations, &[2], 1.0);
         let names: Vec<String> = all.iter().map(Rung::name).collect();
         assert_eq!(
@@ -178,16 +160,13 @@ mod tests {
                 "time_acceleration = { tolerance = 0.02, max = 1000 }",
                 "time_acceleration = { tolerance = 0.05, max = 1000 }",
                 "mesh coarsened 2 times",
-                "load_tolerance = 1e-12",
-                "load_tolerance = 1e-6",
-                "load_tolerance = 1e-3",
                 "integrator = \"exponential\"",
                 "disc heights times 1 + 1e-9",
                 "disc heights times 1 + 1e-6",
                 "disc heights times 1 + 1e-4",
             ]
         );
-        assert_eq!(all[13].numerics.time_acceleration, 1.0);
+        assert_eq!(all[10].numerics.time_acceleration, 1.0);
         assert_eq!(all[8].full_name(), "time_acceleration = 20, mesh coarsened 2 times");
         // A scene that chooses is run first, and the others with its choice.
         let chosen = Numerics { adaptive: Some(Adaptive { tolerance: 0.02, largest: 300.0 }), ..OWN.accelerated(1.0) };

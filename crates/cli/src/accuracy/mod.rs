@@ -15,7 +15,7 @@
 //! | order of convergence | [`order`] |
 //! | which runs are worth their time, and when that can be told | [`choice`], in sentences [`mod@advice`] |
 //! | all that was found | [`report`], its numbers in [`columns`] |
-//! | as text, CSV, JSON and HDF5 | [`mod@text`], [`documents`], [`hdf5`] |
+//! | as text, CSV and JSON | [`mod@text`], [`documents`] |
 
 mod advice;
 mod choice;
@@ -23,7 +23,6 @@ mod coarsening;
 mod columns;
 mod comparison;
 mod documents;
-mod hdf5;
 mod history;
 mod ladder;
 mod measure;
@@ -39,8 +38,7 @@ mod search;
 mod text;
 mod windows;
 
-pub use documents::{csv, json};
-pub use hdf5::{Making, content};
+pub use documents::{Making, csv, json};
 pub use reference::{ReadReference, read as read_reference};
 pub use report::{Report, Row};
 pub use search::{Found, Wish, search};

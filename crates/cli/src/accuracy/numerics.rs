@@ -15,8 +15,6 @@ pub struct Numerics {
     pub adaptive: Option<Adaptive>,
     /// Cells of the scene's mesh along a cell; 1 is the scene's mesh.
     pub coarsening: usize,
-    /// Load tolerance.
-    pub load_tolerance: f64,
     /// How wear follows from contact.
     pub integrator: Integrator,
     /// Initial heights of the disc are changed by this part of themselves; 0 leaves them as they are.
@@ -31,7 +29,6 @@ impl Numerics {
             time_acceleration: parameters.time_acceleration,
             adaptive: scene.adaptive,
             coarsening: 1,
-            load_tolerance: parameters.load_tolerance,
             integrator: parameters.integrator,
             perturbation: 0.0,
         }
@@ -62,7 +59,6 @@ impl Numerics {
     pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>, duration: f64) -> Parameters {
         let mut parameters = Parameters {
             time_acceleration: self.time_acceleration,
-            load_tolerance: self.load_tolerance,
             integrator: self.integrator,
             ..scene.parameters.clone()
         };

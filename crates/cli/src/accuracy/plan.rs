@@ -170,7 +170,6 @@ mod tests {
             time_acceleration,
             adaptive: None,
             coarsening: 1,
-            load_tolerance: 1e-9,
             integrator: Integrator::Explicit,
             perturbation: 0.0,
         }

@@ -156,15 +156,6 @@ impl Report {
 
     /// Says what the rows of a ladder show together.
     fn note_ladders(&mut self) {
-        let tolerances = || self.rows.iter().filter(|row| row.rung.ladder == Ladder::LoadTolerance);
-        let found: Vec<&Measured> = tolerances().filter_map(|row| row.result.as_ref().ok()).collect();
-        if !found.is_empty() && found.iter().all(|measured| measured.change == 0.0) {
-            let residual = found.iter().map(|measured| measured.load_residual).fold(0.0, f64::max);
-            self.notes.push(format!(
-                "load_tolerance changes nothing: the load balance is solved to rounding in any case (residual \
-                 {residual:.1e})"
-            ));
-        }
         let perturbed = self.rows.iter().filter(|row| row.rung.ladder == Ladder::Perturbation).map(Row::error);
         if let Some(error) = perturbed.filter(|error| !error.is_nan()).reduce(f64::max) {
             self.notes.push(format!(

@@ -15,14 +15,14 @@ pub struct AccuracyArguments {
     /// Wall time that all runs together may take; the reference is as fine as half of it allows, and finer than the scene
     #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
     pub budget: f64,
-    /// Ladders that are climbed, with commas between; all but perturbation unless given
+    /// Ladders that are climbed, with commas between; all but mesh and perturbation unless given
     #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
     pub ladders: Vec<Ladder>,
     /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here; finer than
     /// the scene
     #[arg(long, value_name = "RUN")]
     pub reference: Option<PathBuf>,
-    /// Folder for accuracy.csv, .h5, .png and .svg, made if it is not there
+    /// Folder for accuracy.csv, .json, .png and .svg, made if it is not there
     #[arg(short, long, value_name = "DIR", default_value = "accuracy")]
     pub output: PathBuf,
     /// Replace these files if they exist
@@ -42,8 +42,6 @@ pub enum Ladder {
     Tolerance,
     /// Coarser meshes, with the initial surfaces averaged
     Mesh,
-    /// Load tolerance
-    LoadTolerance,
     /// The other integrator of wear
     Integrator,
     /// The reference anew with initial heights that differ a little: how much of the errors is chance
@@ -57,7 +55,6 @@ impl Ladder {
             Self::TimeAcceleration => "time_acceleration",
             Self::Tolerance => "tolerance",
             Self::Mesh => "mesh",
-            Self::LoadTolerance => "load_tolerance",
             Self::Integrator => "integrator",
             Self::Perturbation => "perturbation",
         }

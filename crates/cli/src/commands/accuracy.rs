@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::PathBuf;
 
-use plateau_io::dataset_file;
+use plateau_io::dataset_file::now;
 use plateau_io::run_file::InputFile;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
 use super::load_scene;
-use crate::accuracy::{Found, Making, ReadReference, Wish, content, csv, json, read_reference, search, text};
+use crate::accuracy::{Found, Making, ReadReference, Wish, csv, json, read_reference, search, text};
 use crate::arguments::{AccuracyArguments, Ladder};
 use crate::execution::decide;
 use crate::failure::Failure;
@@ -18,11 +18,10 @@ use crate::output;
 use crate::table::print;
 
 /// The ladders that are climbed unless others are asked for.
-const USUAL: [Ladder; 5] =
-    [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Mesh, Ladder::LoadTolerance, Ladder::Integrator];
+const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Integrator];
 
 /// Files that are written, by their endings.
-const FILES: [&str; 4] = ["accuracy.csv", "accuracy.h5", "accuracy.png", "accuracy.svg"];
+const FILES: [&str; 4] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accuracy.svg"];
 
 /// Measures the errors of a scene's runs.
 pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
@@ -48,7 +47,7 @@ fn measure_into(
     reference: Option<ReadReference>,
 ) -> Result<(), Failure> {
     let places = places(arguments, scene, &loaded.inputs)?;
-    let start_time = dataset_file::now();
+    let start_time = now();
     let parameters = &scene.parameters;
     let execution =
         decide(scene.workers, 1, &arguments.execution, parameters, &loaded.surfaces).map_err(Failure::run)?;
@@ -68,14 +67,15 @@ fn measure_into(
         state: if stopped.is_none() { "finished" } else { "interrupted" },
     };
     let figure = figure(&report);
-    let [csv_file, hdf5_file, png_file, svg_file] = &places;
+    let document = json(&report, &making);
+    let [csv_file, json_file, png_file, svg_file] = &places;
     let force = arguments.force;
     output::write(csv_file, csv(&report.rows).as_bytes(), force)?;
-    dataset_file::write(hdf5_file, force, &content(&report, &making)).map_err(Failure::run)?;
+    output::write(json_file, document.as_bytes(), force)?;
     output::write(png_file, &figure.png().map_err(Failure::run)?, force)?;
     output::write(svg_file, figure.svg().map_err(Failure::run)?.as_bytes(), force)?;
     if arguments.scene.json {
-        print(&json(&report))?;
+        print(&document)?;
     } else {
         let files: String = places.iter().map(|path| format!("wrote {}\n", path.display())).collect();
         print(&format!("{}\n{files}", text(&report)))?;
@@ -104,8 +104,8 @@ fn places(
     Ok(places)
 }
 
-/// Every file that the scene reads with its digest, as JSON.
-fn inputs(scene: &Scene, surfaces: &[(PathBuf, String)]) -> Result<String, Failure> {
+/// Every file that the scene reads with its digest.
+fn inputs(scene: &Scene, surfaces: &[(PathBuf, String)]) -> Result<Vec<InputFile>, Failure> {
     let mut inputs = InputFile::read_all(&scene.files)
         .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
     inputs.extend(
@@ -113,5 +113,5 @@ fn inputs(scene: &Scene, surfaces: &[(PathBuf, String)]) -> Result<String, Failu
             .iter()
             .map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }),
     );
-    serde_json::to_string(&inputs).map_err(Failure::run)
+    Ok(inputs)
 }
