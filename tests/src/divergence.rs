@@ -55,15 +55,17 @@ pub enum Difference {
     End([String; 2]),
 }
 
-/// Takes the steps of two simulations, which are given as the functions that make them, side by side, and compares all
+/// Takes so many steps of two simulations, which are given as the functions that make them, side by side, and compares all
 /// numbers of their samples and all their maps every 100 steps, bit for bit.
 ///
 /// # Panics
-/// When either cannot be made twice with the same number of steps.
-pub fn first_divergence(reference: impl Fn() -> Simulation, other: impl Fn() -> Simulation) -> Option<Divergence> {
+/// When either cannot be made, or a step fails.
+pub fn first_divergence(
+    steps: u64,
+    reference: impl Fn() -> Simulation,
+    other: impl Fn() -> Simulation,
+) -> Option<Divergence> {
     let mut pair = [reference(), other()];
-    let [steps, other_steps] = pair.each_ref().map(|simulation| simulation.parameters().steps);
-    assert_eq!(steps, other_steps, "steps to take");
     let mut equal = 0;
     for step in (0..steps).step_by(STEPS_BETWEEN as usize).chain([steps]) {
         let differences = differences(&mut pair, step);
@@ -188,10 +190,11 @@ mod tests {
     use super::*;
     use crate::scenes::{random_surfaces, wear_only};
 
+    const STEPS: u64 = 350;
+
     /// A small scene with plateaus.
     fn scene() -> (Parameters, InitialSurfaces) {
         let mut parameters = wear_only(11, 40, 9);
-        parameters.steps = 350;
         parameters.plateaus.formation = true;
         parameters.plateaus.captured_fraction = 0.5;
         let surfaces = random_surfaces(&parameters.mesh, 1);
@@ -213,7 +216,7 @@ mod tests {
 
     #[test]
     fn equal_simulations_do_not_part() {
-        assert_eq!(first_divergence(|| start(scene()), || start(scene())), None);
+        assert_eq!(first_divergence(STEPS, || start(scene()), || start(scene())), None);
     }
 
     #[test]
@@ -224,7 +227,7 @@ mod tests {
             *height = f64::from_bits(height.to_bits() + 1);
             start((parameters, surfaces))
         };
-        let mut divergence = first_divergence(|| start(scene()), other).expect("a difference");
+        let mut divergence = first_divergence(STEPS, || start(scene()), other).expect("a difference");
         let height = scene().1.disc_height[11 * 23 + 4];
         let values = [height, f64::from_bits(height.to_bits() + 1)];
         let cells = |map| Difference::Cells { map, count: [1, 440], first: (4, 23), values };
@@ -253,7 +256,6 @@ mod tests {
         let make = |wear_height: f64| {
             move || {
                 let mut parameters = wear_only(3, 40, 2);
-                parameters.steps = 350;
                 parameters.materials.wear_height = wear_height;
                 let mut disc_height = vec![0.0; parameters.mesh.disc_cells()];
                 disc_height[3 * 7 + 2] = 5e-6;
@@ -262,7 +264,7 @@ mod tests {
                 start((parameters, InitialSurfaces { disc_height, pin_height, pin_base }))
             }
         };
-        let divergence = first_divergence(make(5e-6), make(6e-6)).expect("a difference");
+        let divergence = first_divergence(STEPS, make(5e-6), make(6e-6)).expect("a difference");
         assert_eq!((divergence.step, divergence.repeatable), (35, true));
         assert!(divergence.differences.contains(&Difference::Cells {
             map: "pin_height",
@@ -279,7 +281,7 @@ mod tests {
             parameters.plateaus.captured_fraction = 0.25;
             start((parameters, surfaces))
         };
-        let divergence = first_divergence(|| start(scene()), other).expect("a difference");
+        let divergence = first_divergence(STEPS, || start(scene()), other).expect("a difference");
         // What is worn in step 1 is shared out in step 2 (model 4.4).
         assert_eq!((divergence.step, &names(&divergence)[..2]), (1, &["pool", "emitted"][..]));
         assert!(!divergence.to_string().contains("height"), "{divergence}");
@@ -293,7 +295,7 @@ mod tests {
             parameters.plateaus.captured_fraction = if made.replace(made.get() + 1) == 0 { 0.25 } else { 0.5 };
             start((parameters, surfaces))
         };
-        let divergence = first_divergence(|| start(scene()), other).expect("a difference");
+        let divergence = first_divergence(STEPS, || start(scene()), other).expect("a difference");
         assert_eq!((divergence.step, divergence.repeatable), (STEPS_BETWEEN, false));
         assert!(divergence.to_string().contains("timing decides"), "{divergence}");
     }
@@ -305,7 +307,7 @@ mod tests {
             parameters.normal_force = f64::INFINITY;
             start((parameters, surfaces))
         };
-        let divergence = first_divergence(|| start(scene()), other).expect("a difference");
+        let divergence = first_divergence(STEPS, || start(scene()), other).expect("a difference");
         assert_eq!((divergence.step, names(&divergence)), (1, vec!["end"]));
         assert!(divergence.to_string().ends_with(" instead of no error"), "{divergence}");
     }

@@ -30,9 +30,7 @@ pub fn wear_only(rows: usize, disc_columns: usize, pin_columns: usize) -> Parame
         mesh,
         normal_force: 10.0,
         angular_velocity: 89.0,
-        steps: 0,
         foundation_height: 50e-6,
-        load_tolerance: 1e-12,
         materials: paper_materials(),
         plateaus: PlateauRules {
             captured_fraction: 0.0,

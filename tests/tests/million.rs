@@ -38,9 +38,9 @@ fn expect_balance_over_a_million_steps(debris: DebrisRule, sets: &[&str]) {
     let steps = format!("operation.steps={STEPS}");
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).chain([steps]).collect();
     let scene = scene::load(Path::new(&path), &sets).unwrap();
-    assert_eq!((scene.parameters.steps, scene.parameters.plateaus.debris), (STEPS, debris));
+    assert_eq!((scene.steps, scene.parameters.plateaus.debris), (STEPS, debris));
     let is_local = debris == DebrisRule::Local;
-    let tolerance = scene.parameters.load_tolerance;
+    let tolerance = scene.load_tolerance;
     let mesh = scene.parameters.mesh.clone();
     let initial = surface::load(&scene).unwrap().surfaces;
     let reference_height = initial.disc_height.iter().copied().fold(f64::NEG_INFINITY, f64::max);

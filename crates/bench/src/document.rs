@@ -81,8 +81,6 @@ pub struct Settings {
     pub sets: Vec<String>,
     /// m, where it is the same for all that is measured.
     pub time_acceleration: Option<f64>,
-    /// Largest accepted residual of the load balance, where it is the same for all.
-    pub load_tolerance: Option<f64>,
     /// Blocks of each entry.
     pub repeats: usize,
     /// About how long a block of the slowest entry on a mesh takes, ms; none where a block is a run.

@@ -140,8 +140,8 @@ pub fn python() -> Result<PathBuf, BenchError> {
     Ok(String::from_utf8_lossy(&output.stdout).trim_end().into())
 }
 
-/// Writes a case as step.py reads it.
-pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
+/// Writes a case as step.py reads it, with the load tolerance of its solver.
+pub fn export(case: &Case, load_tolerance: f64, directory: &Path) -> Result<(), BenchError> {
     let Case { parameters, surfaces } = case;
     supported(parameters)?;
     let Parameters { mesh, materials, plateaus, .. } = parameters;
@@ -160,7 +160,7 @@ pub fn export(case: &Case, directory: &Path) -> Result<(), BenchError> {
         "wear_rate": materials.pin_primary.specific_wear_rate,
         "wear_height": materials.wear_height,
         "normal_force": parameters.normal_force,
-        "load_tolerance": parameters.load_tolerance,
+        "load_tolerance": load_tolerance,
         "time_acceleration": parameters.time_acceleration,
         "debris": if plateaus.debris == DebrisRule::Local { "local" } else { "contact" },
         "captured_fraction": plateaus.captured_fraction,

@@ -79,7 +79,6 @@ impl Options {
             scene: source.name(),
             sets: source.sets.clone(),
             time_acceleration: Some(parameters.time_acceleration),
-            load_tolerance: Some(parameters.load_tolerance),
             repeats: pace.repeats,
             block_milliseconds: Some(pace.block.as_secs_f64() * 1e3),
             warm_up_steps: pace.warm_up,

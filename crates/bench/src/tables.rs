@@ -34,10 +34,9 @@ fn circumstances(document: &Document) -> String {
     let (commit, changed) = build.revision.split_once('-').unwrap_or((&build.revision, ""));
     let commit: String = commit.chars().take(12).collect();
     let changed = if changed.is_empty() { "" } else { ", changed" };
-    let tolerance = settings.load_tolerance.map_or(String::new(), |bound| format!(", load tolerance {bound:e}"));
     let blocks = settings.block_milliseconds.map_or("runs".into(), |time| format!("blocks of about {time} ms"));
     format!(
-        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}{tolerance}; \
+        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}; \
          median of {} {blocks}, measured in turn.{quick}",
         build.compiler, build.profile, build.target, settings.scene, settings.repeats,
     )

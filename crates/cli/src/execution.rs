@@ -3,10 +3,9 @@
 use std::time::{Duration, Instant};
 
 use plateau_core::kernel::InstructionSet;
-use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 use plateau_core::state::InitialSurfaces;
-use plateau_io::scene::recipe::Workers;
+use plateau_io::scene::recipe::{Scene, Workers};
 
 use crate::arguments::{EngineArgument, ExecutionArguments};
 use crate::message;
@@ -23,12 +22,12 @@ const WARM_UP_STEPS: u64 = 200;
 /// # Errors
 /// [`SimulationError`] when a trial fails.
 pub fn decide(
-    workers: Workers,
+    scene: &Scene,
     ranks: usize,
     arguments: &ExecutionArguments,
-    parameters: &Parameters,
     surfaces: &InitialSurfaces,
 ) -> Result<Execution, SimulationError> {
+    let workers = scene.workers;
     let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
     if arguments.engine == EngineArgument::Plain {
         if ranks > 1 {
@@ -51,7 +50,7 @@ pub fn decide(
     }
     let cores = cores();
     match workers {
-        Workers::Auto => fastest(execution, cores, parameters, surfaces),
+        Workers::Auto => fastest(execution, cores, scene, surfaces),
         Workers::Count(workers) => {
             if workers > cores {
                 message::warning(format_args!(
@@ -72,7 +71,7 @@ pub fn cores() -> usize {
 fn fastest(
     execution: Execution,
     cores: usize,
-    parameters: &Parameters,
+    scene: &Scene,
     surfaces: &InitialSurfaces,
 ) -> Result<Execution, SimulationError> {
     let mut candidates: Vec<usize> = (0..).map(|power| 1 << power).take_while(|workers| *workers < cores).collect();
@@ -80,8 +79,8 @@ fn fastest(
     let mut trials = Vec::new();
     for workers in candidates {
         let execution = Execution { workers, ..execution };
-        let mut simulation = Simulation::with_execution(parameters.clone(), surfaces.clone(), execution)?;
-        trials.push((time_per_step(&mut simulation, TRIAL)?, workers));
+        let mut simulation = Simulation::with_execution(scene.parameters.clone(), surfaces.clone(), execution)?;
+        trials.push((time_per_step(&mut simulation, scene.steps, TRIAL)?, workers));
     }
     let (_, workers) = trials.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 1));
     let times: Vec<String> =
@@ -90,13 +89,12 @@ fn fastest(
     Ok(Execution { workers, ..execution })
 }
 
-/// Wall time of a step, s: measured for about as long as `trial` on the first steps of a simulation, after some to warm up.
+/// Wall time of a step, s: measured for about as long as `trial` on the first steps of a simulation, after some to warm up; step
+/// `last` is the last, at the latest.
 ///
 /// # Errors
 /// [`SimulationError`] when these steps fail.
-pub fn time_per_step(simulation: &mut Simulation, trial: Duration) -> Result<f64, SimulationError> {
-    // What comes after the end of a run is not its business.
-    let last = simulation.parameters().steps.max(1);
+pub fn time_per_step(simulation: &mut Simulation, last: u64, trial: Duration) -> Result<f64, SimulationError> {
     let warm_up = Instant::now();
     while simulation.steps_done() < WARM_UP_STEPS.min(last / 2) && warm_up.elapsed() < trial {
         simulation.advance()?;

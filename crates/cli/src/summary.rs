@@ -85,7 +85,7 @@ impl Summary {
             worn: last.worn_pin + last.worn_resin + last.worn_disc,
             emitted: last.emitted,
             load_residual: course.largest_load_residual,
-            load_tolerance: scene.parameters.load_tolerance,
+            load_tolerance: scene.load_tolerance,
             balance_residual: last.balance_residual,
             warnings: scene.warnings.clone(),
         }

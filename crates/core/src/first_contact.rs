@@ -88,9 +88,7 @@ mod tests {
             mesh: Mesh::new(7, 60, 11, 20e-3, 21e-3).unwrap(),
             normal_force,
             angular_velocity: 89.0,
-            steps: 1,
             foundation_height: 50e-6,
-            load_tolerance: 1e-9,
             materials: Materials {
                 disc_primary: disc,
                 disc_secondary: disc,

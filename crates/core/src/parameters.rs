@@ -57,12 +57,8 @@ pub struct Parameters {
     pub normal_force: f64,
     /// ω, rad/s.
     pub angular_velocity: f64,
-    /// Steps to simulate.
-    pub steps: u64,
     /// h, m: height of the elastic foundation.
     pub foundation_height: f64,
-    /// Largest accepted |Σ k A u − F_N| / F_N.
-    pub load_tolerance: f64,
     /// Properties by (body, status).
     pub materials: Materials,
     /// Formation and destruction.

@@ -52,9 +52,9 @@ fn the_example_of_the_format_gives_its_values() {
     assert_eq!(parameters.normal_force, 47.0);
     assert_eq!(parameters.angular_velocity, 850.0 * TAU / 60.0);
     // A revolution takes 60/850 s: 3000 s are 42500 revolutions of 2764 steps.
-    assert_eq!(parameters.steps, 42_500 * 2764);
+    assert_eq!(scene.steps, 42_500 * 2764);
     assert_eq!(parameters.foundation_height, 50e-6);
-    assert_eq!(parameters.load_tolerance, 1e-9);
+    assert_eq!(scene.load_tolerance, 1e-9);
     let disc = Material { youngs_modulus: 1e11, poisson_ratio: 0.27, specific_wear_rate: 0.0 };
     assert_eq!((parameters.materials.disc_primary, parameters.materials.disc_secondary), (disc, disc));
     assert_eq!(parameters.materials.pin_resin.youngs_modulus, 1e5);
@@ -92,7 +92,7 @@ fn what_is_absent_gets_the_default_of_the_format() {
     let parameters = &scene.parameters;
     // Sliding speed is at the mean radius, 22 mm.
     assert_eq!(parameters.angular_velocity, 2.0 / (0.5 * (0.02 + 0.024)));
-    assert_eq!((parameters.steps, parameters.load_tolerance), (1000, 1e-9));
+    assert_eq!((scene.steps, scene.load_tolerance), (1000, 1e-9));
     let plateaus = parameters.plateaus;
     assert_eq!((plateaus.pad_share, plateaus.debris), (0.5, DebrisRule::Contact));
     assert!(plateaus.formation && plateaus.destruction);
@@ -120,8 +120,8 @@ fn the_scenes_of_the_reference_vectors_give_their_values() {
         let parameters = &scene.parameters;
         let mesh = &parameters.mesh;
         assert_eq!([mesh.rows(), mesh.disc_columns(), mesh.pin_columns()], [rows, disc_columns, pin_columns]);
-        assert_eq!((parameters.normal_force, parameters.steps), (force, steps));
-        assert_eq!(parameters.load_tolerance, 1e-12);
+        assert_eq!((parameters.normal_force, scene.steps), (force, steps));
+        assert_eq!(scene.load_tolerance, 1e-12);
         let file = |dataset: &str| (input("init.h5"), Some(dataset.to_owned()));
         let (path, dataset) = file("/disc/height");
         let options = ReadOptions { dataset, ..ReadOptions::default() };
@@ -145,7 +145,7 @@ fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() 
     assert_eq!(scene.files, ["extending.toml", "parts/measured.toml", "parts/../minimal.toml"].map(good));
     assert_eq!(scene.parameters.angular_velocity, 850.0 * TAU / 60.0);
     // 0.5 s at ten revolutions in one: 0.5 · 850/60 · 276/10 = 195.5 steps.
-    assert_eq!(scene.parameters.steps, 196);
+    assert_eq!(scene.steps, 196);
     // Key by key like the primary plateau, but for what is given.
     let materials = &scene.parameters.materials;
     assert_eq!(materials.pin_secondary, Material { poisson_ratio: 0.3, ..materials.pin_primary });
@@ -197,7 +197,7 @@ fn set_overrides_the_scene() {
         ],
     );
     let parameters = &scene.parameters;
-    assert_eq!((parameters.mesh.rows(), parameters.steps), (5, 7));
+    assert_eq!((parameters.mesh.rows(), scene.steps), (5, 7));
     assert_eq!((parameters.normal_force, parameters.foundation_height), (30.0, 6e-5));
     let options = ReadOptions { dataset: Some("/height".to_owned()), ..ReadOptions::default() };
     assert_eq!(scene.disc_surface.source, HeightSource::File { path: input("other.sdf"), options });
@@ -274,7 +274,7 @@ fn a_duration_of_whole_steps_is_not_rounded_up() {
     let steps = |duration: &str| {
         let duration = format!("operation.duration={duration}");
         let sets = ["mesh.disc_columns=100", "operation.rotational_speed=60 rpm", &duration];
-        load("minimal.toml", &sets).parameters.steps
+        load("minimal.toml", &sets).steps
     };
     assert_eq!(steps("0.29 s"), 29);
     assert_eq!(steps("0.57 s"), 57);

@@ -26,13 +26,13 @@ fn scene() -> Scene {
     Scene {
         title: "test".to_owned(),
         path: PathBuf::from("test.toml"),
+        steps: 1,
+        load_tolerance: 1e-9,
         parameters: Parameters {
             mesh: Mesh::new(ROWS, DISC_COLUMNS, PIN_COLUMNS, 20e-3, 24e-3).unwrap(),
             normal_force: 47.0,
             angular_velocity: 90.0,
-            steps: 1,
             foundation_height: 5e-5,
-            load_tolerance: 1e-9,
             materials: Materials {
                 disc_primary: material,
                 disc_secondary: material,

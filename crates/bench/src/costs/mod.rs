@@ -61,7 +61,6 @@ pub fn costs(options: CostOptions) -> Result<(), BenchError> {
         scene: subjects.iter().map(Subject::name).collect::<Vec<_>>().join(", "),
         sets,
         time_acceleration: None,
-        load_tolerance: None,
         repeats: repeats.unwrap_or(if quick { 1 } else { 5 }) as usize,
         block_milliseconds: None,
         warm_up_steps: None,

@@ -70,9 +70,7 @@ pub fn paper(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters
         normal_force: 1.47e6 * mesh.pin_area(),
         mesh,
         angular_velocity: 89.0,
-        steps: u64::MAX,
         foundation_height: 50e-6,
-        load_tolerance: 1e-9,
         materials: Materials {
             disc_primary: disc,
             disc_secondary: disc,

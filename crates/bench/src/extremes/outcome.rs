@@ -10,6 +10,8 @@ use super::local::LocalLaws;
 
 /// Steps of a case that are watched one by one; the others are taken in one go.
 const WATCHED: u64 = 600;
+/// Largest load residual, where rounding of the heights allows it.
+const LOAD: f64 = 1e-9;
 /// Largest share of the worn volume that may be unaccounted for.
 const BALANCE: f64 = 1e-12;
 /// Largest distance that a cell may be worn past its contact by rounding, by the largest overlap of the step.
@@ -105,7 +107,7 @@ fn defect(case: &Case, measured: &Measured) -> Option<String> {
     if !measured.is_finite {
         return Some("a number is not finite".into());
     }
-    if measured.load_residual > case.parameters.load_tolerance.max(load_rounding(case)) {
+    if measured.load_residual > LOAD.max(load_rounding(case)) {
         return Some("load residual".into());
     }
     if measured.balance_residual > BALANCE {

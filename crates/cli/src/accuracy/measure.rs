@@ -10,6 +10,7 @@ use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
 
 use super::history::History;
+use super::numerics::steps_until;
 use super::outcome::{End, Heights, Outcome};
 use super::windows::Windows;
 use crate::drive::{Sink, drive};
@@ -68,7 +69,11 @@ pub fn measure(
         pressure_spread: false,
         checkpoint_every: f64::INFINITY,
     };
-    let end = if scout.is_some() { schedule::End::Time(duration) } else { schedule::End::Steps(parameters.steps) };
+    let end = if scout.is_some() {
+        schedule::End::Time(duration)
+    } else {
+        schedule::End::Steps(steps_until(&parameters, duration))
+    };
     let schedule = Schedule::new(parameters.clock(), end, output.sample_every, &output.maps_at);
     let mut record = Record {
         progress: Progress::named(duration, name),

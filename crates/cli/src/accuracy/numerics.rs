@@ -55,8 +55,8 @@ impl Numerics {
         reference == 1.0 || (self.adaptive.is_none() && reference < self.time_acceleration)
     }
 
-    /// What a simulation of `duration` (s) with these numerics is told; `coarsening` is that of the mesh, if there is one.
-    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>, duration: f64) -> Parameters {
+    /// What a simulation with these numerics is told; `coarsening` is that of the mesh, if there is one.
+    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>) -> Parameters {
         let mut parameters = Parameters {
             time_acceleration: self.time_acceleration,
             integrator: self.integrator,
@@ -65,10 +65,13 @@ impl Numerics {
         if let Some(coarsening) = coarsening {
             parameters.mesh = coarsening.mesh.clone();
         }
-        // As when the scene is run with these numerics.
-        parameters.steps = parameters.clock().steps_until(duration).max(1);
         parameters
     }
+}
+
+/// Steps of a run of `duration` (s), as when the scene is run.
+pub fn steps_until(parameters: &Parameters, duration: f64) -> u64 {
+    parameters.clock().steps_until(duration).max(1)
 }
 
 /// Name of an integrator in a scene.

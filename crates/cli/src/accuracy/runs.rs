@@ -14,7 +14,7 @@ use plateau_io::scene::recipe::Scene;
 use super::coarsening::Coarsening;
 use super::ladder::COARSENINGS;
 use super::measure::{Unfinished, measure};
-use super::numerics::Numerics;
+use super::numerics::{Numerics, steps_until};
 use super::outcome::Outcome;
 use super::windows::Windows;
 use crate::arguments::Ladder;
@@ -79,8 +79,9 @@ impl<'a> Runs<'a> {
     /// Wall time of the first steps on a mesh, s each; without time acceleration, which could be too much for the scene.
     fn try_steps(&self, coarsening: usize) -> Result<f64, Failure> {
         let numerics = Numerics { coarsening, ..Numerics::of(self.scene).accelerated(1.0) };
-        let mut simulation = self.simulation(&numerics, self.scene.duration).map_err(Failure::input)?;
-        time_per_step(&mut simulation, TRIAL).map_err(Failure::run)
+        let mut simulation = self.simulation(&numerics).map_err(Failure::input)?;
+        let last = steps_until(simulation.parameters(), self.scene.duration);
+        time_per_step(&mut simulation, last, TRIAL).map_err(Failure::run)
     }
 
     fn coarsen(&mut self) -> Result<(), MeshError> {
@@ -103,12 +104,12 @@ impl<'a> Runs<'a> {
 
     /// What the simulation of a run is told.
     pub fn parameters(&self, numerics: &Numerics) -> Parameters {
-        numerics.parameters(self.scene, self.coarsening(numerics), self.scene.duration)
+        numerics.parameters(self.scene, self.coarsening(numerics))
     }
 
     /// About how long a run takes, s.
     pub fn seconds(&self, numerics: &Numerics) -> f64 {
-        let steps = self.parameters(numerics).steps as f64;
+        let steps = steps_until(&self.parameters(numerics), self.scene.duration) as f64;
         let time = self.step_times.get(&numerics.coarsening).copied().unwrap_or(0.0) * steps;
         if numerics.adaptive.is_some() && !self.too_smooth { time / USUAL_ACCELERATION } else { time }
     }
@@ -129,7 +130,7 @@ impl<'a> Runs<'a> {
         windows: &Windows,
         name: &str,
     ) -> Result<Outcome, Unfinished> {
-        let mut simulation = self.simulation(numerics, duration)?;
+        let mut simulation = self.simulation(numerics)?;
         let scout = self.scout(numerics, duration)?;
         let outcome = measure(&mut simulation, scout, duration, windows, name, &self.interrupt)?;
         // A run tells better than a trial how long steps take, if it took longer.
@@ -139,20 +140,20 @@ impl<'a> Runs<'a> {
         Ok(outcome)
     }
 
-    fn simulation(&self, numerics: &Numerics, duration: f64) -> Result<Simulation, SimulationError> {
+    fn simulation(&self, numerics: &Numerics) -> Result<Simulation, SimulationError> {
         let coarsening = self.coarsening(numerics);
         let mut surfaces = coarsening.map_or_else(|| self.surfaces.clone(), |coarse| coarse.surfaces(self.surfaces));
         if numerics.perturbation != 0.0 {
             surfaces.disc_height.iter_mut().for_each(|height| *height *= 1.0 + numerics.perturbation);
         }
-        let parameters = numerics.parameters(self.scene, coarsening, duration);
+        let parameters = numerics.parameters(self.scene, coarsening);
         Simulation::with_execution(parameters, surfaces, self.execution)
     }
 
     /// What goes before a run that chooses its acceleration.
     fn scout(&self, numerics: &Numerics, duration: f64) -> Result<Option<Scout>, SimulationError> {
         let Some(adaptive) = &numerics.adaptive else { return Ok(None) };
-        let scout = Scout::new(self.simulation(numerics, duration)?, adaptive, duration)?;
+        let scout = Scout::new(self.simulation(numerics)?, adaptive, duration)?;
         Ok(scout.idle().is_none().then_some(scout))
     }
 }

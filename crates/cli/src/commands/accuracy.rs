@@ -48,9 +48,7 @@ fn measure_into(
 ) -> Result<(), Failure> {
     let places = places(arguments, scene, &loaded.inputs)?;
     let start_time = now();
-    let parameters = &scene.parameters;
-    let execution =
-        decide(scene.workers, 1, &arguments.execution, parameters, &loaded.surfaces).map_err(Failure::run)?;
+    let execution = decide(scene, 1, &arguments.execution, &loaded.surfaces).map_err(Failure::run)?;
     let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
     ladders.sort_unstable();
     ladders.dedup();

@@ -43,10 +43,10 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         warn_of(Idle::Smooth(0.0));
         scene.adaptive = None;
     }
-    let decided = decide(scene.workers, 1, &arguments.execution, &scene.parameters, &surfaces).map_err(Failure::run)?;
+    let decided = decide(&scene, 1, &arguments.execution, &surfaces).map_err(Failure::run)?;
     let mut simulation =
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
-    let seconds_per_step = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;
+    let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
     let check = Check::new(&scene, files, report, &parts, simulation.execution(), seconds_per_step);
     stability::warn(&scene.parameters);
@@ -203,9 +203,9 @@ impl Check {
             cell_height: mesh.row_height(),
             cell_width: mesh.column_width(),
             nominal_pressure: parameters.normal_force / mesh.pin_area(),
-            steps: parameters.steps,
+            steps: scene.steps,
             step_time: parameters.step_time(),
-            revolutions: parameters.steps as f64 / mesh.disc_columns() as f64,
+            revolutions: scene.steps as f64 / mesh.disc_columns() as f64,
             samples: schedule.samples(),
             maps,
             memory: memory_estimate(scene),
@@ -213,7 +213,7 @@ impl Check {
             checkpoint: checkpoint::size_estimate(mesh, scene.extras()),
             workers: execution.workers,
             instruction_set: execution.means(),
-            estimated_time: seconds_per_step * parameters.steps as f64,
+            estimated_time: seconds_per_step * scene.steps as f64,
             stiffness_number,
             largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
             warns_of_stiffness: stability::is_doubtful(parameters),

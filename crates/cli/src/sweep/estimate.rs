@@ -43,16 +43,16 @@ impl Estimate {
             let execution = Execution { workers: 1, ..Execution::default() };
             let mut simulation =
                 Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
-            let step = time_per_step(&mut simulation, TRIAL).map_err(Failure::run)?;
+            let step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
             // Surfaces are a part of the run that does not grow with its steps.
-            let steps = scene.parameters.steps.max(1) as f64;
+            let steps = scene.steps.max(1) as f64;
             per_cell = per_cell.max((step + making / steps) / scene.parameters.mesh.pin_cells() as f64);
         }
         let (mut memory, mut times) = (0, Vec::new());
         for number in spread(plan.runs(), COUNTED) {
             let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
             memory = memory.max(memory_estimate(&scene));
-            times.push(scene.parameters.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
+            times.push(scene.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
         }
         let mean_time = times.iter().sum::<f64>() / times.len().max(1) as f64;
         Ok(Self { memory, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max) })

@@ -43,7 +43,7 @@ impl Resolved {
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;
             let identity = identity(&scene, &digests, &program)
                 .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
-            Ok((identity, scene.parameters.steps))
+            Ok((identity, scene.steps))
         };
         let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
         let problems: Vec<(usize, &String)> =

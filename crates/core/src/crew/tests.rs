@@ -79,9 +79,7 @@ fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
         mesh: Mesh::new(3, 40, 11, 20e-3, 20.15e-3).unwrap(),
         normal_force: 1.0,
         angular_velocity: 89.0,
-        steps: 100,
         foundation_height: 50e-6,
-        load_tolerance: 1e-9,
         materials: Materials {
             disc_primary: material,
             disc_secondary: material,

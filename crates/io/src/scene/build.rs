@@ -29,12 +29,13 @@ const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
-    let parameters = parameters(&settings)?;
+    let (parameters, steps) = parameters_and_steps(&settings)?;
     warnings.extend(debris_by_default(&settings, path));
     // From here on it is `debris`.
     settings.remove("plateaus.debris_pool");
     let duration = settings.optional_number("operation.duration")?;
-    let output = output(&mut settings, &parameters, &mut warnings)?;
+    let end = parameters.clock().time_at(steps);
+    let output = output(&mut settings, end, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
         _ => Workers::Auto,
@@ -56,7 +57,9 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
         warnings,
         places: settings.places(),
         adaptive,
-        duration: duration.unwrap_or_else(|| parameters.clock().time_at(parameters.steps)),
+        duration: duration.unwrap_or_else(|| parameters.clock().time_at(steps)),
+        steps,
+        load_tolerance: settings.number("contact.load_tolerance")?,
         parameters,
         output,
     })
@@ -78,7 +81,7 @@ fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
     Ok(Some(Adaptive { tolerance, largest: settings.number(&max)? }))
 }
 
-fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
+fn parameters_and_steps(settings: &Settings) -> Result<(Parameters, u64), Problem> {
     let mesh = mesh(settings)?;
     let (speed_key, angular_velocity) = match settings.optional_number("operation.rotational_speed")? {
         Some(speed) => ("operation.rotational_speed", speed),
@@ -87,13 +90,11 @@ fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
             (key, settings.number(key)? / mesh.mean_radius())
         }
     };
-    let mut parameters = Parameters {
+    let parameters = Parameters {
         mesh,
         normal_force: settings.number("operation.normal_force")?,
         angular_velocity,
-        steps: 1,
         foundation_height: settings.number("contact.foundation_height")?,
-        load_tolerance: settings.number("contact.load_tolerance")?,
         materials: materials(settings)?,
         plateaus: plateaus(settings)?,
         time_acceleration: settings.optional_number(ACCELERATION)?.unwrap_or(1.0),
@@ -115,8 +116,7 @@ fn parameters(settings: &Settings) -> Result<Parameters, Problem> {
             format!("these are more than {MOST_STEPS} steps, which cannot be counted exactly; shorten the run");
         return Err(Problem::new(&settings.origin(steps_key), steps_key, message));
     }
-    parameters.steps = steps;
-    Ok(parameters)
+    Ok((parameters, steps))
 }
 
 fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
@@ -350,11 +350,7 @@ fn file(settings: &Settings, section: &str) -> Option<(PathBuf, Option<String>)>
     Some((text("file")?.into(), text("dataset").map(str::to_owned)))
 }
 
-fn output(
-    settings: &mut Settings,
-    parameters: &Parameters,
-    warnings: &mut Vec<Warning>,
-) -> Result<OutputRecipe, Problem> {
+fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Result<OutputRecipe, Problem> {
     let sample_every = match settings.optional_number("output.sample_every")? {
         Some(time) => SampleEvery::Time(time),
         None => SampleEvery::Steps(settings.integer("output.sample_every_steps")?),
@@ -370,12 +366,12 @@ fn output(
     let roughness = settings.bool("output.roughness")?;
     let pressure_spread = settings.bool("output.pressure_spread")?;
     let checkpoint_every = settings.number("output.checkpoint_every")?;
-    let maps_at = map_times(settings, parameters, warnings);
+    let maps_at = map_times(settings, end, warnings);
     Ok(OutputRecipe { file, sample_every, maps_at, maps, roughness, pressure_spread, checkpoint_every })
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.
-fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Vec<Warning>) -> Vec<f64> {
+fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Vec<f64> {
     let key = "output.maps_at";
     let origin = settings.origin(key);
     let mut times = match settings.get(key) {
@@ -384,7 +380,6 @@ fn map_times(settings: &mut Settings, parameters: &Parameters, warnings: &mut Ve
     };
     times.sort_unstable_by(f64::total_cmp);
     times.dedup();
-    let end = parameters.clock().time_at(parameters.steps);
     // The time of a step is rounded; what is nearer to the end than this is the end.
     let (kept, beyond): (Vec<_>, Vec<_>) = times.into_iter().partition(|time| *time <= end * (1.0 + 1e-9));
     if !beyond.is_empty() {

@@ -22,6 +22,10 @@ pub struct Scene {
     pub path: PathBuf,
     /// Everything core is told; where the run chooses its acceleration, with m = 1.
     pub parameters: Parameters,
+    /// Steps to simulate; where the run chooses its acceleration, with m = 1.
+    pub steps: u64,
+    /// |Σ k A u − F_N| / F_N above which the run says that the load balance is inexact. It changes no step.
+    pub load_tolerance: f64,
     /// How the run chooses its acceleration, if it does.
     pub adaptive: Option<Adaptive>,
     /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
@@ -71,7 +75,7 @@ impl Scene {
     /// When the run is over.
     fn end(&self) -> End {
         // The time of a step is rounded, so a number of steps is the better end where it does not change.
-        if self.adaptive.is_some() { End::Time(self.duration) } else { End::Steps(self.parameters.steps) }
+        if self.adaptive.is_some() { End::Time(self.duration) } else { End::Steps(self.steps) }
     }
 }
 

@@ -63,7 +63,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     warn_of_scene(&mut scene, implausible);
     let mut schedule = scene.schedule();
     let Loaded { surfaces, inputs, report: surface_report, .. } = loaded;
-    let execution = decide(scene.workers, job.ranks(), &arguments.execution, &scene.parameters, &surfaces);
+    let execution = decide(&scene, job.ranks(), &arguments.execution, &surfaces);
     let execution = execution.map_err(Failure::run)?;
     let mut scout = scout(&scene, &surfaces, execution, job)?;
     let mut simulation = job.simulation(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
