@@ -1,5 +1,4 @@
-//! Benchmarks: how long a step of the model takes and why (the program `plateau-bench`), and what it does with extreme
-//! input (the program `extremes`).
+//! Benchmarks: how long a step of the model takes and why (the program `plateau-bench`).
 //!
 //! ```text
 //! kernel, scaling, parts, peer   one benchmark each: what is set against what
@@ -8,7 +7,6 @@
 //! stepper    a simulation as something that can be timed: the only calls of core's time loop
 //! race       times several things in turn
 //! document   results as JSON                              tables     the tables made from them
-//! extremes   cases at the limits of the model, each with the bounds that it must keep
 //! ```
 
 pub mod arguments;
@@ -17,7 +15,6 @@ mod case;
 mod costs;
 mod document;
 mod error;
-pub mod extremes;
 mod kernel;
 mod machine;
 mod parts;

@@ -1,7 +1,6 @@
 //! Markdown tables made from results, and their places in a document.
 
 use std::fs;
-use std::path::Path;
 
 use crate::arguments::ReportOptions;
 use crate::document::{Benchmark, Document};
@@ -42,18 +41,6 @@ pub fn report(options: &ReportOptions) -> Result<(), BenchError> {
 fn marks(benchmark: Benchmark) -> [String; 2] {
     let name = benchmark.name();
     [format!("<!-- {name}: made by plateau-bench report -->"), format!("<!-- end of {name} -->")]
-}
-
-/// Puts a table that another program makes into a document, between the marks of its name.
-pub fn replace(document: &Path, name: &str, markdown: &str) -> Result<(), BenchError> {
-    let text = fs::read_to_string(document).map_err(BenchError::file(document))?;
-    let [begin, end] = [format!("<!-- {name}: made by the program -->"), format!("<!-- end of {name} -->")];
-    let text = replace_between(&text, &begin, &end, markdown).ok_or_else(|| BenchError::NoPlace {
-        path: document.into(),
-        begin,
-        end,
-    })?;
-    fs::write(document, text).map_err(BenchError::file(document))
 }
 
 fn replace_between(text: &str, begin: &str, end: &str, new: &str) -> Option<String> {
