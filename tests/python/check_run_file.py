@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks a finished run file against formats.md with h5py, netCDF4 and xarray.
+"""Checks a finished run file against docs/run-file.md with h5py, netCDF4 and xarray.
 
     check_run_file.py RUN.h5 [--maps disc_height,pressure,...] [--roughness]
 

@@ -282,7 +282,7 @@ mod tests {
             start((parameters, surfaces))
         };
         let divergence = first_divergence(STEPS, || start(scene()), other).expect("a difference");
-        // What is worn in step 1 is shared out in step 2 (model 4.4).
+        // What is worn in step 1 is shared out in step 2 (model 4P).
         assert_eq!((divergence.step, &names(&divergence)[..2]), (1, &["pool", "emitted"][..]));
         assert!(!divergence.to_string().contains("height"), "{divergence}");
     }

@@ -7,7 +7,7 @@ use hdf5::file::OpenMode;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, Group, H5Type};
 
-/// A status as formats.md numbers and names it.
+/// A status as docs/run-file.md numbers and names it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, H5Type)]
 #[repr(u8)]
 #[allow(non_camel_case_types)]

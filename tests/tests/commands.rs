@@ -1,4 +1,4 @@
-//! The commands `run` and `check` as formats.md describes them.
+//! The commands `run` and `check` as the README describes them.
 
 use std::fs;
 

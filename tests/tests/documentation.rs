@@ -26,6 +26,32 @@ fn expect_table(document: &str, name: &str, table: &str) {
     }
 }
 
+/// The texts between back ticks.
+fn code(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+#[test]
+fn the_rules_of_the_model_are_where_the_document_says() {
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let read = |path: &str| std::fs::read_to_string(repository.join(path)).unwrap_or_else(|_| panic!("{path}"));
+    let document = read("docs/model.md");
+    let steps = read("crates/core/src/model/step.rs");
+    let mut rules = 0;
+    for line in document.lines().filter_map(|line| line.strip_prefix("`step.rs`: ")) {
+        let (functions, _) = line.split_once(". ").unwrap_or((line, ""));
+        for function in code(functions) {
+            assert!(steps.contains(&format!("pub fn {function}(")), "step.rs has no function {function}");
+            rules += 1;
+        }
+    }
+    assert!(rules >= 8, "{rules} functions are named");
+    for file in code(&document).filter(|code| code.ends_with(".rs") && !code.contains(' ')) {
+        let places = ["", "crates/core/src/", "crates/core/src/model/", "tests/tests/"];
+        assert!(places.iter().any(|place| repository.join(place).join(file).is_file()), "there is no {file}");
+    }
+}
+
 fn kind(key: &Key) -> String {
     let example = key.example().map(|example| format!(", such as `{example}`")).unwrap_or_default();
     match key.kind {

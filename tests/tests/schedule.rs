@@ -1,4 +1,4 @@
-//! How many steps a scene takes, and when samples and maps are taken (formats.md, run file).
+//! How many steps a scene takes, and when samples and maps are taken (docs/run-file.md).
 //!
 //! A step of `quick.toml` lasts m · 2π/columns / ω = 20 · 60 s/(850 · 690) = 4/1955 s, so what is expected is
 //! computed exactly, in integers.

@@ -1,4 +1,4 @@
-//! The command `surface` as formats.md describes it.
+//! The command `surface` as docs/surfaces.md describes it.
 
 use std::fs;
 

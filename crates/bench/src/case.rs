@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use plateau_core::checkpoint::Checkpoint;
 use plateau_core::parameters::Parameters;
+use plateau_core::simulation::{Execution, Simulation};
 use plateau_core::state::InitialSurfaces;
 use plateau_io::{scene, surface};
 use serde::{Deserialize, Serialize};
@@ -12,6 +14,9 @@ use crate::error::BenchError;
 /// Scenes are measured as the paper's model has it; `--set` may ask for something else.
 const MODEL: &str = "numerics.time_acceleration=1";
 
+/// The time acceleration with which a pin wears in before a benchmark.
+const WEARING_IN: f64 = 100.0;
+
 /// Parameters and surfaces of a simulation.
 #[derive(Debug)]
 pub struct Case {
@@ -19,6 +24,8 @@ pub struct Case {
     pub parameters: Parameters,
     /// The surfaces before the first step.
     pub surfaces: InitialSurfaces,
+    /// The state from which it starts, if that is not before the first step.
+    pub start: Option<Checkpoint>,
 }
 
 /// Counts of cells.
@@ -71,13 +78,15 @@ pub struct Source {
     pub path: PathBuf,
     /// Changes, as after `--set`.
     pub sets: Vec<String>,
+    /// Physical time for which the pin has worn in when the benchmark starts, s.
+    pub worn_in: f64,
 }
 
 impl Source {
     /// The scene at `path`, or the paper's, with m = 1 and the changes `sets`.
-    pub fn new(path: Option<PathBuf>, sets: Vec<String>) -> Self {
+    pub fn new(path: Option<PathBuf>, sets: Vec<String>, worn_in: f64) -> Self {
         let path = path.unwrap_or_else(|| repository().join("data/scenes/cermet.toml"));
-        Self { path, sets: [vec![MODEL.to_owned()], sets].concat() }
+        Self { path, sets: [vec![MODEL.to_owned()], sets].concat(), worn_in }
     }
 
     /// File name of the scene.
@@ -87,7 +96,7 @@ impl Source {
 
     /// The same with more changes.
     pub fn with(&self, sets: impl IntoIterator<Item = String>) -> Self {
-        Self { path: self.path.clone(), sets: self.sets.iter().cloned().chain(sets).collect() }
+        Self { sets: self.sets.iter().cloned().chain(sets).collect(), ..self.clone() }
     }
 
     /// The same scene on a mesh of another size.
@@ -125,8 +134,25 @@ impl Source {
     pub fn case(&self) -> Result<Case, BenchError> {
         let scene = scene::load(&self.path, &self.sets)?;
         let surfaces = surface::load(&scene)?.surfaces;
-        Ok(Case { parameters: scene.parameters, surfaces })
+        let mut case = Case { parameters: scene.parameters, surfaces, start: None };
+        if self.worn_in > 0.0 {
+            case.start = Some(worn_in(&case, self.worn_in)?);
+        }
+        Ok(case)
     }
+}
+
+/// The state of a case after so much time (s), which is passed with a time acceleration: what a step costs depends on how the
+/// surfaces look, not on the last digit of a height.
+fn worn_in(case: &Case, time: f64) -> Result<Checkpoint, BenchError> {
+    let execution = Execution { workers: 1, ..Execution::default() };
+    let mut simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
+    simulation.accelerate(WEARING_IN)?;
+    while simulation.time() < time {
+        simulation.pass_to(simulation.steps_done() + case.parameters.mesh.disc_columns() as u64)?;
+    }
+    simulation.accelerate(case.parameters.time_acceleration)?;
+    Ok(simulation.checkpoint()?)
 }
 
 /// Counts of cells of a mesh.
@@ -149,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_larger_mesh_has_cells_pressure_and_speed_of_the_scene() {
-        let scene = Source::new(None, Vec::new());
+        let scene = Source::new(None, Vec::new(), 0.0);
         let paper = scene.parameters().unwrap();
         assert_eq!(mesh_size(&paper), PAPER);
         for size in [PAPER.times(4), PAPER.longer(3), MeshSize::FULL_PAD, MeshSize::QUICK] {

@@ -79,6 +79,9 @@ pub struct Settings {
     pub scene: String,
     /// Changes of the scene.
     pub sets: Vec<String>,
+    /// Physical time for which the pin had worn in, s.
+    #[serde(default)]
+    pub worn_in: f64,
     /// m, where it is the same for all that is measured.
     pub time_acceleration: Option<f64>,
     /// Blocks of each entry.

@@ -142,7 +142,7 @@ pub fn python() -> Result<PathBuf, BenchError> {
 
 /// Writes a case as step.py reads it, with the load tolerance of its solver.
 pub fn export(case: &Case, load_tolerance: f64, directory: &Path) -> Result<(), BenchError> {
-    let Case { parameters, surfaces } = case;
+    let Case { parameters, surfaces, .. } = case;
     supported(parameters)?;
     let Parameters { mesh, materials, plateaus, .. } = parameters;
     let body = |material: &Material| json!({"youngs_modulus": material.youngs_modulus, "poisson_ratio": material.poisson_ratio});

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Args;
+use plateau_io::units::{self, Dimension};
 
 use crate::case::{MeshSize, Source, mesh_size};
 use crate::document::{Benchmark, Document, Settings};
@@ -20,6 +21,9 @@ pub struct Options {
     /// Set a key of the scene; numerics.time_acceleration is 1 unless it is set here; may be repeated
     #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
     pub sets: Vec<String>,
+    /// Time for which the pin has worn in before anything is timed, such as "2000 s": how much a step has to do changes with it
+    #[arg(long, value_name = "TIME", default_value = "0 s", value_parser = time)]
+    pub worn_in: f64,
     /// Blocks of steps of everything that is timed; the blocks are measured in turn
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub repeats: Option<u32>,
@@ -32,6 +36,11 @@ pub struct Options {
     /// Write the results to a file, as JSON
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
+}
+
+/// A time on the command line, s.
+fn time(text: &str) -> Result<f64, String> {
+    units::parse(text, Dimension::Time).map_err(|error| error.to_string())
 }
 
 /// Options of a benchmark that is made for several numbers of workers.
@@ -65,7 +74,7 @@ pub struct Session {
 impl Options {
     /// Begins a benchmark, of one worker.
     pub fn begin(self, benchmark: Benchmark) -> Result<Session, BenchError> {
-        let mut source = Source::new(self.scene, self.sets);
+        let mut source = Source::new(self.scene, self.sets, self.worn_in);
         if self.quick {
             source = source.on(MeshSize::QUICK)?;
         }
@@ -78,6 +87,7 @@ impl Options {
         let settings = Settings {
             scene: source.name(),
             sets: source.sets.clone(),
+            worn_in: source.worn_in,
             time_acceleration: Some(parameters.time_acceleration),
             repeats: pace.repeats,
             block_milliseconds: Some(pace.block.as_secs_f64() * 1e3),

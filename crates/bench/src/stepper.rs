@@ -33,10 +33,13 @@ pub struct Stepper {
 }
 
 impl Stepper {
-    /// A case before its first step.
+    /// A case at its start.
     pub fn new(case: &Case, setup: Setup) -> Result<Self, BenchError> {
         let execution = Execution { workers: setup.workers, instructions: setup.instructions, ..Execution::default() };
-        let simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
+        let mut simulation = Simulation::with_execution(case.parameters.clone(), case.surfaces.clone(), execution)?;
+        if let Some(start) = &case.start {
+            simulation.restore(start)?;
+        }
         Ok(Self { simulation })
     }
 

@@ -34,9 +34,10 @@ fn circumstances(document: &Document) -> String {
     let (commit, changed) = build.revision.split_once('-').unwrap_or((&build.revision, ""));
     let commit: String = commit.chars().take(12).collect();
     let changed = if changed.is_empty() { "" } else { ", changed" };
+    let worn_in = if settings.worn_in > 0.0 { format!(", worn in for {} s", settings.worn_in) } else { String::new() };
     let blocks = settings.block_milliseconds.map_or("runs".into(), |time| format!("blocks of about {time} ms"));
     format!(
-        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}; \
+        "{name}, {cores} cores{memory}, {system}{load}; revision {commit}{changed}, {}, {} for {}{flags}; {}{sets}{worn_in}; \
          median of {} {blocks}, measured in turn.{quick}",
         build.compiler, build.profile, build.target, settings.scene, settings.repeats,
     )

@@ -1,4 +1,4 @@
-//! When samples and maps are taken (formats.md, run file).
+//! When samples and maps are taken (docs/run-file.md).
 
 use crate::clock::Clock;
 

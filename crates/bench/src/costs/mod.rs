@@ -55,11 +55,12 @@ pub fn costs(options: CostOptions) -> Result<(), BenchError> {
         (true, true) => vec![shipped("quick.toml")],
         (true, false) => SHIPPED.map(shipped).to_vec(),
     };
-    let sources = paths.into_iter().map(|path| Source { path, sets: sets.clone() });
+    let sources = paths.into_iter().map(|path| Source { path, sets: sets.clone(), worn_in: 0.0 });
     let subjects = sources.map(|source| Subject::new(source, quick)).collect::<Result<Vec<_>, _>>()?;
     let settings = Settings {
         scene: subjects.iter().map(Subject::name).collect::<Vec<_>>().join(", "),
         sets,
+        worn_in: 0.0,
         time_acceleration: None,
         repeats: repeats.unwrap_or(if quick { 1 } else { 5 }) as usize,
         block_milliseconds: None,

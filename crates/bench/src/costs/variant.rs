@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_variant_differs_by_one_change_from_one_that_comes_before() {
-        let source = Source { path: shipped("quick.toml"), sets: Vec::new() };
+        let source = Source { path: shipped("quick.toml"), sets: Vec::new(), worn_in: 0.0 };
         let variants = variants(&Subject::new(source, true).unwrap());
         for (index, variant) in variants.iter().enumerate() {
             let before = variants[..index.max(1)].iter().find(|other| other.name == variant.against());

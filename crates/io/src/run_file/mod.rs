@@ -1,4 +1,4 @@
-//! Run files: HDF5 with netCDF-4 conventions, as formats.md fixes them. [`RunFile`] reads them.
+//! Run files: HDF5 with netCDF-4 conventions, as docs/run-file.md has them. [`RunFile`] reads them.
 //!
 //! [`RunWriter::create`] makes the file and hands it to a writer thread. A simulation sends its samples and maps over
 //! a bounded queue and goes on; it waits only when the queue is full. [`RunWriter::finish`] states how the run ended.
@@ -10,7 +10,7 @@
 //! `state` is `running` until the run has ended. It stays so when the program was killed or when the disk was full; such
 //! a file is read like one that is still written.
 //!
-//! What formats.md leaves open about the root attributes: `seeds` is a JSON object, key path in the scene → seed;
+//! About the root attributes: `seeds` is a JSON object, key path in the scene → seed;
 //! `inputs` a JSON array of objects with `path` and `sha256`; `workers` the worker count; `instruction_set`, `host`,
 //! `start_time` and `end_time` (ISO 8601, UTC) are texts; `wall_time` is in seconds; `error` says why a run is `failed`;
 //! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.

@@ -1,4 +1,4 @@
-//! Scenes: what a simulation is told, in TOML (formats.md).
+//! Scenes: what a simulation is told, in TOML (docs/scenes.md).
 //!
 //! ```text
 //! scene file, scenes it extends, --set   layers     one list of keys, each with its place in a text

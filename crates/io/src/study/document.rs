@@ -1,4 +1,4 @@
-//! A study file as it stands in the text (formats.md).
+//! A study file as it stands in the text (docs/studies.md).
 
 use std::fmt;
 

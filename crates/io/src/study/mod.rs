@@ -1,4 +1,4 @@
-//! Studies: many runs of one scene with other values of some keys, and what is asked of them (formats.md).
+//! Studies: many runs of one scene with other values of some keys, and what is asked of them (docs/studies.md).
 //!
 //! ```text
 //! study file     document       the text

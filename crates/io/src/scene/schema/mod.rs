@@ -1,7 +1,7 @@
 //! Every key of a scene: where it belongs, what it holds, what it defaults to and what it means.
 //!
 //! One table ([`keys`]) serves for checking, for messages about unknown keys, for the resolved scene and for
-//! documentation. The order is that of formats.md.
+//! documentation. The order is that of docs/scenes.md.
 
 mod example;
 mod json_schema;
@@ -220,7 +220,7 @@ impl fmt::Display for Range {
     }
 }
 
-/// Every key, in the order of formats.md.
+/// Every key, in the order of docs/scenes.md.
 pub fn keys() -> &'static [Key] {
     static KEYS: LazyLock<Vec<Key>> = LazyLock::new(keys::all);
     &KEYS
@@ -236,7 +236,7 @@ pub fn is_table(path: &str) -> bool {
     path.is_empty() || keys().iter().any(|key| is_below(&key.path(), path))
 }
 
-/// Every table that directly holds keys, in the order of formats.md; the first is the top, with an empty name.
+/// Every table that directly holds keys, in the order of docs/scenes.md; the first is the top, with an empty name.
 pub(crate) fn sections() -> Vec<&'static str> {
     let mut sections: Vec<_> = keys().iter().map(|key| key.section).collect();
     sections.dedup();

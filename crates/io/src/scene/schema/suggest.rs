@@ -67,7 +67,7 @@ fn known(path: &str) -> bool {
     find(path).is_some() || is_table(path)
 }
 
-/// Names directly below a table, in the order of formats.md.
+/// Names directly below a table, in the order of docs/scenes.md.
 pub(super) fn children(table: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for path in keys().iter().map(super::Key::path) {
@@ -86,7 +86,7 @@ pub(super) fn children(table: &str) -> Vec<String> {
     names
 }
 
-/// Every table below the top, in the order of formats.md.
+/// Every table below the top, in the order of docs/scenes.md.
 fn tables() -> Vec<String> {
     let mut tables: Vec<String> = Vec::new();
     for key in keys() {
