@@ -335,7 +335,7 @@ fn every_file_has_the_same_numbers() {
     let figure = Figure::read(&fs::read_to_string(directory.path("accuracy/accuracy.svg")).unwrap());
     let panel = figure.panel(figure.boxes()[0]);
     for row in &rows {
-        let colour = if row["ladder"] == "integrator" { "#56B4E9" } else { "#0072B2" };
+        let colour = if row["ladder"] == "integrator" { "#CC79A7" } else { "#0072B2" };
         let place = [panel.x.place(number(row, "wall_time")), panel.y.place(100.0 * number(row, "contact_area_error"))];
         let dots = figure.areas.iter().filter(|(found, dot)| found == colour && dot.len() == 4);
         let is_there =

@@ -46,9 +46,29 @@ fn the_rules_of_the_model_are_where_the_document_says() {
         }
     }
     assert!(rules >= 8, "{rules} functions are named");
-    for file in code(&document).filter(|code| code.ends_with(".rs") && !code.contains(' ')) {
-        let places = ["", "crates/core/src/", "crates/core/src/model/", "tests/tests/"];
-        assert!(places.iter().any(|place| repository.join(place).join(file).is_file()), "there is no {file}");
+}
+
+#[test]
+fn the_source_files_that_documents_name_exist() {
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let places = [
+        "",
+        "tests/tests/",
+        "crates/",
+        "crates/core/src/",
+        "crates/core/src/kernel/",
+        "crates/core/src/model/",
+        "crates/cli/src/",
+        "crates/io/src/scene/",
+        "crates/io/src/surface/",
+    ];
+    for document in ["model.md", "developing.md", "accuracy.md", "performance.md", "reliability.md", "stability.md"] {
+        let text = std::fs::read_to_string(repository.join("docs").join(document)).expect("a document");
+        let files: Vec<&str> = code(&text).filter(|code| code.ends_with(".rs") && !code.contains(' ')).collect();
+        for file in files {
+            let is_there = places.iter().any(|place| repository.join(place).join(file).is_file());
+            assert!(is_there, "docs/{document}: there is no {file}");
+        }
     }
 }
 
