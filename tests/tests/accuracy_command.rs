@@ -538,6 +538,14 @@ fn nothing_is_advised_that_is_slower_than_the_reference() {
     assert!(text.contains("no setting is advised: no other run is quicker than the reference"), "{text}");
     assert!(!text.contains("error in contact area use"), "{text}");
     assert!(rows.len() == 4 && rows.iter().all(|row| number(row, "on_front") == 0.0), "{text}");
+
+    // A reference that was cut out of a run has no wall time.
+    let file = changed(directory.path("quick.h5"));
+    file.attr("wall_time").unwrap().write_scalar(&f64::NAN).unwrap();
+    file.close().unwrap();
+    let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
+    assert!(text.contains("not recorded, for ") && !text.contains("NaN"), "{text}");
+    assert!(rows.iter().any(|row| number(row, "on_front") == 1.0), "{text}");
 }
 
 #[test]

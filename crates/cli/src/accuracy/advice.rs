@@ -21,12 +21,14 @@ pub fn advice(report: &Report) -> Vec<String> {
     let clear: Vec<bool> = report.rows.iter().map(|row| row.is_clear).collect();
     let found = ERRORS.map(|error| (error, judge(error, &costs, own.contact_area(), &clear)));
     let all_same = found.iter().all(|(_, advice)| *advice == found[0].1);
-    let reference = number::duration(report.reference.outcome.wall_time);
+    let reference = report.reference.outcome.wall_time;
+    let instead =
+        if reference.is_nan() { String::new() } else { format!(" instead of {}", number::duration(reference)) };
     let of = |index: usize| (report.rows[index].setting(), number::duration(costs[index].time), costs[index].error);
     let sentence = |(error, advice): (f64, Advice)| match advice {
         Advice::Use(index) => {
             let (name, time, _) = of(index);
-            format!("for {} error in contact area use {name}: {time} instead of {reference}", percent(error))
+            format!("for {} error in contact area use {name}: {time}{instead}", percent(error))
         }
         Advice::Missed(index) => {
             let (name, time, least) = of(index);

@@ -31,7 +31,12 @@ fn reference(report: &Report) -> String {
             "its wall time",
             format!(
                 "{} for {} steps on {} workers",
-                number::duration(reference.outcome.wall_time),
+                // A run that had not ended when it became a reference tells none.
+                if reference.outcome.wall_time.is_nan() {
+                    "not recorded,".to_owned()
+                } else {
+                    number::duration(reference.outcome.wall_time)
+                },
                 number::grouped(reference.outcome.steps),
                 made.workers
             ),
