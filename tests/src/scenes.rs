@@ -1,6 +1,5 @@
 //! Small simulations whose outcome is known, and random ones whose outcome must obey the model's laws.
 
-use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
 use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::simulation::Simulation;
@@ -9,40 +8,11 @@ use plateau_core::state::{Base, InitialSurfaces};
 /// κ of the pin's plateaus in the paper, 1/Pa.
 pub const WEAR_RATE: f64 = 5e-14;
 
-/// The paper's materials (Table 2).
-pub fn paper_materials() -> Materials {
-    let pin = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: WEAR_RATE };
-    let disc = Material { youngs_modulus: 1e11, specific_wear_rate: 0.0, ..pin };
-    Materials {
-        disc_primary: disc,
-        disc_secondary: disc,
-        pin_primary: pin,
-        pin_secondary: pin,
-        pin_resin: Material { youngs_modulus: 1e5, ..pin },
-        wear_height: 5e-6,
-    }
-}
-
 /// The paper's operation on a mesh of these sizes with the paper's cells, without plateaus.
 pub fn wear_only(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters {
     let mesh = Mesh::new(rows, disc_columns, pin_columns, 20e-3, 20e-3 + rows as f64 * 50e-6).expect("a valid mesh");
-    Parameters {
-        mesh,
-        normal_force: 10.0,
-        angular_velocity: 89.0,
-        foundation_height: 50e-6,
-        materials: paper_materials(),
-        plateaus: PlateauRules {
-            captured_fraction: 0.0,
-            captured_resin_fraction: None,
-            pad_share: 0.5,
-            debris: DebrisRule::Contact,
-            formation: false,
-            destruction: false,
-        },
-        time_acceleration: 1.0,
-        integrator: Integrator::Explicit,
-    }
+    let plateaus = PlateauRules { formation: false, destruction: false, ..PlateauRules::pool(0.0) };
+    Parameters { mesh, normal_force: 10.0, plateaus, ..Parameters::paper() }
 }
 
 /// Stiffness per area of the pair of pin primary and disc primary in the paper's materials, Pa/m.

@@ -76,38 +76,13 @@ fn pairs(parameters: &Parameters, surfaces: &InitialSurfaces) -> Vec<Pair> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Material, Materials};
     use crate::mesh::Mesh;
-    use crate::parameters::{DebrisRule, Integrator, PlateauRules};
+    use crate::parameters::PlateauRules;
     use crate::simulation::Simulation;
 
     fn parameters(normal_force: f64) -> Parameters {
-        let pin = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: 5e-14 };
-        let disc = Material { youngs_modulus: 1e11, specific_wear_rate: 0.0, ..pin };
-        Parameters {
-            mesh: Mesh::new(7, 60, 11, 20e-3, 21e-3).unwrap(),
-            normal_force,
-            angular_velocity: 89.0,
-            foundation_height: 50e-6,
-            materials: Materials {
-                disc_primary: disc,
-                disc_secondary: disc,
-                pin_primary: pin,
-                pin_secondary: pin,
-                pin_resin: Material { youngs_modulus: 1e5, ..pin },
-                wear_height: 5e-6,
-            },
-            plateaus: PlateauRules {
-                captured_fraction: 0.5,
-                captured_resin_fraction: None,
-                pad_share: 0.5,
-                debris: DebrisRule::Contact,
-                formation: true,
-                destruction: true,
-            },
-            time_acceleration: 1.0,
-            integrator: Integrator::Explicit,
-        }
+        let mesh = Mesh::new(7, 60, 11, 20e-3, 21e-3).unwrap();
+        Parameters { mesh, normal_force, plateaus: PlateauRules::pool(0.5), ..Parameters::paper() }
     }
 
     #[test]

@@ -64,6 +64,7 @@ pub mod mesh;
 pub mod model;
 pub mod observe;
 pub mod pair;
+mod paper;
 pub mod parameters;
 pub mod parts;
 pub mod plateau;

@@ -42,6 +42,21 @@ pub struct PlateauRules {
 }
 
 impl PlateauRules {
+    /// Local debris, all of which may be compacted.
+    pub const LOCAL: Self = Self {
+        debris: DebrisRule::Local,
+        captured_fraction: 1.0,
+        captured_resin_fraction: None,
+        pad_share: 0.0,
+        formation: true,
+        destruction: false,
+    };
+
+    /// One pool for the whole contact with this captured fraction; half of a deposit goes to the pin where it can.
+    pub const fn pool(captured_fraction: f64) -> Self {
+        Self { debris: DebrisRule::Contact, captured_fraction, pad_share: 0.5, destruction: true, ..Self::LOCAL }
+    }
+
     /// η of what wears off resin.
     pub fn captured_of_resin(&self) -> f64 {
         self.captured_resin_fraction.unwrap_or(self.captured_fraction)

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::material::Material;
 use plateau_core::observe::Map;
-use plateau_core::parameters::{DebrisRule, Integrator};
+use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::schedule::SampleEvery;
-use plateau_core::state::Base;
+use plateau_core::state::{Base, InitialSurfaces};
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene, Workers};
 use plateau_io::scene::{self, memory_estimate};
@@ -323,4 +323,13 @@ fn a_resolved_scene_says_everything_in_the_order_of_the_format() {
     let resolved = load("extending.toml", &[]).resolved;
     let folder = std::path::absolute("tests/scenes/good").unwrap();
     insta::assert_snapshot!("resolved", resolved.replace(folder.to_str().unwrap(), "[folder]"));
+}
+
+#[test]
+fn the_papers_case_of_core_is_the_shipped_scene() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/cermet.toml");
+    let scene = scene::load(&path, &[]).unwrap();
+    assert_eq!(scene.parameters, Parameters { time_acceleration: 100.0, ..Parameters::paper() });
+    let surfaces = plateau_io::surface::load(&scene).unwrap().surfaces;
+    assert!(surfaces == InitialSurfaces::like_the_papers(&scene.parameters.mesh).unwrap(), "other surfaces");
 }

@@ -7,9 +7,8 @@ use std::time::Duration;
 use super::*;
 use crate::comm::threads::Threads;
 use crate::kernel::InstructionSet;
-use crate::material::{Material, Materials};
 use crate::mesh::Mesh;
-use crate::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use crate::parameters::{Parameters, PlateauRules};
 use crate::sector::Partition;
 use crate::simulation::Execution;
 use crate::state::{Base, InitialSurfaces};
@@ -74,31 +73,8 @@ impl Communicator for Faulty {
 
 /// A crew whose worker `rank` has this fault, and what its workers share until they end.
 fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
-    let material = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: 5e-14 };
-    let parameters = Parameters {
-        mesh: Mesh::new(3, 40, 11, 20e-3, 20.15e-3).unwrap(),
-        normal_force: 1.0,
-        angular_velocity: 89.0,
-        foundation_height: 50e-6,
-        materials: Materials {
-            disc_primary: material,
-            disc_secondary: material,
-            pin_primary: material,
-            pin_secondary: material,
-            pin_resin: material,
-            wear_height: 5e-6,
-        },
-        plateaus: PlateauRules {
-            captured_fraction: 0.5,
-            captured_resin_fraction: None,
-            pad_share: 0.5,
-            debris: DebrisRule::Contact,
-            formation: true,
-            destruction: true,
-        },
-        time_acceleration: 1.0,
-        integrator: Integrator::Explicit,
-    };
+    let mesh = Mesh::new(3, 40, 11, 20e-3, 20.15e-3).unwrap();
+    let parameters = Parameters { mesh, normal_force: 1.0, plateaus: PlateauRules::pool(0.5), ..Parameters::paper() };
     let (mesh, parameters) = (parameters.mesh.clone(), Arc::new(parameters));
     let surfaces = InitialSurfaces {
         disc_height: (0..mesh.disc_cells()).map(|cell| (cell * 7 % 11) as f64 * 1e-7).collect(),

@@ -1,8 +1,7 @@
 //! A simulation at a limit of the model, and what must come of it.
 
-use plateau_core::material::{Material, Materials};
 use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::parameters::{Integrator, Parameters, PlateauRules};
 use plateau_core::state::InitialSurfaces;
 
 /// What must come of a case.
@@ -43,14 +42,8 @@ impl Case {
     /// The same with local debris, as a scene has it that says nothing else of it: all that wears may be compacted.
     pub fn with_local_debris(mut self) -> Self {
         self.name += ", local debris";
-        self.parameters.plateaus = PlateauRules {
-            debris: DebrisRule::Local,
-            captured_fraction: 1.0,
-            // Local debris has neither.
-            pad_share: 0.0,
-            destruction: false,
-            ..self.parameters.plateaus
-        };
+        self.parameters.plateaus =
+            PlateauRules { formation: self.parameters.plateaus.formation, ..PlateauRules::LOCAL };
         self
     }
 
@@ -64,32 +57,8 @@ impl Case {
 pub fn paper(rows: usize, disc_columns: usize, pin_columns: usize) -> Parameters {
     let mesh = Mesh::new(rows, disc_columns, pin_columns, 20e-3, 20e-3 + rows as f64 * 50e-6)
         .unwrap_or_else(|error| unreachable!("the meshes of the cases are valid: {error}"));
-    let pin = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: 5e-14 };
-    let disc = Material { youngs_modulus: 1e11, specific_wear_rate: 0.0, ..pin };
-    Parameters {
-        normal_force: 1.47e6 * mesh.pin_area(),
-        mesh,
-        angular_velocity: 89.0,
-        foundation_height: 50e-6,
-        materials: Materials {
-            disc_primary: disc,
-            disc_secondary: disc,
-            pin_primary: pin,
-            pin_secondary: pin,
-            pin_resin: Material { youngs_modulus: 1e5, ..pin },
-            wear_height: 5e-6,
-        },
-        plateaus: PlateauRules {
-            captured_fraction: 0.06,
-            captured_resin_fraction: None,
-            pad_share: 0.5,
-            debris: DebrisRule::Contact,
-            formation: true,
-            destruction: true,
-        },
-        time_acceleration: 1.0,
-        integrator: Integrator::Explicit,
-    }
+    let normal_force = 1.47e6 * mesh.pin_area();
+    Parameters { mesh, normal_force, plateaus: PlateauRules::pool(0.06), ..Parameters::paper() }
 }
 
 /// The same with the wear rate of the pin's plateaus changed so that the stiffness number is `number`.
