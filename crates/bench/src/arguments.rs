@@ -1,11 +1,10 @@
 //! The command line.
 
-use std::path::PathBuf;
-
-use clap::{Args, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
 use crate::costs::{self, CostOptions};
 use crate::error::BenchError;
+use crate::report::ReportOptions;
 use crate::session::{Options, WorkerOptions};
 use crate::{kernel, parts, peers, report, scaling};
 
@@ -40,17 +39,6 @@ enum Command {
     /// Make Markdown tables from results
     #[command(after_help = "Example:\n  plateau-bench report --into docs/performance.md kernel.json scaling.json")]
     Report(ReportOptions),
-}
-
-/// Options of `report`.
-#[derive(Debug, Args)]
-pub struct ReportOptions {
-    /// Results, as --json writes them, one file for each benchmark
-    #[arg(required = true, value_name = "JSON")]
-    pub results: Vec<PathBuf>,
-    /// Put the tables into a document, between its marks, instead of printing them
-    #[arg(long, value_name = "MARKDOWN")]
-    pub into: Option<PathBuf>,
 }
 
 impl Arguments {

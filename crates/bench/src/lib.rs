@@ -1,7 +1,7 @@
 //! Benchmarks: how long a step of the model takes and why (the program `plateau-bench`).
 //!
 //! ```text
-//! kernel, scaling, parts, peer   one benchmark each: what is set against what
+//! kernel, scaling, parts, peers   one benchmark each: what is set against what
 //! costs      another one: runs of the program with optional parts on and off
 //! case       scene -> parameters and surfaces, on meshes of several sizes
 //! stepper    a simulation as something that can be timed: the only calls of core's time loop

@@ -31,10 +31,14 @@ const EXACT: f64 = 1e-14;
 pub fn peers(options: Options) -> Result<(), BenchError> {
     let mut session = options.begin(Benchmark::Peers)?;
     let mesh = session.mesh;
+    if session.source.worn_in > 0.0 {
+        return Err(BenchError::NotForPeers("surfaces that have worn in"));
+    }
     // A scene that the peer does not compute is refused before anything is installed for it.
     let fast = Reference::new(&session.source.with([FAST.to_owned()]).case()?, EXACT)?;
-    let exact = Reference::new(&session.source.case()?, EXACT)?;
-    let scene = Reference::new(&session.source.case()?, TIMED)?;
+    let case = session.source.case()?;
+    let exact = Reference::new(&case, EXACT)?;
+    let scene = Reference::new(&case, TIMED)?;
     let python = python()?;
 
     for reference in [&fast, &exact] {

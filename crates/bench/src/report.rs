@@ -1,12 +1,25 @@
 //! Markdown tables made from results, and their places in a document.
 
 use std::fs;
+use std::path::PathBuf;
 
-use crate::arguments::ReportOptions;
+use clap::Args;
+
 use crate::document::{Benchmark, Document};
 use crate::error::BenchError;
 use crate::session::print;
 use crate::tables::tables;
+
+/// Options of `report`.
+#[derive(Debug, Args)]
+pub struct ReportOptions {
+    /// Results, as --json writes them, one file for each benchmark
+    #[arg(required = true, value_name = "JSON")]
+    pub results: Vec<PathBuf>,
+    /// Put the tables into a document, between its marks, instead of printing them
+    #[arg(long, value_name = "MARKDOWN")]
+    pub into: Option<PathBuf>,
+}
 
 /// Prints the tables, or puts them into a document between the marks of their benchmark; the text around is kept.
 pub fn report(options: &ReportOptions) -> Result<(), BenchError> {

@@ -213,6 +213,8 @@ fn peers_refuse_a_scene_that_they_do_not_compute() {
         assert_eq!(output.status.code(), Some(1), "{what}");
         assert!(text(&output.stderr).contains(&format!("the scene asks for {what}")), "{}", text(&output.stderr));
     }
+    let output = bench(&["peers", "--quick", "--worn-in", "10 s"]);
+    assert!(text(&output.stderr).contains("asks for surfaces that have worn in"), "{}", text(&output.stderr));
 }
 
 #[test]

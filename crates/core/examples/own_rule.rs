@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mesh = Mesh::new(16, 690, 40, 21e-3, 21.8e-3)?;
     let normal_force = paper.normal_force * mesh.pin_area() / paper.mesh.pin_area();
     let parameters = Parameters { mesh, normal_force, time_acceleration: 100.0, ..paper };
-    let surfaces = InitialSurfaces::like_the_papers(&parameters.mesh).map_err(|error| error.to_string())?;
+    let surfaces = InitialSurfaces::like_the_papers(&parameters.mesh)?;
     let mut state = State::new(&parameters, surfaces);
     for step in 1..=20 * 690 {
         let done = advance(&parameters, &mut state)?;

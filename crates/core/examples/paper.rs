@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // One simulated revolution stands for a hundred.
     let parameters = Parameters { time_acceleration: 100.0, ..Parameters::paper() };
     let revolution = parameters.mesh.disc_columns() as u64;
-    let surfaces = InitialSurfaces::like_the_papers(&parameters.mesh).map_err(|error| error.to_string())?;
+    let surfaces = InitialSurfaces::like_the_papers(&parameters.mesh)?;
     let mut simulation = Simulation::new(parameters, surfaces)?;
     while simulation.time() < 60.0 {
         simulation.advance_to(simulation.steps_done() + revolution)?;

@@ -40,7 +40,7 @@ impl InitialSurfaces {
     ///
     /// # Errors
     /// When they cannot be made on a mesh of this size.
-    pub fn like_the_papers(mesh: &Mesh) -> Result<Self, Box<dyn std::error::Error + Send + Sync>> {
+    pub fn like_the_papers(mesh: &Mesh) -> Result<Self, Box<dyn std::error::Error>> {
         let heights = |seed, rms_height, length: f64, patch| HeightSynthesis {
             seed,
             rms_height,

@@ -97,18 +97,11 @@ pub struct DatasetFileError {
     pub reason: String,
 }
 
-/// Writes a file that appears under its name when it is complete; takes the place of another only with `replace`.
+/// Writes a file that appears under its name when it is complete; takes the place of another only with `replace`. Variables of
+/// [`Values::Rows`] get their rows from `give`, one by one, so that they need not all be in memory.
 ///
 /// # Errors
-/// [`DatasetFileError`], after which nothing has changed at `path`.
-pub fn write(path: &Path, replace: bool, content: &Content) -> Result<(), DatasetFileError> {
-    write_rows(path, replace, content, |_| Ok(()))
-}
-
-/// The same with variables whose rows `fill` gives one by one, so that they need not all be in memory.
-///
-/// # Errors
-/// Those of `fill`, and [`DatasetFileError`]; after either nothing has changed at `path`.
+/// Those of `give`, and [`DatasetFileError`]; after either nothing has changed at `path`.
 pub fn write_rows<E: From<DatasetFileError>>(
     path: &Path,
     replace: bool,
@@ -230,6 +223,11 @@ mod tests {
     use std::fs;
 
     use super::*;
+
+    /// A file without rows that come one by one.
+    fn write(path: &Path, replace: bool, content: &Content) -> Result<(), DatasetFileError> {
+        write_rows(path, replace, content, |_| Ok(()))
+    }
 
     fn content() -> Content {
         Content {
