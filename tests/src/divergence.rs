@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use plateau_core::observe::pressure_spread::PressureSpread;
+use plateau_core::observe::roughness::BothRoughness;
 use plateau_core::observe::{self, ChosenAcceleration, Extras, Map, MapValues, QUANTITIES, Sample};
-use plateau_core::pressure_spread::PressureSpread;
-use plateau_core::roughness::BothRoughness;
 use plateau_core::simulation::Simulation;
 
 /// Steps between two comparisons; where one fails, the steps before it are taken once more, one by one.
@@ -184,8 +184,8 @@ impl fmt::Display for Instead<'_> {
 mod tests {
     use std::cell::Cell;
 
-    use plateau_core::parameters::Parameters;
-    use plateau_core::state::{Base, InitialSurfaces};
+    use plateau_core::model::parameters::Parameters;
+    use plateau_core::model::state::{Base, InitialSurfaces};
 
     use super::*;
     use crate::scenes::{random_surfaces, wear_only};

@@ -1,9 +1,9 @@
 //! Small simulations whose outcome is known, and random ones whose outcome must obey the model's laws.
 
-use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::simulation::Simulation;
-use plateau_core::state::{Base, InitialSurfaces};
 
 /// κ of the pin's plateaus in the paper, 1/Pa.
 pub const WEAR_RATE: f64 = 5e-14;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use plateau_core::checkpoint::Checkpoint;
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::{scene as scene_file, surface};
 use plateau_tests::divergence::differences;

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::time::Duration;
 
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::{Map, Sample};
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_core::state::InitialSurfaces;
 use plateau_io::{scene as scene_file, surface};
 use plateau_tests::divergence::{differences, first_divergence};
 use plateau_tests::patience::within;

@@ -56,7 +56,7 @@ fn the_source_files_that_documents_name_exist() {
         "tests/tests/",
         "crates/",
         "crates/core/src/",
-        "crates/core/src/kernel/",
+        "crates/core/src/engine/kernel/",
         "crates/core/src/model/",
         "crates/cli/src/",
         "crates/io/src/scene/",

@@ -1,11 +1,11 @@
 //! Laws of the model over random small scenes.
 
-use plateau_core::kernel::InstructionSet;
-use plateau_core::material::Status;
-use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::model::material::Status;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_core::state::{Base, InitialSurfaces};
 use plateau_tests::scenes::{primary_stiffness, random_surfaces, wear_only};
 use proptest::option;
 use proptest::prelude::*;

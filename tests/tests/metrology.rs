@@ -6,8 +6,8 @@
 
 use std::path::{Path, PathBuf};
 
-use plateau_core::mesh::Mesh;
-use plateau_core::parameters::Parameters;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::Parameters;
 use plateau_core::surface::describe::MaterialCurve;
 use plateau_core::surface::{Level, level};
 use plateau_io::surface::{ReadOptions, read};

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use plateau_core::mesh::Mesh;
-use plateau_core::parameters::DebrisRule;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::DebrisRule;
 use plateau_core::simulation::Simulation;
 use plateau_io::{scene, surface};
 

@@ -1,10 +1,10 @@
 //! The engine takes the steps of the plain model, in thousands of random small scenes with every option.
 
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::model::parameters::{DebrisRule, Parameters};
+use plateau_core::model::state::{Disc, Pin};
 use plateau_core::observe::Sample;
-use plateau_core::parameters::{DebrisRule, Parameters};
 use plateau_core::simulation::{Engine, Execution, Simulation};
-use plateau_core::state::{Disc, Pin};
 use plateau_tests::scenes::{random_scene, random_surfaces};
 
 /// Scenes of each debris rule.

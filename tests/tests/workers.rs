@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use std::process::Stdio;
 use std::thread::available_parallelism;
 
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, quick_scene_with, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
 use serde_json::Value;

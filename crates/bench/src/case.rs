@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use plateau_core::checkpoint::Checkpoint;
-use plateau_core::parameters::Parameters;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
+use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_core::state::InitialSurfaces;
 use plateau_io::{scene, surface};
 use serde::{Deserialize, Serialize};
 

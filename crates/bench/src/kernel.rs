@@ -1,6 +1,6 @@
 //! One step by instruction set and number of workers.
 
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
 
 use crate::case::{Case, MeshSize};
 use crate::document::Benchmark;

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
 
-use plateau_core::material::Material;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
-use plateau_core::parts::Needs;
+use plateau_core::engine::parts::Needs;
+use plateau_core::model::material::Material;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use plateau_core::model::parameters::DebrisRule;
 use plateau_core::observe::{Map, MapValues};
-use plateau_core::parameters::DebrisRule;
 use tempfile::TempDir;
 
 use crate::case::Case;

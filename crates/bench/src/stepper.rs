@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::{Map, Sample, Snapshot};
 use plateau_core::simulation::{Execution, Simulation};
 

@@ -90,7 +90,7 @@ fn names(results: &Value) -> Vec<&str> {
 fn kernel_times_every_instruction_set() {
     let (results, _) = quick(&folder(), "kernel");
     expect_complete("kernel", &results);
-    let available: Vec<_> = plateau_core::kernel::InstructionSet::available().map(|set| set.name()).collect();
+    let available: Vec<_> = plateau_core::engine::kernel::InstructionSet::available().map(|set| set.name()).collect();
     assert_eq!(names(&results)[..available.len()], available);
 }
 

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
 
 pub use accuracy::{AccuracyArguments, Ladder};
 pub use surface::SurfaceArguments;

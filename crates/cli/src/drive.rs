@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use plateau_core::checkpoint::Checkpoint;
+use plateau_core::acceleration::scout::{Scout, ScoutCheckpoint};
+use plateau_core::observe::schedule::Schedule;
 use plateau_core::observe::{ChosenAcceleration, Sample, Snapshot};
-use plateau_core::schedule::Schedule;
-use plateau_core::scout::{Scout, ScoutCheckpoint};
+use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
 

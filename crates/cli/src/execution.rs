@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use plateau_core::kernel::InstructionSet;
+use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
-use plateau_core::state::InitialSurfaces;
 use plateau_io::scene::recipe::{Scene, Workers};
 
 use crate::arguments::{EngineArgument, ExecutionArguments};

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+use plateau_core::acceleration::scout::Scout;
 use plateau_core::observe::Sample;
-use plateau_core::scout::Scout;
 use plateau_core::simulation::{Engine, Simulation, SimulationError};
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::Synced;

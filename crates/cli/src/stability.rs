@@ -1,6 +1,6 @@
 //! Warns where the explicit wear rule is out of its depth (model section 8).
 
-use plateau_core::parameters::{Integrator, Parameters};
+use plateau_core::model::parameters::{Integrator, Parameters};
 
 use crate::message;
 use crate::number;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use plateau_core::observe::Sample;
+use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
-use plateau_core::window_mean::WindowMean;
 use plateau_io::run_file::WriterReport;
 use plateau_io::scene::Warning;
 use plateau_io::scene::recipe::Scene;

@@ -3,11 +3,11 @@
 
 use std::error::Error;
 
-use plateau_core::mesh::Mesh;
 use plateau_core::model::State;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::model::step::advance;
-use plateau_core::parameters::Parameters;
-use plateau_core::state::InitialSurfaces;
 
 /// What resin swells in a step, m.
 const SWELLING: f64 = 2e-9;

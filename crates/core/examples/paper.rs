@@ -2,9 +2,9 @@
 
 use std::error::Error;
 
-use plateau_core::parameters::Parameters;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Simulation;
-use plateau_core::state::InitialSurfaces;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // One simulated revolution stands for a hundred.

@@ -4,25 +4,25 @@
 //! # Symbols
 //! | symbol | unit | meaning | where |
 //! |---|---|---|---|
-//! | r_i, A_i, Δθ | m, m², rad | radius and area of a row's cells, angle of a column | [`mesh`] |
-//! | E, ν, κ | Pa, 1, 1/Pa | Young's modulus, Poisson ratio, specific wear rate by (body, status) | [`material`] |
-//! | h_m | m | height that resin loses when it touches | [`material`] |
-//! | F_N, ω, h, m | N, rad/s, m, 1 | load, rotational speed, foundation height, time acceleration | [`parameters`] |
-//! | z_d, b_d, z_p, b_p | m | surface and substrate height of disc and pin | [`state`] |
-//! | k = E*/h | Pa/m | stiffness per area of a pair | [`pair`] |
-//! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | [`contact`] |
-//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`debris`], [`plateau`] |
+//! | r_i, A_i, Δθ | m, m², rad | radius and area of a row's cells, angle of a column | [`mesh`](model::mesh) |
+//! | E, ν, κ | Pa, 1, 1/Pa | Young's modulus, Poisson ratio, specific wear rate by (body, status) | [`material`](model::material) |
+//! | h_m | m | height that resin loses when it touches | [`material`](model::material) |
+//! | F_N, ω, h, m | N, rad/s, m, 1 | load, rotational speed, foundation height, time acceleration | [`parameters`](model::parameters) |
+//! | z_d, b_d, z_p, b_p | m | surface and substrate height of disc and pin | [`state`](model::state) |
+//! | k = E*/h | Pa/m | stiffness per area of a pair | [`pair`](engine::pair) |
+//! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | [`contact`](engine::contact) |
+//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`debris`](engine::debris), [`plateau`](engine::plateau) |
 //!
 //! # One step
 //! | model | equation | where |
 //! |---|---|---|
-//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pair::Coefficients`] |
-//! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`] |
-//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`], [`wear`] |
+//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pair::Coefficients`](engine::pair::Coefficients) |
+//! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`](engine::contact::Contact::balance) |
+//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`](engine::pair::Coefficients), [`wear`](engine::wear) |
 //! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | `kernel::deposit` |
-//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`] |
-//! | 4P formation | d = min(γ, s), s = M/S | [`debris::Debris::prepare`], [`plateau`] |
-//! | 4P balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`] |
+//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`](engine::plateau) |
+//! | 4P formation | d = min(γ, s), s = M/S | [`debris::Debris::prepare`](engine::debris::Debris::prepare), [`plateau`](engine::plateau) |
+//! | 4P balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`](engine::debris::Debris::settle) |
 //! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance_to`] |
 //! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::roughness`] |
 //!
@@ -32,55 +32,23 @@
 //! # How a step is carried out
 //! - One pass over the pin a step. In the next step the disc column under pin column j lies under column j + 1, so the
 //!   pass that updates the cells also reads the gaps of the next step, against a bracket around the displacement that is
-//!   expected ([`forecast`]): sums over the pairs that surely touch, and a list of the few of which it is not sure. The
-//!   load is piecewise linear, so that this is enough to solve the balance exactly ([`contact`]).
-//! - Eight cells of one strip at a time ([`strips`]), the same source for every instruction set ([`kernel`]).
-//! - Between two steps the complete state can be taken out and put into another simulation ([`checkpoint`]).
-//! - Sums are integers, so they do not depend on the order of the cells ([`exact`], [`sums`]).
-//! - The ring is divided into sectors ([`sector`]) that belong to workers: threads or processes that tell each other those
-//!   sums and hand on the pin columns that cross from sector to sector ([`comm`]).
+//!   expected ([`forecast`](engine::forecast)): sums over the pairs that surely touch, and a list of the few of which it is not sure. The
+//!   load is piecewise linear, so that this is enough to solve the balance exactly ([`contact`](engine::contact)).
+//! - Eight cells of one strip at a time ([`strips`](engine::strips)), the same source for every instruction set ([`kernel`](engine::kernel)).
+//! - Between two steps the complete state can be taken out and put into another simulation ([`checkpoint`](simulation::checkpoint)).
+//! - Sums are integers, so they do not depend on the order of the cells ([`exact`](engine::exact), [`sums`](engine::sums)).
+//! - The ring is divided into sectors ([`sector`](engine::sector)) that belong to workers: threads or processes that tell each other those
+//!   sums and hand on the pin columns that cross from sector to sector ([`comm`](engine::comm)).
 //!
 //! # Range of validity
 //! Normal load only: no friction, no heat, no inertia. Cells deform independently (Winkler). Time acceleration m > 1 is
 //! an approximation. The explicit wear rule overshoots when the stiffness number Π = κ k m r Δθ exceeds 1 and is
-//! unstable above 2 ([`parameters::Parameters::stiffness_number`]); the exponential rule never is.
+//! unstable above 2 ([`parameters::Parameters::stiffness_number`](model::parameters::Parameters::stiffness_number)); the exponential rule never is.
 
 pub mod acceleration;
-pub mod checkpoint;
-pub mod clock;
-pub mod comm;
-pub mod contact;
-mod crew;
-pub mod debris;
-mod engine;
-pub mod exact;
-pub mod filling;
-pub mod first_contact;
-pub mod forecast;
-pub mod history;
-pub mod kernel;
-pub mod material;
-pub mod mesh;
+pub mod engine;
 pub mod model;
 pub mod observe;
-pub mod pair;
 mod paper;
-pub mod parameters;
-pub mod parts;
-pub mod plateau;
-pub mod plateau_size;
-pub mod pressure_spread;
-pub mod roughness;
-pub mod schedule;
-pub mod scout;
-pub mod sector;
 pub mod simulation;
-pub mod smoothness;
-pub mod state;
-pub mod strips;
-pub mod sum;
-pub mod sums;
 pub mod surface;
-pub mod wear;
-pub mod window_mean;
-mod worker;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use crate::material::{Material, Materials};
-use crate::mesh::Mesh;
-use crate::parameters::{Integrator, Parameters, PlateauRules};
-use crate::state::{Base, InitialSurfaces};
+use crate::model::material::{Material, Materials};
+use crate::model::mesh::Mesh;
+use crate::model::parameters::{Integrator, Parameters, PlateauRules};
+use crate::model::state::{Base, InitialSurfaces};
 use crate::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation, RawHeights, Texture};
 
 impl Parameters {

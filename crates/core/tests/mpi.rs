@@ -4,8 +4,8 @@
 //! Without an argument it exchanges messages; `panic`, `drop` and `fail` end one rank out of order while the others
 //! wait for it, and `fail-alike` ends all of them with the same message.
 
-use plateau_core::comm::Communicator;
-use plateau_core::comm::mpi::{Mpi, Session};
+use plateau_core::engine::comm::Communicator;
+use plateau_core::engine::comm::mpi::{Mpi, Session};
 
 const ROUNDS: u64 = 3000;
 /// 100 kB: far more than an MPI library sends before the receiver is ready.

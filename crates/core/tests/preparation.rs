@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, Fill, Level, Patch, Preparation, PreparationError, RawHeights};
 use proptest::prelude::*;
 

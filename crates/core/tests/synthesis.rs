@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, HeightSynthesis, SynthesisError, Texture};
 
 /// Ring of mean radius 1 whose cells are as wide as 2π/columns and as high as that times `aspect`.

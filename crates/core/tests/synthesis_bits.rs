@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, HeightSynthesis, Texture};
 use sha2::{Digest, Sha256};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{Body, HeightSynthesis, Texture};
 
 const SEEDS: u64 = 20;

@@ -14,10 +14,10 @@ use std::fs;
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-use plateau_core::checkpoint::Checkpoint;
-use plateau_core::mesh::Mesh;
+use plateau_core::acceleration::scout::ScoutCheckpoint;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Extras, Sample};
-use plateau_core::scout::ScoutCheckpoint;
+use plateau_core::simulation::checkpoint::Checkpoint;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};

@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plateau_core::material::Material;
+use plateau_core::model::material::Material;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
+use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::Map;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
-use plateau_core::schedule::SampleEvery;
-use plateau_core::state::{Base, InitialSurfaces};
+use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene, Workers};
 use plateau_io::scene::{self, memory_estimate};

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plateau_core::state::Base;
+use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_io::scene;
 use plateau_io::scene::recipe::{BaseSource, Scene};

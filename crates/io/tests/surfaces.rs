@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use hdf5::types::VarLenUnicode;
 use ndarray::{Array2, Array3};
-use plateau_core::material::{Material, Materials};
-use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
-use plateau_core::schedule::SampleEvery;
-use plateau_core::state::Base;
+use plateau_core::model::material::{Material, Materials};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::model::state::Base;
+use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
 use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
 use plateau_io::surface::{Loaded, ReadOptions, load};

@@ -72,7 +72,7 @@ def mean_of_last(values: np.ndarray, count: int) -> float:
 
 def standard_error(values: np.ndarray) -> float:
     """Standard error of the mean of values that follow one another in time: the formula is that of the program,
-    crates/core/src/window_mean.rs, with its sources."""
+    crates/core/src/observe/window_mean.rs, with its sources."""
     n, rest = len(values), values - values.mean()
     covariance = [float((rest[: n - lag] * rest[lag:]).sum()) / n for lag in range(n // 2 + 1)]
     lags, total, before = 0, -covariance[0], np.inf

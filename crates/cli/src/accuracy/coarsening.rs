@@ -1,7 +1,7 @@
 //! A scene's surfaces on a coarser mesh.
 
-use plateau_core::mesh::{Mesh, MeshError};
-use plateau_core::state::{Base, InitialSurfaces};
+use plateau_core::model::mesh::{Mesh, MeshError};
+use plateau_core::model::state::{Base, InitialSurfaces};
 
 use super::overlap::Overlap;
 

@@ -1,6 +1,6 @@
 //! A run held against the reference.
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 
 use super::coarsening::Coarsening;
 use super::outcome::{Heights, Outcome};

@@ -1,7 +1,7 @@
 //! Ladders: runs of a scene that differ in one of its numerics.
 
 use plateau_core::acceleration::Adaptive;
-use plateau_core::parameters::Integrator;
+use plateau_core::model::parameters::Integrator;
 
 use super::numerics::{Numerics, integrator_name};
 use crate::arguments::Ladder;

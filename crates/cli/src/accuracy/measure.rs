@@ -3,9 +3,9 @@
 use std::fmt;
 use std::time::Instant;
 
+use plateau_core::acceleration::scout::Scout;
+use plateau_core::observe::schedule::{self, SampleEvery, Schedule};
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
-use plateau_core::schedule::{self, SampleEvery, Schedule};
-use plateau_core::scout::Scout;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
 

@@ -1,7 +1,7 @@
 //! The numerics of one run of a scene: what a ladder changes.
 
 use plateau_core::acceleration::Adaptive;
-use plateau_core::parameters::{Integrator, Parameters};
+use plateau_core::model::parameters::{Integrator, Parameters};
 use plateau_io::scene::recipe::Scene;
 
 use super::coarsening::Coarsening;

@@ -159,7 +159,7 @@ pub fn plan(task: &Task, read: Option<f64>, seconds: impl Fn(&Numerics) -> f64) 
 #[cfg(test)]
 mod tests {
     use plateau_core::acceleration::Adaptive;
-    use plateau_core::parameters::Integrator;
+    use plateau_core::model::parameters::Integrator;
 
     use super::*;
 

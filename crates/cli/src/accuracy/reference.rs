@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use plateau_core::model::parameters::Integrator;
 use plateau_core::observe::{Map, MapValues};
-use plateau_core::parameters::Integrator;
 use plateau_io::run_file::{InputFile, ReadError, RunFile, State};
 use plateau_io::scene::{Difference, differences, recipe::Scene};
 

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use plateau_core::mesh::MeshError;
-use plateau_core::parameters::Parameters;
-use plateau_core::scout::Scout;
+use plateau_core::acceleration::scout::Scout;
+use plateau_core::acceleration::smoothness::Smoothness;
+use plateau_core::model::mesh::MeshError;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_core::smoothness::Smoothness;
-use plateau_core::state::InitialSurfaces;
 use plateau_io::scene::recipe::Scene;
 
 use super::coarsening::Coarsening;

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
-use plateau_core::state::InitialSurfaces;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::recipe::Scene;
 

@@ -1,6 +1,6 @@
 //! What was found, as tables for people.
 
-use plateau_core::parameters::Integrator;
+use plateau_core::model::parameters::Integrator;
 
 use super::advice::advice;
 use super::reference::OwnError;

@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use plateau_core::parts::{ACCELERATION, Part, parts};
-use plateau_core::scout::Idle;
+use plateau_core::acceleration::scout::Idle;
+use plateau_core::acceleration::smoothness::Smoothness;
+use plateau_core::engine::parts::{ACCELERATION, Part, parts};
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_core::smoothness::Smoothness;
 use plateau_io::checkpoint;
 use plateau_io::claim::lock_of;
 use plateau_io::plausibility;

@@ -1,9 +1,9 @@
 //! A process on its own.
 
-use plateau_core::comm::CommError;
-use plateau_core::parameters::Parameters;
+use plateau_core::engine::comm::CommError;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_core::state::InitialSurfaces;
 
 use super::share::Hand;
 use super::{Agreement, Went};

@@ -3,11 +3,11 @@
 use std::thread;
 use std::time::Duration;
 
-use plateau_core::comm::mpi::{Mpi, Session};
-use plateau_core::comm::{CommError, Communicator as _};
-use plateau_core::parameters::Parameters;
+use plateau_core::engine::comm::mpi::{Mpi, Session};
+use plateau_core::engine::comm::{CommError, Communicator as _};
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_core::state::InitialSurfaces;
 
 use super::share::Hand;
 use super::{Agreement, Went};

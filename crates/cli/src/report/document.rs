@@ -1,6 +1,6 @@
 //! The JSON document from which the scripts of the page draw charts, maps and figures.
 
-use plateau_core::material::Status;
+use plateau_core::model::material::Status;
 use plateau_io::run_file::{ReadError, RunFile};
 use plotters::style::RGBColor;
 use serde::Serialize;

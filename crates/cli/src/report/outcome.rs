@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use plateau_core::window_mean::WindowMean;
+use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::run_file::{RunFile, State};
 
 use super::recorded::Recorded;

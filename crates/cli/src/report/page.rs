@@ -1,6 +1,6 @@
 //! The page, put together.
 
-use plateau_core::window_mean::WindowMean;
+use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::run_file::{ReadError, RunFile, State};
 
 use super::document::Document;

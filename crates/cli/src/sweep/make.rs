@@ -2,8 +2,8 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use plateau_core::acceleration::scout::Scout;
 use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
-use plateau_core::scout::Scout;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::study::Study;

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use plateau_core::checkpoint::Checkpoint;
-use plateau_core::scout::{Scout, ScoutCheckpoint};
+use plateau_core::acceleration::scout::{Scout, ScoutCheckpoint};
+use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_io::run_file::{ReadError, RunFile, State};
 use plateau_io::units::{self, Dimension};
 
@@ -94,7 +94,7 @@ mod tests {
 
     use std::time::Duration;
 
-    use plateau_core::mesh::Mesh;
+    use plateau_core::model::mesh::Mesh;
     use plateau_io::run_file::State;
 
     use super::{Look, duration};

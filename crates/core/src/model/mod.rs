@@ -13,13 +13,18 @@
 //! | 4P | pooled debris fills open cells | [`step::form`] |
 //! | 4.6 | all of these, once | [`step::advance`] |
 
-pub(crate) mod plain;
+pub mod clock;
+pub mod first_contact;
+pub mod material;
+pub mod mesh;
+pub mod parameters;
+pub mod state;
 pub mod step;
 
 use std::ops::Add;
 
-use crate::parameters::{DebrisRule, Parameters};
-use crate::state::{Disc, InitialSurfaces, Pin};
+use crate::model::parameters::{DebrisRule, Parameters};
+use crate::model::state::{Disc, InitialSurfaces, Pin};
 
 /// The state of disc, pin and debris between two steps (model 2).
 #[derive(Debug, Clone, PartialEq)]

@@ -4,10 +4,10 @@
 //! direction is number (j + 1) · rows + i.
 
 use super::{State, Step, Volumes};
-use crate::contact::ContactError;
-use crate::material::Status;
-use crate::parameters::{DebrisRule, Integrator, Parameters};
-use crate::state::disc_status;
+use crate::engine::contact::ContactError;
+use crate::model::material::Status;
+use crate::model::parameters::{DebrisRule, Integrator, Parameters};
+use crate::model::state::disc_status;
 
 /// A pin cell and the disc cell under it, as they are at the start of a step.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,6 @@
 //! The two bodies as grids: how many cells, how large, closed or not.
 
-use crate::mesh::Mesh;
+use crate::model::mesh::Mesh;
 
 /// Which surface of the pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use thiserror::Error;
 
 use super::random::{Random, Stream};
 use super::{Body, Length};
-use crate::mesh::Mesh;
-use crate::state::Base;
+use crate::model::mesh::Mesh;
+use crate::model::state::Base;
 
 /// Fibres as capsules (rectangles with round ends) at random places and angles, up to a given area fraction.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@ use super::outliers::remove_outliers;
 pub use super::preparation_error::PreparationError;
 use super::resample::resample;
 use super::{Body, Length, Patch};
-use crate::mesh::Mesh;
+use crate::model::mesh::Mesh;
 
 /// What is taken out of a surface before anything else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

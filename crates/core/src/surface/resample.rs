@@ -2,7 +2,7 @@
 
 use super::prepare::PreparationError;
 use super::{Body, Patch};
-use crate::mesh::Mesh;
+use crate::model::mesh::Mesh;
 
 /// Lengths that differ by less than this are the same length.
 const SAME_LENGTH: f64 = 1e-9;

@@ -1,8 +1,8 @@
 //! A simulation at a limit of the model, and what must come of it.
 
-use plateau_core::mesh::Mesh;
-use plateau_core::parameters::{Integrator, Parameters, PlateauRules};
-use plateau_core::state::InitialSurfaces;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::{Integrator, Parameters, PlateauRules};
+use plateau_core::model::state::InitialSurfaces;
 
 /// What must come of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Every case.
 
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters};
-use plateau_core::state::Base;
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
+use plateau_core::model::state::Base;
 
 use super::case::{Case, Expected, paper, with_stiffness_number};
 use super::surfaces::{all as of_base, flat, rough, scaled, with_disc_cell};

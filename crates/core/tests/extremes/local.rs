@@ -1,8 +1,8 @@
 //! What local debris keeps besides (model 4L). That worn = deposited + emitted is the balance residual, the pool being 0.
 
+use plateau_core::model::parameters::{DebrisRule, Parameters};
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::Sample;
-use plateau_core::parameters::{DebrisRule, Parameters};
-use plateau_core::state::InitialSurfaces;
 
 /// The laws of a case; a pool has none of them.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,8 @@
 //! What came of a case.
 
-use plateau_core::material::Status;
+use plateau_core::model::material::Status;
+use plateau_core::model::parameters::Parameters;
 use plateau_core::observe::{Map, MapValues, QUANTITIES, Sample};
-use plateau_core::parameters::Parameters;
 use plateau_core::simulation::{Simulation, SimulationError};
 
 use super::case::{Case, Expected};

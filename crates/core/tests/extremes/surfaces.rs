@@ -1,7 +1,7 @@
 //! Surfaces of cases: their statistics do not matter, but they are the same everywhere.
 
-use plateau_core::mesh::Mesh;
-use plateau_core::state::{Base, InitialSurfaces};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::{Base, InitialSurfaces};
 
 /// A reproducible stream of numbers in 0..1 (SplitMix64).
 struct Stream(u64);

@@ -7,7 +7,7 @@
 
 use std::io::{self, Write};
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::Body;
 

@@ -18,7 +18,7 @@ pub use recorded::Recorded;
 pub use scene::of_scene;
 pub use surfaces::of_surfaces;
 
-use plateau_core::material::Materials;
+use plateau_core::model::material::Materials;
 
 use crate::scene::recipe::Scene;
 use crate::scene::{Origin, Warning};

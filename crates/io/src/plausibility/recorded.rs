@@ -1,8 +1,8 @@
 //! What the samples of a run say.
 
-use plateau_core::material::Status;
+use plateau_core::model::material::Status;
+use plateau_core::model::parameters::Parameters;
 use plateau_core::observe::Sample;
-use plateau_core::parameters::Parameters;
 
 use super::words::number;
 use super::{Finding, Rule, apply, softest_plateau, too_much_overlap, too_much_pressure};

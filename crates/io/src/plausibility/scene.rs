@@ -1,7 +1,7 @@
 //! What a scene says by itself.
 
-use plateau_core::material::Material;
-use plateau_core::mesh::Mesh;
+use plateau_core::model::material::Material;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{HeightSynthesis, Length, Texture};
 
 use super::words::{number, pressure};

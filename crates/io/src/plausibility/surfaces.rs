@@ -1,6 +1,6 @@
 //! What a scene and its surfaces say together: what a cutoff cuts, and what the first step will meet.
 
-use plateau_core::first_contact::FirstContact;
+use plateau_core::model::first_contact::FirstContact;
 use plateau_core::surface::Length;
 
 use super::words::number;

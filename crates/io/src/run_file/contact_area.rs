@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use plateau_core::window_mean::{Cumulative, WindowMean};
+use plateau_core::observe::window_mean::{Cumulative, WindowMean};
 
 use super::{ReadError, RunFile};
 

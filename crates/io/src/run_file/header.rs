@@ -3,9 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::Base;
 use plateau_core::observe::{Extras, Map};
-use plateau_core::state::Base;
 use serde::{Deserialize, Serialize};
 
 use super::RunFileError;

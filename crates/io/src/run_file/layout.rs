@@ -7,7 +7,7 @@ use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Datatype, Extent, File, H5Type, Location, SimpleExtents};
 use ndarray::s;
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Map, quantities};
 
 use super::Header;

@@ -5,8 +5,8 @@ use std::time::SystemTime;
 
 use hdf5::{Dataset, H5Type};
 use ndarray::s;
-use plateau_core::material::Status;
-use plateau_core::mesh::Mesh;
+use plateau_core::model::material::Status;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Extras, Map, MapValues, quantities};
 
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use plateau_core::material::Status;
+use plateau_core::model::material::Status;
+use plateau_core::model::state::Base;
 use plateau_core::observe::{Extras, Map};
-use plateau_core::state::Base;
 
 use super::{Header, InputFile, ReadError, RunFile};
 

@@ -1,6 +1,6 @@
 //! How large a run file will be.
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Extras, Map, quantities};
 
 use super::layout::series_chunk;

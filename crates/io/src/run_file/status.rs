@@ -1,8 +1,8 @@
 //! Statuses as an HDF5 enumeration.
 
 use hdf5::H5Type;
-use plateau_core::material::Status;
-use plateau_core::state::Base;
+use plateau_core::model::material::Status;
+use plateau_core::model::state::Base;
 
 /// [`Status`] with the member names that the run file uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, H5Type)]

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use plateau_core::acceleration::Adaptive;
-use plateau_core::material::{Material, Materials};
-use plateau_core::mesh::{Mesh, MeshError};
+use plateau_core::model::material::{Material, Materials};
+use plateau_core::model::mesh::{Mesh, MeshError};
+use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::model::state::Base;
 use plateau_core::observe::Extras;
-use plateau_core::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
-use plateau_core::schedule::SampleEvery;
-use plateau_core::state::Base;
+use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
 

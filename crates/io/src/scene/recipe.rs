@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use plateau_core::acceleration::Adaptive;
+use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{Extras, Map};
-use plateau_core::parameters::Parameters;
-use plateau_core::schedule::{End, SampleEvery, Schedule};
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
 
@@ -126,7 +126,7 @@ pub enum BaseSource {
     /// Random capsules.
     Synthetic(FibreSynthesis),
     /// All cells alike.
-    Uniform(plateau_core::state::Base),
+    Uniform(plateau_core::model::state::Base),
 }
 
 /// How many threads share the ring.

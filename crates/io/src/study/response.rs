@@ -1,6 +1,6 @@
 //! Responses: one number that a run gives for each question of a study.
 
-use plateau_core::window_mean::{Cumulative, WindowMean, last_tenth};
+use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 
 use super::record::{REVOLUTIONS, Series};
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use hdf5::Dataset;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use ndarray::ArrayView2;
-use plateau_core::state::Base;
+use plateau_core::model::state::Base;
 use plateau_core::surface::Patch;
 use thiserror::Error;
 

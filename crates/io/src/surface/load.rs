@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use plateau_core::mesh::Mesh;
-use plateau_core::state::{Base, InitialSurfaces};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::surface::describe::HeightParameters;
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction};

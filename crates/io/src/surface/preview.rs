@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use plateau_core::mesh::Mesh;
-use plateau_core::state::Base;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::{FibreMap, PinPlane};
 
 use super::error::{FileError, SurfaceError};

@@ -7,9 +7,9 @@ mod recorder;
 use std::path::Path;
 use std::time::Instant;
 
-use plateau_core::scout::{Idle, Scout};
+use plateau_core::acceleration::scout::{Idle, Scout};
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_core::state::InitialSurfaces;
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
 use plateau_io::plausibility::{self, Recorded};

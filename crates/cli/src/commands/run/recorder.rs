@@ -1,8 +1,8 @@
 //! Where the samples and maps of a run go, and what may end it.
 
-use plateau_core::comm::CommError;
+use plateau_core::acceleration::scout::Scout;
+use plateau_core::engine::comm::CommError;
 use plateau_core::observe::{Sample, Snapshot};
-use plateau_core::scout::Scout;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::plausibility::Recorded;
 use plateau_io::run_file::{RunFileError, RunWriter};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use plateau_core::mesh::Mesh;
-use plateau_core::state::InitialSurfaces;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, level};
 use plateau_io::surface::Measured;

@@ -1,6 +1,6 @@
 //! A page of maps: bodies below each other, moments or runs beside each other, with the colour bars they share.
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plotters::style::RGBColor;
 
 use super::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};

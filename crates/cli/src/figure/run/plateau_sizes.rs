@@ -1,8 +1,8 @@
 //! How large plateaus are: how many there are of at least an area, at the first and the last moment.
 
-use plateau_core::material::Status;
+use plateau_core::model::material::Status;
 use plateau_core::observe::Map;
-use plateau_core::plateau_size::plateau_areas;
+use plateau_core::observe::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::{any_of, having};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::{Range, RangeInclusive};
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plotters::style::RGBColor;
 
 use crate::figure::picture::Picture;

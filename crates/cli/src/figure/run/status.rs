@@ -1,6 +1,6 @@
 //! Status of the cells of disc and pin at the first and the last moment (paper Figs. 10 and 12).
 
-use plateau_core::mesh::Mesh;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 

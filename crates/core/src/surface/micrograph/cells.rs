@@ -1,7 +1,7 @@
 //! A picture in the plane of the pin, and the pin's cells in it.
 
 use super::{MicrographError, Picture};
-use crate::mesh::Mesh;
+use crate::model::mesh::Mesh;
 
 /// Points of a cell along either direction: at least this many, and at least [`PER_PIXEL`] for every pixel, up to
 /// [`MOST_POINTS`].

@@ -9,8 +9,8 @@ mod smooth;
 use thiserror::Error;
 
 use super::Length;
-use crate::mesh::Mesh;
-use crate::state::Base;
+use crate::model::mesh::Mesh;
+use crate::model::state::Base;
 
 pub use cells::PinPlane;
 pub use picture::Picture;

@@ -1,6 +1,6 @@
 //! The grid on which a field is made: the body's cells and a margin.
 
-use crate::mesh::Mesh;
+use crate::model::mesh::Mesh;
 use crate::surface::Body;
 
 /// Cells of a body, and those of the periodic field from which they are taken.

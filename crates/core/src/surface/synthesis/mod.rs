@@ -17,7 +17,7 @@ pub use error::SynthesisError;
 
 use super::Body;
 use super::random::{Random, Stream};
-use crate::mesh::Mesh;
+use crate::model::mesh::Mesh;
 use grid::Grid;
 use johnson::Johnson;
 use translation::Translation;

@@ -1,0 +1,269 @@
+//! Time acceleration that a run chooses as it goes (model 4.6).
+//!
+//! Three things bound m, and [`Choice`] takes the largest that keeps within all of them:
+//!
+//! - *What has passed.* A run begins with m = 1, and no simulated revolution stands for more than a small part of the time
+//!   that has passed. What a revolution does to the surfaces is large at the start and small later, so m grows with the
+//!   time, each decade of which takes as many steps as the one before.
+//! - *What is seen.* A second simulation of the same surfaces, the [scout](crate::acceleration::scout), goes beside the run with
+//!   [`RATIO`] times its acceleration. From what the two differ by follows the error of the run: see [`Choice::error`].
+//! - *What is resolved.* A window of the contact area's history has a few revolutions, and ends with one: over a part of a
+//!   revolution the mean depends on which part of the ring that is.
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::parameters::{Integrator, Parameters};
+
+/// Acceleration of the scout over that of the run: it costs a quarter of the run.
+pub const RATIO: u32 = 4;
+/// Least length of a window of the contact area's history, s.
+const SHORTEST_WINDOW: f64 = 5.0;
+/// Windows of a history, at most.
+const WINDOWS: f64 = 50.0;
+/// Simulated revolutions that a window has at least: the contact area varies round the ring.
+const REVOLUTIONS_PER_WINDOW: f64 = 3.0;
+/// Stiffness number of the scout that the explicit rule may reach: above 1 it overshoots.
+const LARGEST_STIFFNESS_NUMBER: f64 = 0.5;
+/// What is aimed at, of the tolerance: the error is only estimated.
+const AIM: f64 = 0.7;
+/// Acceleration changes at most by this factor, or its inverse, at a time.
+const LARGEST_CHANGE: f64 = 2.0;
+/// Smaller changes are not worth it: they would follow the noise.
+const SMALLEST_CHANGE: f64 = 1.2;
+/// Part of the time passed that a revolution may stand for, over the tolerance (docs/accuracy.md).
+const GROWTH: f64 = 3.5;
+/// Part of a window, or of m, below which times and accelerations are the same: they are rounded.
+const ROUNDING: f64 = 1e-6;
+
+/// What the user asks of a run that chooses its acceleration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Adaptive {
+    /// Largest relative error of the contact area's history: root mean square over windows of a fiftieth of the duration,
+    /// but at least 5 s.
+    pub tolerance: f64,
+    /// Largest acceleration.
+    pub largest: f64,
+}
+
+/// The acceleration of a run, from what its contact area and that of its scout have differed by.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Choice {
+    tolerance: f64,
+    /// Largest acceleration for which the history has windows and the scout is stable.
+    largest: f64,
+    /// A window of the history, s.
+    window: f64,
+    /// A revolution with m = 1, s.
+    revolution: f64,
+    /// m that was wanted, before it was rounded to whole revolutions in a window.
+    wanted: f64,
+    acceleration: f64,
+    /// Relative difference from the scout's contact area.
+    difference: FadingMean,
+    /// Square of that mean.
+    square: FadingMean,
+}
+
+impl Choice {
+    /// The choice of a run of this duration (s), which begins with m = 1.
+    pub fn new(adaptive: &Adaptive, parameters: &Parameters, duration: f64) -> Self {
+        let window = (duration / WINDOWS).max(SHORTEST_WINDOW);
+        let unaccelerated = Parameters { time_acceleration: 1.0, ..parameters.clone() };
+        let revolution = unaccelerated.step_time() * parameters.mesh.disc_columns() as f64;
+        let resolved = window / (REVOLUTIONS_PER_WINDOW * revolution);
+        let stable = match parameters.integrator {
+            Integrator::Explicit => LARGEST_STIFFNESS_NUMBER / (f64::from(RATIO) * unaccelerated.stiffness_number()),
+            Integrator::Exponential => f64::INFINITY,
+        };
+        Self::within(adaptive.tolerance, adaptive.largest.min(resolved).min(stable).max(1.0), window, revolution)
+    }
+
+    fn within(tolerance: f64, largest: f64, window: f64, revolution: f64) -> Self {
+        let (difference, square) = Default::default();
+        Self { tolerance, largest, window, revolution, wanted: 1.0, acceleration: 1.0, difference, square }
+    }
+
+    /// m of the coming steps.
+    pub fn acceleration(&self) -> f64 {
+        self.acceleration
+    }
+
+    /// Whether there is a choice at all.
+    pub fn is_free(&self) -> bool {
+        self.largest > 1.0
+    }
+
+    /// Estimate of the relative error of the contact area, from what it differed from the scout's by, lately.
+    ///
+    /// It is an upper bound of the error where that grows as a power of m between 0 and 1; above m = 4, more than the
+    /// difference.
+    pub fn error(&self) -> f64 {
+        from_difference(self.square.value().sqrt().max(self.difference.value().abs()), self.acceleration)
+    }
+
+    /// Goes back to m = 1, whose error is 0.
+    pub fn give_up(&mut self) {
+        *self = Self::within(self.tolerance, 1.0, self.window, self.revolution);
+    }
+
+    /// Takes note that over the last `elapsed` of `time` seconds the scout's contact area differed from that of the run by
+    /// `difference`, relative to it, and chooses anew.
+    pub fn note(&mut self, difference: f64, elapsed: f64, time: f64) {
+        self.difference.add(difference, elapsed / self.window);
+        self.square.add(self.difference.value().powi(2), elapsed / (REVOLUTIONS_PER_WINDOW * self.window));
+        let error = self.error();
+        let change = if error > 0.0 { AIM * self.tolerance / error } else { LARGEST_CHANGE };
+        if !(1.0 / SMALLEST_CHANGE..SMALLEST_CHANGE).contains(&change) {
+            self.wanted *= change.clamp(1.0 / LARGEST_CHANGE, LARGEST_CHANGE);
+        }
+        let passed = GROWTH * self.tolerance * time / self.revolution;
+        self.wanted = self.wanted.min(passed).min(self.largest).max(1.0);
+        self.take(whole_revolutions(self.wanted, self.revolution, self.window - time % self.window, self.window));
+    }
+
+    /// Goes on with this m, if it is another one.
+    fn take(&mut self, acceleration: f64) {
+        let change = acceleration / self.acceleration;
+        if (change - 1.0).abs() > ROUNDING {
+            self.acceleration = acceleration;
+            // What was seen so far counts as if it had been seen at the new acceleration.
+            self.difference.scale(change);
+            self.square.scale(change * change);
+        }
+    }
+}
+
+/// Estimate of the error of a run with m = `acceleration` whose scout has [`RATIO`] times that, from their relative
+/// difference D.
+///
+/// Where the error grows as a power of m between 0 (as ln m) and 1, from 0 at m = 1, it is (m^p − 1)/(m^p (4^p − 1)) D, which
+/// is largest for p = 0: D ln m/ln 4. So that is an upper bound; up to m = 4 it is not used, for D is all there is to see.
+fn from_difference(difference: f64, acceleration: f64) -> f64 {
+    difference * (libm::log(acceleration) / libm::log(f64::from(RATIO))).max(1.0)
+}
+
+/// The largest m up to `wanted` with which whole revolutions, of `revolution` (s) at m = 1, fit into what is `left` (s) of a
+/// window; at least 1.
+fn whole_revolutions(wanted: f64, revolution: f64, left: f64, window: f64) -> f64 {
+    let left = if left > ROUNDING * window { left } else { window };
+    let count = (left / (wanted * revolution) - ROUNDING).ceil().max(1.0);
+    (left / (count * revolution)).clamp(1.0, wanted)
+}
+
+/// A mean in which what was added fades, over a time that is the unit of the weights.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct FadingMean {
+    sum: f64,
+    weight: f64,
+}
+
+impl FadingMean {
+    fn add(&mut self, value: f64, elapsed: f64) {
+        let kept = libm::exp(-elapsed);
+        self.sum = kept * self.sum + (1.0 - kept) * value;
+        self.weight = kept * self.weight + (1.0 - kept);
+    }
+
+    fn scale(&mut self, factor: f64) {
+        self.sum *= factor;
+    }
+
+    /// 0 before anything was added.
+    fn value(&self) -> f64 {
+        if self.weight > 0.0 { self.sum / self.weight } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The acceleration after 400 looks at differences, each after four simulated revolutions of 1 s at m = 1.
+    fn settled(mut choice: Choice, difference: impl Fn(u32, f64) -> f64) -> f64 {
+        let mut time = 0.0;
+        for look in 0..400 {
+            let acceleration = choice.acceleration();
+            let elapsed = f64::from(RATIO) * acceleration;
+            time += elapsed;
+            choice.note(difference(look, acceleration), elapsed, time);
+        }
+        choice.acceleration()
+    }
+
+    #[test]
+    fn the_estimate_bounds_the_error_of_every_power_between_0_and_1() {
+        // Closed form: the error is m^p − 1, or ln m, the difference that of 4 m and m.
+        for acceleration in [4.0, 10.0, 100.0_f64, 1000.0] {
+            for power in [0.01, 0.25, 0.5, 1.0] {
+                let error = |m: f64| m.powf(power) - 1.0;
+                let estimate = from_difference(error(4.0 * acceleration) - error(acceleration), acceleration);
+                assert!(estimate >= error(acceleration), "m = {acceleration}, power {power}");
+            }
+            let difference = (4.0 * acceleration).ln() - acceleration.ln();
+            assert!((from_difference(difference, acceleration) / acceleration.ln() - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(from_difference(0.01, 1.0), 0.01);
+    }
+
+    #[test]
+    fn the_estimate_becomes_the_tolerance() {
+        // By hand: where scout and run differ by 0.02 % per unit of m, AIM · 1 % is at m ln m/ln 4 = AIM · 50, m = 17.05.
+        for sign in [1.0, -1.0] {
+            let acceleration = settled(Choice::within(0.01, 1000.0, 1e6, 1.0), |_, m| sign * 2e-4 * m);
+            assert!((17.05 / SMALLEST_CHANGE..=17.05 * SMALLEST_CHANGE).contains(&acceleration), "{acceleration}");
+        }
+    }
+
+    #[test]
+    fn what_changes_its_sign_counts_too() {
+        // ± 10 % from one look to the next is noise that means take away, but not all of it.
+        let noise = |look: u32, _: f64| if look.is_multiple_of(2) { 0.1 } else { -0.1 };
+        let noisy = settled(Choice::within(0.01, 1000.0, 100.0, 1.0), noise);
+        assert!(noisy < 20.0, "{noisy}");
+    }
+
+    #[test]
+    fn nothing_to_see_leads_to_the_largest_and_too_much_to_none() {
+        let largest = settled(Choice::within(0.01, 25.0, 100.0, 1.0), |_, _| 0.0);
+        assert!((largest / 25.0 - 1.0).abs() < ROUNDING, "{largest}");
+        assert_eq!(settled(Choice::within(0.01, 25.0, 100.0, 1.0), |_, _| 0.5), 1.0);
+        assert!(!Choice::within(0.01, 1.0, 100.0, 1.0).is_free());
+    }
+
+    #[test]
+    fn no_revolution_stands_for_more_than_a_part_of_the_time_passed() {
+        let mut choice = Choice::within(0.01, 1000.0, 1e6, 0.5);
+        let mut time = 0.0;
+        for look in 0..200 {
+            let acceleration = choice.acceleration();
+            let bound = (GROWTH * 0.01 * time / 0.5).max(1.0);
+            assert!(acceleration <= bound, "look {look}: {acceleration}, at most {bound}");
+            time += 4.0 * 0.5 * acceleration;
+            choice.note(0.0, 4.0 * 0.5 * acceleration, time);
+        }
+        // It has grown, and by no more than it must: by hand, by 4 · 3.5 % a look once it is above 1.
+        assert!(choice.acceleration() > 900.0, "{}", choice.acceleration());
+    }
+
+    #[test]
+    fn windows_end_with_a_revolution() {
+        // By hand: a window of 60 s has 6 revolutions of 10 s, where up to 11 are wanted; of what is left after 40 s, 2.
+        assert_eq!(whole_revolutions(11.0, 1.0, 60.0, 60.0), 10.0);
+        assert_eq!(whole_revolutions(11.0, 1.0, 20.0, 60.0), 10.0);
+        // m is rounded in such a way that a rest is none, and is never below 1.
+        assert_eq!(whole_revolutions(10.0 * (1.0 - 1e-9), 1.0, 60.0 * (1.0 + 1e-9), 60.0), 10.0 * (1.0 - 1e-9));
+        assert_eq!(whole_revolutions(11.0, 1.0, 1e-9, 60.0), 10.0);
+        assert_eq!(whole_revolutions(11.0, 1.0, 0.5, 60.0), 1.0);
+    }
+
+    #[test]
+    fn a_fading_mean_is_the_exponential_mean() {
+        // Closed form: weights 1 − 1/e for the last and (1 − 1/e)/e for the one before, over their sum.
+        let mut mean = FadingMean::default();
+        mean.add(3.0, 1.0);
+        assert_eq!(mean.value(), 3.0);
+        mean.add(1.0, 1.0);
+        let e = std::f64::consts::E;
+        assert!((mean.value() - (1.0 + 3.0 / e) / (1.0 + 1.0 / e)).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,7 @@
+//! Time acceleration that a run chooses as it goes, and where it may not (model 4.6).
+
+mod choice;
+pub mod scout;
+pub mod smoothness;
+
+pub use choice::{Adaptive, Choice, RATIO};

@@ -1,0 +1,187 @@
+//! A second simulation that goes before a run, to see what its acceleration costs.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::acceleration::choice::{Adaptive, Choice, RATIO};
+use crate::acceleration::smoothness::Smoothness;
+use crate::simulation::checkpoint::Checkpoint;
+use crate::simulation::{Simulation, SimulationError};
+
+/// A simulation of the same surfaces as a run, with [`RATIO`] times its acceleration.
+///
+/// The two are compared whenever the scout has taken one revolution and the run [`RATIO`] of them, in which the same
+/// physical time passes.
+#[derive(Debug)]
+pub struct Scout {
+    /// None where the run is not accelerated any more.
+    simulation: Option<Simulation>,
+    choice: Choice,
+    smoothness: Option<Smoothness>,
+    idle: Option<Idle>,
+    /// Where the run was when the two were compared last.
+    run: Mark,
+    /// Where the scout was.
+    scout: Mark,
+}
+
+/// The complete state of a scout.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ScoutCheckpoint {
+    simulation: Option<Checkpoint>,
+    choice: Choice,
+    idle: Option<Idle>,
+    run: Mark,
+    scout: Mark,
+}
+
+/// Why a run is not accelerated (any more).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Idle {
+    /// No m above 1 is possible.
+    Limited,
+    /// The disc is too smooth since this time (s): see [`crate::acceleration::smoothness`].
+    Smooth(f64),
+}
+
+impl fmt::Display for Idle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Limited => write!(f, "nothing to choose, the run is not accelerated"),
+            Self::Smooth(0.0) => write!(
+                f,
+                "the run is not accelerated: on a disc as smooth as this nobody knows the error, but with m = 1; \
+                 a number accelerates it all the same"
+            ),
+            Self::Smooth(time) => write!(
+                f,
+                "the run was not accelerated from {time:.1} s on: on a disc as smooth as it was then nobody knows the \
+                 error, but with m = 1"
+            ),
+        }
+    }
+}
+
+/// A moment of a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Mark {
+    steps: u64,
+    time: f64,
+    contact_area_integral: f64,
+}
+
+impl Mark {
+    fn of(simulation: &Simulation) -> Self {
+        let course = simulation.course();
+        Self { steps: course.steps, time: course.time, contact_area_integral: course.contact_area_integral }
+    }
+}
+
+impl Scout {
+    /// A scout for a run of `duration` (s) that has not begun; `simulation` is another one like it.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn new(mut simulation: Simulation, adaptive: &Adaptive, duration: f64) -> Result<Self, SimulationError> {
+        let parameters = simulation.parameters();
+        let choice = Choice::new(adaptive, parameters, duration);
+        let smoothness = Smoothness::of(parameters, simulation.pin_base());
+        let limited = (!choice.is_free()).then_some(Idle::Limited);
+        let idle = limited.or(too_smooth(smoothness, &mut simulation)?);
+        simulation.accelerate(f64::from(RATIO) * choice.acceleration())?;
+        let simulation = idle.is_none().then_some(simulation);
+        Ok(Self { simulation, choice, smoothness, idle, run: Mark::default(), scout: Mark::default() })
+    }
+
+    /// Why the run is not accelerated, if so.
+    pub fn idle(&self) -> Option<Idle> {
+        self.idle
+    }
+
+    /// m of the run and the estimate of its error.
+    pub fn choice(&self) -> &Choice {
+        &self.choice
+    }
+
+    /// The step of the run after which the two are compared; none any more if the run is not accelerated.
+    pub fn comparison(&self) -> Option<u64> {
+        let revolution = self.simulation.as_ref().map(revolution)?;
+        Some(self.run.steps + u64::from(RATIO) * revolution)
+    }
+
+    /// Takes at most `steps` steps; whether it is where the two are compared.
+    ///
+    /// # Errors
+    /// As [`Simulation::advance`].
+    pub fn advance(&mut self, steps: u64) -> Result<bool, SimulationError> {
+        let Some(simulation) = &mut self.simulation else { return Ok(true) };
+        let end = self.scout.steps + revolution(simulation);
+        simulation.pass_to(simulation.steps_done().saturating_add(steps).min(end))?;
+        Ok(simulation.steps_done() == end)
+    }
+
+    /// The complete state, to go on from later.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn checkpoint(&mut self) -> Result<ScoutCheckpoint, SimulationError> {
+        let simulation = self.simulation.as_mut().map(Simulation::checkpoint).transpose()?;
+        let Self { choice, idle, run, scout, .. } = self;
+        Ok(ScoutCheckpoint { simulation, choice: choice.clone(), idle: *idle, run: *run, scout: *scout })
+    }
+
+    /// Goes on from a checkpoint of a scout for the same run.
+    ///
+    /// # Errors
+    /// As [`Simulation::restore`].
+    pub fn restore(&mut self, checkpoint: &ScoutCheckpoint) -> Result<(), SimulationError> {
+        match (&mut self.simulation, &checkpoint.simulation) {
+            (Some(simulation), Some(state)) => simulation.restore(state)?,
+            (simulation, _) => *simulation = None,
+        }
+        self.choice = checkpoint.choice.clone();
+        (self.idle, self.run, self.scout) = (checkpoint.idle, checkpoint.run, checkpoint.scout);
+        Ok(())
+    }
+
+    /// Compares the run with the scout, chooses the acceleration anew and changes that of both; whether it changed.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn compare(&mut self, run: &mut Simulation) -> Result<bool, SimulationError> {
+        let Some(simulation) = &mut self.simulation else { return Ok(false) };
+        let [before, scout_before] = [self.run, self.scout];
+        (self.run, self.scout) = (Mark::of(run), Mark::of(simulation));
+        let area = self.run.contact_area_integral - before.contact_area_integral;
+        let scouted = self.scout.contact_area_integral - scout_before.contact_area_integral;
+        let acceleration = self.choice.acceleration();
+        self.choice.note(scouted / area - 1.0, self.run.time - before.time, self.run.time);
+        self.idle = too_smooth(self.smoothness, run)?;
+        if self.idle.is_some() {
+            self.choice.give_up();
+            self.simulation = None;
+        }
+        let chosen = self.choice.acceleration();
+        if chosen == acceleration {
+            return Ok(false);
+        }
+        run.accelerate(chosen)?;
+        if let Some(simulation) = &mut self.simulation {
+            simulation.accelerate(f64::from(RATIO) * chosen)?;
+        }
+        Ok(true)
+    }
+}
+
+/// Steps of a simulated revolution.
+fn revolution(simulation: &Simulation) -> u64 {
+    simulation.parameters().mesh.disc_columns() as u64
+}
+
+/// Whether the disc is too smooth now.
+fn too_smooth(smoothness: Option<Smoothness>, simulation: &mut Simulation) -> Result<Option<Idle>, SimulationError> {
+    let Some(smoothness) = smoothness else { return Ok(None) };
+    let disc_height = simulation.disc_height()?;
+    Ok(smoothness.forbids(simulation.parameters(), &disc_height).then(|| Idle::Smooth(simulation.time())))
+}

@@ -1,0 +1,244 @@
+//! Load balance of the rigid pin on a Winkler foundation (model 4.1; paper 2.2, Eqs. 2 to 5).
+//!
+//! The load is convex and piecewise linear in the displacement. So a reading of the pairs against a bracket of
+//! displacements, sums for the pairs that touch at its lower end and a list of the few that begin to touch within it,
+//! holds all that is needed to solve the balance exactly where the solution lies within the bracket; where it does not,
+//! the reading tells where to read next.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::engine::exact::{Weights, float};
+use crate::engine::kernel::{Bracket, NearPair};
+use crate::engine::sums::{PairSums, RowWeights, Sums};
+
+/// Why no displacement carries the load.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ContactError {
+    /// Heights or stiffness left the range of floating-point numbers.
+    #[error(
+        "the load balance has no finite solution (displacement {displacement:e} m carries {load:e} N of \
+         {normal_force:e} N): heights, stiffness or load are out of the range of floating-point numbers"
+    )]
+    NotFinite {
+        /// δ reached, m.
+        displacement: f64,
+        /// Σ k A u there, N.
+        load: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
+    /// The overlap that carries the load is less than the rounding of the heights.
+    #[error(
+        "nothing carries the load of {normal_force:e} N: at gaps of {displacement:e} m the overlap that would is lost in \
+         rounding; check the unit and the scale of the heights"
+    )]
+    NotCarried {
+        /// δ reached, m.
+        displacement: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
+}
+
+/// What a reading says about the balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict {
+    /// The balance is solved.
+    Solved,
+    /// The solution lies elsewhere, probably between these two displacements, m.
+    Between(f64, f64),
+    /// Nothing touches within the bracket.
+    Apart,
+}
+
+/// The contact of the cells that share a pool.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PoolContact {
+    /// Σ A over cells in contact, in units of the area.
+    pub area: i128,
+    /// Σ A over bare resin in contact, in units of the area.
+    pub resin_area: i128,
+    /// Raw volume that plateaus of the pin lose, m³.
+    pub pin_loss: f64,
+    /// Raw volume that the disc loses, m³.
+    pub disc_loss: f64,
+}
+
+/// The contact of one step: the displacement that carries the load, and what touches there.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// δ, m; none before the first step.
+    displacement: Option<f64>,
+    /// Σ k A u, N.
+    load: f64,
+    /// Σ k A over cells in contact, N/m.
+    slope: f64,
+    /// |Σ k A u − F_N| / F_N.
+    residual: f64,
+    /// By pool.
+    pools: Vec<PoolContact>,
+    /// What a unit of the area is worth, m².
+    area_unit: f64,
+}
+
+impl Contact {
+    /// Contact of a pin that has not touched yet.
+    pub fn new(weights: &RowWeights) -> Self {
+        Self {
+            displacement: None,
+            load: 0.0,
+            slope: 0.0,
+            residual: 0.0,
+            pools: vec![PoolContact::default(); weights.pools()],
+            area_unit: weights.area.unit(),
+        }
+    }
+
+    /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of.
+    ///
+    /// # Errors
+    /// [`ContactError`] when the numbers leave the finite range or rounding leaves no overlap.
+    pub fn balance(
+        &mut self,
+        weights: &RowWeights,
+        sums: &Sums,
+        near: &mut [NearPair],
+        bracket: &Bracket,
+        normal_force: f64,
+    ) -> Result<Verdict, ContactError> {
+        let (low_load, low_slope) = load_at_low(weights, sums, bracket);
+        let low = bracket.low;
+        if !(low_load.is_finite() && low.is_finite()) {
+            return Err(ContactError::NotFinite { displacement: low, load: low_load, normal_force });
+        }
+        if low_load > normal_force {
+            // Newton's method from above: it does not overshoot.
+            let next = low - (low_load - normal_force) / low_slope;
+            let (step, tiny) = (low - next, rounding(low, next, bracket));
+            return Ok(Verdict::Between(next - (0.25 * step).max(tiny), next + (step / 1024.0).max(tiny)));
+        }
+        // In an order that does not depend on who read what.
+        near.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then((a.row, a.pair).cmp(&(b.row, b.pair))));
+        let (mut at, mut load, mut slope) = (low, low_load, low_slope);
+        let solution = |at: f64, load: f64, slope: f64| at + (normal_force - load) / slope;
+        for pair in &*near {
+            if slope > 0.0 && solution(at, load, slope) <= pair.gap {
+                break;
+            }
+            load += slope * (pair.gap - at);
+            slope += weights.stiffness_of(pair);
+            at = pair.gap;
+        }
+        if slope == 0.0 {
+            return Ok(Verdict::Apart);
+        }
+        let displacement = solution(at, load, slope);
+        if displacement - low < bracket.width {
+            (self.load, self.slope) = (low_load + low_slope * (displacement - low), low_slope);
+            self.settle(weights, sums, near, bracket, displacement);
+            if self.slope == 0.0 {
+                return Err(ContactError::NotCarried { displacement, normal_force });
+            }
+            self.residual = ((self.load - normal_force) / normal_force).abs();
+            self.displacement = Some(displacement);
+            return Ok(Verdict::Solved);
+        }
+        if !displacement.is_finite() {
+            return Err(ContactError::NotFinite { displacement, load, normal_force });
+        }
+        // Newton's method from below: the solution is not above.
+        let high = low + bracket.width;
+        let step = displacement - high;
+        Ok(Verdict::Between(high, displacement + (step / 1024.0).max(rounding(high, displacement, bracket))))
+    }
+
+    /// Takes the sums from the lower end of the bracket to the displacement.
+    fn settle(&mut self, weights: &RowWeights, sums: &Sums, near: &[NearPair], bracket: &Bracket, displacement: f64) {
+        let above = displacement - bracket.low;
+        for (contact, sums) in self.pools.iter_mut().zip(&sums.pools) {
+            *contact = PoolContact::default();
+            for pair in weights.pairs {
+                let sums = &sums.pairs[*pair];
+                if sums.area == 0 {
+                    continue;
+                }
+                contact.area += sums.area;
+                if is_bare_resin(*pair) {
+                    contact.resin_area += sums.area;
+                }
+                let loss = |low: i128, rate: i128, weights: &Weights| {
+                    (float(low) * bracket.quantum.value() + float(rate) * above) * weights.unit()
+                };
+                contact.pin_loss += loss(sums.pin_loss, sums.pin_loss_rate, &weights.pin_loss[*pair]);
+                contact.disc_loss += loss(sums.disc_loss, sums.disc_loss_rate, &weights.disc_loss[*pair]);
+            }
+        }
+        for near in near.iter().take_while(|near| near.gap < displacement) {
+            let (pair, row) = (usize::from(near.pair), near.row as usize);
+            let overlap = displacement - near.gap;
+            let contact = &mut self.pools[weights.pool_of(row)];
+            let area = i128::from(weights.area.row(row));
+            contact.area += area;
+            if is_bare_resin(pair) {
+                contact.resin_area += area;
+            }
+            contact.pin_loss += weights.pin_loss[pair].value(row) * overlap;
+            contact.disc_loss += weights.disc_loss[pair].value(row) * overlap;
+            self.load += weights.stiffness_of(near) * overlap;
+            self.slope += weights.stiffness_of(near);
+        }
+    }
+
+    /// δ, m; 0 before the first step.
+    pub fn displacement(&self) -> f64 {
+        self.displacement.unwrap_or(0.0)
+    }
+
+    /// By pool.
+    pub fn pools(&self) -> &[PoolContact] {
+        &self.pools
+    }
+
+    /// Contact area Σ A over cells in contact, m².
+    pub fn area(&self) -> f64 {
+        float(self.pools.iter().map(|pool| pool.area).sum()) * self.area_unit
+    }
+
+    /// Σ p A, N.
+    pub fn load(&self) -> f64 {
+        self.load
+    }
+
+    /// Mean overlap of the cells in contact, each counted by its stiffness, m.
+    pub fn mean_overlap(&self) -> f64 {
+        if self.slope > 0.0 { self.load / self.slope } else { 0.0 }
+    }
+
+    /// |Σ k A u − F_N| / F_N of the last balance.
+    pub fn residual(&self) -> f64 {
+        self.residual
+    }
+}
+
+/// Σ k A (low − g)₊ and its slope.
+fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f64) {
+    let (mut load, mut slope) = (0.0, 0.0);
+    for pair in weights.pairs {
+        let all = |sum: fn(&PairSums) -> i128| float(sums.pools.iter().map(|pool| sum(&pool.pairs[*pair])).sum());
+        let unit = weights.stiffness[*pair].unit();
+        load += all(|sums| sums.load) * (unit * bracket.quantum.value());
+        slope += all(|sums| sums.stiffness) * unit;
+    }
+    (load, slope)
+}
+
+/// Whether the pin of a pair is bare resin.
+fn is_bare_resin(pair: usize) -> bool {
+    pair < 2
+}
+
+/// A distance that rounding does not lose between displacements of this size, m.
+fn rounding(a: f64, b: f64, bracket: &Bracket) -> f64 {
+    16.0 * f64::EPSILON * (a.abs() + b.abs()) + 4.0 * bracket.quantum.value()
+}

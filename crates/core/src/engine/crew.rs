@@ -1,0 +1,205 @@
+//! Worker threads, their orders, and their end.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use crossbeam::channel::{Receiver, Sender, unbounded};
+
+use crate::engine::comm::threads::Alarm;
+use crate::engine::comm::{CommError, Communicator};
+use crate::engine::worker::Worker;
+use crate::observe::{Map, Sample, Snapshot};
+use crate::simulation::checkpoint::{Checkpoint, Memory};
+use crate::simulation::course::Course;
+use crate::simulation::error::SimulationError;
+
+/// What all workers are to do together.
+#[derive(Debug, Clone)]
+enum Order {
+    /// Take steps until so many are done, and watch the last or not.
+    AdvanceTo(u64, bool),
+    /// Change the acceleration.
+    Accelerate(f64),
+    /// Go on from a checkpoint.
+    Restore(Arc<Checkpoint>),
+    /// Tell what all workers know alike.
+    Memory,
+    /// Take a sample.
+    Sample,
+    /// Take maps.
+    Snapshot(Vec<Map>),
+}
+
+/// What the first worker answers, for all.
+#[derive(Debug)]
+enum Answer {
+    Course(Course),
+    Memory(Box<Memory>),
+    Sample(Box<Sample>),
+    Snapshot(Snapshot),
+}
+
+/// Long-lived threads with a worker each.
+#[derive(Debug)]
+pub(crate) struct Crew {
+    orders: Vec<Sender<Order>>,
+    answers: Receiver<Result<Answer, SimulationError>>,
+    threads: Vec<JoinHandle<()>>,
+    course: Course,
+    /// Why there are no more answers.
+    failure: Option<SimulationError>,
+}
+
+impl Crew {
+    /// Starts a thread for each worker; with `pin` each stays on a core of its own as far as there are enough.
+    ///
+    /// # Errors
+    /// What the system says when it gives no more threads.
+    pub fn start<C: Communicator + Send + 'static>(
+        workers: Vec<(Worker<C>, Alarm)>,
+        pin: bool,
+    ) -> std::io::Result<Self> {
+        let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
+        let (answer, answers) = unbounded();
+        let (orders, threads) = (Vec::new(), Vec::new());
+        let mut crew = Self { orders, answers, threads, course: Course::default(), failure: None };
+        for (rank, (worker, alarm)) in workers.into_iter().enumerate() {
+            let (order, orders) = unbounded();
+            let answer = (rank == 0).then(|| answer.clone());
+            let core = cores.get(rank % cores.len().max(1)).copied();
+            let thread = std::thread::Builder::new().name(format!("worker {rank}")).spawn(move || {
+                if let Some(core) = core {
+                    core_affinity::set_for_current(core);
+                }
+                work(rank, worker, &alarm, &orders, answer.as_ref());
+            })?;
+            crew.orders.push(order);
+            crew.threads.push(thread);
+        }
+        Ok(crew)
+    }
+
+    /// Has all workers follow an order; once they could not, the reason is all there is to be had.
+    fn ask(&mut self, order: &Order) -> Result<Answer, SimulationError> {
+        if let Some(failure) = &self.failure {
+            return Err(failure.clone());
+        }
+        for worker in &self.orders {
+            // Who does not listen any more has failed, which the first worker will notice.
+            let _ = worker.send(order.clone());
+        }
+        let gone = || CommError::Worker { worker: 0, message: "it ended before its time".into() };
+        let answer = self.answers.recv().unwrap_or_else(|_| Err(gone().into()));
+        self.failure = answer.as_ref().err().cloned();
+        answer
+    }
+
+    /// Takes steps until `step` of them are done; the last may be watched.
+    pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
+        self.go(&Order::AdvanceTo(step, watched))
+    }
+
+    /// Changes the acceleration of the coming steps.
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        self.go(&Order::Accelerate(acceleration))
+    }
+
+    fn go(&mut self, order: &Order) -> Result<(), SimulationError> {
+        match self.ask(order)? {
+            Answer::Course(course) => self.course = course,
+            answer => unreachable!("{answer:?} to an order to go on"),
+        }
+        Ok(())
+    }
+
+    /// Goes on from a checkpoint.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        self.go(&Order::Restore(Arc::new(checkpoint.clone())))
+    }
+
+    /// What all workers know alike.
+    pub fn memory(&mut self) -> Result<Memory, SimulationError> {
+        match self.ask(&Order::Memory)? {
+            Answer::Memory(memory) => Ok(*memory),
+            answer => unreachable!("{answer:?} to an order for the memory"),
+        }
+    }
+
+    /// The reported quantities after the last step.
+    pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        match self.ask(&Order::Sample)? {
+            Answer::Sample(sample) => Ok(*sample),
+            answer => unreachable!("{answer:?} to an order for a sample"),
+        }
+    }
+
+    /// The maps asked for, as they are now.
+    pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        match self.ask(&Order::Snapshot(maps.to_vec()))? {
+            Answer::Snapshot(snapshot) => Ok(snapshot),
+            answer => unreachable!("{answer:?} to an order for maps"),
+        }
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        self.course
+    }
+}
+
+impl Drop for Crew {
+    fn drop(&mut self) {
+        // A worker without orders ends.
+        self.orders.clear();
+        for thread in self.threads.drain(..) {
+            // A panic was reported when it happened.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// A thread's life: follows orders until there are no more, or one cannot be followed.
+fn work<C: Communicator>(
+    rank: usize,
+    mut worker: Worker<C>,
+    alarm: &Alarm,
+    orders: &Receiver<Order>,
+    answers: Option<&Sender<Result<Answer, SimulationError>>>,
+) {
+    while let Ok(order) = orders.recv() {
+        let result = catch_unwind(AssertUnwindSafe(|| follow(&mut worker, &order))).unwrap_or_else(|panic| {
+            let message = panic_message(panic.as_ref());
+            alarm.raise(message.clone());
+            Err(CommError::Worker { worker: rank, message }.into())
+        });
+        let failed = result.is_err();
+        if let Some(answers) = answers {
+            // Nobody waits for an answer any more when the simulation is dropped.
+            let _ = answers.send(result);
+        }
+        if failed {
+            return;
+        }
+    }
+}
+
+fn follow<C: Communicator>(worker: &mut Worker<C>, order: &Order) -> Result<Answer, SimulationError> {
+    match order {
+        Order::AdvanceTo(step, watched) => worker.advance_to(*step, *watched).map(|()| Answer::Course(worker.course())),
+        Order::Accelerate(acceleration) => worker.accelerate(*acceleration).map(|()| Answer::Course(worker.course())),
+        Order::Restore(checkpoint) => worker.restore(checkpoint).map(|()| Answer::Course(worker.course())),
+        Order::Memory => Ok(Answer::Memory(Box::new(worker.memory()))),
+        Order::Sample => worker.sample().map(|sample| Answer::Sample(Box::new(sample))),
+        Order::Snapshot(maps) => worker.snapshot(maps).map(Answer::Snapshot),
+    }
+}
+
+fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "it panicked".into())
+}
+
+#[cfg(test)]
+mod tests;

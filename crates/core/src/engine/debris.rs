@@ -1,0 +1,288 @@
+//! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4L and 4P).
+
+use crate::engine::contact::Contact;
+use crate::engine::exact::{Quantum, float};
+use crate::engine::lanes::{Chunk, LANES};
+use crate::engine::pair::Coefficients;
+use crate::engine::parts::Needs;
+use crate::engine::strips::strips;
+use crate::engine::sum::RunningSum;
+use crate::engine::sums::{RowWeights, Sums};
+use crate::model::parameters::{DebrisRule, Parameters};
+use serde::{Deserialize, Serialize};
+
+/// Volumes moved since t = 0, m³.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Totals {
+    /// Worn off plateaus of the pin.
+    pub worn_pin: RunningSum,
+    /// Worn off resin.
+    pub worn_resin: RunningSum,
+    /// Worn off the disc.
+    pub worn_disc: RunningSum,
+    /// Build-up of unsupported plateaus.
+    pub returned: RunningSum,
+    /// Compacted on the pin.
+    pub deposited_pin: RunningSum,
+    /// Compacted on the disc.
+    pub deposited_disc: RunningSum,
+    /// Left the contact.
+    pub emitted: RunningSum,
+}
+
+impl Totals {
+    /// (worn + returned − deposited − emitted − pool) / worn with this much (m³) in the pools; 0 if nothing is worn.
+    pub fn balance_residual(&self, pool: f64) -> f64 {
+        let worn = self.worn_pin.value() + self.worn_resin.value() + self.worn_disc.value();
+        if worn == 0.0 {
+            return 0.0;
+        }
+        let mut rest = RunningSum::default();
+        for term in [
+            self.worn_pin.value(),
+            self.worn_resin.value(),
+            self.worn_disc.value(),
+            self.returned.value(),
+            -self.deposited_pin.value(),
+            -self.deposited_disc.value(),
+            -self.emitted.value(),
+            -pool,
+        ] {
+            rest.add(term);
+        }
+        rest.value() / worn
+    }
+}
+
+/// What the pools hold, and what went through them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Account {
+    /// M, m³: one pool, or one per row.
+    pub pools: Vec<RunningSum>,
+    /// Volumes moved since t = 0.
+    pub totals: Totals,
+}
+
+/// The pools of debris and the account of all that went through them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Debris {
+    /// Whether there are no pools.
+    local: bool,
+    captured_fraction: f64,
+    captured_resin_fraction: f64,
+    /// β.
+    pad_share: f64,
+    needs: Needs,
+    /// h_m, m.
+    wear_height: f64,
+    columns: usize,
+    /// Σ A of the pin cells of each pool, in units of the area.
+    pool_area: Vec<i128>,
+    /// What a unit of the area is worth, m².
+    area_unit: f64,
+    /// Power of two that is above any loss per overlap.
+    loss_exponent: i32,
+    /// What of the loss of a pair of plateaus may be compacted, per overlap.
+    largest_deposit: f64,
+    /// M, m³: one pool, or one per row.
+    pools: Vec<RunningSum>,
+    /// s = M/S of every pool, m; 0 without formation.
+    pool_share: Vec<f64>,
+    /// The same of every row.
+    share: Vec<Chunk>,
+    /// Of which the deposits of the step are counted as multiples.
+    deposits: Quantum,
+    totals: Totals,
+}
+
+impl Debris {
+    /// Empty pools.
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, weights: &RowWeights) -> Self {
+        let Parameters { mesh, plateaus: rules, .. } = parameters;
+        let columns = mesh.pin_columns() as i128;
+        let area_of =
+            |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
+        Self {
+            local: rules.debris == DebrisRule::Local,
+            captured_fraction: rules.captured_fraction,
+            captured_resin_fraction: rules.captured_of_resin(),
+            pad_share: rules.pad_share,
+            needs: Needs::of(parameters),
+            wear_height: parameters.materials.wear_height,
+            columns: mesh.pin_columns(),
+            pool_area: (0..weights.pools()).map(area_of).collect(),
+            area_unit: weights.area.unit(),
+            loss_exponent: loss_exponent(coefficients),
+            largest_deposit: rules.captured_fraction * largest_loss(coefficients),
+            pools: vec![RunningSum::default(); weights.pools()],
+            pool_share: vec![0.0; weights.pools()],
+            share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
+            deposits: Quantum::of(0.0, 1),
+            totals: Totals::default(),
+        }
+    }
+
+    /// Takes over the coefficients of another acceleration.
+    pub fn set_coefficients(&mut self, coefficients: &Coefficients) {
+        self.loss_exponent = loss_exponent(coefficients);
+        self.largest_deposit = self.captured_fraction * largest_loss(coefficients);
+    }
+
+    /// What the pools hold, and what went through them.
+    pub fn account(&self) -> Account {
+        Account { pools: self.pools.clone(), totals: self.totals }
+    }
+
+    /// Goes on from an account.
+    pub fn set_account(&mut self, Account { pools, totals }: Account) {
+        (self.pools, self.totals) = (pools, totals);
+    }
+
+    /// Makes ready for the deposits of a step in whose contact no overlap is more than `largest_overlap` (m).
+    pub fn prepare(&mut self, contact: &Contact, largest_overlap: f64) {
+        if self.needs.local {
+            self.deposits = Quantum::of(self.largest_deposit * largest_overlap, self.columns);
+        } else if self.needs.forms {
+            self.spread(contact);
+        }
+    }
+
+    /// Spreads each pool evenly over its cells that do not touch: s = M/S.
+    fn spread(&mut self, contact: &Contact) {
+        let mut largest = 0.0_f64;
+        for (index, (pool, share)) in self.pools.iter().zip(&mut self.pool_share).enumerate() {
+            let open = self.pool_area[index] - contact.pools()[index].area;
+            // Rounding may leave a trace of debt in a pool that has given nearly all; it is not spread.
+            *share = if open > 0 { (pool.value() / (float(open) * self.area_unit)).max(0.0) } else { 0.0 };
+            largest = largest.max(*share);
+        }
+        match *self.pool_share {
+            [share] => self.share.fill(Chunk([share; LANES])),
+            ref shares => {
+                for (chunk, shares) in self.share.iter_mut().zip(shares.chunks(LANES)) {
+                    chunk.0[..shares.len()].copy_from_slice(shares);
+                }
+            }
+        }
+        self.deposits = Quantum::of(largest, self.columns);
+    }
+
+    /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
+    pub fn share(&self) -> &[Chunk] {
+        &self.share
+    }
+
+    /// Of which this step's deposits are counted as multiples.
+    pub fn deposits(&self) -> Quantum {
+        self.deposits
+    }
+
+    /// Of which losses are counted as multiples where overlaps are multiples of `overlaps`.
+    pub fn losses(&self, overlaps: Quantum) -> Quantum {
+        overlaps.coarser(self.loss_exponent)
+    }
+
+    /// Books one step: M ← M + η worn + returned − deposited, emitted += (1 − η) worn, for each pool; with local debris
+    /// emitted += worn − deposited, and there is no pool.
+    ///
+    /// What wears follows from the contact, less what cells were spared whose build-up was worn through; what is
+    /// compacted is the even deposit on every open cell, and what some got beyond it. Where every open cell got the whole
+    /// share, the pool has given all.
+    pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) {
+        for (index, (contact, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
+            let mut worn_pin = contact.pin_loss;
+            let worn_resin = self.wear_height * (float(contact.resin_area) * self.area_unit);
+            let mut worn_disc = contact.disc_loss;
+            let mut emptied = false;
+            let (mut returned, mut deposited_pin, mut deposited_disc) = (0.0, 0.0, 0.0);
+            if self.needs.forms {
+                let open = self.pool_area[index] - contact.area;
+                let share = self.pool_share[index];
+                let even_on_pin = share * self.pad_share;
+                let deposited = |even: f64, beyond: i128| {
+                    float(i128::from(self.deposits.count(even)) * open + beyond)
+                        * (self.area_unit * self.deposits.value())
+                };
+                deposited_pin = deposited(even_on_pin, sums.deposited_pin);
+                deposited_disc = deposited(share - even_on_pin, sums.deposited_disc);
+                deposited_pin += sums.deposited_pin_of_resin.value();
+                deposited_disc += sums.deposited_disc_of_resin.value();
+                emptied = self.local || (open > 0 && !sums.limited);
+                worn_pin -= sums.spared_resin.value();
+                returned = sums.returned.value();
+            }
+            if self.needs.distinct {
+                let spared = |sum: i128| float(sum) * (self.area_unit * losses.value());
+                worn_pin -= spared(sums.spared_pin);
+                worn_disc -= spared(sums.spared_disc);
+            }
+
+            let [captured, emitted] = match self.local {
+                true => [0.0, worn_pin + worn_resin + worn_disc - (deposited_pin + deposited_disc)],
+                false => self.part(worn_pin, worn_resin, worn_disc),
+            };
+            let pool = &mut self.pools[index];
+            if emptied {
+                // Exactly: what rounding would leave could make a cell of the next step secondary.
+                *pool = RunningSum::default();
+            }
+            pool.add(captured);
+            pool.add(returned);
+            if !emptied {
+                pool.add(-(deposited_pin + deposited_disc));
+            }
+
+            self.totals.worn_pin.add(worn_pin);
+            self.totals.worn_resin.add(worn_resin);
+            self.totals.worn_disc.add(worn_disc);
+            self.totals.returned.add(returned);
+            self.totals.deposited_pin.add(deposited_pin);
+            self.totals.deposited_disc.add(deposited_disc);
+            self.totals.emitted.add(emitted);
+        }
+    }
+
+    /// What of the worn volume stays in the contact and what leaves it, m³: η and 1 − η of it, each for resin and plateaus.
+    fn part(&self, worn_pin: f64, worn_resin: f64, worn_disc: f64) -> [f64; 2] {
+        let (of_plateaus, of_resin) = (self.captured_fraction, self.captured_resin_fraction);
+        // Summed first, as model 4P has it: apart, a scene without the second fraction would get other bits.
+        if of_plateaus == of_resin {
+            let worn = worn_pin + worn_resin + worn_disc;
+            return [of_plateaus * worn, (1.0 - of_plateaus) * worn];
+        }
+        let plateaus = worn_pin + worn_disc;
+        [of_plateaus * plateaus + of_resin * worn_resin, (1.0 - of_plateaus) * plateaus + (1.0 - of_resin) * worn_resin]
+    }
+
+    /// M, m³: debris in the contact that is not compacted, over all pools.
+    pub fn pool(&self) -> f64 {
+        self.pools.iter().map(RunningSum::value).sum()
+    }
+
+    /// Volumes moved since t = 0.
+    pub fn totals(&self) -> &Totals {
+        &self.totals
+    }
+
+    /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
+    pub fn balance_residual(&self) -> f64 {
+        self.totals.balance_residual(self.pool())
+    }
+}
+
+/// Power of two that is above any loss per overlap.
+fn loss_exponent(coefficients: &Coefficients) -> i32 {
+    let [pin, disc] = largest_losses(coefficients);
+    let largest = pin.max(disc);
+    if largest > 0.0 { libm::ilogb(largest) + 1 } else { 0 }
+}
+
+/// What a pair of plateaus loses per overlap, at most.
+fn largest_loss(coefficients: &Coefficients) -> f64 {
+    largest_losses(coefficients).into_iter().sum()
+}
+
+/// The largest loss of pin and disc per overlap.
+fn largest_losses(coefficients: &Coefficients) -> [f64; 2] {
+    [&coefficients.pin, &coefficients.disc].map(|table| table.iter().flatten().copied().fold(0.0, f64::max))
+}

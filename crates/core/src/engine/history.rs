@@ -1,0 +1,64 @@
+//! Contact area over the steps: mean over the last revolution and integral over time (model section 5).
+
+use crate::engine::sum::RunningSum;
+use serde::{Deserialize, Serialize};
+
+/// What a sample needs to know of the steps before its own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// Contact area of the last steps, m²; at most one simulated revolution, then the oldest is overwritten.
+    revolution: Vec<f64>,
+    /// Where the next step goes in a full `revolution`.
+    oldest: usize,
+    /// Steps of one simulated revolution.
+    steps_per_revolution: usize,
+    /// Σ contact area · m Δt, m² s.
+    integral: RunningSum,
+}
+
+impl History {
+    /// No step yet.
+    pub fn new(steps_per_revolution: usize) -> Self {
+        Self { revolution: Vec::new(), oldest: 0, steps_per_revolution, integral: RunningSum::default() }
+    }
+
+    /// Adds a step of physical duration `step_time` (s).
+    pub fn record(&mut self, contact_area: f64, step_time: f64) {
+        if self.revolution.len() < self.steps_per_revolution {
+            self.revolution.push(contact_area);
+        } else {
+            self.revolution[self.oldest] = contact_area;
+            self.oldest = (self.oldest + 1) % self.steps_per_revolution;
+        }
+        self.integral.add(contact_area * step_time);
+    }
+
+    /// Mean over the last simulated revolution, m²; over all steps so far before the first is done.
+    pub fn revolution_mean(&self) -> f64 {
+        let (newer, older) = self.revolution.split_at(self.oldest);
+        let sum: f64 = older.iter().chain(newer).sum();
+        sum / self.revolution.len().max(1) as f64
+    }
+
+    /// Σ contact area · m Δt since t = 0, m² s.
+    pub fn integral(&self) -> f64 {
+        self.integral.value()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_is_over_all_steps_until_a_revolution_is_done() {
+        let mut history = History::new(4);
+        let mut means = Vec::new();
+        for area in [1.0, 3.0, 5.0, 7.0, 9.0, 11.0] {
+            history.record(area, 0.5);
+            means.push(history.revolution_mean());
+        }
+        assert_eq!(means, [1.0, 2.0, 3.0, 4.0, 6.0, 8.0]);
+        assert_eq!(history.integral(), 18.0);
+    }
+}

@@ -1,0 +1,103 @@
+//! Wear with local debris of cells to which nothing out of the ordinary happens.
+//!
+//! Where build-up has the properties of what it lies on, it is ordinary
+//! - to touch as a plateau and wear, but not through build-up on resin, or to be open;
+//! - to be read for the next step as touching, as a plateau, or as open, but not as near.
+//!
+//! This takes a part of the instructions of [`super::local`], and gives the same bits: b_p of fibres follows z_p up only
+//! when debris comes upon them, as is said at [`crate::engine::strips::PinStrips::substrate`].
+
+use std::ops::Range;
+
+use super::cells::{Behind, Strip};
+use super::reading::StripReading;
+use super::rules::StripRules;
+use crate::engine::lanes::{Chunk, Lanes, Mask};
+
+/// Sweeps columns of a strip, up to the first with a cell to which anything else happens; returns that column.
+#[inline(always)]
+pub(super) fn sweep_plain_locally<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    columns: Range<usize>,
+    behind: &mut Behind<L>,
+    next: &mut StripReading<L, DISTINCT>,
+) -> usize {
+    let Range { start, end } = columns;
+    let mut plain = Plain::<L, DISTINCT> {
+        rules,
+        pin_height: &mut strip.pin.height[start..end],
+        pin_substrate: &strip.pin.substrate[start..end],
+        resin: &strip.pin.resin[start..end],
+        plateau: &strip.pin.plateau[start..end],
+        touches: &mut strip.pin.touches[start..end],
+        disc_height: &mut strip.disc_height[start..end],
+        disc_substrate: if DISC_WEARS { &mut strip.disc_substrate[start..end] } else { &mut [] },
+        z_behind: behind.height,
+        pin_loss: rules.pin_loss().plateau(),
+        disc_loss: rules.disc_loss().plateau(),
+        next: *next,
+    };
+    let mut column = 0;
+    while column < end - start && plain.column::<DISC_WEARS>(column) {
+        column += 1;
+    }
+    *next = plain.next;
+    behind.height = plain.z_behind;
+    start + column
+}
+
+/// A strip while its ordinary cells are swept.
+struct Plain<'a, L: Lanes, const DISTINCT: bool> {
+    rules: &'a StripRules<'a, L>,
+    pin_height: &'a mut [Chunk],
+    pin_substrate: &'a [Chunk],
+    resin: &'a [u8],
+    plateau: &'a [u8],
+    touches: &'a mut [u8],
+    disc_height: &'a mut [Chunk],
+    disc_substrate: &'a mut [Chunk],
+    /// z_d behind the column.
+    z_behind: L,
+    pin_loss: L,
+    disc_loss: L,
+    next: StripReading<L, DISTINCT>,
+}
+
+impl<L: Lanes, const DISTINCT: bool> Plain<'_, L, DISTINCT> {
+    /// Wears the eight cells of a column, and reads their pairs of the next step, if nothing out of the ordinary happens
+    /// to any; else changes nothing.
+    #[inline(always)]
+    fn column<const DISC_WEARS: bool>(&mut self, column: usize) -> bool {
+        let (z_p, mut z_d) = (L::load(&self.pin_height[column]), L::load(&self.disc_height[column]));
+
+        // 4.2
+        let clearance = z_p - z_d - self.rules.displacement;
+        let touches = clearance.below(self.rules.zero);
+        let worn = z_p + (clearance * self.pin_loss).only(touches);
+        if DISC_WEARS {
+            z_d = z_d - (clearance * self.disc_loss).only(touches);
+        }
+        // Bare resin, or build-up on resin that is worn through.
+        let on_ground =
+            worn.at_least(L::load(&self.pin_substrate[column])).byte() & self.resin[column] & self.touches[column];
+
+        // 4.1 of the next step
+        let mut next = self.next;
+        let (touches, near) = next.add_plateaus(worn - self.z_behind, &self.rules.bracket);
+        let touching = touches.byte();
+        if (on_ground | (touching & !self.plateau[column]) != 0) | near.any() {
+            return false;
+        }
+
+        worn.store(&mut self.pin_height[column]);
+        self.touches[column] = touching;
+        if DISC_WEARS {
+            z_d.store(&mut self.disc_height[column]);
+            L::load(&self.disc_substrate[column]).lesser(z_d).store(&mut self.disc_substrate[column]);
+        }
+        self.next = next;
+        self.z_behind = z_d;
+        true
+    }
+}

@@ -1,0 +1,118 @@
+//! Statuses of eight pairs of cells, and the coefficients that belong to them.
+
+use crate::engine::lanes::{Chunk, LANES, Lanes};
+use crate::engine::pair::{Pair, Table};
+use crate::engine::strips::chunks;
+
+/// A table of [`crate::engine::pair::Coefficients`] in chunks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChunkTable([Vec<Chunk>; Pair::COUNT]);
+
+impl ChunkTable {
+    /// The table times a factor.
+    pub fn new(table: &Table, factor: f64) -> Self {
+        Self(table.each_ref().map(|rows| chunks(&rows.iter().map(|entry| entry * factor).collect::<Vec<_>>(), 0.0)))
+    }
+
+    /// A pair's entry in a row.
+    #[inline(always)]
+    pub(super) fn entry(&self, pair: usize, row: usize) -> f64 {
+        self.0[pair][row / LANES].0[row % LANES]
+    }
+
+    /// Each pair's entries in a strip.
+    #[inline(always)]
+    pub(super) fn strip<L: Lanes>(&self, strip: usize) -> Entries<L> {
+        // Without a closure, which would be compiled without the instruction set.
+        let [a, b, c, d, e, f] = &self.0;
+        Entries([
+            L::load(&a[strip]),
+            L::load(&b[strip]),
+            L::load(&c[strip]),
+            L::load(&d[strip]),
+            L::load(&e[strip]),
+            L::load(&f[strip]),
+        ])
+    }
+}
+
+/// A coefficient of every pair in the eight rows of a strip.
+#[derive(Clone, Copy)]
+pub(super) struct Entries<L>([L; Pair::COUNT]);
+
+/// The statuses of eight pairs.
+#[derive(Clone, Copy)]
+pub(super) struct Pairs<L: Lanes> {
+    /// The pin's base is resin.
+    pub on_resin: L::Mask,
+    /// The pin is secondary.
+    pub pin_secondary: L::Mask,
+    /// The disc is secondary; not looked at where build-up has the properties of what it lies on.
+    pub disc_secondary: L::Mask,
+}
+
+/// The pairs that are told apart where build-up has the properties of what it lies on: resin and plateaus.
+pub const PLAIN_PAIRS: [usize; 2] = [RESIN, PLATEAU];
+/// Bare resin on the coating.
+pub const RESIN: usize = 0;
+/// A fibre on the coating.
+pub const PLATEAU: usize = 2;
+
+impl<L: Lanes> Pairs<L> {
+    /// Resin without build-up.
+    #[inline(always)]
+    pub fn resin(self) -> L::Mask {
+        self.on_resin & !self.pin_secondary
+    }
+
+    /// The cells of one pair, by its index.
+    #[inline(always)]
+    pub fn are(self, pair: usize) -> L::Mask {
+        let pin = match pair / 2 {
+            0 => self.resin(),
+            1 => !self.on_resin & !self.pin_secondary,
+            _ => self.pin_secondary,
+        };
+        pin & if pair % 2 == 1 { self.disc_secondary } else { !self.disc_secondary }
+    }
+
+    /// Each pair's entry. Where build-up has the properties of what it lies on (`DISTINCT` is false), two of the six
+    /// entries serve all.
+    #[inline(always)]
+    pub fn pick<const DISTINCT: bool>(self, entries: &Entries<L>) -> L {
+        let entries = &entries.0;
+        if !DISTINCT {
+            return L::select(self.resin(), entries[RESIN], entries[PLATEAU]);
+        }
+        let on_coating = L::select(self.on_resin, entries[0], entries[2]);
+        let on_debris = L::select(self.on_resin, entries[1], entries[3]);
+        let bare = L::select(self.disc_secondary, on_debris, on_coating);
+        let secondary = L::select(self.disc_secondary, entries[5], entries[4]);
+        L::select(self.pin_secondary, secondary, bare)
+    }
+}
+
+impl<L: Lanes> Entries<L> {
+    /// The entry of plateaus where they are all alike.
+    #[inline(always)]
+    pub fn plateau(&self) -> L {
+        self.0[PLATEAU]
+    }
+}
+
+/// The index of one of eight pairs, from their statuses as bytes.
+pub(super) fn pair_of_lane(lane: usize, distinct: bool, [on_resin, pin_secondary, disc_secondary]: [u8; 3]) -> u8 {
+    let [on_resin, pin_secondary, disc_secondary] =
+        [on_resin, pin_secondary, disc_secondary].map(|byte| byte >> lane & 1);
+    let pin = if pin_secondary == 1 { 2 } else { 1 - on_resin };
+    match distinct {
+        true => 2 * pin + disc_secondary,
+        false if pin == 0 => RESIN as u8,
+        false => PLATEAU as u8,
+    }
+}
+
+/// The lanes whose bit is set.
+pub(super) fn lanes_of(byte: u8) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| byte >> lane & 1 == 1)
+}

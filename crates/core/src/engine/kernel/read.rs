@@ -1,0 +1,80 @@
+//! Reads columns of pairs against a bracket, without changing them (model 4.1).
+
+use super::instructions::{InstructionSet, kernel};
+use super::pairs::Pairs;
+use super::reading::{Bracket, BracketLanes, Reading, StripReading};
+use crate::engine::lanes::{Lanes, Mask};
+use crate::engine::parts::Needs;
+use crate::engine::strips::{DiscSector, PinStrips};
+
+/// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
+#[derive(Debug, Clone, Copy)]
+pub struct Span {
+    /// First column of the pin.
+    pub first: usize,
+    /// First column of the sector.
+    pub over: usize,
+    /// How many columns.
+    pub columns: usize,
+}
+
+/// Reads the pairs of a span against a bracket.
+pub type Read = fn(InstructionSet, &mut PinStrips, &DiscSector, Span, &Bracket, &mut Reading);
+
+/// The reading that looks at what a scene needs and nothing else; chosen once per run.
+pub fn read(needs: Needs) -> Read {
+    match (needs.distinct, needs.local) {
+        (false, false) => read_span::<false, false>,
+        (false, true) => read_span::<false, true>,
+        (true, false) => read_span::<true, false>,
+        (true, true) => read_span::<true, true>,
+    }
+}
+
+kernel! {
+    /// Reads a span; `DISTINCT` tells whether build-up has properties of its own, `LOCAL` whether debris is local.
+    pub fn read_span<const DISTINCT, const LOCAL>(
+        pin: &mut PinStrips,
+        disc: &DiscSector,
+        span: Span,
+        bracket: &Bracket,
+        reading: &mut Reading,
+    ) = read_strips
+}
+
+#[inline(always)]
+fn read_strips<L: Lanes, const DISTINCT: bool, const LOCAL: bool>(
+    pin: &mut PinStrips,
+    disc: &DiscSector,
+    span: Span,
+    bracket: &Bracket,
+    reading: &mut Reading,
+) {
+    let bracket = BracketLanes::<L>::new(bracket);
+    let nothing = L::Mask::of_byte(0);
+    for strip in 0..pin.height.strips() {
+        let pin = pin.strip_mut(strip, span.first..span.first + span.columns);
+        let disc_height = &disc.height.strip(strip)[span.over..][..span.columns];
+        let disc_substrate = disc.substrate.as_ref().map(|field| &field.strip(strip)[span.over..][..span.columns]);
+        let mut sums = StripReading::<L, DISTINCT>::new();
+        for column in 0..span.columns {
+            let (z_p, z_d) = (L::load(&pin.height[column]), L::load(&disc_height[column]));
+            let pairs = Pairs {
+                on_resin: L::Mask::of_byte(pin.resin[column]),
+                pin_secondary: match pin.substrate.get(column) {
+                    Some(substrate) => z_p.below(L::load(substrate)),
+                    None => nothing,
+                },
+                disc_secondary: match disc_substrate {
+                    Some(substrate) if DISTINCT => L::load(&substrate[column]).below(z_d),
+                    _ => nothing,
+                },
+            };
+            let touches = sums.add(z_p - z_d, pairs, &bracket, [strip, span.first + column], reading);
+            if LOCAL {
+                pin.touches[column] = touches.byte();
+            }
+        }
+        sums.store(strip, reading);
+    }
+}

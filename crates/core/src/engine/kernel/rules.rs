@@ -1,0 +1,165 @@
+//! What the kernels must know of a scene and of a step.
+
+use super::edge::Edge;
+use super::pairs::{ChunkTable, Entries};
+use super::reading::{Bracket, BracketLanes};
+use crate::engine::exact::Quantum;
+use crate::engine::lanes::{Chunk, Integers, Lanes};
+use crate::engine::pair::Coefficients;
+use crate::model::parameters::Parameters;
+
+/// What stays the same in every step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rules {
+    /// Raw loss of the pin per overlap, negative: the kernels have −u at hand.
+    pub(super) pin_loss: ChunkTable,
+    /// Raw loss of the disc per overlap, negative.
+    pub(super) disc_loss: ChunkTable,
+    pub(super) fibre: ChunkTable,
+    pub(super) coating: ChunkTable,
+    /// h_m, m.
+    pub(super) wear_height: f64,
+    /// β.
+    pad_share: f64,
+    /// z_ref, m: up to which local debris fills the disc.
+    pub(super) reference_height: f64,
+    /// η, of plateaus and of resin.
+    captured_fraction: f64,
+    captured_resin_fraction: f64,
+    /// Whether cells to which nothing out of the ordinary happens are swept with few instructions; the results are the same.
+    pub(super) shortcut: bool,
+}
+
+impl Rules {
+    /// The rules of a scene whose disc was at most `reference_height` (m) high at the start.
+    pub fn new(parameters: &Parameters, coefficients: &Coefficients, reference_height: f64, shortcut: bool) -> Self {
+        Self {
+            pin_loss: ChunkTable::new(&coefficients.pin, -1.0),
+            disc_loss: ChunkTable::new(&coefficients.disc, -1.0),
+            fibre: ChunkTable::new(&coefficients.fibre, 1.0),
+            coating: ChunkTable::new(&coefficients.coating, 1.0),
+            wear_height: parameters.materials.wear_height,
+            pad_share: parameters.plateaus.pad_share,
+            reference_height,
+            captured_fraction: parameters.plateaus.captured_fraction,
+            captured_resin_fraction: parameters.plateaus.captured_of_resin(),
+            shortcut,
+        }
+    }
+}
+
+impl Rules {
+    /// What of the losses of a pair local debris may compact behind it, m.
+    #[inline(always)]
+    pub(super) fn caught(&self, of_plateaus: f64, of_resin: f64) -> f64 {
+        of_plateaus * self.captured_fraction + of_resin * self.captured_resin_fraction
+    }
+}
+
+/// What changes from step to step.
+#[derive(Debug, Clone, Copy)]
+pub struct Conditions<'a> {
+    /// δ, m.
+    pub displacement: f64,
+    /// s of every row of the mesh, m; 0 without a pool.
+    pub share: &'a [Chunk],
+    /// With local debris: what the last column of the span must know of the one ahead of it, if there is one.
+    pub ahead: Option<&'a Edge>,
+    /// Of which deposits are counted as multiples.
+    pub deposits: Quantum,
+    /// Of which losses that were spared are counted as multiples.
+    pub losses: Quantum,
+    /// Where the next load balance is expected.
+    pub bracket: Bracket,
+    /// The strip of the mesh that is the first of the worker.
+    pub first_strip: usize,
+}
+
+/// Rules and conditions of a strip, for eight cells at a time.
+pub(super) struct StripRules<'a, L: Lanes> {
+    pub rules: &'a Rules,
+    /// Strip of the mesh.
+    pub strip: usize,
+    pub zero: L,
+    pub displacement: L,
+    /// s, m.
+    pub share: L,
+    /// β s, m: the pin's part of an even deposit.
+    pub even_on_pin: L,
+    /// (1 − β) s, m: the disc's part of it.
+    pub even_on_disc: L,
+    /// Number whose last bit is worth a quantum of the deposits.
+    deposits: L,
+    /// Number whose last bit is worth a quantum of the losses.
+    losses: L,
+    pub bracket: BracketLanes<L>,
+}
+
+impl<'a, L: Lanes> StripRules<'a, L> {
+    #[inline(always)]
+    pub fn new(rules: &'a Rules, conditions: &Conditions, strip: usize) -> Self {
+        let strip = conditions.first_strip + strip;
+        let share = L::load(&conditions.share[strip]);
+        let even_on_pin = share * L::splat(rules.pad_share);
+        Self {
+            rules,
+            strip,
+            zero: L::splat(0.0),
+            displacement: L::splat(conditions.displacement),
+            share,
+            even_on_pin,
+            even_on_disc: share - even_on_pin,
+            deposits: L::splat(conditions.deposits.anchor()),
+            losses: L::splat(conditions.losses.anchor()),
+            bracket: BracketLanes::new(&conditions.bracket),
+        }
+    }
+
+    /// Raw loss of the pin per overlap, negative.
+    #[inline(always)]
+    pub fn pin_loss(&self) -> Entries<L> {
+        self.rules.pin_loss.strip(self.strip)
+    }
+
+    /// Raw loss of the disc per overlap, negative.
+    #[inline(always)]
+    pub fn disc_loss(&self) -> Entries<L> {
+        self.rules.disc_loss.strip(self.strip)
+    }
+
+    /// Δh_sub/Δh of the fibre below a build-up.
+    #[inline(always)]
+    pub fn fibre(&self) -> Entries<L> {
+        self.rules.fibre.strip(self.strip)
+    }
+
+    /// Δh_sub/Δh of the coating below a build-up.
+    #[inline(always)]
+    pub fn coating(&self) -> Entries<L> {
+        self.rules.coating.strip(self.strip)
+    }
+
+    /// h_m, m.
+    #[inline(always)]
+    pub fn wear_height(&self) -> L {
+        L::splat(self.rules.wear_height)
+    }
+
+    /// β.
+    #[inline(always)]
+    pub fn pad_share(&self) -> L {
+        L::splat(self.rules.pad_share)
+    }
+
+    /// By how many quanta a deposit is above the even one.
+    #[inline(always)]
+    pub fn beyond(&self, deposit: L, even: L) -> L::Integers {
+        (self.deposits + deposit).bits().minus((self.deposits + even).bits())
+    }
+
+    /// A loss in quanta.
+    #[inline(always)]
+    pub fn loss(&self, height: L) -> L::Integers {
+        (self.losses + height).bits().minus(self.losses.bits())
+    }
+}

@@ -1,0 +1,119 @@
+//! One pass over the pin: wear, destruction and formation of a step with pooled debris or none, and the pairs of the next
+//! step against a bracket (model 4.2, 4P, and 4.1 of the next step). With local debris: [`super::local`].
+//!
+//! In the next step the disc column under pin column j lies under column j + 1. So when column j + 1 has been updated,
+//! the new heights of that pair are at hand, and are read on the way.
+//!
+//! In most steps nothing out of the ordinary happens to most cells: those that touch are plateaus and wear, those that
+//! are open get the even deposit, and statuses stay. Eight such cells at a time are done with few instructions, which
+//! also show where something else happens; those eight are then done by all rules.
+
+use std::ops::Range;
+
+use super::cells::{MOST_UNUSUAL, Strip, Sweep, update};
+use super::instructions::kernel;
+use super::local::sweep_locally;
+use super::moved::{Moved, StripMoved};
+use super::plain::sweep_plain;
+use super::read::Span;
+use super::reading::{Reading, StripReading};
+use super::rules::{Conditions, Rules, StripRules};
+use crate::engine::lanes::Lanes;
+use crate::engine::parts::Needs;
+use crate::engine::strips::{DiscSector, PinStrips};
+
+/// The sweep that does what a scene needs and nothing else; chosen once per run.
+pub fn sweep(needs: Needs) -> Sweep {
+    let Needs { distinct, disc_wears, forms, local, destroys } = needs;
+    if local {
+        return sweep_locally(needs);
+    }
+    macro_rules! choose {
+        ([$($chosen:literal),*]) => { sweep_span::<$($chosen),*> };
+        ([$($chosen:literal),*] $flag:ident $($rest:ident)*) => {
+            if $flag { choose!([$($chosen,)* true] $($rest)*) } else { choose!([$($chosen,)* false] $($rest)*) }
+        };
+    }
+    choose!([] distinct disc_wears forms destroys)
+}
+
+kernel! {
+    /// Sweeps a span.
+    pub fn sweep_span<const DISTINCT, const DISC_WEARS, const FORMS, const DESTROYS>(
+        rules: &Rules,
+        conditions: &Conditions,
+        pin: &mut PinStrips,
+        disc: &mut DiscSector,
+        span: Span,
+        joined: bool,
+        moved: &mut Moved,
+        reading: &mut Reading,
+    ) = sweep_strips
+}
+
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "the kernel's own")]
+fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
+    rules: &Rules,
+    conditions: &Conditions,
+    pin: &mut PinStrips,
+    disc: &mut DiscSector,
+    span: Span,
+    joined: bool,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) {
+    let columns = span.columns;
+    for index in 0..pin.height.strips() {
+        let mut strip = Strip::new::<L, DISTINCT, FORMS>(index, pin, disc, span, joined);
+        let strip_rules = StripRules::<L>::new(rules, conditions, index);
+        let (mut column, mut unusual) = (0, 0);
+        while column < columns {
+            let mut end = columns;
+            if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
+                let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
+                column = plain(&strip_rules, &mut strip, column, moved, reading);
+                end = columns.min(column + 1);
+            }
+            sweep_any::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
+                &strip_rules,
+                &mut strip,
+                column..end,
+                moved,
+                reading,
+            );
+            (column, unusual) = (end, unusual + 1);
+        }
+    }
+}
+
+/// Sweeps some columns of a strip, whatever happens to their cells.
+#[inline(always)]
+fn sweep_any<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
+    rules: &StripRules<L>,
+    strip: &mut Strip,
+    columns: Range<usize>,
+    moved: &mut Moved,
+    reading: &mut Reading,
+) {
+    if columns.is_empty() {
+        return;
+    }
+    let mut strip_moved = StripMoved::<L>::new();
+    let mut next = StripReading::<L, DISTINCT>::new();
+    let mut behind = strip.behind::<L, DISTINCT>(columns.start);
+    for column in columns {
+        behind = update::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
+            rules,
+            strip,
+            column,
+            behind,
+            &mut strip_moved,
+            &mut moved.seldom,
+            &mut next,
+            reading,
+        );
+    }
+    strip_moved.store::<DISTINCT, FORMS>(strip.index, moved);
+    next.store(strip.index, reading);
+}

@@ -1,0 +1,109 @@
+//! Wear of eight pairs, whatever happens to them (model 4.1 and 4.2).
+
+use super::pairs::Pairs;
+use super::rules::StripRules;
+use crate::engine::lanes::{Chunk, Lanes, Mask};
+use crate::engine::wear;
+
+/// Eight pairs as they are at the start of a step.
+#[derive(Clone, Copy)]
+pub(super) struct Cells<L: Lanes> {
+    pub z_p: L,
+    pub b_p: L,
+    pub z_d: L,
+    pub b_d: L,
+    pub on_resin: L::Mask,
+}
+
+impl<L: Lanes> Cells<L> {
+    /// From memory, as far as a scene keeps and needs the fields: without substrates b = z.
+    #[inline(always)]
+    pub fn load<const DISTINCT: bool, const DISC_WEARS: bool, const FORMS: bool>(
+        [pin_height, pin_substrate, disc_height, disc_substrate]: [&[Chunk]; 4],
+        resin: u8,
+        [column, over]: [usize; 2],
+    ) -> Self {
+        let (z_p, z_d) = (L::load(&pin_height[column]), L::load(&disc_height[over]));
+        Self {
+            z_p,
+            b_p: if FORMS { L::load(&pin_substrate[column]) } else { z_p },
+            z_d,
+            b_d: if FORMS && (DISTINCT || DISC_WEARS) { L::load(&disc_substrate[over]) } else { z_d },
+            on_resin: L::Mask::of_byte(resin),
+        }
+    }
+}
+
+/// Eight pairs after wear.
+#[derive(Clone, Copy)]
+pub(super) struct Worn<L: Lanes> {
+    pub z_p: L,
+    /// b_p before wear; that after it is no less than z_p.
+    pub b_p: L,
+    pub z_d: L,
+    pub b_d: L,
+    pub on_resin: L::Mask,
+    /// γ of the start of the step, or −u where they touch, m.
+    pub clearance: L,
+    pub touches: L::Mask,
+    /// Build-up on resin at the start of the step.
+    pub build_up: L::Mask,
+    /// Build-up on resin that is worn through.
+    pub worn_through: L::Mask,
+    /// Raw loss of the pin, m.
+    pub raw_pin: L,
+    /// What of them was not lost, m; only where build-up has properties of its own.
+    pub spared_pin: L,
+    pub spared_disc: L,
+}
+
+/// Wears eight pairs.
+#[inline(always)]
+pub(super) fn wear<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FORMS: bool>(
+    rules: &StripRules<L>,
+    cells: Cells<L>,
+) -> Worn<L> {
+    let nothing = L::Mask::of_byte(0);
+    let Cells { mut z_p, b_p, mut z_d, mut b_d, on_resin } = cells;
+
+    // 4.1 The pair, and how far its cells are apart at the displacement.
+    let pairs = Pairs::<L> {
+        on_resin,
+        pin_secondary: if FORMS { z_p.below(b_p) } else { nothing },
+        disc_secondary: if DISTINCT { b_d.below(z_d) } else { nothing },
+    };
+    let clearance = z_p - z_d - rules.displacement;
+    let touches = clearance.below(rules.zero);
+
+    // 4.2 Resin loses its wear height at once, all else wears by its coefficient times the overlap.
+    let raw_pin = (clearance * pairs.pick::<DISTINCT>(&rules.pin_loss())).only(touches & !pairs.resin());
+    let mut spared_pin = rules.zero;
+    if DISTINCT {
+        let below = L::select(on_resin, rules.zero, pairs.pick::<true>(&rules.fibre()));
+        let worn = wear::pin(z_p, b_p, raw_pin, below);
+        (z_p, spared_pin) = (worn.height, worn.spared);
+    } else {
+        z_p = z_p + raw_pin;
+    }
+    let resin = touches & pairs.resin();
+    z_p = z_p.plus_where(resin, rules.wear_height());
+    let mut spared_disc = rules.zero;
+    if DISC_WEARS {
+        let raw_disc = (clearance * pairs.pick::<DISTINCT>(&rules.disc_loss())).only(touches);
+        if DISTINCT {
+            let worn = wear::disc(z_d, b_d, raw_disc, pairs.pick::<true>(&rules.coating()));
+            (z_d, spared_disc) = (worn.height, worn.spared);
+        } else {
+            z_d = z_d - raw_disc;
+        }
+        b_d = b_d.lesser(z_d);
+    }
+
+    // 4.2 Build-up on resin that is worn through leaves the resin.
+    let (mut build_up, mut worn_through) = (nothing, nothing);
+    if FORMS {
+        build_up = on_resin & pairs.pin_secondary;
+        worn_through = build_up & !z_p.below(b_p);
+    }
+    Worn { z_p, b_p, z_d, b_d, on_resin, clearance, touches, build_up, worn_through, raw_pin, spared_pin, spared_disc }
+}

@@ -1,0 +1,127 @@
+//! Coefficients of a pair of cells by status and row: stiffness (model 4.1) and wear per overlap (model 4.2).
+
+use crate::model::material::{Materials, Status};
+use crate::model::parameters::{Integrator, Parameters};
+
+/// The statuses of a pin cell and the disc cell under it, as an index into the tables of [`Coefficients`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pair(u8);
+
+impl Pair {
+    /// Number of different pairs: three statuses of the pin times two of the disc.
+    pub const COUNT: usize = 6;
+
+    /// The pair of these two statuses.
+    pub fn new(pin: Status, disc_secondary: bool) -> Self {
+        Self(2 * pin as u8 + u8::from(disc_secondary))
+    }
+
+    /// Every pair with its statuses.
+    pub fn all() -> impl Iterator<Item = (Status, bool)> {
+        [Status::None, Status::Primary, Status::Secondary].into_iter().flat_map(|pin| [(pin, false), (pin, true)])
+    }
+
+    /// Index into a table of [`Pair::COUNT`] entries.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// One coefficient by [`Pair::index`] and row.
+pub type Table = [Vec<f64>; Pair::COUNT];
+
+/// The coefficients of every pair in every row.
+///
+/// Whatever the integrator, the loss of a pair in contact is proportional to its overlap u; so the integrator shapes
+/// these tables and nothing else.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coefficients {
+    /// k A, N/m, with k = E*/h.
+    pub stiffness: Table,
+    /// Raw loss of the pin cell per overlap; 0 for resin, which loses the wear height instead.
+    pub pin: Table,
+    /// Raw loss of the disc cell per overlap.
+    pub disc: Table,
+    /// Raw loss of the fibre below the pin cell's build-up over that of the build-up, Δh_sub/Δh.
+    pub fibre: Table,
+    /// Raw loss of the coating below the disc cell's build-up over that of the build-up, Δh_sub/Δh.
+    pub coating: Table,
+}
+
+impl Coefficients {
+    /// Tabulates the coefficients.
+    pub fn new(parameters: &Parameters) -> Self {
+        let Parameters { mesh, materials, integrator, .. } = parameters;
+        let table = || std::array::from_fn(|_| vec![0.0; mesh.rows()]);
+        let mut tables = Self { stiffness: table(), pin: table(), disc: table(), fibre: table(), coating: table() };
+        for (pin, disc_secondary) in Pair::all() {
+            let pair = Pair::new(pin, disc_secondary).index();
+            let stiffness = materials.combined_modulus(pin, disc_secondary) / parameters.foundation_height;
+            let wear_rate_pin = pin_wear_rate(materials, pin);
+            let wear_rate_disc = materials.disc(disc_secondary).specific_wear_rate;
+            for (row, (radius, area)) in mesh.radius().iter().zip(mesh.area()).enumerate() {
+                let sliding = parameters.time_acceleration * radius * mesh.column_angle();
+                let factor = |own: f64, other: f64| wear_factor(*integrator, own, other, stiffness * sliding);
+                let below = |substrate: f64, own: f64, other: f64| {
+                    if own == 0.0 { 0.0 } else { factor(substrate, other) / factor(own, other) }
+                };
+                tables.stiffness[pair][row] = stiffness * area;
+                tables.pin[pair][row] = factor(wear_rate_pin, wear_rate_disc);
+                tables.disc[pair][row] = factor(wear_rate_disc, wear_rate_pin);
+                tables.fibre[pair][row] =
+                    below(materials.pin_primary.specific_wear_rate, wear_rate_pin, wear_rate_disc);
+                tables.coating[pair][row] =
+                    below(materials.disc_primary.specific_wear_rate, wear_rate_disc, wear_rate_pin);
+            }
+        }
+        tables
+    }
+
+    /// k A of the softest pair with a plateau of the pin, N/m.
+    pub fn least_plateau_stiffness(&self) -> f64 {
+        let plateaus = Pair::all().filter(|(pin, _)| *pin != Status::None);
+        let rows = plateaus.flat_map(|(pin, disc)| &self.stiffness[Pair::new(pin, disc).index()]);
+        rows.copied().fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// κ of a pin cell; 0 for resin, which does not wear by Archard's law.
+fn pin_wear_rate(materials: &Materials, status: Status) -> f64 {
+    match status {
+        Status::None => 0.0,
+        plateau => materials.pin(plateau).specific_wear_rate,
+    }
+}
+
+/// Loss per overlap of a cell with wear rate `own` (1/Pa) against one with `other`; `stiffness_sliding` is k ds, Pa.
+fn wear_factor(integrator: Integrator, own: f64, other: f64, stiffness_sliding: f64) -> f64 {
+    match integrator {
+        Integrator::Explicit => own * stiffness_sliding,
+        Integrator::Exponential if own == 0.0 => 0.0,
+        Integrator::Exponential => -libm::expm1(-(own + other) * stiffness_sliding) * (own / (own + other)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_exponential_rule_wears_less_by_the_known_factor() {
+        // Closed form (model section 8): (1 − e^(−Π))/Π per cell.
+        for number in [1e-8, 1e-3, 1.0, 50.0] {
+            let ratio = wear_factor(Integrator::Exponential, number, 0.0, 1.0)
+                / wear_factor(Integrator::Explicit, number, 0.0, 1.0);
+            let expected = -libm::expm1(-number) / number;
+            assert!((ratio / expected - 1.0).abs() < 1e-15, "Π = {number}");
+        }
+    }
+
+    #[test]
+    fn the_exponential_rule_never_takes_more_than_the_overlap() {
+        let pin = wear_factor(Integrator::Exponential, 3e-3, 1e-3, 1e6);
+        let disc = wear_factor(Integrator::Exponential, 1e-3, 3e-3, 1e6);
+        assert_eq!(pin + disc, 1.0);
+        assert!((pin / disc - 3.0).abs() < 1e-15);
+    }
+}

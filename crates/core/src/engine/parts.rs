@@ -1,0 +1,116 @@
+//! Which parts of the model a scene needs, and which it leaves out.
+
+use crate::model::parameters::{DebrisRule, Integrator, Parameters};
+use crate::model::state::Base;
+
+/// Name of the part that accelerates.
+pub const ACCELERATION: &str = "time acceleration";
+
+/// A part of the model that a scene can do without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    /// What it is called.
+    pub name: &'static str,
+    /// Whether this scene needs it.
+    pub needed: bool,
+    /// What in the scene decides.
+    pub reason: &'static str,
+}
+
+/// What the update of the cells has to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Needs {
+    /// Build-up can exist and differs from what it lies on.
+    pub distinct: bool,
+    /// The disc can wear.
+    pub disc_wears: bool,
+    /// Plateaus can form.
+    pub forms: bool,
+    /// They form of what wears ahead of them, and there is no pool.
+    pub local: bool,
+    /// Plateaus can fall.
+    pub destroys: bool,
+}
+
+impl Needs {
+    /// What these parameters ask for.
+    pub fn of(parameters: &Parameters) -> Self {
+        let rules = &parameters.plateaus;
+        let materials = &parameters.materials;
+        let forms = rules.formation && rules.captured_fraction.max(rules.captured_of_resin()) > 0.0;
+        Self {
+            distinct: forms
+                && (materials.pin_primary != materials.pin_secondary
+                    || materials.disc_primary != materials.disc_secondary),
+            disc_wears: materials.disc_primary.specific_wear_rate > 0.0
+                || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
+            forms,
+            local: forms && rules.debris == DebrisRule::Local,
+            destroys: forms && rules.destruction && rules.debris != DebrisRule::Local,
+        }
+    }
+}
+
+/// The optional parts of the model, each with whether a scene needs it.
+pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
+    let materials = &parameters.materials;
+    let has = |base| pin_base.contains(&base);
+    let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
+    let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
+        || (forms && materials.pin_secondary.specific_wear_rate > 0.0);
+    let part = |name, needed, reason_needed, reason_left_out| Part {
+        name,
+        needed,
+        reason: if needed { reason_needed } else { reason_left_out },
+    };
+    vec![
+        part("wear of plateaus on the pin", pin_wears, "a wear rate above 0", "every wear rate of the pin is 0"),
+        part("wear of the resin", has(Base::None), "the pin has resin", "the pin is fibre alone"),
+        part("wear of the disc", disc_wears, "a wear rate above 0", "every wear rate of the disc is 0"),
+        part(
+            "formation of plateaus",
+            forms,
+            "formation = true and debris is captured",
+            "formation = false or captured_fraction = 0",
+        ),
+        part(
+            "destruction of plateaus",
+            destroys && has(Base::None),
+            "destruction = true on resin",
+            match parameters.plateaus.debris {
+                DebrisRule::Local => "debris = \"local\" has none for lack of support",
+                DebrisRule::Contact | DebrisRule::Track => "destruction = false, no formation, or no resin",
+            },
+        ),
+        part(
+            "properties of their own for build-ups",
+            distinct,
+            "secondary materials differ from primary ones",
+            "secondary materials equal primary ones",
+        ),
+        part(
+            "debris pool",
+            forms && !local,
+            "debris = \"contact\" or \"track\"",
+            "debris = \"local\", or no formation",
+        ),
+        part(
+            "one debris pool per track",
+            parameters.plateaus.debris == DebrisRule::Track,
+            "debris = \"track\"",
+            "debris = \"local\" or \"contact\"",
+        ),
+        part(
+            "exponential wear",
+            parameters.integrator == Integrator::Exponential,
+            "integrator = \"exponential\"",
+            "integrator = \"explicit\"",
+        ),
+        part(
+            ACCELERATION,
+            parameters.time_acceleration > 1.0,
+            "time_acceleration above 1: an approximation, compare with 1",
+            "time_acceleration = 1",
+        ),
+    ]
+}

@@ -1,0 +1,282 @@
+//! Partition of the mesh among workers: the ring into angular sectors, and where that pays the radius into bands.
+//!
+//! Sectors are dealt in turn to groups of workers, so that all have equal work although the pin covers a part of the ring
+//! only; each worker of a group has one band of every sector of its group. Pin columns pass from group to group as the
+//! disc turns. Between bands nothing passes, for no rule couples rows but through the sums; so bands are the better
+//! partition as far as there are enough rows.
+
+use std::ops::Range;
+
+use crate::engine::lanes::LANES;
+use crate::engine::strips::strips;
+use crate::model::mesh::Mesh;
+
+/// Columns of work that a boundary under the pin costs a group: its first column is swept apart and handed on, and the
+/// one that enters is taken over and read on its own. Measured on the paper's mesh.
+const BOUNDARY_COST: f64 = 25.0;
+
+/// Partition of the mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Partition {
+    workers: usize,
+    bands: usize,
+    /// Strips of the mesh.
+    strips: usize,
+    rows: usize,
+    disc_columns: usize,
+    pin_columns: usize,
+    /// First column of every sector, and the number of columns.
+    starts: Vec<usize>,
+}
+
+/// Columns of the pin that lie over one sector.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Segment {
+    /// Which sector.
+    pub sector: usize,
+    /// Columns of the pin.
+    pub pin: Range<usize>,
+    /// Column within the sector under the first of them.
+    pub over: usize,
+    /// Whether the sector's column before that is at rest, so that the sweep itself can read its pair of the next step.
+    pub joined: bool,
+}
+
+/// A pair that no sweep can read for the next step: of a pin column that the disc's turn carries over another sector, or
+/// over a column that is swept later.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Entering {
+    /// Column of the pin.
+    pub pin: usize,
+    /// Sector in which the column is now.
+    pub from: usize,
+    /// Sector in which it will be.
+    pub sector: usize,
+    /// Column within that sector under it.
+    pub over: usize,
+}
+
+impl Partition {
+    /// The partition that keeps the most loaded worker's work least, on average over a revolution; with `bands`, the
+    /// best one of so many bands, at most as many as there are workers and strips.
+    ///
+    /// A sector has at least two columns; where the ring has too few for that, some workers get none.
+    pub fn new(mesh: &Mesh, workers: usize, bands: Option<usize>) -> Self {
+        let most_bands = strips(mesh.rows()).min(workers);
+        let possible = |count: &usize| workers.is_multiple_of(*count);
+        let candidates: Vec<usize> = match bands {
+            Some(bands) => (1..=bands.clamp(1, most_bands)).rev().find(possible).into_iter().collect(),
+            None => (1..=most_bands).filter(possible).collect(),
+        };
+        let partitions = candidates.into_iter().flat_map(|bands| Self::of_bands(mesh, workers, bands));
+        let best = partitions.map(|each| (each.cost(), each)).min_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or_else(|| Self::of_sectors(mesh, workers, 1, 1), |(_, partition)| partition)
+    }
+
+    /// Partitions into so many bands and different numbers of sectors.
+    fn of_bands(mesh: &Mesh, workers: usize, bands: usize) -> Vec<Self> {
+        let groups = workers / bands;
+        if groups == 1 {
+            return vec![Self::of_sectors(mesh, workers, bands, 1)];
+        }
+        let most_rounds = mesh.disc_columns() / (2 * groups);
+        if most_rounds == 0 {
+            return vec![Self::of_sectors(mesh, workers, bands, (mesh.disc_columns() / 2).max(1))];
+        }
+        let per_round = mesh.disc_columns().div_ceil(mesh.pin_columns());
+        let rounds = 1..=most_rounds.min(4 * per_round);
+        rounds.map(|rounds| Self::of_sectors(mesh, workers, bands, rounds * groups)).collect()
+    }
+
+    fn of_sectors(mesh: &Mesh, workers: usize, bands: usize, sectors: usize) -> Self {
+        let columns = mesh.disc_columns();
+        let starts = (0..=sectors).map(|sector| sector * columns / sectors).collect();
+        let (strips, rows, pin_columns) = (strips(mesh.rows()), mesh.rows(), mesh.pin_columns());
+        Self { workers, bands, strips, rows, disc_columns: columns, pin_columns, starts }
+    }
+
+    /// Work of the most loaded worker, in strips of columns.
+    fn cost(&self) -> f64 {
+        let groups = self.groups();
+        let boundaries = (self.sectors() * self.pin_columns) as f64 / self.disc_columns as f64;
+        let boundary_cost = if groups > 1 { BOUNDARY_COST * boundaries / groups as f64 } else { 0.0 };
+        self.strips.div_ceil(self.bands) as f64 * (self.mean_largest_load() + boundary_cost)
+    }
+
+    /// Number of bands.
+    pub fn bands(&self) -> usize {
+        self.bands
+    }
+
+    /// Number of groups of workers that sectors are dealt to.
+    pub fn groups(&self) -> usize {
+        self.workers / self.bands
+    }
+
+    /// The group of a worker.
+    pub fn group_of(&self, worker: usize) -> usize {
+        worker / self.bands
+    }
+
+    /// The band of a worker.
+    pub fn band_of(&self, worker: usize) -> usize {
+        worker % self.bands
+    }
+
+    /// The strips of a band.
+    pub fn strips_of(&self, band: usize) -> Range<usize> {
+        band * self.strips / self.bands..(band + 1) * self.strips / self.bands
+    }
+
+    /// The rows of a band.
+    pub fn rows_of(&self, band: usize) -> Range<usize> {
+        let Range { start, end } = self.strips_of(band);
+        start * LANES..(end * LANES).min(self.rows)
+    }
+
+    /// Number of sectors.
+    pub fn sectors(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The group that a sector belongs to.
+    pub fn group(&self, sector: usize) -> usize {
+        sector % self.groups()
+    }
+
+    /// The worker that has a band of a sector.
+    pub fn owner(&self, sector: usize, band: usize) -> usize {
+        self.group(sector) * self.bands + band
+    }
+
+    /// The sector before another: the one that pin columns turn to.
+    pub fn before(&self, sector: usize) -> usize {
+        (sector + self.sectors() - 1) % self.sectors()
+    }
+
+    /// The columns of a sector.
+    pub fn columns(&self, sector: usize) -> Range<usize> {
+        self.starts[sector]..self.starts[sector + 1]
+    }
+
+    /// The sector of a column.
+    pub fn sector_of(&self, column: usize) -> usize {
+        self.starts.partition_point(|start| *start <= column) - 1
+    }
+
+    /// Mean over a revolution of the columns under the pin that the most loaded group has.
+    pub fn mean_largest_load(&self) -> f64 {
+        let groups: Vec<usize> = (0..self.sectors())
+            .flat_map(|sector| self.columns(sector).map(move |_| sector))
+            .map(|s| self.group(s))
+            .collect();
+        let mut loads = vec![0_usize; self.groups()];
+        groups[..self.pin_columns].iter().for_each(|group| loads[*group] += 1);
+        let mut sum = 0;
+        for column in 0..self.disc_columns {
+            sum += loads.iter().max().unwrap_or(&0);
+            loads[groups[column]] -= 1;
+            loads[groups[(column + self.pin_columns) % self.disc_columns]] += 1;
+        }
+        sum as f64 / self.disc_columns as f64
+    }
+
+    /// The segments of the pin over a disc turned so that pin column 0 lies over `first` (a disc column), in the order
+    /// of the pin's columns.
+    pub fn segments(&self, first: usize) -> impl Iterator<Item = Segment> + '_ {
+        let (mut sector, mut column, mut pin) = (self.sector_of(first), first, 0);
+        std::iter::from_fn(move || {
+            if pin == self.pin_columns {
+                return None;
+            }
+            let Range { start, end } = self.columns(sector);
+            let columns = (end - column).min(self.pin_columns - pin);
+            let joined = column > start && self.pin_columns < self.disc_columns;
+            let segment = Segment { sector, pin: pin..pin + columns, over: column - start, joined };
+            pin += columns;
+            sector = (sector + 1) % self.sectors();
+            column = self.starts[sector];
+            Some(segment)
+        })
+    }
+
+    /// Those of the segments that belong to a group.
+    pub fn segments_of(&self, group: usize, first: usize) -> impl Iterator<Item = Segment> + '_ {
+        self.segments(first).filter(move |segment| self.group(segment.sector) == group)
+    }
+
+    /// What enters where: of each segment that is not joined the first pin column, which in the next step lies over the
+    /// disc column before.
+    pub fn entering(&self, first: usize) -> impl Iterator<Item = Entering> + '_ {
+        self.segments(first).filter(|segment| !segment.joined).map(|Segment { sector, pin, over, .. }| {
+            if over > 0 {
+                return Entering { pin: pin.start, from: sector, sector, over: over - 1 };
+            }
+            let before = self.before(sector);
+            Entering { pin: pin.start, from: sector, sector: before, over: self.columns(before).len() - 1 }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(disc_columns: usize, pin_columns: usize) -> Mesh {
+        Mesh::new(3, disc_columns, pin_columns, 1.0, 2.0).unwrap()
+    }
+
+    #[test]
+    fn segments_cover_the_pin_and_lie_over_the_right_columns() {
+        for (disc_columns, pin_columns, workers) in
+            [(2764, 161, 2), (40, 40, 3), (17, 5, 8), (9, 9, 1), (30, 1, 5), (7, 4, 5)]
+        {
+            let mesh = mesh(disc_columns, pin_columns);
+            let partition = Partition::new(&mesh, workers, Some(1));
+            for step in 0..2 * disc_columns as u64 {
+                let mut next = 0;
+                for segment in partition.segments(mesh.disc_column(0, step)) {
+                    assert_eq!(segment.pin.start, next);
+                    for (offset, pin) in segment.pin.clone().enumerate() {
+                        let column = partition.columns(segment.sector).start + segment.over + offset;
+                        assert_eq!(column, mesh.disc_column(pin, step));
+                        assert_eq!(partition.sector_of(column), segment.sector);
+                    }
+                    next = segment.pin.end;
+                    let is_at_rest = segment.pin.start == 0 && pin_columns < disc_columns;
+                    assert_eq!(segment.joined, is_at_rest && segment.over > 0);
+                }
+                assert_eq!(next, pin_columns);
+                for entering in partition.entering(mesh.disc_column(0, step)) {
+                    let column = partition.columns(entering.sector).start + entering.over;
+                    assert_eq!(column, mesh.disc_column(entering.pin, step + 1));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn work_is_shared_evenly() {
+        for workers in [2, 3, 4, 8] {
+            let partition = Partition::new(&mesh(2764, 161), workers, Some(1));
+            let even = 161.0 / workers as f64;
+            let largest = partition.mean_largest_load();
+            assert!(largest < even + 4.0, "{workers} workers: {largest} columns instead of {even}");
+        }
+    }
+
+    #[test]
+    fn bands_are_taken_where_the_rows_can_be_shared() {
+        let paper = Mesh::new(80, 2764, 161, 20e-3, 24e-3).unwrap();
+        let grid = |workers| {
+            let partition = Partition::new(&paper, workers, None);
+            (partition.bands(), partition.groups())
+        };
+        // Ten strips: halves and fifths are equal, thirds nearly so.
+        assert_eq!([grid(1), grid(2), grid(3), grid(5)], [(1, 1), (2, 1), (3, 1), (5, 1)]);
+        let partition = Partition::new(&paper, 2, None);
+        assert_eq!([partition.rows_of(0), partition.rows_of(1)], [0..40, 40..80]);
+        // One strip of rows cannot be shared.
+        assert_eq!(Partition::new(&mesh(100, 10), 4, None).bands(), 1);
+    }
+}

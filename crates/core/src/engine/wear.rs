@@ -1,0 +1,97 @@
+//! Wear of cells (model 4.2; paper 2.3, Eqs. 6 and 7), eight at a time.
+
+use std::ops::Sub;
+
+use crate::engine::lanes::Lanes;
+
+/// Cells after wear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Worn<L> {
+    /// New surface height, m.
+    pub height: L,
+    /// What of the raw loss was not lost, m.
+    pub spared: L,
+}
+
+/// Wears cells of the pin by their raw loss (m, 0 where nothing wears): the build-up t first, then what lies below.
+///
+/// A build-up is worn through where the raw loss Δh reaches it; the substrate then loses (1 − t/Δh) Δh_sub =
+/// (Δh − t) `below`, with `below` = Δh_sub/Δh, and surface and substrate coincide.
+#[inline(always)]
+pub(crate) fn pin<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L> {
+    let build_up = substrate - height;
+    let through = height.below(substrate) & !raw.below(build_up);
+    let deeper = (raw - build_up) * below;
+    Worn {
+        height: L::select(through, substrate + deeper, height + raw),
+        spared: (raw - build_up - deeper).only(through),
+    }
+}
+
+/// Wears cells of the disc by their raw loss (m), which lowers them; else as [`pin`].
+#[inline(always)]
+pub(crate) fn disc<L: Lanes>(height: L, substrate: L, raw: L, below: L) -> Worn<L> {
+    // The disc is the pin upside down.
+    let worn = pin(upside_down(height), upside_down(substrate), raw, below);
+    Worn { height: upside_down(worn.height), spared: worn.spared }
+}
+
+/// Off 0 and not negated, so that the height 0 stays 0 and does not become −0, which is equal but has other bits.
+#[inline(always)]
+fn upside_down<L: Lanes + Sub>(heights: L) -> L {
+    L::splat(0.0) - heights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::lanes::{Chunk, Portable};
+
+    fn values(lanes: Portable) -> [f64; 8] {
+        let mut chunk = Chunk([0.0; 8]);
+        lanes.store(&mut chunk);
+        chunk.0
+    }
+
+    /// Height and spared loss of one cell.
+    fn worn(wear: fn(Portable, Portable, Portable, Portable) -> Worn<Portable>, cell: [f64; 4]) -> (f64, f64) {
+        let [height, substrate, raw, below] = cell.map(Portable::splat);
+        let worn = wear(height, substrate, raw, below);
+        (values(worn.height)[5], values(worn.spared)[5])
+    }
+
+    #[test]
+    fn a_thick_build_up_wears_like_any_plateau() {
+        assert_eq!(worn(pin, [1.0, 3.0, 0.5, 9.0]), (1.5, 0.0));
+    }
+
+    #[test]
+    fn a_worn_through_build_up_passes_the_rest_of_the_step_on_to_the_fibre() {
+        // Half of the step wears off the build-up of 1; the other half takes half of the fibre's raw loss of 0.25,
+        // an eighth of the build-up's raw loss of 2.
+        assert_eq!(worn(pin, [2.0, 3.0, 2.0, 0.125]), (3.125, 0.875));
+    }
+
+    #[test]
+    fn below_a_worn_through_build_up_resin_stays() {
+        assert_eq!(worn(pin, [2.0, 3.0, 2.0, 0.0]), (3.0, 1.0));
+        assert_eq!(worn(pin, [2.0, 3.0, 1.0, 0.5]), (3.0, 0.0));
+    }
+
+    #[test]
+    fn bare_fibre_loses_all() {
+        assert_eq!(worn(pin, [3.0, 3.0, 0.5, 9.0]), (3.5, 0.0));
+    }
+
+    #[test]
+    fn a_disc_at_height_0_that_does_not_wear_keeps_its_bits() {
+        let (height, _) = worn(disc, [0.0, 0.0, 0.0, 0.5]);
+        assert_eq!(height.to_bits(), 0.0_f64.to_bits());
+    }
+
+    #[test]
+    fn the_disc_wears_the_other_way() {
+        assert_eq!(worn(disc, [3.0, 2.0, 2.0, 0.25]), (1.75, 0.75));
+        assert_eq!(worn(disc, [1.75, 1.75, 0.25, 0.5]), (1.5, 0.0));
+    }
+}

@@ -1,0 +1,125 @@
+//! Finding the displacement of a step (model 4.1).
+
+use super::Worker;
+use crate::engine::comm::Communicator;
+use crate::engine::contact::{ContactError, Verdict};
+use crate::engine::exact::Quantum;
+use crate::engine::kernel::{Bracket, Span};
+use crate::engine::pair::Pair;
+use crate::engine::sector::Segment;
+use crate::model::state::pin_status;
+use crate::simulation::error::SimulationError;
+
+/// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
+const MOST_READINGS: u32 = 200;
+
+impl<C: Communicator> Worker<C> {
+    /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs. Returns a
+    /// bound of the overlaps at it, m.
+    pub(super) fn balance(&mut self) -> Result<f64, SimulationError> {
+        let (step, normal_force) = (self.course.steps + 1, self.parameters.normal_force);
+        let mut bracket = match self.bracket {
+            Some(bracket) => bracket,
+            None => self.read_around_first_contact()?,
+        };
+        for _ in 0..MOST_READINGS {
+            let columns = self.parameters.mesh.pin_columns();
+            let largest = self.reading.largest_overlap(&bracket);
+            if !bracket.quantum.holds(largest, columns) {
+                bracket = Bracket::new(bracket.low, bracket.width, Quantum::of_sum(largest, columns));
+                self.read_columns(&bracket)?;
+                continue;
+            }
+            let verdict =
+                self.contact.balance(&self.weights, &self.sums, &mut self.reading.near, &bracket, normal_force);
+            match verdict.map_err(|source| SimulationError::Contact { step, source })? {
+                Verdict::Solved => {
+                    self.note_near_touches();
+                    if largest > 0.0 {
+                        self.overlaps = Quantum::of_sum(largest, columns);
+                    }
+                    self.course.largest_load_residual = self.course.largest_load_residual.max(self.contact.residual());
+                    return Ok(largest.max(0.0) + (self.contact.displacement() - bracket.low));
+                }
+                Verdict::Between(low, high) => {
+                    bracket = Bracket::new(low, high - low, self.overlaps);
+                    self.read_columns(&bracket)?;
+                }
+                Verdict::Apart => bracket = self.read_around_first_contact()?,
+            }
+        }
+        let source = ContactError::NotCarried { displacement: bracket.low, normal_force };
+        Err(SimulationError::Contact { step, source })
+    }
+
+    /// Reads the pairs at the displacement at which the first cell would carry the load alone: it is never below the
+    /// solution.
+    fn read_around_first_contact(&mut self) -> Result<Bracket, SimulationError> {
+        let normal_force = self.parameters.normal_force;
+        let mut least = f64::INFINITY;
+        self.for_each_pair(|row, _, gap, pair| {
+            least = least.min(gap + normal_force / self.coefficients.stiffness[pair][row]);
+        });
+        let own = least.to_bits();
+        self.communicator.all_gather(&[own], &mut |_, words| least = least.min(f64::from_bits(words[0])))?;
+        let bracket = Bracket::new(least, 0.0, self.overlaps);
+        self.read_columns(&bracket)?;
+        Ok(bracket)
+    }
+
+    /// Reads all own pairs of the coming step against a bracket, and gathers what the others read.
+    pub(super) fn read_columns(&mut self, bracket: &Bracket) -> Result<(), SimulationError> {
+        self.course.extra_readings += 1;
+        self.reading.clear();
+        for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
+            let Some(sector) = &self.sectors[sector] else { continue };
+            let span = Span { first: pin.start, over, columns: pin.len() };
+            (self.read)(self.instructions, &mut self.pin, sector, span, bracket, &mut self.reading);
+        }
+        self.gather_reading(bracket)
+    }
+
+    /// With local debris, notes which of the pairs that the bracket did not decide touch at the displacement.
+    fn note_near_touches(&mut self) {
+        if self.edges.is_empty() {
+            return;
+        }
+        let displacement = self.contact.displacement();
+        for near in self.reading.near.iter().take_while(|near| near.gap < displacement) {
+            let row = near.row as usize;
+            if self.rows.contains(&row) {
+                // In columns of other workers it means nothing: they are read anew when they come here.
+                self.pin.note_touch(row - self.rows.start, near.column as usize);
+            }
+        }
+    }
+
+    /// Calls `each` with row, pin column, gap (m) and pair of statuses of every own cell under the pin.
+    fn for_each_pair(&self, mut each: impl FnMut(usize, usize, f64, usize)) {
+        for Segment { sector, pin, over, .. } in self.partition.segments(self.first()) {
+            let Some(sector) = &self.sectors[sector] else { continue };
+            for (offset, column) in pin.enumerate() {
+                let pin_cells = self.pin.height.column(column).zip(self.pin.substrate().column(column));
+                let disc_cells = sector.height.column(over + offset).zip(sector.substrate().column(over + offset));
+                for (row, ((z_p, b_p), (z_d, b_d))) in pin_cells.zip(disc_cells).enumerate() {
+                    let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
+                    each(self.rows.start + row, column, z_p - z_d, Pair::new(status, z_d > b_d).index());
+                }
+            }
+        }
+    }
+
+    /// p = k u of every own cell under the pin.
+    pub(super) fn record_pressures(&mut self) {
+        let mut pressure = std::mem::take(&mut self.pressure);
+        let mesh = &self.parameters.mesh;
+        pressure.resize(mesh.pin_cells(), 0.0);
+        let displacement = self.contact.displacement();
+        self.for_each_pair(|row, column, gap, pair| {
+            let overlap = displacement - gap;
+            let stiffness = self.coefficients.stiffness[pair][row] / mesh.area()[row];
+            pressure[mesh.column(column).start + row] = if overlap > 0.0 { stiffness * overlap } else { 0.0 };
+        });
+        self.pressure = pressure;
+    }
+}

@@ -1,0 +1,71 @@
+//! What a worker keeps for later, and how it goes on from there.
+
+use std::sync::Arc;
+
+use super::Worker;
+use crate::engine::comm::Communicator;
+use crate::engine::kernel::Rules;
+use crate::model::parameters::Parameters;
+use crate::simulation::checkpoint::{Checkpoint, EngineMemory, Memory};
+use crate::simulation::error::SimulationError;
+use crate::simulation::execution::Engine;
+
+impl<C: Communicator> Worker<C> {
+    /// What all workers know alike.
+    pub fn memory(&self) -> Memory {
+        Memory {
+            course: self.course,
+            clock: self.clock,
+            time_acceleration: self.parameters.time_acceleration,
+            account: self.debris.account(),
+            history: self.history.clone(),
+            engine: Some(EngineMemory {
+                contact: self.contact.clone(),
+                forecast: self.forecast.clone(),
+                bracket: self.bracket,
+                overlaps: self.overlaps,
+            }),
+        }
+    }
+
+    /// Takes over the state of a simulation of the same parameters and surfaces.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        let Memory { course, clock, time_acceleration, account, history, engine } = checkpoint.memory.clone();
+        let Some(EngineMemory { contact, forecast, bracket, overlaps }) = engine else {
+            return Err(SimulationError::OtherEngine { found: Engine::Plain, expected: Engine::Fast });
+        };
+        self.accept_coefficients(&Parameters { time_acceleration, ..Parameters::clone(&self.parameters) });
+        let rows = self.parameters.mesh.rows();
+        let own = self.rows.clone();
+        for column in 0..self.parameters.mesh.pin_columns() {
+            let cells = rows * column + own.start..rows * column + own.end;
+            self.pin.set_column(column, &checkpoint.pin_height[cells.clone()], &checkpoint.pin_substrate[cells]);
+        }
+        for sector in self.sectors.iter_mut().flatten() {
+            for column in 0..sector.columns {
+                let start = rows * (sector.first + column);
+                let cells = start + own.start..start + own.end;
+                sector.set_column(column, &checkpoint.disc_height[cells.clone()], &checkpoint.disc_substrate[cells]);
+            }
+        }
+        (self.course, self.clock) = (course, clock);
+        self.filling.measure_all(&self.parameters.mesh, &own, self.sectors.iter().flatten(), course.steps);
+        self.debris.set_account(account);
+        (self.contact, self.history, self.forecast) = (contact, history, forecast);
+        (self.bracket, self.overlaps) = (bracket, overlaps);
+        self.pressure.clear();
+        // What the last sweep read of the coming step is read again.
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
+        self.course = course;
+        Ok(())
+    }
+
+    /// Makes everything that depends on the acceleration anew.
+    pub(super) fn accept_coefficients(&mut self, parameters: &Parameters) {
+        self.coefficients = crate::engine::pair::Coefficients::new(parameters);
+        self.rules = Rules::new(parameters, &self.coefficients, self.filling.reference_height(), self.shortcut);
+        self.weights = crate::engine::sums::RowWeights::new(parameters, &self.coefficients, self.rows.clone());
+        self.debris.set_coefficients(&self.coefficients);
+        self.parameters = Arc::new(parameters.clone());
+    }
+}

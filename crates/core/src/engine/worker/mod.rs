@@ -1,0 +1,222 @@
+//! One worker: its sectors of the disc, the pin's columns over them, and the step that all workers take together.
+//!
+//! Every worker knows the displacement, the pools and all sums, and computes them alike; what differs is which cells it
+//! sweeps.
+
+mod balance;
+mod checkpoint;
+mod columns;
+mod gather;
+mod local;
+mod report;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::engine::comm::Communicator;
+use crate::engine::contact::Contact;
+use crate::engine::debris::Debris;
+use crate::engine::exact::Quantum;
+use crate::engine::filling::Filling;
+use crate::engine::forecast::Forecast;
+use crate::engine::history::History;
+use crate::engine::kernel::{
+    Bracket, Edge, InstructionSet, Moved, Read, Reading, Rules, Sweep, WearColumn, read, sweep, wear_column,
+};
+use crate::engine::pair::Coefficients;
+use crate::engine::parts::Needs;
+use crate::engine::sector::Partition;
+use crate::engine::strips::{DiscSector, PinStrips, strips};
+use crate::engine::sums::{RowWeights, Sums};
+use crate::model::clock::Clock;
+use crate::model::parameters::Parameters;
+use crate::model::state::InitialSurfaces;
+use crate::simulation::course::Course;
+use crate::simulation::error::SimulationError;
+use crate::simulation::execution::Execution;
+
+pub(crate) use columns::halo_words;
+
+/// A worker.
+#[derive(Debug)]
+pub(crate) struct Worker<C> {
+    communicator: C,
+    parameters: Arc<Parameters>,
+    partition: Arc<Partition>,
+    instructions: InstructionSet,
+    shortcut: bool,
+    sweep: Sweep,
+    read: Read,
+    wear_column: WearColumn,
+    rules: Rules,
+    coefficients: Coefficients,
+    /// Of which losses are counted as multiples: the quantum of the largest overlap that the load allows.
+    quantum: Quantum,
+    /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step.
+    overlaps: Quantum,
+    pin: PinStrips,
+    /// The worker's own sectors, by their number.
+    sectors: Vec<Option<DiscSector>>,
+    contact: Contact,
+    forecast: Forecast,
+    debris: Debris,
+    history: History,
+    filling: Filling,
+    /// Where the displacement of the coming step is expected; none before the first step.
+    bracket: Option<Bracket>,
+    /// The pairs of the coming step against it.
+    reading: Reading,
+    /// What the last sweep moved.
+    moved: Moved,
+    weights: RowWeights,
+    /// What all workers read and moved.
+    sums: Sums,
+    /// With local debris: the first pin column over each sector after wear.
+    edges: Vec<Edge>,
+    message: Vec<u64>,
+    halo: Vec<u64>,
+    /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
+    pressure: Vec<f64>,
+    course: Course,
+    clock: Clock,
+    /// Columns by which the disc was turned before the first step.
+    turned: u64,
+    /// The group of workers that shares the worker's sectors.
+    group: usize,
+    /// The worker's band of them.
+    band: usize,
+    /// The rows of that band.
+    rows: Range<usize>,
+}
+
+impl<C: Communicator> Worker<C> {
+    /// One worker of those that `communicator` connects, at t = 0, over a disc turned by `turned` columns.
+    pub fn new(
+        parameters: Arc<Parameters>,
+        surfaces: &InitialSurfaces,
+        partition: Arc<Partition>,
+        execution: Execution,
+        turned: u64,
+        communicator: C,
+    ) -> Self {
+        let mesh = &parameters.mesh;
+        let needs = Needs::of(&parameters);
+        let coefficients = Coefficients::new(&parameters);
+        let (group, band) = (partition.group_of(communicator.rank()), partition.band_of(communicator.rank()));
+        let rows = partition.rows_of(band);
+        let own = |sector| {
+            let columns = partition.columns(sector);
+            let heights = &surfaces.disc_height[columns.start * mesh.rows()..columns.end * mesh.rows()];
+            let is_own = partition.group(sector) == group;
+            is_own.then(|| DiscSector::new(mesh, rows.clone(), columns.start, heights, needs.forms))
+        };
+        let sectors: Vec<_> = (0..partition.sectors()).map(own).collect();
+        let strips = strips(rows.len());
+        let filling = Filling::new(mesh, rows.clone(), surfaces, sectors.iter().flatten());
+        let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
+        let quantum = Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns());
+        Self {
+            instructions: execution.instructions,
+            shortcut: execution.shortcut,
+            sweep: sweep(needs),
+            read: read(needs),
+            wear_column: wear_column(needs),
+            rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
+            contact: Contact::new(&weights),
+            quantum,
+            overlaps: quantum,
+            pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs),
+            forecast: Forecast::new(mesh.disc_columns()),
+            debris: Debris::new(&parameters, &coefficients, &weights),
+            history: History::new(mesh.disc_columns()),
+            filling,
+            edges: vec![Edge::default(); if needs.local { partition.sectors() } else { 0 }],
+            bracket: None,
+            reading: Reading::new(rows.start, strips, needs.distinct),
+            moved: Moved::new(strips, needs.forms, needs.distinct),
+            sums: Sums::new(weights.pools()),
+            weights,
+            message: Vec::new(),
+            halo: Vec::new(),
+            pressure: Vec::new(),
+            course: Course::default(),
+            clock: parameters.clock(),
+            turned,
+            group,
+            band,
+            rows,
+            coefficients,
+            sectors,
+            partition,
+            communicator,
+            parameters,
+        }
+    }
+
+    /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
+    pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
+        while self.course.steps < step {
+            self.pressure.clear();
+            self.advance(watched && self.course.steps + 1 == step)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses to report pressures of a step that was not watched.
+    fn check_watched(&self) -> Result<(), SimulationError> {
+        let steps = self.course.steps;
+        if steps > 0 && self.pressure.is_empty() { Err(SimulationError::NotWatched { step: steps }) } else { Ok(()) }
+    }
+
+    /// One step:
+    ///
+    /// | model | what happens | where |
+    /// |---|---|---|
+    /// | 4.1 | the displacement that carries the load | [`Contact::balance`] |
+    /// | 4P | debris at hand for each open cell | [`Debris::prepare`] |
+    /// | 4.2, 4L, 4P | wear, destruction and formation in every cell | [`crate::engine::wear`], [`crate::engine::plateau`], [`crate::engine::kernel`] |
+    /// | 4.1 | the pairs of the next step against where its displacement is expected | [`crate::engine::kernel`] |
+    /// | 4L, 4P | debris balance | [`Debris::settle`] |
+    /// | 4.6 | the disc turns by one column | |
+    fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
+        let largest_overlap = self.balance()?;
+        if watched {
+            self.record_pressures();
+        }
+        self.debris.prepare(&self.contact, largest_overlap);
+        self.forecast.record(self.contact.displacement());
+        let bracket = self.sweep_columns()?;
+        self.gather_sweep(&bracket)?;
+        self.bracket = Some(bracket);
+        self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
+        self.course.contact_area = self.contact.area();
+        self.history.record(self.course.contact_area, self.clock.step_time());
+        self.course.steps += 1;
+        self.course.time = self.clock.time_at(self.course.steps);
+        Ok(())
+    }
+
+    /// Has the coming steps stand for `acceleration` revolutions each, in place of what it was so far (model 4.6).
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
+        self.clock = self.clock.changed(self.course.steps, parameters.step_time());
+        self.accept_coefficients(&parameters);
+        // The sums of the coming step were taken with the weights of before.
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
+    }
+
+    /// The disc column under pin column 0 in the coming step.
+    fn first(&self) -> usize {
+        self.parameters.mesh.disc_column(0, self.turned + self.course.steps)
+    }
+
+    /// The disc column under pin column 0 in the last step; before the first, in that.
+    fn last_first(&self) -> usize {
+        self.parameters.mesh.disc_column(0, self.turned + self.course.steps.saturating_sub(1))
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        Course { contact_area_integral: self.history.integral(), ..self.course }
+    }
+}

@@ -1,0 +1,141 @@
+//! The contact of the first step, known before there is a simulation (model 4.1).
+//!
+//! Cell by cell and in plain sums, for those who want to know what load and surfaces lead to. A simulation balances every
+//! step by itself ([`contact`](crate::engine::contact)), to the last bit the same on any number of workers.
+
+use crate::model::material::Status;
+use crate::model::parameters::Parameters;
+use crate::model::state::{Base, InitialSurfaces};
+
+/// What touches in the first step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstContact {
+    /// δ, m.
+    pub displacement: f64,
+    /// Σ A over cells in contact, resin included, m².
+    pub contact_area: f64,
+    /// Σ p A / Σ A over cells in contact, resin included, Pa.
+    pub mean_pressure: f64,
+    /// The largest overlap u = δ − g of a pair that carries, m.
+    pub largest_overlap: f64,
+}
+
+/// One pair of cells: its gap g, m, its stiffness k A, N/m, and its area A, m².
+struct Pair {
+    gap: f64,
+    stiffness: f64,
+    area: f64,
+}
+
+impl FirstContact {
+    /// Solves Σ k A (δ − g)₊ = F_N for the pin where it is set down. None where no finite displacement carries the load, of
+    /// which the simulation says why.
+    pub fn of(parameters: &Parameters, surfaces: &InitialSurfaces) -> Option<Self> {
+        let mut pairs = pairs(parameters, surfaces);
+        pairs.sort_unstable_by(|one, other| one.gap.total_cmp(&other.gap));
+        let mut at = pairs.first()?.gap;
+        let (lowest, force) = (at, parameters.normal_force);
+        let [mut load, mut slope, mut contact_area] = [0.0; 3];
+        // Straight from one gap to the next: the load is piecewise linear in δ.
+        for pair in &pairs {
+            if slope > 0.0 && at + (force - load) / slope <= pair.gap {
+                break;
+            }
+            load += slope * (pair.gap - at);
+            slope += pair.stiffness;
+            contact_area += pair.area;
+            at = pair.gap;
+        }
+        let displacement = at + (force - load) / slope;
+        let (mean_pressure, largest_overlap) = (force / contact_area, displacement - lowest);
+        displacement.is_finite().then_some(Self { displacement, contact_area, mean_pressure, largest_overlap })
+    }
+}
+
+/// The pairs under the pin that carry.
+fn pairs(parameters: &Parameters, surfaces: &InitialSurfaces) -> Vec<Pair> {
+    let Parameters { mesh, materials, foundation_height, .. } = parameters;
+    let stiffness = |base| {
+        let status = if base == Base::None { Status::None } else { Status::Primary };
+        materials.combined_modulus(status, false) / foundation_height
+    };
+    let [resin, fibre] = [Base::None, Base::Primary].map(stiffness);
+    let mut pairs = Vec::with_capacity(mesh.pin_cells());
+    for column in 0..mesh.pin_columns() {
+        let pin = mesh.column(column).zip(mesh.column(mesh.disc_column(column, 0)));
+        for ((cell, under), area) in pin.zip(mesh.area()) {
+            let stiffness = if surfaces.pin_base[cell] == Base::None { resin } else { fibre };
+            let gap = surfaces.pin_height[cell] - surfaces.disc_height[under];
+            pairs.push(Pair { gap, stiffness: stiffness * area, area: *area });
+        }
+    }
+    pairs.retain(|pair| pair.stiffness > 0.0);
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::mesh::Mesh;
+    use crate::model::parameters::PlateauRules;
+    use crate::simulation::Simulation;
+
+    fn parameters(normal_force: f64) -> Parameters {
+        let mesh = Mesh::new(7, 60, 11, 20e-3, 21e-3).unwrap();
+        Parameters { mesh, normal_force, plateaus: PlateauRules::pool(0.5), ..Parameters::paper() }
+    }
+
+    #[test]
+    fn it_is_that_of_the_first_step_of_a_simulation() {
+        for normal_force in [1e-3, 1.0, 1e4] {
+            let parameters = parameters(normal_force);
+            let mesh = &parameters.mesh;
+            // Heights of no pattern, from 0 to 3 µm on the disc; the pin starts on other columns than it ends on.
+            let heights =
+                |cells: usize, prime: usize| (0..cells).map(|cell| (cell * prime % 1009) as f64 * 3e-9).collect();
+            let surfaces = InitialSurfaces {
+                disc_height: heights(mesh.disc_cells(), 7919),
+                pin_height: heights(mesh.pin_cells(), 104_729),
+                pin_base: (0..mesh.pin_cells()).map(|cell| [Base::None, Base::Primary][cell * 31 % 3 % 2]).collect(),
+            };
+            let first = FirstContact::of(&parameters, &surfaces).unwrap();
+            let mut simulation = Simulation::new(parameters, surfaces).unwrap();
+            simulation.advance().unwrap();
+            let sample = simulation.sample().unwrap();
+            assert!((first.displacement - sample.displacement).abs() < 1e-9 * 3e-6, "{first:?}, {sample:?}");
+            assert!((first.contact_area / sample.contact_area - 1.0).abs() < 1e-12);
+            assert!((first.mean_pressure / sample.mean_pressure - 1.0).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn flat_bodies_share_the_load_over_the_whole_pin() {
+        // Closed form: p = F_N/ΣA, u = p h/E*.
+        let parameters = parameters(200.0);
+        let mesh = &parameters.mesh;
+        let surfaces = InitialSurfaces {
+            disc_height: vec![1e-6; mesh.disc_cells()],
+            pin_height: vec![3e-6; mesh.pin_cells()],
+            pin_base: vec![Base::Primary; mesh.pin_cells()],
+        };
+        let first = FirstContact::of(&parameters, &surfaces).unwrap();
+        let pressure = 200.0 / mesh.pin_area();
+        let overlap = pressure * 50e-6 * (1.0 - 0.27 * 0.27) * (1e-9 + 1e-11);
+        assert!((first.mean_pressure / pressure - 1.0).abs() < 1e-12);
+        assert!((first.largest_overlap / overlap - 1.0).abs() < 1e-9, "{first:?}");
+        assert!((first.displacement - 2e-6 - overlap).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_carries_nothing_has_no_contact() {
+        let mut parameters = parameters(1.0);
+        parameters.materials.pin_resin.youngs_modulus = 0.0;
+        let mesh = &parameters.mesh;
+        let surfaces = InitialSurfaces {
+            disc_height: vec![0.0; mesh.disc_cells()],
+            pin_height: vec![0.0; mesh.pin_cells()],
+            pin_base: vec![Base::None; mesh.pin_cells()],
+        };
+        assert_eq!(FirstContact::of(&parameters, &surfaces), None);
+    }
+}

@@ -1,0 +1,115 @@
+//! Everything a simulation is told before its first step, apart from the initial surfaces (model section 3).
+
+use crate::model::clock::Clock;
+use crate::model::material::Materials;
+use crate::model::mesh::Mesh;
+
+/// Where what wears is compacted (model 4L and 4P).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DebrisRule {
+    /// In the gap behind the cell that wears, in the same step; what finds no room leaves the contact.
+    Local,
+    /// In all open cells evenly, out of one pool for the whole contact.
+    Contact,
+    /// In all open cells of a row evenly, out of one pool for each row.
+    Track,
+}
+
+/// How the wear of one step follows from its contact (model 4.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integrator {
+    /// Δh = κ p ds: the paper's rule. Unstable when the stiffness number Π exceeds 2.
+    Explicit,
+    /// The overlap decays exponentially over the step; stable for any Π.
+    Exponential,
+}
+
+/// Formation and destruction of secondary plateaus (model 4L and 4P).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlateauRules {
+    /// How debris travels.
+    pub debris: DebrisRule,
+    /// η: fraction of the worn volume that stays in the contact (pools) or may be compacted (local debris).
+    pub captured_fraction: f64,
+    /// η of what wears off resin, where that is another.
+    pub captured_resin_fraction: Option<f64>,
+    /// β: the pin's share of a deposit where both surfaces can form a plateau; pools only.
+    pub pad_share: f64,
+    /// Whether plateaus form; without it captured debris stays in its pool, and with local debris all leaves the contact.
+    pub formation: bool,
+    /// Whether unsupported plateaus of the pin go back to their pool; pools only.
+    pub destruction: bool,
+}
+
+impl PlateauRules {
+    /// Local debris, all of which may be compacted.
+    pub const LOCAL: Self = Self {
+        debris: DebrisRule::Local,
+        captured_fraction: 1.0,
+        captured_resin_fraction: None,
+        pad_share: 0.0,
+        formation: true,
+        destruction: false,
+    };
+
+    /// One pool for the whole contact with this captured fraction; half of a deposit goes to the pin where it can.
+    pub const fn pool(captured_fraction: f64) -> Self {
+        Self { debris: DebrisRule::Contact, captured_fraction, pad_share: 0.5, destruction: true, ..Self::LOCAL }
+    }
+
+    /// η of what wears off resin.
+    pub fn captured_of_resin(&self) -> f64 {
+        self.captured_resin_fraction.unwrap_or(self.captured_fraction)
+    }
+}
+
+/// Parameters of one simulation, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameters {
+    /// Ring mesh.
+    pub mesh: Mesh,
+    /// F_N, N.
+    pub normal_force: f64,
+    /// ω, rad/s.
+    pub angular_velocity: f64,
+    /// h, m: height of the elastic foundation.
+    pub foundation_height: f64,
+    /// Properties by (body, status).
+    pub materials: Materials,
+    /// Formation and destruction.
+    pub plateaus: PlateauRules,
+    /// m ≥ 1: how many revolutions one simulated revolution stands for (model 4.6).
+    pub time_acceleration: f64,
+    /// How wear follows from contact.
+    pub integrator: Integrator,
+}
+
+impl Parameters {
+    /// m Δt = m Δθ/ω, s: physical time of one step.
+    pub fn step_time(&self) -> f64 {
+        self.time_acceleration * self.mesh.column_angle() / self.angular_velocity
+    }
+
+    /// The clock of a simulation whose acceleration never changes.
+    pub fn clock(&self) -> Clock {
+        Clock::new(self.step_time())
+    }
+
+    /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2
+    /// it is unstable (model section 8).
+    pub fn stiffness_number(&self) -> f64 {
+        use crate::model::material::Status::{Primary, Secondary};
+        let radius = self.mesh.radius().last().copied().unwrap_or(0.0);
+        let sliding = self.time_acceleration * radius * self.mesh.column_angle();
+        let mut largest = 0.0_f64;
+        for pin in [Primary, Secondary] {
+            for disc in [false, true] {
+                let wear_rate =
+                    self.materials.pin(pin).specific_wear_rate + self.materials.disc(disc).specific_wear_rate;
+                let stiffness = self.materials.combined_modulus(pin, disc) / self.foundation_height;
+                largest = largest.max(wear_rate * stiffness * sliding);
+            }
+        }
+        largest
+    }
+}

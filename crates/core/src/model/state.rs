@@ -1,0 +1,92 @@
+//! Heights of disc and pin, and the status that follows from them (model section 2).
+
+use crate::model::material::Status;
+use crate::model::mesh::Mesh;
+
+/// Base of a pin cell: what is there before any wear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Base {
+    /// Resin.
+    None = 0,
+    /// Fibre.
+    Primary = 1,
+}
+
+impl Base {
+    /// Whether the base is resin.
+    #[inline(always)]
+    pub fn is_resin(self) -> bool {
+        self == Self::None
+    }
+}
+
+/// Disc ring: one value per cell, column by column (see [`Mesh`]).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Disc {
+    /// z_d, m, positive toward the pin.
+    pub height: Vec<f64>,
+    /// b_d ≤ z_d, m: top of what is not compacted debris.
+    pub substrate: Vec<f64>,
+}
+
+impl Disc {
+    /// Status of every cell, column by column: secondary where the surface stands above the substrate.
+    pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
+        let cells = self.height.iter().zip(&self.substrate);
+        cells.map(|(height, substrate)| disc_status(*height, *substrate))
+    }
+}
+
+/// Pin: one value per cell, column by column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pin {
+    /// z_p, m, on the disc's axis: wear raises it, away from the disc.
+    pub height: Vec<f64>,
+    /// b_p ≥ z_p, m: surface of what is not compacted debris.
+    pub substrate: Vec<f64>,
+    /// Resin or fibre.
+    pub base: Vec<Base>,
+}
+
+impl Pin {
+    /// Status of every cell, column by column.
+    pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
+        let cells = self.height.iter().zip(&self.substrate).zip(&self.base);
+        cells.map(|((height, substrate), base)| pin_status(*height, *substrate, base.is_resin()))
+    }
+}
+
+/// Status of a disc cell: secondary where the surface stands above the substrate.
+pub fn disc_status(height: f64, substrate: f64) -> Status {
+    if height > substrate { Status::Secondary } else { Status::Primary }
+}
+
+/// Status of a pin cell: secondary where debris stands out of the substrate toward the disc, else its base.
+pub fn pin_status(height: f64, substrate: f64, is_resin: bool) -> Status {
+    match is_resin {
+        _ if height < substrate => Status::Secondary,
+        true => Status::None,
+        false => Status::Primary,
+    }
+}
+
+/// The two surfaces before the first step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InitialSurfaces {
+    /// z_d of every disc cell, m.
+    pub disc_height: Vec<f64>,
+    /// z_p of every pin cell, m.
+    pub pin_height: Vec<f64>,
+    /// Base of every pin cell.
+    pub pin_base: Vec<Base>,
+}
+
+impl InitialSurfaces {
+    /// Whether every field has the size that the mesh asks for.
+    pub fn fits(&self, mesh: &Mesh) -> bool {
+        self.disc_height.len() == mesh.disc_cells()
+            && self.pin_height.len() == mesh.pin_cells()
+            && self.pin_base.len() == mesh.pin_cells()
+    }
+}

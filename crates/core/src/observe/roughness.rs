@@ -1,0 +1,139 @@
+//! Roughness of disc and pin while they wear: height parameters of their cells (ISO 25178-2:2021, 4.2).
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::mesh::Mesh;
+
+/// Height parameters of the cells of one body.
+///
+/// A cell counts with its area, which differs from row to row, and heights are measured from the mean so weighted;
+/// nothing else is taken out: that the track runs in as a groove is part of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Roughness {
+    /// Sa = Σ A |z − z̄| / Σ A, m.
+    pub arithmetical_mean_height: f64,
+    /// Sq = √(Σ A (z − z̄)² / Σ A), m.
+    pub root_mean_square_height: f64,
+    /// Ssk = Σ A (z − z̄)³ / Σ A / Sq³; NaN where all heights are equal.
+    pub skewness: f64,
+    /// Sku = Σ A (z − z̄)⁴ / Σ A / Sq⁴; NaN where all heights are equal.
+    pub kurtosis: f64,
+}
+
+/// Roughness of both bodies, peaks positive on either.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BothRoughness {
+    /// The whole ring: all of it passes under the pin.
+    pub disc: Roughness,
+    /// The whole pin.
+    pub pin: Roughness,
+}
+
+impl Roughness {
+    /// Of heights of every cell of disc or pin, m, column by column, peaks positive.
+    ///
+    /// The sums are taken in the order of the mesh, column by column: their bits do not depend on how a simulation is
+    /// carried out.
+    pub fn of(mesh: &Mesh, heights: &[f64]) -> Self {
+        let columns = heights.len() / mesh.rows();
+        let area = columns as f64 * mesh.column_area();
+        let mean_of = |terms: &dyn Fn(f64) -> [f64; 4]| {
+            let mut sums = [0.0; 4];
+            for column in heights.chunks_exact(mesh.rows()) {
+                let mut own = [0.0; 4];
+                for (height, area) in column.iter().zip(mesh.area()) {
+                    own.iter_mut().zip(terms(*height)).for_each(|(sum, term)| *sum += area * term);
+                }
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+            }
+            sums.map(|sum| sum / area)
+        };
+        let [first, ..] = mean_of(&|height| [height, 0.0, 0.0, 0.0]);
+        // What rounding left of the mean the first time; not added to it, which would round it again.
+        let [rest, ..] = mean_of(&|height| [height - first, 0.0, 0.0, 0.0]);
+        let [absolute, square, cube, fourth] = mean_of(&|height| {
+            let z = (height - first) - rest;
+            [z.abs(), z * z, z * z * z, z * z * z * z]
+        });
+        let root_mean_square_height = square.sqrt();
+        let flat = heights.iter().all(|height| *height == heights[0]);
+        let relative = |moment: f64| if flat { f64::NAN } else { moment };
+        Self {
+            arithmetical_mean_height: absolute,
+            root_mean_square_height,
+            skewness: relative(cube / (square * root_mean_square_height)),
+            kurtosis: relative(fourth / (square * square)),
+        }
+    }
+
+    /// Of heights of the pin, whose z grows away from the disc.
+    pub fn of_pin(mesh: &Mesh, heights: &[f64]) -> Self {
+        let mut roughness = Self::of(mesh, heights);
+        roughness.skewness = -roughness.skewness;
+        roughness
+    }
+}
+
+/// √(Σ A (z − z̄_i)² / Σ A) of the disc's cells, m, heights being measured from the mean z̄_i of their own track (row).
+pub fn root_mean_square_along_tracks(mesh: &Mesh, heights: &[f64]) -> f64 {
+    let columns = heights.len() / mesh.rows();
+    let sum_of_tracks = |add: &dyn Fn(usize, f64) -> f64| {
+        let mut sums = vec![0.0; mesh.rows()];
+        for column in heights.chunks_exact(mesh.rows()) {
+            sums.iter_mut().zip(column).enumerate().for_each(|(row, (sum, height))| *sum += add(row, *height));
+        }
+        sums
+    };
+    let mean: Vec<f64> = sum_of_tracks(&|_, height| height).iter().map(|sum| sum / columns as f64).collect();
+    let squares = sum_of_tracks(&|row, height| (height - mean[row]).powi(2));
+    let weighted: f64 = squares.iter().zip(mesh.area()).map(|(square, area)| square * area).sum();
+    (weighted / (columns as f64 * mesh.column_area())).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_count_with_their_areas() {
+        // Two rows with areas as 3 : 5 (radii 1.5 and 2.5), heights 0 and 1: a Bernoulli distribution with p = 5/8, of
+        // which mean absolute deviation 2pq, variance pq, skewness (q − p)/√(pq), kurtosis (1 − 3pq)/(pq).
+        let mesh = Mesh::new(2, 6, 3, 1.0, 3.0).unwrap();
+        let heights: Vec<f64> = (0..12).map(|cell| f64::from(cell % 2)).collect();
+        let (p, q) = (0.625_f64, 0.375_f64);
+        let expected = [2.0 * p * q, (p * q).sqrt(), (q - p) / (p * q).sqrt(), (1.0 - 3.0 * p * q) / (p * q)];
+        let Roughness { arithmetical_mean_height, root_mean_square_height, skewness, kurtosis } =
+            Roughness::of(&mesh, &heights);
+        let found = [arithmetical_mean_height, root_mean_square_height, skewness, kurtosis];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-14, "{found}, {expected}");
+        }
+        assert_eq!(Roughness::of_pin(&mesh, &heights).skewness, -skewness);
+    }
+
+    #[test]
+    fn tracks_have_their_own_means() {
+        // By hand: areas as 3 : 5; one track flat at 7, the other ± 2.
+        let mesh = Mesh::new(2, 6, 3, 1.0, 3.0).unwrap();
+        let heights: Vec<f64> = (0..6).flat_map(|column| [7.0, if column % 2 == 0 { 2.0 } else { -2.0 }]).collect();
+        let expected = (5.0_f64 / 8.0 * 4.0).sqrt();
+        assert!((root_mean_square_along_tracks(&mesh, &heights) / expected - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_large_offset_takes_no_digits_but_those_of_the_heights() {
+        let mesh = Mesh::new(4, 10, 3, 1.0, 1.5).unwrap();
+        let heights: Vec<f64> = (0..40).map(|cell| f64::from(cell * cell % 7)).collect();
+        let shifted: Vec<f64> = heights.iter().map(|height| height + 1e6).collect();
+        let (near, far) = (Roughness::of(&mesh, &heights), Roughness::of(&mesh, &shifted));
+        assert!((near.root_mean_square_height / far.root_mean_square_height - 1.0).abs() < 1e-14);
+        assert!((near.skewness / far.skewness - 1.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_flat_body_has_no_skewness() {
+        let mesh = Mesh::new(3, 7, 3, 1.0, 1.5).unwrap();
+        let flat = Roughness::of(&mesh, &[0.1; 21]);
+        assert!(flat.root_mean_square_height < 1e-16 && flat.skewness.is_nan() && flat.kurtosis.is_nan());
+    }
+}

@@ -1,0 +1,104 @@
+//! The complete state of a simulation between two steps: what a stopped run needs to go on as if nothing had happened.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::engine::contact::Contact;
+use crate::engine::debris::Account;
+use crate::engine::exact::Quantum;
+use crate::engine::forecast::Forecast;
+use crate::engine::history::History;
+use crate::engine::kernel::Bracket;
+use crate::model::clock::Clock;
+use crate::model::mesh::Mesh;
+use crate::simulation::course::Course;
+use crate::simulation::execution::Engine;
+
+/// The complete state of a simulation between two steps.
+///
+/// A simulation of the same parameters and initial surfaces that is given it takes the coming steps bit for bit as the one
+/// that it was taken of, with any number of workers and any instruction set,
+/// on the same engine.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    /// z_d, m, column by column.
+    pub disc_height: Vec<f64>,
+    /// b_d, m.
+    pub disc_substrate: Vec<f64>,
+    /// z_p, m.
+    pub pin_height: Vec<f64>,
+    /// b_p, m.
+    pub pin_substrate: Vec<f64>,
+    /// What all workers know alike.
+    pub(crate) memory: Memory,
+}
+
+/// What all workers know alike.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Memory {
+    pub course: Course,
+    pub clock: Clock,
+    pub time_acceleration: f64,
+    pub account: Account,
+    pub history: History,
+    /// What the fast engine keeps beside it; the plain model needs nothing more.
+    pub engine: Option<EngineMemory>,
+}
+
+/// What the fast engine keeps from step to step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct EngineMemory {
+    pub contact: Contact,
+    pub forecast: Forecast,
+    pub bracket: Option<Bracket>,
+    pub overlaps: Quantum,
+}
+
+/// Why a simulation cannot go on from a checkpoint.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the checkpoint is of another mesh: {found} {body} cells, expected {expected}")]
+pub struct WrongMesh {
+    /// Disc or pin.
+    pub body: &'static str,
+    /// Cells of the checkpoint.
+    pub found: usize,
+    /// Cells of the simulation.
+    pub expected: usize,
+}
+
+impl Checkpoint {
+    /// Steps done.
+    pub fn steps(&self) -> u64 {
+        self.memory.course.steps
+    }
+
+    /// What took its steps.
+    pub fn engine(&self) -> Engine {
+        if self.memory.engine.is_some() { Engine::Fast } else { Engine::Plain }
+    }
+
+    /// When its steps end.
+    pub fn clock(&self) -> Clock {
+        self.memory.clock
+    }
+
+    /// t, s.
+    pub fn time(&self) -> f64 {
+        self.memory.course.time
+    }
+
+    /// Whether it is of so many cells.
+    ///
+    /// # Errors
+    /// [`WrongMesh`].
+    pub fn check(&self, mesh: &Mesh) -> Result<(), WrongMesh> {
+        let fields = [
+            ("disc", &self.disc_height, mesh.disc_cells()),
+            ("disc", &self.disc_substrate, mesh.disc_cells()),
+            ("pin", &self.pin_height, mesh.pin_cells()),
+            ("pin", &self.pin_substrate, mesh.pin_cells()),
+        ];
+        let wrong = fields.into_iter().find(|(_, field, expected)| field.len() != *expected);
+        wrong.map_or(Ok(()), |(body, field, expected)| Err(WrongMesh { body, found: field.len(), expected }))
+    }
+}

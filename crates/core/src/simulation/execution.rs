@@ -1,0 +1,58 @@
+//! How the steps of a simulation are taken.
+
+use std::fmt;
+
+use crate::engine::kernel::InstructionSet;
+
+/// What takes the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Engine {
+    /// Eight cells at a time, on any number of workers: one pass over the pin a step.
+    #[default]
+    Fast,
+    /// The plain model, cell by cell ([`crate::model`]), on one worker: the same results but for rounding, slowly.
+    Plain,
+}
+
+impl fmt::Display for Engine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fast => "fast",
+            Self::Plain => "plain",
+        })
+    }
+}
+
+/// How a simulation is carried out. Nothing of it shows in the results, but that the two engines round differently.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Execution {
+    /// What takes the steps.
+    pub engine: Engine,
+    /// Workers that share the ring, at least 1: threads or, with feature `mpi`, ranks.
+    pub workers: usize,
+    /// Instruction set of the kernels.
+    pub instructions: InstructionSet,
+    /// Bands of rows that the radius is divided into, at most as many as there are workers; the best number unless given.
+    pub bands: Option<usize>,
+    /// Whether each worker stays on a core of its own.
+    pub pin: bool,
+    /// Whether cells to which nothing out of the ordinary happens are swept with few instructions: false is for tests.
+    pub shortcut: bool,
+}
+
+impl Execution {
+    /// With what the steps are taken: the name of the instruction set, or `plain model`.
+    pub fn means(&self) -> &'static str {
+        match self.engine {
+            Engine::Fast => self.instructions.name(),
+            Engine::Plain => "plain model",
+        }
+    }
+}
+
+impl Default for Execution {
+    fn default() -> Self {
+        let instructions = InstructionSet::best();
+        Self { engine: Engine::Fast, workers: 1, instructions, bands: None, pin: false, shortcut: true }
+    }
+}

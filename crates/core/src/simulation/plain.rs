@@ -1,0 +1,225 @@
+//! The plain model as a simulation: steps, samples and maps in place of the engine's.
+
+use std::sync::Arc;
+
+use crate::engine::debris::{Account, Totals};
+use crate::engine::history::History;
+use crate::engine::sum::RunningSum;
+use crate::model::clock::Clock;
+use crate::model::material::Status;
+use crate::model::parameters::Parameters;
+use crate::model::state::InitialSurfaces;
+use crate::model::{State, Step, Volumes, step};
+use crate::observe::{Map, MapValues, Sample, Snapshot};
+use crate::simulation::checkpoint::{Checkpoint, Memory};
+use crate::simulation::course::Course;
+use crate::simulation::error::SimulationError;
+use crate::simulation::execution::Engine;
+
+/// A simulation that takes [`step::advance`] for every step.
+#[derive(Debug)]
+pub(crate) struct Plain {
+    parameters: Arc<Parameters>,
+    state: State,
+    /// The last step, if it was watched.
+    last: Option<Step>,
+    totals: Totals,
+    history: History,
+    course: Course,
+    clock: Clock,
+    /// Columns by which the disc was turned before the first step.
+    turned: u64,
+    /// V(0), m³.
+    initial_volume: f64,
+}
+
+impl Plain {
+    /// t = 0, over a disc turned by `turned` columns.
+    pub fn new(parameters: Arc<Parameters>, surfaces: InitialSurfaces, turned: u64) -> Self {
+        let mut state = State::new(&parameters, surfaces);
+        state.steps = turned;
+        let mut plain = Self {
+            last: None,
+            totals: Totals::default(),
+            history: History::new(parameters.mesh.disc_columns()),
+            course: Course::default(),
+            clock: parameters.clock(),
+            initial_volume: 0.0,
+            state,
+            parameters,
+            turned,
+        };
+        plain.initial_volume = plain.open_volume();
+        plain
+    }
+
+    /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
+    pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
+        while self.course.steps < step {
+            self.last = None;
+            let taken = step::advance(&self.parameters, &mut self.state)
+                .map_err(|source| SimulationError::Contact { step: self.course.steps + 1, source })?;
+            let area = self.parameters.mesh.area().iter().cycle();
+            let cells = taken.contact.iter().zip(area);
+            self.course.contact_area = cells.filter(|(touches, _)| **touches).map(|(_, area)| area).sum();
+            self.course.largest_load_residual = self.course.largest_load_residual.max(self.load_residual(&taken));
+            self.history.record(self.course.contact_area, self.clock.step_time());
+            self.course.steps += 1;
+            self.course.time = self.clock.time_at(self.course.steps);
+            add(&mut self.totals, &taken.moved);
+            self.last = (watched && self.course.steps == step).then_some(taken);
+        }
+        Ok(())
+    }
+
+    /// Has the coming steps stand for `acceleration` revolutions each (model 4.6).
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
+        self.clock = self.clock.changed(self.course.steps, parameters.step_time());
+        self.parameters = Arc::new(parameters);
+        Ok(())
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        Course { contact_area_integral: self.history.integral(), ..self.course }
+    }
+
+    /// What is kept beside the surfaces.
+    pub fn memory(&self) -> Memory {
+        let pool = |volume: &f64| {
+            let mut pool = RunningSum::default();
+            pool.add(*volume);
+            pool
+        };
+        Memory {
+            course: self.course,
+            clock: self.clock,
+            time_acceleration: self.parameters.time_acceleration,
+            account: Account { pools: self.state.pools.iter().map(pool).collect(), totals: self.totals },
+            history: self.history.clone(),
+            engine: None,
+        }
+    }
+
+    /// Takes over the state of a plain simulation of the same parameters and surfaces.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        let Memory { course, clock, time_acceleration, account, history, engine } = checkpoint.memory.clone();
+        if engine.is_some() {
+            return Err(SimulationError::OtherEngine { found: Engine::Fast, expected: Engine::Plain });
+        }
+        self.parameters = Arc::new(Parameters { time_acceleration, ..Parameters::clone(&self.parameters) });
+        let State { disc, pin, pools, steps, .. } = &mut self.state;
+        (disc.height, disc.substrate) = (checkpoint.disc_height.clone(), checkpoint.disc_substrate.clone());
+        (pin.height, pin.substrate) = (checkpoint.pin_height.clone(), checkpoint.pin_substrate.clone());
+        *pools = account.pools.iter().map(RunningSum::value).collect();
+        *steps = self.turned + course.steps;
+        (self.course, self.clock, self.history, self.totals) = (course, clock, history, account.totals);
+        self.last = None;
+        Ok(())
+    }
+
+    /// The last step, for those who report its pressures; none before the first.
+    fn watched(&self) -> Result<Option<&Step>, SimulationError> {
+        match &self.last {
+            None if self.course.steps > 0 => Err(SimulationError::NotWatched { step: self.course.steps }),
+            last => Ok(last.as_ref()),
+        }
+    }
+
+    /// The maps asked for, as they are now.
+    pub fn snapshot(&self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        let State { disc, pin, .. } = &self.state;
+        let mut values = Vec::with_capacity(maps.len());
+        for map in maps {
+            let field = match map {
+                Map::DiscHeight => MapValues::Float(disc.height.clone()),
+                Map::DiscSubstrate => MapValues::Float(disc.substrate.clone()),
+                Map::DiscStatus => MapValues::Status(disc.statuses().map(|status| status as u8).collect()),
+                Map::PinHeight => MapValues::Float(pin.height.clone()),
+                Map::PinSubstrate => MapValues::Float(pin.substrate.clone()),
+                Map::PinStatus => MapValues::Status(pin.statuses().map(|status| status as u8).collect()),
+                Map::Pressure => MapValues::Float(match self.watched()? {
+                    Some(step) => step.pressure.clone(),
+                    None => vec![0.0; pin.height.len()],
+                }),
+            };
+            values.push((*map, field));
+        }
+        Ok(Snapshot { time: self.course.time, maps: values })
+    }
+
+    /// The reported quantities after the last step (model 5).
+    pub fn sample(&self) -> Result<Sample, SimulationError> {
+        let (parameters, mesh, totals) = (&*self.parameters, &self.parameters.mesh, &self.totals);
+        let step = self.watched()?;
+        let areas = || mesh.area().iter().copied().cycle();
+        let pin_share = |status: Status| {
+            let cells = self.state.pin.statuses().zip(areas()).filter(|(each, _)| *each == status);
+            cells.map(|(_, area)| area).sum::<f64>() / mesh.pin_area()
+        };
+        let disc_secondary = self.state.disc.statuses().zip(areas()).filter(|(each, _)| *each == Status::Secondary);
+        let contact_area = self.course.contact_area;
+        let pressures = step.map_or(&[][..], |step| &step.pressure);
+        let load: f64 = pressures.iter().zip(areas()).map(|(pressure, area)| pressure * area).sum();
+        let pool: f64 = self.state.pools.iter().sum();
+        Ok(Sample {
+            step: self.course.steps,
+            time: self.course.time,
+            displacement: step.map_or(0.0, |step| step.displacement),
+            contact_area,
+            contact_area_mean: self.history.revolution_mean(),
+            contact_area_integral: self.history.integral(),
+            sliding_distance: self.course.time * parameters.angular_velocity * mesh.mean_radius(),
+            contact_ratio: contact_area / mesh.pin_area(),
+            mean_pressure: if contact_area > 0.0 { load / contact_area } else { 0.0 },
+            max_pressure: pressures.iter().copied().fold(0.0, f64::max),
+            worn_pin: totals.worn_pin.value(),
+            worn_resin: totals.worn_resin.value(),
+            worn_disc: totals.worn_disc.value(),
+            pool: pool.max(0.0),
+            emitted: totals.emitted.value(),
+            deposited_pin: totals.deposited_pin.value(),
+            deposited_disc: totals.deposited_disc.value(),
+            returned: totals.returned.value(),
+            pin_none: pin_share(Status::None),
+            pin_primary: pin_share(Status::Primary),
+            pin_secondary: pin_share(Status::Secondary),
+            disc_secondary: (disc_secondary.map(|(_, area)| area).sum::<f64>() / mesh.disc_area()).min(1.0),
+            filled_fraction: match self.initial_volume {
+                0.0 => 0.0,
+                initial => 1.0 - self.open_volume() / initial,
+            },
+            load_residual: step.map_or(0.0, |step| self.load_residual(step)),
+            balance_residual: totals.balance_residual(pool),
+            acceleration: None,
+            roughness: None,
+            pressure_spread: None,
+        })
+    }
+
+    /// |Σ p A − F_N| / F_N.
+    fn load_residual(&self, step: &Step) -> f64 {
+        let areas = self.parameters.mesh.area().iter().cycle();
+        let load: f64 = step.pressure.iter().zip(areas).map(|(pressure, area)| pressure * area).sum();
+        (load / self.parameters.normal_force - 1.0).abs()
+    }
+
+    /// V = Σ A (z_ref − z_d)₊, m³.
+    fn open_volume(&self) -> f64 {
+        let State { disc, reference_height, .. } = &self.state;
+        let cells = disc.height.iter().zip(self.parameters.mesh.area().iter().cycle());
+        cells.map(|(height, area)| (reference_height - height).max(0.0) * area).sum()
+    }
+}
+
+/// Adds what a step moved.
+fn add(totals: &mut Totals, moved: &Volumes) {
+    totals.worn_pin.add(moved.worn_pin);
+    totals.worn_resin.add(moved.worn_resin);
+    totals.worn_disc.add(moved.worn_disc);
+    totals.returned.add(moved.returned);
+    totals.deposited_pin.add(moved.deposited_pin);
+    totals.deposited_disc.add(moved.deposited_disc);
+    totals.emitted.add(moved.emitted);
+}
