@@ -36,7 +36,7 @@ trap 'rm -f "$output"' EXIT
 
 build_with_mpi || exit 1
 prepare_toolchain
-cargo clippy --release --locked -p plateau-core -p plateau --lib --bins --test mpi --target-dir "$target" --features mpi \
+cargo clippy --release --locked -p plateau-core -p plateau-run -p plateau --lib --bins --test mpi --target-dir "$target" --features mpi \
     -- -D warnings || exit 1
 for number in 1 2 3 5; do
     ranks $number || exit 1

@@ -10,6 +10,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::simulation::Engine;
+use plateau_run::ExecutionOptions;
 
 pub use accuracy::{AccuracyArguments, Ladder};
 pub use surface::SurfaceArguments;
@@ -131,13 +133,6 @@ pub struct RunArguments {
     pub execution: ExecutionArguments,
 }
 
-impl RunArguments {
-    /// Whether a run that is there is to be gone on with.
-    pub fn resumes(&self) -> bool {
-        self.resume || self.extend_to.is_some()
-    }
-}
-
 /// How a run is carried out, which does not show in its results, but that the two engines round differently.
 #[derive(Debug, Args)]
 pub struct ExecutionArguments {
@@ -150,6 +145,17 @@ pub struct ExecutionArguments {
     /// Keep each worker on a core of its own, as far as there are enough; a single worker is left free
     #[arg(long)]
     pub pin: bool,
+}
+
+impl ExecutionArguments {
+    /// As the library takes them.
+    pub fn options(&self) -> ExecutionOptions {
+        let engine = match self.engine {
+            EngineArgument::Fast => Engine::Fast,
+            EngineArgument::Plain => Engine::Plain,
+        };
+        ExecutionOptions { engine, instructions: self.isa, pin: self.pin }
+    }
 }
 
 /// A value of `--engine`.

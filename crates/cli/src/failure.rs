@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use plateau_run::{Job, Progress, RunError};
 use signal_hook::consts::SIGABRT;
 
 use crate::message;
@@ -35,6 +36,18 @@ impl Failure {
     /// A failed run.
     pub fn run(error: impl fmt::Display) -> Self {
         Self::Run(error.to_string())
+    }
+
+    /// How a run failed.
+    pub fn of(error: RunError) -> Self {
+        match error {
+            RunError::Input(error) => Self::input(error),
+            RunError::Failed(failure) => Self::run(failure),
+            RunError::Stopped(stopped) => {
+                let message = (stopped.progress != Progress::Elsewhere).then(|| stopped.to_string());
+                Self::Stopped { signal: stopped.signal, message }
+            }
+        }
     }
 
     /// The same failure, with what holds nevertheless.
@@ -67,6 +80,35 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         self.say();
         ExitCode::from(self.status())
+    }
+}
+
+/// Works together with the other processes of the job if there are any. From here on only the first of them gives warnings; if
+/// one fails, all end with its exit status.
+///
+/// # Errors
+/// Those of `work`, and [`Failure::Run`] when the others cannot be joined.
+pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), Failure> {
+    let mut job = Job::start().map_err(Failure::run)?;
+    if !job.leads() {
+        message::no_warnings();
+    }
+    match work(&mut job) {
+        Ok(()) => {
+            job.finish();
+            Ok(())
+        }
+        // All ranks were stopped together. It is said while all are still there: the launcher ends the others as soon as one is
+        // gone with a status other than 0.
+        Err(failure @ Failure::Stopped { signal, .. }) => {
+            failure.say();
+            job.finish();
+            Err(Failure::Stopped { signal, message: None })
+        }
+        Err(failure) => {
+            job.fail(failure.status(), || failure.say());
+            Err(failure)
+        }
     }
 }
 

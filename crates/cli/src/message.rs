@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static WARNINGS: AtomicBool = AtomicBool::new(true);
 
 /// From now on there are no warnings: another process of the same job gives them.
-#[cfg(feature = "mpi")]
 pub fn no_warnings() {
     WARNINGS.store(false, Ordering::Relaxed);
 }

@@ -23,21 +23,17 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar for so much simulated time (s), to be seen or not.
-    pub fn new(duration: f64, visible: bool) -> Self {
+    /// A bar for so much simulated time (s) with the name of what is simulated, if it has one; to be seen or not.
+    pub fn new(duration: f64, name: &str, visible: bool) -> Self {
         let bar = if visible { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{prefix}{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }
+        if !name.is_empty() {
+            bar.set_prefix(format!("{name}  "));
+        }
         let now = Instant::now();
         Self { bar, duration, start: now, looked: now }
-    }
-
-    /// A bar for so much simulated time (s) with the name of what is simulated.
-    pub fn named(duration: f64, name: &str) -> Self {
-        let progress = Self::new(duration, true);
-        progress.bar.set_prefix(format!("{name}  "));
-        progress
     }
 
     /// Shows how far the simulation is, if the last look was long enough ago.

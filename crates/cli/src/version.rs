@@ -1,11 +1,13 @@
 //! Which program this is.
 
+use plateau_run::Program;
+
 /// Revision of the source that the program was built from.
 pub const REVISION: &str = env!("PLATEAU_REVISION");
 
-/// Name, version and revision of the source: what tells results of different programs apart.
-pub fn build() -> String {
-    format!("{} {REVISION}", program())
+/// This program, as run files name it.
+pub fn this() -> Program {
+    Program { name: program(), revision: REVISION.into() }
 }
 
 /// Name and version.

@@ -10,6 +10,7 @@
 //! | studies: many runs, their results | [`study`] |
 //! | what a stopped run goes on from | [`checkpoint`] |
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
+//! | numbers as people read them | [`number`] |
 //! | HDF5 files of named results | [`dataset_file`] |
 //! | who may write a run file and its checkpoints | [`claim`] |
 //! | regular files, and nothing else | [`regular`] |
@@ -23,6 +24,7 @@ pub mod dataset_file;
 mod digest;
 pub mod export;
 mod hdf5_file;
+pub mod number;
 pub mod plausibility;
 pub mod process;
 mod random;

@@ -22,8 +22,7 @@ pub fn advice(report: &Report) -> Vec<String> {
     let found = ERRORS.map(|error| (error, judge(error, &costs, own.contact_area(), &clear)));
     let all_same = found.iter().all(|(_, advice)| *advice == found[0].1);
     let reference = report.reference.outcome.wall_time;
-    let instead =
-        if reference.is_nan() { String::new() } else { format!(" instead of {}", number::duration(reference)) };
+    let instead = reference.map_or(String::new(), |time| format!(" instead of {}", number::duration(time)));
     let of = |index: usize| (report.rows[index].setting(), number::duration(costs[index].time), costs[index].error);
     let sentence = |(error, advice): (f64, Advice)| match advice {
         Advice::Use(index) => {

@@ -19,7 +19,7 @@ pub const COLUMNS: &[Column] = &[
     ("pin_columns", |row| row.cells[2] as f64),
     ("perturbation", |row| row.rung.numerics.perturbation),
     ("stiffness_number", |row| row.stiffness_number),
-    ("wall_time", |row| measured(row, |run| run.wall_time)),
+    ("wall_time", |row| measured(row, |run| run.wall_time.unwrap_or(f64::NAN))),
     ("steps", |row| measured(row, |run| run.steps as f64)),
     ("contact_area_error", |row| measured(row, |run| run.comparison.contact_area.mean_square)),
     ("above_reference_error", |row| f64::from(u8::from(row.is_clear))),

@@ -3,25 +3,18 @@
 use std::fmt;
 use std::time::Instant;
 
-use plateau_core::acceleration::scout::Scout;
-use plateau_core::observe::schedule::{self, SampleEvery, Schedule};
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 use plateau_core::simulation::{Simulation, SimulationError};
-use plateau_io::scene::recipe::OutputRecipe;
+use plateau_run::{Assembly, Observer, RunError, Sink};
 
 use super::history::History;
-use super::numerics::steps_until;
 use super::outcome::{End, Heights, Outcome};
-use super::windows::Windows;
-use crate::drive::{Sink, drive};
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
 
 /// Why a run did not come to its end.
 #[derive(Debug)]
 pub enum Unfinished {
-    /// A step failed.
-    Failed(SimulationError),
+    /// It could not be put together, or a step failed.
+    Failed(RunError),
     /// A quantity became infinite or no number.
     NotFinite {
         /// The step after which that was seen.
@@ -31,9 +24,15 @@ pub enum Unfinished {
     Stopped(u8),
 }
 
+impl From<RunError> for Unfinished {
+    fn from(error: RunError) -> Self {
+        Self::Failed(error)
+    }
+}
+
 impl From<SimulationError> for Unfinished {
     fn from(error: SimulationError) -> Self {
-        Self::Failed(error)
+        Self::Failed(error.into())
     }
 }
 
@@ -47,60 +46,24 @@ impl fmt::Display for Unfinished {
     }
 }
 
-/// Runs a simulation for `duration` (s); `name` is shown meanwhile. With a scout it chooses its acceleration.
+/// Takes the steps of a run that is compared over so many windows, and keeps what is compared.
 ///
 /// # Errors
 /// [`Unfinished`].
-pub fn measure(
-    simulation: &mut Simulation,
-    mut scout: Option<Scout>,
-    duration: f64,
-    windows: &Windows,
-    name: &str,
-    interrupt: &Interrupt,
-) -> Result<Outcome, Unfinished> {
-    let parameters = simulation.parameters().clone();
-    let output = OutputRecipe {
-        file: std::path::PathBuf::new(),
-        sample_every: SampleEvery::Time(windows.width),
-        maps_at: Vec::new(),
-        maps: vec![Map::DiscHeight, Map::PinHeight],
-        roughness: false,
-        pressure_spread: false,
-        checkpoint_every: f64::INFINITY,
-    };
-    let end = if scout.is_some() {
-        schedule::End::Time(duration)
-    } else {
-        schedule::End::Steps(steps_until(&parameters, duration))
-    };
-    let schedule = Schedule::new(parameters.clock(), end, output.sample_every, &output.maps_at);
-    let mut record = Record {
-        progress: Progress::named(duration, name),
-        interrupt,
-        windows: windows.count,
-        history: History::start(),
-        last: Sample::default(),
-        heights: Heights::default(),
-    };
+pub fn measure(mut assembly: Assembly, windows: usize, observer: &mut dyn Observer) -> Result<Outcome, Unfinished> {
+    let (history, last, heights) = (History::start(), Sample::default(), Heights::default());
+    let mut record = Record { observer, windows, history, last, heights };
     let start = Instant::now();
-    let driven = drive(simulation, scout.as_mut(), schedule, &output, &mut record);
-    let wall_time = start.elapsed().as_secs_f64();
-    record.progress.finish();
-    driven?;
-    Ok(Outcome {
-        steps: simulation.steps_done(),
-        wall_time,
-        history: record.history,
-        end: End::of(&record.last, simulation.course().largest_load_residual),
-        heights: record.heights,
-    })
+    assembly.run_to_end(&mut record)?;
+    let wall_time = Some(start.elapsed().as_secs_f64());
+    let Record { history, last, heights, .. } = record;
+    let end = End::of(&last, assembly.simulation.course().largest_load_residual);
+    Ok(Outcome { steps: assembly.simulation.steps_done(), wall_time, history, end, heights })
 }
 
 /// Keeps what is compared.
 struct Record<'a> {
-    progress: Progress,
-    interrupt: &'a Interrupt,
+    observer: &'a mut dyn Observer,
     windows: usize,
     history: History,
     last: Sample,
@@ -135,7 +98,7 @@ impl Sink for Record<'_> {
     }
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Unfinished> {
-        self.progress.show(simulation);
-        self.interrupt.signal().map_or(Ok(steps), |signal| Err(Unfinished::Stopped(signal)))
+        self.observer.progress(simulation);
+        self.observer.asked_to_stop().map_or(Ok(steps), |signal| Err(Unfinished::Stopped(signal)))
     }
 }

@@ -9,8 +9,8 @@ use super::history::History;
 pub struct Outcome {
     /// Steps.
     pub steps: u64,
-    /// Wall time of all steps, s: without making the surfaces, and without a run file.
-    pub wall_time: f64,
+    /// Wall time of all steps, s: without making the surfaces, and without a run file. None where a run file does not tell.
+    pub wall_time: Option<f64>,
     /// Its course, at the ends of the windows.
     pub history: History,
     /// Its end.

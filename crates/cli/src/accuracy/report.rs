@@ -55,7 +55,7 @@ pub struct Measured {
     /// Steps.
     pub steps: u64,
     /// Wall time, s.
-    pub wall_time: f64,
+    pub wall_time: Option<f64>,
     /// Its course.
     pub history: History,
     /// Largest load residual of any step.
@@ -112,15 +112,15 @@ impl Row {
 
     /// Wall time and error.
     pub fn cost(&self) -> Cost {
-        let time = self.result.as_ref().map_or(f64::NAN, |measured| measured.wall_time);
+        let time = self.result.as_ref().ok().and_then(|measured| measured.wall_time).unwrap_or(f64::NAN);
         Cost { time, error: self.error() }
     }
 
     /// Wall time and error as they count for a choice. A run that equals the scene's own, step by step, is none, for only
     /// chance makes it the quicker of the two; nor is a perturbed reference, nor what is not quicker than the reference.
     fn choice(&self, reference: &Outcome) -> Cost {
-        let none =
-            |run: &Measured| run.change == 0.0 || run.steps >= reference.steps || run.wall_time >= reference.wall_time;
+        let is_quicker = |run: &Measured| reference.wall_time.is_none() || run.wall_time < reference.wall_time;
+        let none = |run: &Measured| run.change == 0.0 || run.steps >= reference.steps || !is_quicker(run);
         let none = self.rung.ladder == Ladder::Perturbation || self.result.as_ref().is_ok_and(none);
         Cost { error: if none { f64::NAN } else { self.error() }, ..self.cost() }
     }

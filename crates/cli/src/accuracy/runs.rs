@@ -1,15 +1,19 @@
 //! The runs of a scene: how each is made, and how long it takes.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::time::Duration;
 
-use plateau_core::acceleration::scout::Scout;
 use plateau_core::acceleration::smoothness::Smoothness;
 use plateau_core::model::mesh::MeshError;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_io::scene::recipe::Scene;
+use plateau_core::observe::Map;
+use plateau_core::observe::schedule::SampleEvery;
+use plateau_core::simulation::{Execution, Simulation};
+use plateau_io::scene::recipe::{OutputRecipe, Scene};
+use plateau_run::execution::time_per_step;
+use plateau_run::{Assembly, InputError, Observer, RunError};
 
 use super::coarsening::Coarsening;
 use super::ladder::COARSENINGS;
@@ -18,9 +22,7 @@ use super::numerics::{Numerics, steps_until};
 use super::outcome::Outcome;
 use super::windows::Windows;
 use crate::arguments::Ladder;
-use crate::execution::time_per_step;
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
 
 /// What a run that chooses its acceleration is thought to choose, at least, before it is made.
 const USUAL_ACCELERATION: f64 = 20.0;
@@ -28,7 +30,6 @@ const USUAL_ACCELERATION: f64 = 20.0;
 const TRIAL: Duration = Duration::from_millis(200);
 
 /// A scene with all that its runs have in common.
-#[derive(Debug)]
 pub struct Runs<'a> {
     /// The scene.
     pub scene: &'a Scene,
@@ -37,7 +38,7 @@ pub struct Runs<'a> {
     /// Whether a run that chooses its acceleration has none.
     pub too_smooth: bool,
     surfaces: &'a InitialSurfaces,
-    interrupt: Interrupt,
+    observer: &'a mut dyn Observer,
     coarsenings: BTreeMap<usize, Coarsening>,
     /// Wall time of a step on every mesh, s, by its coarsening.
     step_times: BTreeMap<usize, f64>,
@@ -53,13 +54,14 @@ impl<'a> Runs<'a> {
         surfaces: &'a InitialSurfaces,
         execution: Execution,
         ladders: &[Ladder],
+        observer: &'a mut dyn Observer,
     ) -> Result<Self, Failure> {
         let mut runs = Self {
             scene,
             execution,
             too_smooth: Smoothness::forbids_from_the_start(&scene.parameters, surfaces),
             surfaces,
-            interrupt: Interrupt::listen().map_err(Failure::run)?,
+            observer,
             coarsenings: BTreeMap::new(),
             step_times: BTreeMap::new(),
         };
@@ -79,7 +81,10 @@ impl<'a> Runs<'a> {
     /// Wall time of the first steps on a mesh, s each; without time acceleration, which could be too much for the scene.
     fn try_steps(&self, coarsening: usize) -> Result<f64, Failure> {
         let numerics = Numerics { coarsening, ..Numerics::of(self.scene).accelerated(1.0) };
-        let mut simulation = self.simulation(&numerics).map_err(Failure::input)?;
+        let (parameters, surfaces) = (self.parameters(&numerics), self.surfaces(&numerics));
+        let mut simulation = Simulation::with_execution(parameters, surfaces, self.execution)
+            .map_err(InputError::Simulation)
+            .map_err(Failure::input)?;
         let last = steps_until(simulation.parameters(), self.scene.duration);
         time_per_step(&mut simulation, last, TRIAL).map_err(Failure::run)
     }
@@ -130,30 +135,50 @@ impl<'a> Runs<'a> {
         windows: &Windows,
         name: &str,
     ) -> Result<Outcome, Unfinished> {
-        let mut simulation = self.simulation(numerics)?;
-        let scout = self.scout(numerics, duration)?;
-        let outcome = measure(&mut simulation, scout, duration, windows, name, &self.interrupt)?;
+        let assembly = self.assembly(numerics, duration, windows)?;
+        self.observer.starts(name, duration);
+        let outcome = measure(assembly, windows.count, self.observer);
+        self.observer.ends();
+        let outcome = outcome?;
         // A run tells better than a trial how long steps take, if it took longer.
-        if numerics.adaptive.is_none() && outcome.wall_time > TRIAL.as_secs_f64() {
-            self.step_times.insert(numerics.coarsening, outcome.wall_time / outcome.steps as f64);
+        if let Some(wall_time) = outcome.wall_time.filter(|time| *time > TRIAL.as_secs_f64())
+            && numerics.adaptive.is_none()
+        {
+            self.step_times.insert(numerics.coarsening, wall_time / outcome.steps as f64);
         }
         Ok(outcome)
     }
 
-    fn simulation(&self, numerics: &Numerics) -> Result<Simulation, SimulationError> {
+    /// The scene with other numerics, of which heights at the end and samples at the ends of windows are wanted.
+    fn assembly(&self, numerics: &Numerics, duration: f64, windows: &Windows) -> Result<Assembly, RunError> {
+        let parameters = self.parameters(numerics);
+        let output = OutputRecipe {
+            file: PathBuf::new(),
+            sample_every: SampleEvery::Time(windows.width),
+            maps_at: Vec::new(),
+            maps: vec![Map::DiscHeight, Map::PinHeight],
+            roughness: false,
+            pressure_spread: false,
+            checkpoint_every: f64::INFINITY,
+        };
+        let (steps, adaptive) = (steps_until(&parameters, duration), numerics.adaptive);
+        let mut scene = Scene { parameters, steps, adaptive, duration, output, ..self.scene.clone() };
+        let mut assembly = Assembly::new(&scene, self.surfaces(numerics), self.execution)?;
+        if assembly.idle().is_some() {
+            // Nothing changes its acceleration: it ends after a number of steps, as other runs do.
+            scene.adaptive = None;
+            assembly.schedule = scene.schedule();
+        }
+        Ok(assembly)
+    }
+
+    /// The initial surfaces of a run.
+    fn surfaces(&self, numerics: &Numerics) -> InitialSurfaces {
         let coarsening = self.coarsening(numerics);
         let mut surfaces = coarsening.map_or_else(|| self.surfaces.clone(), |coarse| coarse.surfaces(self.surfaces));
         if numerics.perturbation != 0.0 {
             surfaces.disc_height.iter_mut().for_each(|height| *height *= 1.0 + numerics.perturbation);
         }
-        let parameters = numerics.parameters(self.scene, coarsening);
-        Simulation::with_execution(parameters, surfaces, self.execution)
-    }
-
-    /// What goes before a run that chooses its acceleration.
-    fn scout(&self, numerics: &Numerics, duration: f64) -> Result<Option<Scout>, SimulationError> {
-        let Some(adaptive) = &numerics.adaptive else { return Ok(None) };
-        let scout = Scout::new(self.simulation(numerics)?, adaptive, duration)?;
-        Ok(scout.idle().is_none().then_some(scout))
+        surfaces
     }
 }

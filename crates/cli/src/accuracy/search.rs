@@ -6,6 +6,8 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::recipe::Scene;
+use plateau_run::Observer;
+use plateau_run::execution::cores;
 
 use super::comparison::{Comparison, HistoryError};
 use super::history::History;
@@ -19,7 +21,6 @@ use super::report::{Measured, Report, Row};
 use super::runs::Runs;
 use super::windows::{LEAST_WINDOW, Windows, common_multiple};
 use crate::arguments::Ladder;
-use crate::execution::cores;
 use crate::failure::Failure;
 use crate::{machine, number, version};
 
@@ -56,9 +57,10 @@ pub fn search(
     surfaces: &InitialSurfaces,
     execution: Execution,
     mut wish: Wish,
+    observer: &mut dyn Observer,
 ) -> Result<Found, Failure> {
     let started = Instant::now();
-    let runs = Runs::new(scene, surfaces, execution, &wish.ladders)?;
+    let runs = Runs::new(scene, surfaces, execution, &wish.ladders, observer)?;
     let read = wish.reference.take();
     let mut search = Search { runs, wish, started, notes: Vec::new() };
     let plan = search.plan(read.as_ref())?;
@@ -87,7 +89,6 @@ pub fn search(
 }
 
 /// A search on its way.
-#[derive(Debug)]
 struct Search<'a> {
     runs: Runs<'a>,
     wish: Wish,

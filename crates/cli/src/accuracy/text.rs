@@ -32,11 +32,7 @@ fn reference(report: &Report) -> String {
             format!(
                 "{} for {} steps on {} workers",
                 // A run that had not ended when it became a reference tells none.
-                if reference.outcome.wall_time.is_nan() {
-                    "not recorded,".to_owned()
-                } else {
-                    number::duration(reference.outcome.wall_time)
-                },
+                reference.outcome.wall_time.map_or("not recorded,".to_owned(), number::duration),
                 number::grouped(reference.outcome.steps),
                 made.workers
             ),
@@ -77,7 +73,7 @@ fn errors(rows: &[Row]) -> String {
             _ => format!("({})", number::with_minus(&format!("{:.2}", row.order))),
         };
         vec![
-            number::duration(run.wall_time),
+            number::duration(run.wall_time.unwrap_or(f64::NAN)),
             number::grouped(run.steps),
             if row.is_clear { percent(area.mean_square) } else { format!("({})", percent(area.mean_square)) },
             percent(area.largest),

@@ -4,18 +4,19 @@ use std::fs;
 use std::path::PathBuf;
 
 use plateau_io::dataset_file::now;
-use plateau_io::run_file::InputFile;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
+use plateau_run::execution::decide;
+use plateau_run::input_files;
 
 use super::load_scene;
 use crate::accuracy::{Found, Making, ReadReference, Wish, csv, json, read_reference, search, text};
 use crate::arguments::{AccuracyArguments, Ladder};
-use crate::execution::decide;
 use crate::failure::Failure;
 use crate::figure::accuracy::figure;
 use crate::output;
 use crate::table::print;
+use crate::terminal::{Messages, Terminal};
 
 /// The ladders that are climbed unless others are asked for.
 const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Integrator];
@@ -48,16 +49,18 @@ fn measure_into(
 ) -> Result<(), Failure> {
     let places = places(arguments, scene, &loaded.inputs)?;
     let start_time = now();
-    let execution = decide(scene, 1, &arguments.execution, &loaded.surfaces).map_err(Failure::run)?;
+    let options = arguments.execution.options();
+    let execution = decide(scene, 1, &options, &loaded.surfaces, &mut Messages).map_err(Failure::run)?;
     let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
     ladders.sort_unstable();
     ladders.dedup();
     let wish = Wish { ladders, budget: arguments.budget, reference };
-    let Found { report, stopped } = search(scene, &loaded.surfaces, execution, wish)?;
+    let mut terminal = Terminal::listen(true).map_err(Failure::run)?;
+    let Found { report, stopped } = search(scene, &loaded.surfaces, execution, wish, &mut terminal)?;
 
     let making = Making {
         scene: scene.resolved.clone(),
-        inputs: inputs(scene, &loaded.inputs)?,
+        inputs: input_files(scene, &loaded.inputs).map_err(Failure::input)?,
         workers: execution.workers,
         instruction_set: execution.instructions.name(),
         budget: arguments.budget,
@@ -100,16 +103,4 @@ fn places(
     let places = FILES.map(|name| arguments.output.join(name));
     places.iter().try_for_each(|path| output::check(path, arguments.force, &inputs))?;
     Ok(places)
-}
-
-/// Every file that the scene reads with its digest.
-fn inputs(scene: &Scene, surfaces: &[(PathBuf, String)]) -> Result<Vec<InputFile>, Failure> {
-    let mut inputs = InputFile::read_all(&scene.files)
-        .map_err(|(path, error)| Failure::input(format_args!("{}: {error}", path.display())))?;
-    inputs.extend(
-        surfaces
-            .iter()
-            .map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }),
-    );
-    Ok(inputs)
 }

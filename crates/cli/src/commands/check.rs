@@ -15,17 +15,17 @@ use plateau_io::plausibility;
 use plateau_io::run_file::{resolve, size_estimate};
 use plateau_io::scene::{Warning, memory_estimate, recipe::Scene};
 use plateau_io::surface::{self, Loaded};
+use plateau_run::execution::{decide, time_per_step};
+use plateau_run::{idle_warning, stiffness_warning};
 use serde::Serialize;
 
-use super::run::warn_of;
-use super::{load_scene, warn_of_scene};
+use super::load_scene;
 use crate::arguments::CheckArguments;
-use crate::execution::{decide, time_per_step};
 use crate::failure::Failure;
 use crate::message;
 use crate::number;
-use crate::stability;
 use crate::table::{list, print, table};
+use crate::terminal::Messages;
 
 /// How long the trial that the estimated time rests on may take.
 const TRIAL: Duration = Duration::from_millis(300);
@@ -35,21 +35,23 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let mut scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let implausible = plausibility::of_surfaces(&scene, &loaded);
-    warn_of_scene(&mut scene, implausible);
+    implausible.iter().for_each(message::warning);
+    scene.warnings.extend(implausible);
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
     let Loaded { surfaces, inputs, report, .. } = loaded;
     let files = files(&scene, &inputs);
     if scene.adaptive.is_some() && Smoothness::forbids_from_the_start(&scene.parameters, &surfaces) {
-        warn_of(Idle::Smooth(0.0));
+        message::warning(idle_warning(Idle::Smooth(0.0)));
         scene.adaptive = None;
     }
-    let decided = decide(&scene, 1, &arguments.execution, &surfaces).map_err(Failure::run)?;
+    let options = arguments.execution.options();
+    let decided = decide(&scene, 1, &options, &surfaces, &mut Messages).map_err(Failure::run)?;
     let mut simulation =
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
     let check = Check::new(&scene, files, report, &parts, simulation.execution(), seconds_per_step);
-    stability::warn(&scene.parameters);
+    stiffness_warning(&scene.parameters).iter().for_each(message::warning);
     if scene.output.file.exists() {
         message::warning(format_args!(
             "{} exists; `plateau run` needs --force to replace it, or -o FILE",
@@ -216,7 +218,7 @@ impl Check {
             estimated_time: seconds_per_step * scene.steps as f64,
             stiffness_number,
             largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
-            warns_of_stiffness: stability::is_doubtful(parameters),
+            warns_of_stiffness: stiffness_warning(parameters).is_some(),
             warnings: scene.warnings.clone(),
             needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
             left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),

@@ -17,7 +17,7 @@ mod verify;
 mod watch;
 
 use plateau_io::plausibility;
-use plateau_io::scene::{self, Warning, recipe::Scene};
+use plateau_io::scene::{self, recipe::Scene};
 
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;
@@ -52,10 +52,4 @@ fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
     scene.warnings.extend(plausibility::of_scene(&scene));
     scene.warnings.iter().for_each(message::warning);
     Ok(scene)
-}
-
-/// Says what else the scene can hardly mean, and keeps it with what was said of it before.
-fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>) {
-    warnings.iter().for_each(message::warning);
-    scene.warnings.extend(warnings);
 }

@@ -27,7 +27,7 @@ fn colour(ladder: Ladder) -> RGBColor {
 /// The figure.
 pub fn figure(report: &Report) -> Figure {
     let shown = shown(&report.rows);
-    let reference = report.reference.outcome.wall_time;
+    let reference = report.reference.outcome.wall_time.unwrap_or(f64::NAN);
     let times = shown.iter().map(|row| row.cost().time).chain([reference]);
     let own_error = 100.0 * report.own_error.contact_area();
     let errors = shown.iter().map(|row| 100.0 * row.error()).chain([own_error]);

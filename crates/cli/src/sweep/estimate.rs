@@ -6,8 +6,8 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::memory_estimate;
 use plateau_io::study::plan::Plan;
 use plateau_io::surface;
+use plateau_run::execution::time_per_step;
 
-use crate::execution::time_per_step;
 use crate::failure::Failure;
 
 /// Runs whose steps are counted.

@@ -2,16 +2,15 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use plateau_core::acceleration::scout::Scout;
-use plateau_core::observe::{Quantity, Sample, Snapshot, quantities};
+use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::record::{Outcome, REVOLUTIONS, Series};
 use plateau_io::surface;
+use plateau_run::{Assembly, RunError, Sink};
 
 use super::under_way::UnderWay;
-use crate::drive::{Sink, drive, go_on};
 
 /// Whether a run goes on, and what others want to know meanwhile.
 pub trait Watcher: Sync {
@@ -55,27 +54,21 @@ fn finish(
     watcher: &dyn Watcher,
     under_way: &mut UnderWay,
 ) -> Result<Outcome, Ended> {
-    let failed = |error: &dyn std::fmt::Display| Ended::Failed(error.to_string());
-    let surfaces = surface::load(scene).map_err(|error| failed(&error))?.surfaces;
-    let execution = Execution { workers, ..Execution::default() };
-    let mut scout = None;
-    if let Some(adaptive) = &scene.adaptive {
-        let simulation = Simulation::with_execution(scene.parameters.clone(), surfaces.clone(), execution)?;
-        scout = Some(Scout::new(simulation, adaptive, scene.duration)?).filter(|scout| scout.idle().is_none());
-    }
-    let mut simulation = Simulation::with_execution(scene.parameters.clone(), surfaces, execution)?;
-    let mut output = scene.output.clone();
-    output.maps.clear();
-    let mut schedule = scene.schedule();
-    let mut recorder = Recorder::new(study, scene, watcher, under_way);
+    let surfaces = surface::load(scene).map_err(|error| Ended::Failed(error.to_string()))?.surfaces;
+    // A study keeps no maps.
+    let mut scene = scene.clone();
+    scene.output.maps.clear();
+    let mut assembly = Assembly::new(&scene, surfaces, Execution { workers, ..Execution::default() })?;
+    let mut recorder = Recorder::new(study, &scene, watcher, under_way);
     if let Some(state) = recorder.under_way.find(&recorder.names()) {
-        go_on(&mut simulation, scout.as_mut(), &mut schedule, (&state.run, state.scout.as_ref()))?;
+        assembly.restore(&state.run, state.scout.as_ref())?;
         watcher.goes_on(state.run.steps());
         (recorder.columns, recorder.told) = (state.columns, state.run.steps());
     }
-    drive(&mut simulation, scout.as_mut(), schedule, &output, &mut recorder)?;
-    recorder.watcher.steps(simulation.steps_done() - recorder.told);
-    Ok(Outcome::Finished { steps: simulation.steps_done(), series: recorder.series().pack() })
+    assembly.run_to_end(&mut recorder)?;
+    let steps = assembly.simulation.steps_done();
+    recorder.watcher.steps(steps - recorder.told);
+    Ok(Outcome::Finished { steps, series: recorder.series().pack() })
 }
 
 /// Why a run did not finish.
@@ -86,6 +79,12 @@ enum Ended {
 
 impl From<SimulationError> for Ended {
     fn from(error: SimulationError) -> Self {
+        Self::Failed(error.to_string())
+    }
+}
+
+impl From<RunError> for Ended {
+    fn from(error: RunError) -> Self {
         Self::Failed(error.to_string())
     }
 }
@@ -151,10 +150,6 @@ impl Sink for Recorder<'_> {
         Ok(())
     }
 
-    fn snapshot(&mut self, _snapshot: Snapshot) -> Result<(), Ended> {
-        Ok(())
-    }
-
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Ended> {
         let done = simulation.steps_done();
         self.signal = self.watcher.steps(done - self.told);
@@ -162,9 +157,9 @@ impl Sink for Recorder<'_> {
         Ok(steps)
     }
 
-    fn rest(&mut self, simulation: &mut Simulation, scout: Option<&mut Scout>) -> Result<(), Ended> {
+    fn rest(&mut self, assembly: &mut Assembly) -> Result<(), Ended> {
         if self.signal.is_some() || self.under_way.is_due() {
-            self.under_way.keep(simulation, scout, &self.columns, self.names())?;
+            self.under_way.keep(assembly, &self.columns, self.names())?;
         }
         self.signal.map_or(Ok(()), |signal| Err(Ended::Stopped(signal)))
     }

@@ -10,7 +10,7 @@
 //! | which model is fitted, and what it misses | [`model`] |
 //! | how well a model fits, in a line | [`quality`] |
 //! | one run, from its scene to its record | [`make`] |
-//! | all of them, several at a time | [`crate::job::Job::share`] |
+//! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what is kept of those that are under way | [`under_way`] |
 //! | how far they are | [`progress`] |
 //! | which of them repeat another one | [`repeated`] |

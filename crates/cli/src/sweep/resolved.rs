@@ -37,7 +37,7 @@ impl Resolved {
     /// # Errors
     /// [`Failure::Input`] with the runs whose scenes cannot be built, before any is made.
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
-        let (digests, program) = (Digests::default(), version::build());
+        let (digests, program) = (Digests::default(), version::this().build());
         let resolve = |number: usize| {
             let run = plan.run(number);
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;

@@ -4,12 +4,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use plateau_core::acceleration::scout::{Scout, ScoutCheckpoint};
+use plateau_core::acceleration::scout::ScoutCheckpoint;
+use plateau_core::simulation::SimulationError;
 use plateau_core::simulation::checkpoint::Checkpoint;
-use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
 use plateau_io::temporary::Temporary;
+use plateau_run::Assembly;
 use serde::{Deserialize, Serialize};
 
 use crate::message;
@@ -71,14 +72,12 @@ impl UnderWay {
     /// [`SimulationError`] when a worker failed.
     pub fn keep(
         &mut self,
-        simulation: &mut Simulation,
-        scout: Option<&mut Scout>,
+        assembly: &mut Assembly,
         columns: &[Vec<f64>],
         names: Vec<String>,
     ) -> Result<(), SimulationError> {
         self.last = Instant::now();
-        let run = simulation.checkpoint()?;
-        let scout = scout.map(Scout::checkpoint).transpose()?;
+        let (run, scout) = assembly.checkpoint()?;
         let state = State { run, scout, columns: columns.to_vec(), names };
         if self.claims()
             && let Err(error) = checkpoint::keep(&self.path, &state)

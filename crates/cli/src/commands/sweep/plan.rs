@@ -2,11 +2,11 @@
 
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
+use plateau_run::execution::cores;
 use serde::Serialize;
 
 use crate::arguments::PlanArguments;
 use crate::csv_table::csv_table;
-use crate::execution::cores;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;

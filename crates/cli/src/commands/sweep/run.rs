@@ -9,13 +9,14 @@ use plateau_io::dataset_file::now;
 use plateau_io::study::journal::{Entry, Journal, Shard};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Outcome, Record};
+use plateau_run::Job;
+use plateau_run::execution::cores;
+use plateau_run::job::{Agreement, PieceEnd};
 use serde::Serialize;
 
 use crate::arguments::SweepRunArguments;
-use crate::execution::cores;
-use crate::failure::Failure;
+use crate::failure::{Failure, in_job};
 use crate::interrupt::Interrupt;
-use crate::job::{Agreement, Job, Went};
 use crate::sweep::make::{Stopped, Watcher, make};
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
@@ -26,9 +27,7 @@ use crate::{machine, message, number};
 
 /// Makes the runs, together with the other processes of the job if there are any.
 pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
-    let mut job = Job::start()?;
-    let result = run_study(arguments, &mut job);
-    job.end(result)
+    in_job(|job| run_study(arguments, job))
 }
 
 fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
@@ -83,13 +82,13 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     floor.progress.finish();
     let shard = floor.shard.lock().unwrap_or_else(PoisonError::into_inner).take();
     let closed = shard.map_or(Ok(()), Shard::close);
-    shared?;
+    shared.map_err(Failure::run)?;
     if let Some(failure) = floor.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
         return Err(failure);
     }
     closed.map_err(|error| Failure::run(format_args!("cannot complete the journal: {error}")))?;
     let [finished, failed] = [&floor.finished, &floor.failed].map(|count| count.load(Ordering::Relaxed));
-    let (finished, failed) = job.sum(finished, failed)?;
+    let (finished, failed) = job.sum(finished, failed).map_err(Failure::run)?;
     let summary = Summary {
         study: plan.study().title.clone(),
         runs: plan.runs(),
@@ -160,9 +159,9 @@ impl Watcher for Floor<'_> {
 
 impl Floor<'_> {
     /// Makes a run and keeps its result.
-    fn make(&self, number: usize) -> Went {
+    fn make(&self, number: usize) -> PieceEnd {
         if self.interrupt.signal().is_some() {
-            return Went::Stopped;
+            return PieceEnd::Stopped;
         }
         let start = Instant::now();
         let run = self.plan.run(number);
@@ -176,7 +175,7 @@ impl Floor<'_> {
             // It could be built a moment ago.
             Err(error) => Ok(Outcome::Failed { error: error.to_string() }),
         };
-        let Ok(outcome) = outcome.map_err(|Stopped(_)| ()) else { return Went::Stopped };
+        let Ok(outcome) = outcome.map_err(|Stopped(_)| ()) else { return PieceEnd::Stopped };
         let failure = if let Outcome::Failed { error } = &outcome { Some(error.clone()) } else { None };
         let record = Record {
             identity: identity.clone(),
@@ -190,19 +189,19 @@ impl Floor<'_> {
             let folder = journal_folder(self.plan.study());
             let message = format!("cannot write to {}: {error}; what was finished before is safe", folder.display());
             *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(Failure::run(message));
-            return Went::Stopped;
+            return PieceEnd::Stopped;
         }
         under_way.forget();
         self.progress.ended(failure.is_some());
         match failure {
             None => {
                 self.finished.fetch_add(1, Ordering::Relaxed);
-                Went::Well
+                PieceEnd::Done
             }
             Some(error) => {
                 self.failed.fetch_add(1, Ordering::Relaxed);
                 self.progress.say(|| message::warning(format_args!("run {number} failed: {error}")));
-                Went::Wrong
+                PieceEnd::Failed
             }
         }
     }

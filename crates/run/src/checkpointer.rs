@@ -1,21 +1,21 @@
-//! Keeps the state of a run, so that it can be gone on with after it was stopped or killed.
+//! Writes the state of a run to its checkpoints, so that it can be gone on with after it was stopped or killed.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use plateau_core::acceleration::scout::Scout;
 use plateau_core::observe::Sample;
-use plateau_core::simulation::{Engine, Simulation, SimulationError};
+use plateau_core::simulation::{Engine, SimulationError};
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::Synced;
 
-use crate::message;
+use crate::assembly::Assembly;
+use crate::observer::Observer;
 
-/// What a checkpoint says of its run.
+/// What tells a run from others: only a run of which this is the same goes on from a checkpoint.
 #[derive(Debug, Clone)]
-pub struct About {
+pub struct RunIdentity {
     /// Name, version and revision of the program.
     pub program: String,
     /// What takes its steps.
@@ -28,9 +28,9 @@ pub struct About {
 
 /// Writes checkpoints beside a run file, one at a time, while the run goes on.
 #[derive(Debug)]
-pub struct Keeper {
+pub struct Checkpointer {
     run_file: PathBuf,
-    about: About,
+    identity: RunIdentity,
     every: Duration,
     /// When the last one was begun.
     last: Instant,
@@ -44,13 +44,13 @@ pub struct Keeper {
     writing: Option<JoinHandle<io::Result<()>>>,
 }
 
-impl Keeper {
+impl Checkpointer {
     /// For a run that begins, or that goes on from a state.
-    pub fn new(run_file: &Path, about: About, every: f64, earlier: Option<&RunState>) -> Self {
+    pub fn new(run_file: &Path, identity: RunIdentity, every: f64, earlier: Option<&RunState>) -> Self {
         let now = Instant::now();
         Self {
             run_file: run_file.to_owned(),
-            about,
+            identity,
             every: Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX),
             last: now,
             start: now,
@@ -82,18 +82,17 @@ impl Keeper {
     ///
     /// # Errors
     /// [`SimulationError`] when a worker failed.
-    pub fn keep(
+    pub fn write(
         &mut self,
-        simulation: &mut Simulation,
-        scout: Option<&mut Scout>,
+        assembly: &mut Assembly,
         finished: bool,
         synced: Option<Synced>,
+        observer: &mut dyn Observer,
     ) -> Result<(), SimulationError> {
         self.last = Instant::now();
-        let run = simulation.checkpoint()?;
-        let scout = scout.map(Scout::checkpoint).transpose()?;
+        let (run, scout) = assembly.checkpoint()?;
         let Some(synced) = synced else { return Ok(()) };
-        let About { program, scene, inputs, .. } = self.about.clone();
+        let RunIdentity { program, scene, inputs, .. } = self.identity.clone();
         let state = RunState {
             program,
             scene,
@@ -106,35 +105,37 @@ impl Keeper {
             run,
             scout,
         };
-        self.wait();
+        self.wait(observer);
         let run_file = self.run_file.clone();
         let write = move || {
             // Without an answer the run file is not complete; its writer says why.
             if synced.wait() { checkpoint::write(&run_file, &state) } else { Ok(()) }
         };
-        self.writing = std::thread::Builder::new().name("checkpoint".into()).spawn(write).map_err(warn).ok();
+        let thread = std::thread::Builder::new().name("checkpoint".into()).spawn(write);
+        self.writing = thread.map_err(|error| warn(observer, &error)).ok();
         Ok(())
     }
 
     /// Waits until the checkpoint that is being written is on the disk; says so if it cannot be.
-    pub fn wait(&mut self) {
+    pub fn wait(&mut self, observer: &mut dyn Observer) {
         match self.writing.take().map(JoinHandle::join) {
-            Some(Ok(Err(error))) => warn(error),
-            Some(Err(_)) => warn(io::Error::other("its thread panicked")),
+            Some(Ok(Err(error))) => warn(observer, &error),
+            Some(Err(_)) => warn(observer, &io::Error::other("its thread panicked")),
             Some(Ok(Ok(()))) | None => {}
         }
     }
 }
 
-impl Drop for Keeper {
+impl Drop for Checkpointer {
     /// Nothing is written when the claim on the run file ends.
     fn drop(&mut self) {
-        self.wait();
+        // Who has not waited has a worse error to tell.
+        let _ = self.writing.take().map(JoinHandle::join);
     }
 }
 
-fn warn(error: io::Error) {
-    message::warning(format_args!(
+fn warn(observer: &mut dyn Observer, error: &io::Error) {
+    observer.warning(&format_args!(
         "cannot write a checkpoint: {error}; the run file is not touched by that, the last checkpoint still holds"
     ));
 }

@@ -6,9 +6,9 @@ use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
 use plateau_io::scene::differences;
 
-use crate::failure::Failure;
-use crate::keeper::About;
-use crate::message;
+use crate::checkpointer::RunIdentity;
+use crate::error::{InputError, RunError};
+use crate::observer::Observer;
 
 /// Keys that may differ, for they do not show in the steps, or only in how many there are.
 const FREE: [&str; 4] = ["title", "numerics.workers", "output.file", "output.checkpoint_every"];
@@ -18,52 +18,54 @@ const LENGTH: [&str; 3] = ["operation.duration", "operation.steps", "output.maps
 /// The states to go on from, the newest first; none if there is no checkpoint.
 ///
 /// # Errors
-/// [`Failure::Input`] when there are some, but none of them holds or they are of another run.
-pub fn states(run_file: &Path, about: &About, extends: bool) -> Result<Vec<RunState>, Failure> {
+/// [`InputError`] when there are some, but none of them holds or they are of another run.
+pub fn states(
+    run_file: &Path,
+    identity: &RunIdentity,
+    extends: bool,
+    observer: &mut dyn Observer,
+) -> Result<Vec<RunState>, InputError> {
     let (mut states, mut trouble) = (Vec::new(), Vec::new());
     for path in checkpoint::paths(run_file) {
         match checkpoint::read::<RunState>(&path) {
             Ok(state) => states.extend(state),
             Err(error) => {
-                message::warning(&error);
+                observer.warning(&error);
                 trouble.push(error.to_string());
             }
         }
     }
     if states.is_empty() && !trouble.is_empty() {
-        return Err(Failure::input(format_args!(
-            "{}; without --resume, --force begins again from the beginning",
-            trouble.join("; ")
-        )));
+        return Err(InputError::NoCheckpoint(trouble));
     }
     let mut states = states.into_iter();
     let Some(newest) = states.next() else { return Ok(Vec::new()) };
-    compare(run_file, &newest, about, extends)?;
+    compare(run_file, &newest, identity, extends)?;
     // The one before may be of the end that was extended since.
-    let before = states.filter(|state| compare(run_file, state, about, extends).is_ok());
+    let before = states.filter(|state| compare(run_file, state, identity, extends).is_ok());
     Ok([newest].into_iter().chain(before).collect())
 }
 
 /// Refuses a state of another run.
-fn compare(run_file: &Path, state: &RunState, about: &About, extends: bool) -> Result<(), Failure> {
-    if state.program != about.program {
-        let what = format_args!("it was begun by {}, this is {}", state.program, about.program);
+fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: bool) -> Result<(), InputError> {
+    if state.program != identity.program {
+        let what = format_args!("it was begun by {}, this is {}", state.program, identity.program);
         return Err(refusal(run_file, what));
     }
     let engine = state.run.engine();
-    if engine != about.engine {
-        let what = format_args!("it was begun with --engine {engine}, this is {}", about.engine);
+    if engine != identity.engine {
+        let what = format_args!("it was begun with --engine {engine}, this is {}", identity.engine);
         return Err(refusal(run_file, what));
     }
-    compare_scenes(run_file, &state.scene, about, extends)?;
-    let changed: Vec<String> = about
+    compare_scenes(run_file, &state.scene, identity, extends)?;
+    let changed: Vec<String> = identity
         .inputs
         .iter()
         .zip(&state.inputs)
         .filter(|((_, now), (_, then))| now != then)
         .map(|((path, _), _)| path.display().to_string())
         .collect();
-    if changed.is_empty() && about.inputs.len() == state.inputs.len() {
+    if changed.is_empty() && identity.inputs.len() == state.inputs.len() {
         return Ok(());
     }
     Err(refusal(run_file, format_args!("files that it reads have changed: {}", changed.join(", "))))
@@ -72,9 +74,9 @@ fn compare(run_file: &Path, state: &RunState, about: &About, extends: bool) -> R
 /// Refuses a run file of another scene.
 ///
 /// # Errors
-/// [`Failure::Input`], which names the keys that differ.
-pub fn compare_scenes(run_file: &Path, scene: &str, about: &About, extends: bool) -> Result<(), Failure> {
-    let now = about.scene.parse().unwrap_or_default();
+/// [`InputError`], which names the keys that differ.
+pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, extends: bool) -> Result<(), InputError> {
+    let now = identity.scene.parse().unwrap_or_default();
     let free = |key: &str| FREE.contains(&key) || (extends && LENGTH.contains(&key));
     let keys: Vec<String> = differences(scene, &now)
         .into_iter()
@@ -91,16 +93,20 @@ pub fn compare_scenes(run_file: &Path, scene: &str, about: &About, extends: bool
     }
 }
 
-fn refusal(run_file: &Path, what: impl std::fmt::Display) -> Failure {
-    let run_file = run_file.display();
-    Failure::input(format_args!("{run_file} cannot be resumed: {what}; undo that, or begin again without --resume"))
+fn refusal(run_file: &Path, difference: impl std::fmt::Display) -> InputError {
+    InputError::OtherRun { path: run_file.to_owned(), difference: difference.to_string() }
 }
 
 /// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.
 ///
 /// # Errors
-/// [`Failure::Input`] when it has it of none.
-pub fn writer(path: &Path, header: &Header, states: &[RunState]) -> Result<(RunWriter, usize), Failure> {
+/// [`InputError`] when it has it of none, [`RunError::Failed`] when the file cannot be written anew.
+pub fn writer(
+    path: &Path,
+    header: &Header,
+    states: &[RunState],
+    observer: &mut dyn Observer,
+) -> Result<(RunWriter, usize), RunError> {
     let mut refusals = Vec::new();
     for (place, state) in states.iter().enumerate() {
         let earlier = Earlier {
@@ -111,19 +117,12 @@ pub fn writer(path: &Path, header: &Header, states: &[RunState]) -> Result<(RunW
         match RunWriter::resume(path, header, earlier) {
             Ok(writer) => return Ok((writer, place)),
             Err(error @ RunFileError::Earlier { .. }) => {
-                message::warning(format_args!("{error}; the checkpoint of step {} is passed over", state.run.steps()));
+                let step = state.run.steps();
+                observer.warning(&format_args!("{error}; the checkpoint of step {step} is passed over"));
                 refusals.push(error.to_string());
             }
-            Err(error) => return Err(not_made(error)),
+            Err(error) => return Err(error.into()),
         }
     }
-    Err(Failure::input(format_args!("{}; begin again without --resume", refusals.join("; "))))
-}
-
-/// Whose fault it is that a run file cannot be made, new or anew.
-pub fn not_made(error: RunFileError) -> Failure {
-    match error {
-        RunFileError::SetUp { .. } | RunFileError::Anew { .. } | RunFileError::Write { .. } => Failure::run(error),
-        _ => Failure::input(error),
-    }
+    Err(InputError::NoneFits(refusals).into())
 }

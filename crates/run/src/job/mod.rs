@@ -1,12 +1,12 @@
 //! The processes that run one scene together: this one alone, or with feature `mpi` the ranks that `mpirun` started.
-//! Either way a [`Job`] looks the same to the commands.
+//! Either way a [`Job`] looks the same.
 
 #[cfg(not(feature = "mpi"))]
 mod alone;
 #[cfg(feature = "mpi")]
 mod ranks;
 
-mod share;
+mod work_queue;
 
 #[cfg(not(feature = "mpi"))]
 pub use alone::Job;
@@ -24,13 +24,13 @@ pub struct Agreement {
     pub steps: u64,
 }
 
-/// How a piece of shared work went.
+/// How a piece of shared work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Went {
+pub enum PieceEnd {
     /// It is done.
-    Well,
+    Done,
     /// It failed; the others go on.
-    Wrong,
+    Failed,
     /// No more is to be begun.
     Stopped,
 }

@@ -7,8 +7,8 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
 use plateau_io::scene::recipe::{Scene, Workers};
 
-use crate::arguments::{EngineArgument, ExecutionArguments};
-use crate::message;
+use crate::observer::Observer;
+use crate::options::ExecutionOptions;
 
 /// How long each number of workers is tried.
 const TRIAL: Duration = Duration::from_millis(25);
@@ -24,24 +24,25 @@ const WARM_UP_STEPS: u64 = 200;
 pub fn decide(
     scene: &Scene,
     ranks: usize,
-    arguments: &ExecutionArguments,
+    options: &ExecutionOptions,
     surfaces: &InitialSurfaces,
+    observer: &mut dyn Observer,
 ) -> Result<Execution, SimulationError> {
     let workers = scene.workers;
-    let instructions = arguments.isa.unwrap_or_else(InstructionSet::best);
-    if arguments.engine == EngineArgument::Plain {
+    let instructions = options.instructions.unwrap_or_else(InstructionSet::best);
+    if options.engine == Engine::Plain {
         if ranks > 1 {
             return Err(SimulationError::PlainOnRanks { ranks });
         }
         if workers != Workers::Count(1) {
-            message::warning("the plain model runs on one worker: numerics.workers and --workers have no effect");
+            observer.warning(&"the plain model runs on one worker: numerics.workers and --workers have no effect");
         }
         return Ok(Execution { engine: Engine::Plain, instructions, ..Execution::default() });
     }
-    let execution = Execution { instructions, pin: arguments.pin, ..Execution::default() };
+    let execution = Execution { instructions, pin: options.pin, ..Execution::default() };
     if ranks > 1 {
-        if workers != Workers::Count(1) || arguments.pin {
-            message::warning(format_args!(
+        if workers != Workers::Count(1) || options.pin {
+            observer.warning(&format_args!(
                 "{ranks} ranks share the ring, one worker each: numerics.workers, --workers and --pin have no effect; \
                  the launcher pins ranks, as in mpirun --bind-to core"
             ));
@@ -50,10 +51,10 @@ pub fn decide(
     }
     let cores = cores();
     match workers {
-        Workers::Auto => fastest(execution, cores, scene, surfaces),
+        Workers::Auto => fastest(execution, cores, scene, surfaces, observer),
         Workers::Count(workers) => {
             if workers > cores {
-                message::warning(format_args!(
+                observer.warning(&format_args!(
                     "{workers} workers on {cores} cores wait for each other at every step; {cores} or fewer are faster"
                 ));
             }
@@ -73,6 +74,7 @@ fn fastest(
     cores: usize,
     scene: &Scene,
     surfaces: &InitialSurfaces,
+    observer: &mut dyn Observer,
 ) -> Result<Execution, SimulationError> {
     let mut candidates: Vec<usize> = (0..).map(|power| 1 << power).take_while(|workers| *workers < cores).collect();
     candidates.push(cores);
@@ -85,7 +87,7 @@ fn fastest(
     let (_, workers) = trials.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, 1));
     let times: Vec<String> =
         trials.iter().map(|(time, workers)| format!("{workers}: {:.1} µs a step", time * 1e6)).collect();
-    message::note(format_args!("workers = \"auto\" runs on {workers} of {cores} cores ({})", times.join(", ")));
+    observer.note(&format_args!("workers = \"auto\" runs on {workers} of {cores} cores ({})", times.join(", ")));
     Ok(Execution { workers, ..execution })
 }
 

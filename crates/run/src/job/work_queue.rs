@@ -2,11 +2,11 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::Went;
+use super::PieceEnd;
 
 /// Hands out pieces, each once.
 #[derive(Debug)]
-pub struct Hand<'a> {
+pub struct WorkQueue<'a> {
     pieces: &'a [usize],
     next: AtomicUsize,
     failures: AtomicUsize,
@@ -14,7 +14,7 @@ pub struct Hand<'a> {
     stopped: AtomicBool,
 }
 
-impl<'a> Hand<'a> {
+impl<'a> WorkQueue<'a> {
     /// These pieces, until so many have failed.
     pub fn new(pieces: &'a [usize], most_failures: Option<usize>) -> Self {
         let most_failures = most_failures.unwrap_or(usize::MAX);
@@ -29,17 +29,17 @@ impl<'a> Hand<'a> {
         self.pieces.get(self.next.fetch_add(1, Ordering::Relaxed)).copied()
     }
 
-    /// Takes note of how a piece went.
-    pub fn note(&self, went: Went) {
-        match went {
-            Went::Well => {}
-            Went::Wrong => drop(self.failures.fetch_add(1, Ordering::Relaxed)),
-            Went::Stopped => self.stopped.store(true, Ordering::Relaxed),
+    /// Takes note of how a piece ended.
+    pub fn note(&self, end: PieceEnd) {
+        match end {
+            PieceEnd::Done => {}
+            PieceEnd::Failed => drop(self.failures.fetch_add(1, Ordering::Relaxed)),
+            PieceEnd::Stopped => self.stopped.store(true, Ordering::Relaxed),
         }
     }
 
     /// Does pieces until there are no more.
-    pub fn work(&self, work: &(dyn Fn(usize) -> Went + Sync)) {
+    pub fn work(&self, work: &(dyn Fn(usize) -> PieceEnd + Sync)) {
         while let Some(piece) = self.next() {
             self.note(work(piece));
         }
@@ -49,7 +49,11 @@ impl<'a> Hand<'a> {
     ///
     /// # Errors
     /// When the system gives no threads.
-    pub fn share(&self, jobs: usize, work: &(dyn Fn(usize) -> Went + Sync)) -> Result<(), rayon::ThreadPoolBuildError> {
+    pub fn share(
+        &self,
+        jobs: usize,
+        work: &(dyn Fn(usize) -> PieceEnd + Sync),
+    ) -> Result<(), rayon::ThreadPoolBuildError> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build()?;
         pool.scope(|scope| (0..jobs).for_each(|_| scope.spawn(|_| self.work(work))));
         Ok(())
@@ -62,14 +66,14 @@ mod tests {
 
     use super::*;
 
-    fn done(count: usize, most_failures: Option<usize>, went: impl Fn(usize) -> Went + Sync) -> Vec<usize> {
+    fn done(count: usize, most_failures: Option<usize>, end: impl Fn(usize) -> PieceEnd + Sync) -> Vec<usize> {
         let pieces: Vec<usize> = (1..=count).rev().collect();
         let done = Mutex::new(Vec::new());
         let work = |piece| {
             done.lock().unwrap().push(piece);
-            went(piece)
+            end(piece)
         };
-        Hand::new(&pieces, most_failures).share(3, &work).unwrap();
+        WorkQueue::new(&pieces, most_failures).share(3, &work).unwrap();
         let mut done = done.into_inner().unwrap();
         done.sort_unstable();
         done
@@ -77,14 +81,14 @@ mod tests {
 
     #[test]
     fn every_piece_is_done_once() {
-        assert_eq!(done(1000, None, |_| Went::Well), (1..=1000).collect::<Vec<_>>());
-        assert!(done(0, None, |_| Went::Well).is_empty());
-        assert_eq!(done(100, None, |_| Went::Wrong).len(), 100);
+        assert_eq!(done(1000, None, |_| PieceEnd::Done), (1..=1000).collect::<Vec<_>>());
+        assert!(done(0, None, |_| PieceEnd::Done).is_empty());
+        assert_eq!(done(100, None, |_| PieceEnd::Failed).len(), 100);
     }
 
     #[test]
     fn no_more_is_begun_after_the_last_straw() {
-        assert!((2..=4).contains(&done(1000, Some(2), |_| Went::Wrong).len()));
-        assert!(done(1000, None, |_| Went::Stopped).len() <= 3);
+        assert!((2..=4).contains(&done(1000, Some(2), |_| PieceEnd::Failed).len()));
+        assert!(done(1000, None, |_| PieceEnd::Stopped).len() <= 3);
     }
 }

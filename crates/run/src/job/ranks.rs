@@ -9,10 +9,9 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
-use super::share::Hand;
-use super::{Agreement, Went};
-use crate::failure::Failure;
-use crate::message;
+use super::work_queue::WorkQueue;
+use super::{Agreement, PieceEnd};
+use crate::error::{InputError, RunError, RunFailure};
 
 /// Between two looks for ranks that want work.
 const PAUSE: Duration = Duration::from_millis(1);
@@ -26,13 +25,13 @@ pub struct Job {
 }
 
 impl Job {
-    /// Joins the other ranks. From here on only the first rank gives warnings.
-    pub fn start() -> Result<Self, Failure> {
-        let session = Session::start().map_err(Failure::run)?;
+    /// Joins the other ranks.
+    ///
+    /// # Errors
+    /// [`RunFailure::Comm`] when MPI cannot be started.
+    pub fn start() -> Result<Self, RunFailure> {
+        let session = Session::start()?;
         let meeting = session.communicator();
-        if meeting.rank() != 0 {
-            message::no_warnings();
-        }
         Ok(Self { session, meeting })
     }
 
@@ -47,7 +46,7 @@ impl Job {
     }
 
     /// The simulation that the ranks carry out together; a single rank may have threads instead.
-    pub fn simulation(
+    pub(crate) fn simulation(
         &self,
         parameters: Parameters,
         surfaces: InitialSurfaces,
@@ -61,6 +60,9 @@ impl Job {
 
     /// What all ranks do alike: they stop and save if any was asked to, and take as many steps as the first, for clocks
     /// differ.
+    ///
+    /// # Errors
+    /// When the others cannot be reached.
     pub fn agree(&mut self, own: Agreement) -> Result<Agreement, CommError> {
         let (mut largest, mut save, mut first) = (0, false, own.steps);
         let words = [own.signal.unwrap_or(0).into(), own.steps, own.save.into()];
@@ -76,67 +78,64 @@ impl Job {
     }
 
     /// Makes sure that all ranks are about to do the same, which `text` describes.
-    pub fn compare(&mut self, text: &str) -> Result<(), Failure> {
+    pub(crate) fn compare(&mut self, text: &str) -> Result<(), RunError> {
         let mut first = Vec::new();
         let mut other = None;
         let words: Vec<_> = text.bytes().map(u64::from).collect();
-        self.meeting
-            .all_gather(&words, &mut |rank, words| {
-                if rank == 0 {
-                    first = words.to_vec();
-                } else if words != first {
-                    other = other.or(Some(rank));
-                }
-            })
-            .map_err(Failure::run)?;
-        other.map_or(Ok(()), |rank| {
-            Err(Failure::input(format_args!(
-                "rank {rank} was given another scene, other surfaces or another build of this program than rank 0: \
-                 give all ranks the same, where the machines share no files by copying them"
-            )))
-        })
+        self.meeting.all_gather(&words, &mut |rank, words| {
+            if rank == 0 {
+                first = words.to_vec();
+            } else if words != first {
+                other = other.or(Some(rank));
+            }
+        })?;
+        other.map_or(Ok(()), |rank| Err(InputError::RanksDiffer { rank }.into()))
     }
 
     /// Does all pieces of independent work, each on one rank, until so many have failed. A single rank has as many threads
     /// as there are `jobs`, several have one each; rank 0 hands the pieces out while a thread of its own works. Only its
     /// `pieces` count: another rank may see what is to be done a moment later, when some of it is done.
+    ///
+    /// # Errors
+    /// [`RunFailure::Threads`].
     pub fn share(
         &mut self,
         pieces: &[usize],
         jobs: usize,
         most_failures: Option<usize>,
-        work: &(dyn Fn(usize) -> Went + Sync),
-    ) -> Result<(), Failure> {
+        work: &(dyn Fn(usize) -> PieceEnd + Sync),
+    ) -> Result<(), RunFailure> {
         if self.ranks() == 1 {
-            return Hand::new(pieces, most_failures).share(jobs, work).map_err(Failure::run);
+            return Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?);
         }
         let desk = self.session.desk();
         if !self.leads() {
-            let mut went = Went::Well;
-            while let Some(piece) = desk.ask(went as u64) {
-                went = work(piece);
-                if went == Went::Stopped {
+            let mut end = PieceEnd::Done;
+            while let Some(piece) = desk.ask(end as u64) {
+                end = work(piece);
+                if end == PieceEnd::Stopped {
                     break;
                 }
             }
-            if went == Went::Stopped {
-                desk.ask(went as u64);
+            if end == PieceEnd::Stopped {
+                desk.ask(end as u64);
             }
             return Ok(());
         }
-        let hand = Hand::new(pieces, most_failures);
+        let queue = WorkQueue::new(pieces, most_failures);
         thread::scope(|scope| {
-            let own = scope.spawn(|| hand.work(work));
+            let own = scope.spawn(|| queue.work(work));
             let mut others = self.ranks() - 1;
             while others > 0 || !own.is_finished() {
                 let Some((rank, word)) = desk.request() else {
                     thread::sleep(PAUSE);
                     continue;
                 };
-                let went = [Went::Well, Went::Wrong, Went::Stopped].into_iter().find(|went| *went as u64 == word);
-                hand.note(went.unwrap_or(Went::Well));
+                let ends = [PieceEnd::Done, PieceEnd::Failed, PieceEnd::Stopped];
+                let end = ends.into_iter().find(|end| *end as u64 == word).unwrap_or(PieceEnd::Done);
+                queue.note(end);
                 // Who stopped wants no more.
-                let piece = if went == Some(Went::Stopped) { None } else { hand.next() };
+                let piece = if end == PieceEnd::Stopped { None } else { queue.next() };
                 others -= usize::from(piece.is_none());
                 desk.answer(rank, piece);
             }
@@ -145,31 +144,24 @@ impl Job {
     }
 
     /// The sums of two counts over all ranks.
-    pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), Failure> {
+    ///
+    /// # Errors
+    /// When the others cannot be reached.
+    pub fn sum(&mut self, one: usize, other: usize) -> Result<(usize, usize), CommError> {
         let mut sums = (0, 0);
-        self.meeting
-            .all_gather(&[one as u64, other as u64], &mut |_, words| {
-                sums = (sums.0 + words[0] as usize, sums.1 + words[1] as usize);
-            })
-            .map_err(Failure::run)?;
+        self.meeting.all_gather(&[one as u64, other as u64], &mut |_, words| {
+            sums = (sums.0 + words[0] as usize, sums.1 + words[1] as usize);
+        })?;
         Ok(sums)
     }
 
-    /// Leaves the other ranks in good order; if this rank failed, all end with its exit status. Says why they were stopped while
-    /// all are still there: the launcher ends the others as soon as one is gone with a status other than 0.
-    pub fn end(self, result: Result<(), Failure>) -> Result<(), Failure> {
-        match result {
-            Ok(()) => {
-                self.session.finish();
-                Ok(())
-            }
-            // All ranks were stopped together.
-            Err(failure @ Failure::Stopped { signal, .. }) => {
-                failure.say();
-                self.session.finish();
-                Err(Failure::Stopped { signal, message: None })
-            }
-            Err(failure) => self.session.fail(failure.status(), || failure.say()),
-        }
+    /// Leaves the other ranks in good order.
+    pub fn finish(self) {
+        self.session.finish();
+    }
+
+    /// Ends all ranks with this exit status after `report` said why.
+    pub fn fail(self, status: u8, report: impl FnOnce()) {
+        self.session.fail(status, report)
     }
 }

@@ -1,0 +1,102 @@
+//! What is simulated, put together: the simulation of a scene, the scout that goes before it, and when what is reported.
+
+use plateau_core::acceleration::scout::{Idle, Scout, ScoutCheckpoint};
+use plateau_core::model::parameters::Parameters;
+use plateau_core::model::state::InitialSurfaces;
+use plateau_core::observe::schedule::Schedule;
+use plateau_core::simulation::checkpoint::Checkpoint;
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_io::scene::recipe::{OutputRecipe, Scene};
+
+use crate::error::{InputError, RunError};
+use crate::job::Job;
+
+/// A scene ready to be simulated, or on its way between two steps. [`run_to_end`](Self::run_to_end) takes its steps.
+#[derive(Debug)]
+pub struct Assembly {
+    /// The simulation.
+    pub simulation: Simulation,
+    /// What goes before it, where the run chooses its acceleration.
+    pub(crate) scout: Option<Scout>,
+    /// Why there is no scout although the scene asks for one.
+    idle: Option<Idle>,
+    /// When samples and maps are due, as far as is known now; may be another one before the first step.
+    pub schedule: Schedule,
+    pub(crate) output: OutputRecipe,
+}
+
+impl Assembly {
+    /// The simulation of a scene in this process.
+    ///
+    /// # Errors
+    /// [`InputError::Simulation`] when parameters and surfaces make no simulation, [`RunError::Failed`] when a worker failed.
+    pub fn new(scene: &Scene, surfaces: InitialSurfaces, execution: Execution) -> Result<Self, RunError> {
+        Self::made_by(Simulation::with_execution, scene, surfaces, execution)
+    }
+
+    /// The simulation of a scene that all processes of a job carry out together.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn on(job: &Job, scene: &Scene, surfaces: InitialSurfaces, execution: Execution) -> Result<Self, RunError> {
+        Self::made_by(
+            |parameters, surfaces, execution| job.simulation(parameters, surfaces, execution),
+            scene,
+            surfaces,
+            execution,
+        )
+    }
+
+    fn made_by(
+        make: impl Fn(Parameters, InitialSurfaces, Execution) -> Result<Simulation, SimulationError>,
+        scene: &Scene,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+    ) -> Result<Self, RunError> {
+        let simulation = |surfaces| make(scene.parameters.clone(), surfaces, execution).map_err(InputError::Simulation);
+        let mut scout = None;
+        if let Some(adaptive) = &scene.adaptive {
+            scout = Some(Scout::new(simulation(surfaces.clone())?, adaptive, scene.duration)?);
+        }
+        let idle = scout.as_ref().and_then(Scout::idle);
+        Ok(Self {
+            simulation: simulation(surfaces)?,
+            scout: scout.filter(|_| idle.is_none()),
+            idle,
+            schedule: scene.schedule(),
+            output: scene.output.clone(),
+        })
+    }
+
+    /// Whether the run chooses its acceleration, and so has a series of it.
+    pub fn chooses_acceleration(&self) -> bool {
+        self.scout.is_some()
+    }
+
+    /// Why the run is not accelerated (any more), if its scene has it choose.
+    pub fn idle(&self) -> Option<Idle> {
+        self.idle.or_else(|| self.scout.as_ref().and_then(Scout::idle))
+    }
+
+    /// The complete state between two steps. All processes of a job take it together.
+    ///
+    /// # Errors
+    /// [`SimulationError`] when a worker failed.
+    pub fn checkpoint(&mut self) -> Result<(Checkpoint, Option<ScoutCheckpoint>), SimulationError> {
+        let run = self.simulation.checkpoint()?;
+        Ok((run, self.scout.as_mut().map(Scout::checkpoint).transpose()?))
+    }
+
+    /// Goes on from a state of a run of the same scene, instead of from the start.
+    ///
+    /// # Errors
+    /// When the state is of another run.
+    pub fn restore(&mut self, run: &Checkpoint, scout: Option<&ScoutCheckpoint>) -> Result<(), SimulationError> {
+        self.simulation.restore(run)?;
+        if let (Some(own), Some(scout)) = (&mut self.scout, scout) {
+            own.restore(scout)?;
+        }
+        self.schedule.go_on(run.clock());
+        Ok(())
+    }
+}

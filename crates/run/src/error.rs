@@ -1,0 +1,219 @@
+//! Why a run did not come to its end, and whose fault that is.
+
+use std::io;
+use std::path::PathBuf;
+
+use plateau_core::engine::comm::CommError;
+use plateau_core::simulation::SimulationError;
+use plateau_io::checkpoint::CheckpointError;
+use plateau_io::claim::ClaimError;
+use plateau_io::number;
+use plateau_io::run_file::{ReadError, RunFileError};
+use plateau_io::surface::SurfaceError;
+use thiserror::Error;
+
+/// Why a run did not come to its end.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The scene, a file or what was asked for is wrong: nothing was simulated, and what was there is untouched.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The run failed, or what it needs of the system.
+    #[error(transparent)]
+    Failed(#[from] RunFailure),
+    /// It was asked to stop.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
+}
+
+/// What is wrong with what a run was given.
+#[derive(Debug, Error)]
+pub enum InputError {
+    /// The surfaces cannot be read or made.
+    #[error(transparent)]
+    Surface(#[from] SurfaceError),
+    /// Surfaces and parameters make no simulation.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// No run file can be made there.
+    #[error(transparent)]
+    RunFile(RunFileError),
+    /// Another process writes it.
+    #[error(transparent)]
+    Claim(ClaimError),
+    /// Something else has the name of a checkpoint.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
+    /// A run file cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// A file of the scene cannot be read any more.
+    #[error("{}: {error}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// The output, or a checkpoint of it, is a file that the run reads.
+    #[error("the {what} {} is an input of this run and is not replaced; write elsewhere with -o FILE", path.display())]
+    ReplacesInput {
+        /// Which file it is.
+        what: &'static str,
+        /// Where it is.
+        path: PathBuf,
+    },
+    /// Another program has the run file open for writing.
+    #[error("{} is being written by process {process}; stop that first, or write elsewhere with -o FILE", path.display())]
+    Written {
+        /// The run file.
+        path: PathBuf,
+        /// Who writes it.
+        process: u32,
+    },
+    /// The checkpoints of an earlier run cannot be moved out of the way.
+    #[error("cannot replace the checkpoints of {}: {error}; write elsewhere with -o FILE", path.display())]
+    SetAside {
+        /// The run file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// A run that is to be extended has come further.
+    #[error("--extend-to: {} has come to {} s already; give a later time", path.display(), number::short(*time))]
+    Passed {
+        /// The run file.
+        path: PathBuf,
+        /// Physical time that it has come to, s.
+        time: f64,
+    },
+    /// The run file is not one to go on with.
+    #[error("{} {what}; without --resume, --force begins again", path.display())]
+    NotResumable {
+        /// The run file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// The run file that is to be gone on with cannot be read.
+    #[error("{0}; without --resume, --force begins again")]
+    Unreadable(ReadError),
+    /// The run file or its checkpoint is of another run.
+    #[error("{} cannot be resumed: {difference}; undo that, or begin again without --resume", path.display())]
+    OtherRun {
+        /// The run file.
+        path: PathBuf,
+        /// In what the two differ.
+        difference: String,
+    },
+    /// There are checkpoints, but none that holds; each with what is wrong.
+    #[error("{}; without --resume, --force begins again from the beginning", .0.join("; "))]
+    NoCheckpoint(Vec<String>),
+    /// The run file has what no checkpoint says of it; each with what is wrong.
+    #[error("{}; begin again without --resume", .0.join("; "))]
+    NoneFits(Vec<String>),
+    /// The processes of a job were not given the same.
+    #[error(
+        "rank {rank} was given another scene, other surfaces or another build of this program than rank 0: \
+         give all ranks the same, where the machines share no files by copying them"
+    )]
+    RanksDiffer {
+        /// The first that differs.
+        rank: usize,
+    },
+}
+
+/// What failed in a run.
+#[derive(Debug, Error)]
+pub enum RunFailure {
+    /// A step, or what was to be reported of one.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    /// The run file could not be made or written.
+    #[error(transparent)]
+    RunFile(#[from] RunFileError),
+    /// The run file, though complete, could not be read again.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// There is no space for the lock of the run file.
+    #[error(transparent)]
+    Claim(ClaimError),
+    /// The processes of a job could not talk to each other.
+    #[error(transparent)]
+    Comm(#[from] CommError),
+    /// The system gives no more threads.
+    #[error(transparent)]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// A signal, or whatever the observer took for one, stopped the run.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("stopped by signal {signal}{progress}")]
+pub struct Stopped {
+    /// What [`Observer::asked_to_stop`](crate::Observer::asked_to_stop) gave.
+    pub signal: u8,
+    /// How far the run had come; none in a process that has no file to close.
+    pub progress: Progress,
+}
+
+/// How far a run had come when it was stopped.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Progress {
+    /// Before the first step.
+    NotStarted,
+    /// The run file has what was done, and a checkpoint is beside it.
+    Saved {
+        /// Steps.
+        steps: u64,
+        /// The run file.
+        file: PathBuf,
+        /// Samples in it.
+        samples: usize,
+    },
+    /// Another process of the job knows.
+    Elsewhere,
+}
+
+impl std::fmt::Display for Progress {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NotStarted => write!(f, " before the first step"),
+            Self::Saved { steps, file, samples } => {
+                let file = file.display();
+                write!(f, " after {steps} steps; {file} holds {samples} samples, --resume goes on from here")
+            }
+            Self::Elsewhere => Ok(()),
+        }
+    }
+}
+
+impl From<SimulationError> for RunError {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl From<CommError> for RunError {
+    fn from(error: CommError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl From<ClaimError> for RunError {
+    /// A full disk is nothing that another name would mend.
+    fn from(error: ClaimError) -> Self {
+        if error.lacks_space() { RunFailure::Claim(error).into() } else { InputError::Claim(error).into() }
+    }
+}
+
+impl From<RunFileError> for RunError {
+    /// Of a file that is being made, new or anew.
+    fn from(error: RunFileError) -> Self {
+        match error {
+            RunFileError::SetUp { .. } | RunFileError::Anew { .. } | RunFileError::Write { .. } => {
+                RunFailure::RunFile(error).into()
+            }
+            _ => InputError::RunFile(error).into(),
+        }
+    }
+}

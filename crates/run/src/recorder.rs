@@ -1,0 +1,94 @@
+//! Where the samples and maps of a run go, and what may end it.
+
+use plateau_core::engine::comm::CommError;
+use plateau_core::observe::{Sample, Snapshot};
+use plateau_core::simulation::{Simulation, SimulationError};
+use plateau_io::plausibility::Recorded;
+use plateau_io::run_file::{RunFileError, RunWriter};
+
+use crate::assembly::Assembly;
+use crate::checkpointer::Checkpointer;
+use crate::error::RunFailure;
+use crate::job::{Agreement, Job};
+use crate::observer::Observer;
+use crate::time_loop::Sink;
+
+/// Why a run that had started did not end.
+#[derive(Debug)]
+pub enum Interruption {
+    /// It failed.
+    Failed(RunFailure),
+    /// This signal asked it to stop.
+    Stopped(u8),
+}
+
+impl From<SimulationError> for Interruption {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl From<RunFileError> for Interruption {
+    fn from(error: RunFileError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl From<CommError> for Interruption {
+    fn from(error: CommError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+/// Hands what a simulation reports to the writer and to the observer, and does what that asks for.
+pub struct Recorder<'a> {
+    /// None in a process that does not lead.
+    pub writer: Option<RunWriter>,
+    /// Told of every sample, and asked whether to go on.
+    pub observer: &'a mut dyn Observer,
+    /// The processes that take the steps together.
+    pub job: &'a mut Job,
+    /// Writes the state now and then.
+    pub checkpointer: Checkpointer,
+    /// What all processes settled last.
+    pub agreement: Agreement,
+    /// What the samples so far say of the scene.
+    pub recorded: Recorded,
+}
+
+impl Sink for Recorder<'_> {
+    type Error = Interruption;
+
+    fn sample(&mut self, sample: Sample) -> Result<(), Interruption> {
+        self.recorded.add(&sample);
+        self.checkpointer.sampled(sample);
+        self.observer.sample(&sample);
+        Ok(self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample))?)
+    }
+
+    fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), Interruption> {
+        self.checkpointer.mapped();
+        Ok(self.writer.as_mut().map_or(Ok(()), |writer| writer.snapshot(snapshot))?)
+    }
+
+    fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Interruption> {
+        self.observer.progress(simulation);
+        // Samples may be rare: the run is not to go on for hours beside a file that is lost.
+        self.writer.as_mut().map_or(Ok(()), RunWriter::check)?;
+        let save = self.observer.asked_to_save() || (self.writer.is_some() && self.checkpointer.is_due());
+        let own = Agreement { signal: self.observer.asked_to_stop(), save: save || self.agreement.save, steps };
+        self.agreement = self.job.agree(own)?;
+        Ok(self.agreement.steps)
+    }
+
+    fn rest(&mut self, assembly: &mut Assembly) -> Result<(), Interruption> {
+        let Agreement { signal, save, .. } = self.agreement;
+        if save || signal.is_some() {
+            self.agreement.save = false;
+            self.checkpointer.write(assembly, false, self.writer.as_ref().map(RunWriter::sync), self.observer)?;
+        }
+        let Some(signal) = signal else { return Ok(()) };
+        self.checkpointer.wait(self.observer);
+        Err(Interruption::Stopped(signal))
+    }
+}

@@ -1,0 +1,198 @@
+//! A run from its scene to its run file.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use plateau_io::checkpoint::{self, RunState};
+use plateau_io::claim::Claim;
+use plateau_io::number;
+use plateau_io::plausibility::{self, Recorded};
+use plateau_io::run_file::{End, Header, RunFile, RunWriter, Synced, WriterReport, check_place};
+use plateau_io::scene::Warning;
+use plateau_io::scene::recipe::Scene;
+use plateau_io::surface::{self, Loaded};
+
+use crate::assembly::Assembly;
+use crate::checkpointer::{Checkpointer, RunIdentity};
+use crate::error::{InputError, Progress, RunError, RunFailure, Stopped};
+use crate::execution::decide;
+use crate::header::header;
+use crate::job::{Agreement, Job};
+use crate::observer::Observer;
+use crate::options::RunOptions;
+use crate::recorder::{Interruption, Recorder};
+use crate::start::{Request, Start};
+use crate::summary::RunSummary;
+use crate::warnings::{idle_warning, stiffness_warning};
+
+/// Runs a scene, together with the other processes of the job if there are any: makes its surfaces, takes its steps and writes
+/// its run file, with checkpoints beside it from which a run that was stopped or killed goes on.
+///
+/// Gives what came of it; nothing where the run was finished before, and in a process that writes no file.
+///
+/// # Errors
+/// [`RunError`], which tells what was given wrong from what failed.
+pub fn run(
+    scene: Scene,
+    options: &RunOptions,
+    job: &mut Job,
+    observer: &mut dyn Observer,
+) -> Result<Option<RunSummary>, RunError> {
+    let prepared = Prepared::new(scene, options, job, observer)?;
+    stop_if_asked(observer, job)?;
+    let Prepared { path, header, identity, assembly, .. } = &prepared;
+    let request = Request { path, header, identity, options, end: assembly.schedule.end_time() };
+    let Some(Start { claim, writer, state }) = request.start(job, observer)? else { return Ok(None) };
+    let summary = prepared.carry_out(writer, state, job, observer);
+    // Nothing is written any more.
+    drop(claim);
+    summary
+}
+
+/// A scene with its surfaces made, before anything is written.
+struct Prepared {
+    scene: Scene,
+    path: PathBuf,
+    assembly: Assembly,
+    header: Header,
+    identity: RunIdentity,
+}
+
+impl Prepared {
+    fn new(
+        mut scene: Scene,
+        options: &RunOptions,
+        job: &mut Job,
+        observer: &mut dyn Observer,
+    ) -> Result<Self, RunError> {
+        let path = options.output.clone().unwrap_or_else(|| scene.output.file.clone());
+        // What a link points to is what is written, and its checkpoints lie beside it.
+        let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
+        if job.leads() {
+            check_place(&path, options.replace || options.mode.resumes())?;
+            Claim::check(&path)?;
+        }
+        stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
+        let loaded = surface::load(&scene).map_err(InputError::Surface)?;
+        // Large surfaces take long enough to be told to stop meanwhile.
+        stop_if_asked(observer, job)?;
+        refuse_to_replace_inputs(&path, &scene, &loaded)?;
+        let implausible = plausibility::of_surfaces(&scene, &loaded);
+        warn_of_scene(&mut scene, implausible, observer);
+        let Loaded { surfaces, inputs, report, .. } = loaded;
+        let execution = decide(&scene, job.ranks(), &options.execution, &surfaces, observer)?;
+        let assembly = Assembly::on(job, &scene, surfaces, execution)?;
+        assembly.idle().into_iter().for_each(|idle| observer.warning(&idle_warning(idle)));
+        let header = header(&scene, &assembly, &options.program, &inputs, report)?;
+        job.compare(
+            &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
+        )?;
+        let (program, engine) = (options.program.build(), execution.engine);
+        let identity = RunIdentity { program, engine, scene: scene.resolved.clone(), inputs };
+        Ok(Self { scene, path, assembly, header, identity })
+    }
+
+    /// Takes the steps that are left and closes the file.
+    fn carry_out(
+        self,
+        writer: Option<RunWriter>,
+        state: Option<RunState>,
+        job: &mut Job,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<RunSummary>, RunError> {
+        let Self { mut scene, path, mut assembly, header, identity } = self;
+        if let Some(state) = &state {
+            assembly.restore(&state.run, state.scout.as_ref())?;
+            let (steps, time) = (state.run.steps(), number::short(state.run.time()));
+            observer.note(&format_args!("goes on from step {steps}, t = {time} s"));
+        }
+        let checkpointer = Checkpointer::new(&path, identity, scene.output.checkpoint_every, state.as_ref());
+
+        let start = Instant::now();
+        observer.starts("", assembly.schedule.end_time());
+        let (agreement, recorded) = (Agreement::default(), Recorded::new(&scene.parameters));
+        let mut recorder = Recorder { writer, observer, job, checkpointer, agreement, recorded };
+        let result = assembly.run_to_end(&mut recorder);
+        let Recorder { writer, observer, mut checkpointer, recorded, .. } = recorder;
+        observer.ends();
+        checkpointer.wait(observer);
+        let Some(writer) = writer else {
+            result.map_err(without_file)?;
+            checkpointer.write(&mut assembly, true, None, observer)?;
+            return Ok(None);
+        };
+        let report = close(result, writer, assembly.simulation.steps_done(), &path)?;
+        checkpointer.write(&mut assembly, true, Some(Synced::already()), observer)?;
+        checkpointer.wait(observer);
+        let contact_area = RunFile::open(&path).and_then(|run| run.last_contact_area()).map_err(RunFailure::Read)?;
+        let implausible = recorded.warnings(&scene);
+        warn_of_scene(&mut scene, implausible, observer);
+        let last = checkpointer.last_sample.unwrap_or_default();
+        let course = assembly.simulation.course();
+        let wall_time = start.elapsed().as_secs_f64();
+        let summary = RunSummary::new(&scene, header.surfaces, path, &last, contact_area, course, report, wall_time);
+        summary.inexact_load().iter().for_each(|warning| observer.warning(warning));
+        // Why there was no scout from the start is said already.
+        let idle = assembly.idle().filter(|_| assembly.chooses_acceleration());
+        idle.into_iter().for_each(|idle| observer.warning(&idle_warning(idle)));
+        Ok(Some(summary))
+    }
+}
+
+/// Closes the file of a run that has ended like this.
+fn close(
+    result: Result<(), Interruption>,
+    writer: RunWriter,
+    steps: u64,
+    path: &Path,
+) -> Result<WriterReport, RunError> {
+    let end = match &result {
+        Ok(()) => End::Finished,
+        Err(Interruption::Stopped(_)) => End::Interrupted,
+        Err(Interruption::Failed(failure)) => End::Failed(failure.to_string()),
+    };
+    match (result, writer.finish(&end)) {
+        (Err(Interruption::Stopped(signal)), Ok(report)) => {
+            let progress = Progress::Saved { steps, file: path.to_owned(), samples: report.samples };
+            Err(Stopped { signal, progress }.into())
+        }
+        (Ok(()) | Err(Interruption::Stopped(_)), closed) => Ok(closed.map_err(RunFailure::RunFile)?),
+        // The first error is the one to report; a writer that failed has nothing more to say.
+        (Err(failure), _) => Err(without_file(failure)),
+    }
+}
+
+/// How a process that has no file to close fails.
+fn without_file(interruption: Interruption) -> RunError {
+    match interruption {
+        Interruption::Stopped(signal) => Stopped { signal, progress: Progress::Elsewhere }.into(),
+        Interruption::Failed(failure) => failure.into(),
+    }
+}
+
+/// Ends what is not a run yet when any process of the job is asked to stop.
+fn stop_if_asked(observer: &mut dyn Observer, job: &mut Job) -> Result<(), RunError> {
+    let own = Agreement { signal: observer.asked_to_stop(), ..Agreement::default() };
+    let Some(signal) = job.agree(own)?.signal else { return Ok(()) };
+    let progress = if job.leads() { Progress::NotStarted } else { Progress::Elsewhere };
+    Err(Stopped { signal, progress }.into())
+}
+
+/// Says what else the scene can hardly mean, and keeps it with what was said of it before.
+fn warn_of_scene(scene: &mut Scene, warnings: Vec<Warning>, observer: &mut dyn Observer) {
+    warnings.iter().for_each(|warning| observer.warning(warning));
+    scene.warnings.extend(warnings);
+}
+
+/// Refuses an output, or a checkpoint of it, that is a file which the run reads: not even to be replaced is meant like that.
+fn refuse_to_replace_inputs(output: &Path, scene: &Scene, loaded: &Loaded) -> Result<(), InputError> {
+    let inputs = scene.files.iter().chain(loaded.inputs.iter().map(|(path, _)| path));
+    let inputs: Vec<_> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
+    let [last, before] = checkpoint::paths(output);
+    for (what, path) in [("output file", output), ("checkpoint", &last), ("checkpoint", &before)] {
+        if path.canonicalize().is_ok_and(|path| inputs.contains(&path)) {
+            return Err(InputError::ReplacesInput { what, path: path.to_owned() });
+        }
+    }
+    Ok(())
+}

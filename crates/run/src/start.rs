@@ -1,0 +1,183 @@
+//! The start of a run, or its continuation from what one that was stopped has left.
+
+use std::path::Path;
+
+use plateau_io::checkpoint::{self, RunState};
+use plateau_io::claim::Claim;
+use plateau_io::run_file::{Damage, Header, RunFile, RunWriter, State, verify};
+use plateau_io::temporary::Temporary;
+use plateau_io::writer::writer_of;
+
+use crate::checkpointer::RunIdentity;
+use crate::error::{InputError, RunError};
+use crate::job::Job;
+use crate::observer::Observer;
+use crate::options::{RunOptions, StartMode};
+use crate::resume;
+
+/// What is asked for, and of which run.
+pub struct Request<'a> {
+    /// The run file.
+    pub path: &'a Path,
+    /// What it says before the first step.
+    pub header: &'a Header,
+    /// What tells the run from others.
+    pub identity: &'a RunIdentity,
+    /// Whether it begins or goes on, and what may be replaced.
+    pub options: &'a RunOptions,
+    /// Physical time at the end of its last step, s.
+    pub end: f64,
+}
+
+/// What a run starts with.
+pub struct Start {
+    /// To be held until nothing more is written. None in a process that does not lead.
+    pub claim: Option<Claim>,
+    /// None in a process that does not lead.
+    pub writer: Option<RunWriter>,
+    /// What it goes on from.
+    pub state: Option<RunState>,
+}
+
+impl Request<'_> {
+    /// Claims the run file, then makes it, or finds out what to go on from and goes on with it; nothing where all is done
+    /// already, which is said. All processes of a job do this together.
+    ///
+    /// # Errors
+    /// [`RunError`] when the file cannot be made, or what is there is of another run.
+    pub fn start(&self, job: &mut Job, observer: &mut dyn Observer) -> Result<Option<Start>, RunError> {
+        let Self { path, identity, options, .. } = *self;
+        let claim = if job.leads() { Some(Claim::of(path)?) } else { None };
+        // No process looks at what is there before that is done.
+        job.sum(0, 0)?;
+        if job.leads() {
+            self.clear_away()?;
+        }
+        let resumes = options.mode.resumes();
+        let mut states = match resumes {
+            true => resume::states(path, identity, self.extends(), observer)?,
+            false => Vec::new(),
+        };
+        let there = if resumes { self.look()? } else { None };
+        let finished = self.is_finished(states.first(), there.as_ref())?;
+        let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
+        job.compare(&format!("{finished} {steps:?}"))?;
+        if finished {
+            if job.leads() {
+                self.check_that_it_is_whole()?;
+            }
+            observer.note(&format_args!("{} is finished; --extend-to TIME goes on beyond its end", path.display()));
+            return Ok(None);
+        }
+        if resumes && states.is_empty() {
+            observer.note(&"there is no checkpoint yet: begins from the beginning");
+        }
+        let (writer, place) = if job.leads() { self.lead(&states, observer)? } else { (None, 0) };
+        // The first rank has seen which of the states holds.
+        let (place, _) = job.sum(place, 0)?;
+        let state = (!states.is_empty()).then(|| states.swap_remove(place));
+        Ok(Some(Start { claim, writer, state }))
+    }
+
+    /// Whether the run may come to a later end than it had.
+    fn extends(&self) -> bool {
+        self.options.mode == StartMode::Extend
+    }
+
+    /// Refuses a file that another program is writing, or an earlier version of this one, which made no locks, and what has
+    /// the name of a checkpoint; removes what a killed run left half-written.
+    fn clear_away(&self) -> Result<(), InputError> {
+        let path = self.path;
+        if let Some(process) = writer_of(path) {
+            return Err(InputError::Written { path: path.to_owned(), process });
+        }
+        checkpoint::refuse_foreign(path, self.options.replace)?;
+        for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
+            Temporary::remove_abandoned(target);
+        }
+        Ok(())
+    }
+
+    /// Whether all steps of the run are done, by its newest checkpoint and its file.
+    fn is_finished(&self, newest: Option<&RunState>, there: Option<&There>) -> Result<bool, InputError> {
+        let is_finished = there.is_some_and(|there| there.state == State::Finished);
+        match newest {
+            // What a checkpoint says counts only for the file that it was left beside.
+            Some(newest) if newest.finished => match there {
+                None if !self.options.replace => {
+                    Err(self.refused("is gone, though its checkpoint says that the run is finished"))
+                }
+                Some(there) if is_finished && there.holds == [newest.samples, newest.snapshots] => {
+                    Ok(!self.extends() || self.has_come_to_end(newest)?)
+                }
+                _ => Ok(false),
+            },
+            Some(_) => Ok(false),
+            None if is_finished && self.extends() => {
+                Err(self.refused("is finished and has no checkpoint to go on from"))
+            }
+            None => Ok(is_finished),
+        }
+    }
+
+    /// Whether a finished run that is to go on to a time has come to just that.
+    fn has_come_to_end(&self, state: &RunState) -> Result<bool, InputError> {
+        let time = state.run.time();
+        // The last step may go beyond the time that is asked for.
+        let step = time / state.run.steps().max(1) as f64;
+        if time > self.end + 1.5 * step {
+            return Err(InputError::Passed { path: self.path.to_owned(), time });
+        }
+        Ok(time > self.end - 0.5 * step)
+    }
+
+    /// The writer of the run file, and which of the states it goes on from.
+    fn lead(&self, states: &[RunState], observer: &mut dyn Observer) -> Result<(Option<RunWriter>, usize), RunError> {
+        let Self { path, header, options, .. } = *self;
+        if !states.is_empty() {
+            return resume::writer(path, header, states, observer).map(|(writer, place)| (Some(writer), place));
+        }
+        // What is there is of another run, and stays if the new one cannot begin.
+        let others =
+            checkpoint::set_aside(path).map_err(|error| InputError::SetAside { path: path.to_owned(), error })?;
+        let writer = RunWriter::create(path, options.replace || options.mode.resumes(), header)?;
+        others.discard();
+        Ok((Some(writer), 0))
+    }
+
+    /// Looks at the file that is to be gone on with, if there is one; it must be of this run, unless it may be replaced.
+    fn look(&self) -> Result<Option<There>, InputError> {
+        let Self { path, identity, options, .. } = *self;
+        if !path.exists() {
+            return Ok(None);
+        }
+        let there = match RunFile::open(path) {
+            Err(_) if options.replace => return Ok(None),
+            there => there.map_err(InputError::Unreadable)?,
+        };
+        let scene = there.attribute("scene").unwrap_or_default();
+        match resume::compare_scenes(path, &scene, identity, self.extends()) {
+            Err(_) if options.replace => Ok(None),
+            compared => compared
+                .map(|()| Some(There { state: there.state(), holds: [there.time().len(), there.map_time().len()] })),
+        }
+    }
+
+    /// Nothing more will be done about a finished file: it must hold what was written.
+    fn check_that_it_is_whole(&self) -> Result<(), InputError> {
+        let verification = verify(self.path)?;
+        let Some(Damage { place, problem }) = verification.damage.first() else { return Ok(()) };
+        Err(self.refused(&format!("is finished, and damaged: {place}: {problem}")))
+    }
+
+    fn refused(&self, what: &str) -> InputError {
+        InputError::NotResumable { path: self.path.to_owned(), what: what.to_owned() }
+    }
+}
+
+/// The file that is to be gone on with.
+struct There {
+    state: State,
+    /// Samples, and moments of which there are maps.
+    holds: [usize; 2],
+}

@@ -1,0 +1,122 @@
+//! What came of a finished run, in numbers.
+
+use std::path::PathBuf;
+
+use plateau_core::observe::Sample;
+use plateau_core::observe::window_mean::WindowMean;
+use plateau_core::simulation::Course;
+use plateau_io::run_file::WriterReport;
+use plateau_io::scene::Warning;
+use plateau_io::scene::recipe::Scene;
+use serde::Serialize;
+
+use crate::machine;
+
+/// What came of a finished run. Quantities of the contact are those of the last step unless said otherwise.
+#[derive(Debug, Serialize)]
+pub struct RunSummary {
+    /// Title of the scene.
+    pub title: String,
+    /// What was read, made and done for the surfaces.
+    pub surfaces: Vec<String>,
+    /// The run file.
+    pub file: PathBuf,
+    /// Its size, bytes.
+    pub file_size: u64,
+    /// Steps of the run.
+    pub steps: u64,
+    /// Simulated time, s.
+    pub time: f64,
+    /// Wall time in this process, s.
+    pub wall_time: f64,
+    /// Steps of the run in that time, 1/s.
+    pub steps_per_second: f64,
+    /// How often the load was looked for in a step, mean.
+    pub load_evaluations_per_step: f64,
+    /// How long the simulation waited for the run file, s.
+    pub writer_wait: f64,
+    /// Largest memory that this process held, bytes, where the system tells.
+    pub peak_memory: Option<u64>,
+    /// Contact area, m².
+    pub contact_area: f64,
+    /// Its mean since the last sample but one, m².
+    pub contact_area_mean: f64,
+    /// Its mean over the last tenth of the run, where there are enough samples.
+    pub contact_area_last_tenth: Option<WindowMean>,
+    /// Contact area as a part of the pin's.
+    pub contact_ratio: f64,
+    /// Mean pressure in contact, Pa.
+    pub mean_pressure: f64,
+    /// Largest pressure, Pa.
+    pub max_pressure: f64,
+    /// Filled fraction of the disc.
+    pub filled_fraction: f64,
+    /// Area fraction of the disc with any build-up.
+    pub disc_secondary: f64,
+    /// Area fraction of the pin with any build-up.
+    pub pin_secondary: f64,
+    /// Worn volume of both bodies, m³.
+    pub worn: f64,
+    /// Debris that left the contact, m³.
+    pub emitted: f64,
+    /// Largest load residual of any step, relative.
+    pub load_residual: f64,
+    /// What the scene allows.
+    pub load_tolerance: f64,
+    /// What the debris balance is off by, relative.
+    pub balance_residual: f64,
+    /// What the scene can hardly mean.
+    pub warnings: Vec<Warning>,
+}
+
+impl RunSummary {
+    /// Puts together what was done for the surfaces and what the run file, the last sample, the simulation and the writer tell.
+    #[expect(clippy::too_many_arguments, reason = "each from somewhere else")]
+    pub(crate) fn new(
+        scene: &Scene,
+        surfaces: Vec<String>,
+        file: PathBuf,
+        last: &Sample,
+        contact_area_last_tenth: Option<WindowMean>,
+        course: Course,
+        report: WriterReport,
+        wall_time: f64,
+    ) -> Self {
+        Self {
+            title: scene.title.clone(),
+            surfaces,
+            file,
+            file_size: report.bytes,
+            steps: last.step,
+            time: last.time,
+            wall_time,
+            steps_per_second: last.step as f64 / wall_time,
+            load_evaluations_per_step: 1.0 + course.extra_readings as f64 / course.steps as f64,
+            writer_wait: report.waited.as_secs_f64(),
+            peak_memory: machine::peak_memory(),
+            contact_area: last.contact_area,
+            contact_area_mean: last.contact_area_mean,
+            contact_area_last_tenth,
+            contact_ratio: last.contact_ratio,
+            mean_pressure: last.mean_pressure,
+            max_pressure: last.max_pressure,
+            filled_fraction: last.filled_fraction,
+            disc_secondary: last.disc_secondary,
+            pin_secondary: last.pin_secondary,
+            worn: last.worn_pin + last.worn_resin + last.worn_disc,
+            emitted: last.emitted,
+            load_residual: course.largest_load_residual,
+            load_tolerance: scene.load_tolerance,
+            balance_residual: last.balance_residual,
+            warnings: scene.warnings.clone(),
+        }
+    }
+
+    /// Says where the load balance was not as exact as the scene asks for.
+    pub(crate) fn inexact_load(&self) -> Option<String> {
+        let (reached, asked) = (self.load_residual, self.load_tolerance);
+        (reached > asked).then(|| {
+            format!("the load balance reached {reached:.1e}, not {asked:.1e}: rounding of the heights allows no better")
+        })
+    }
+}
