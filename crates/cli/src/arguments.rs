@@ -13,7 +13,7 @@ use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
 use plateau_run::ExecutionOptions;
 
-pub use accuracy::{AccuracyArguments, Ladder};
+pub use accuracy::AccuracyArguments;
 pub use surface::SurfaceArguments;
 pub use sweep::{CollectArguments, EffectsArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 

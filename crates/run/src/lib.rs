@@ -21,9 +21,11 @@
 //! | the time loop, and what takes its samples and maps | [`Assembly::run_to_end`], [`Sink`] |
 //! | how many workers, which instruction set | [`execution`] |
 //! | start or continuation, from which checkpoint, and writing those | `start`, `resume`, `checkpointer` |
+//! | how exact a scene's runs are for their time | [`accuracy`] |
 //! | the processes that take the steps together | [`job`] |
 //! | what the system tells of this machine | [`machine`] |
 
+pub mod accuracy;
 mod assembly;
 mod checkpointer;
 mod error;

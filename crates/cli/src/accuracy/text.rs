@@ -1,12 +1,15 @@
-//! What was found, as tables for people.
+//! What was found, as tables and sentences for people.
 
 use plateau_core::model::parameters::Integrator;
+use plateau_run::accuracy::choice::{Advice, judge};
+use plateau_run::accuracy::reference::OwnError;
+use plateau_run::accuracy::report::{Measured, Report, Row};
 
-use super::advice::advice;
-use super::reference::OwnError;
-use super::report::{Measured, Report, Row};
 use crate::number::{self, percent};
 use crate::table::{columns, list, table};
+
+/// Errors of the contact area for which runs are advised.
+const ERRORS: [f64; 3] = [1e-2, 5e-3, 2e-3];
 
 /// Reference, errors, advice and notes.
 pub fn text(report: &Report) -> String {
@@ -173,4 +176,46 @@ fn signed(difference: f64) -> String {
 
 fn nanometres(length: f64) -> String {
     if length.is_nan() { "–".to_owned() } else { format!("{} nm", number::significant(length * 1e9, 3)) }
+}
+
+/// A sentence for each of the errors, or one for all of them.
+pub fn advice(report: &Report) -> Vec<String> {
+    let own = report.own_error;
+    if own.comes_late {
+        return vec![format!(
+            "no setting is advised: on a disc as smooth as this one the error of every time_acceleration above 1 grows late, \
+             and the reference has {}",
+            report.reference.time_acceleration
+        )];
+    }
+    let costs = report.choices();
+    let clear: Vec<bool> = report.rows.iter().map(|row| row.is_clear).collect();
+    let found = ERRORS.map(|error| (error, judge(error, &costs, own.contact_area(), &clear)));
+    let all_same = found.iter().all(|(_, advice)| *advice == found[0].1);
+    let reference = report.reference.outcome.wall_time;
+    let instead = reference.map_or(String::new(), |time| format!(" instead of {}", number::duration(time)));
+    let of = |index: usize| (report.rows[index].setting(), number::duration(costs[index].time), costs[index].error);
+    let sentence = |(error, advice): (f64, Advice)| match advice {
+        Advice::Use(index) => {
+            let (name, time, _) = of(index);
+            format!("for {} error in contact area use {name}: {time}{instead}", percent(error))
+        }
+        Advice::Missed(index) => {
+            let (name, time, least) = of(index);
+            let least = percent(least);
+            format!("no run reaches {} error in contact area; the best has {least}: {name}, {time}", percent(error))
+        }
+        Advice::ReferenceInexact => {
+            let wanted =
+                if all_same { String::new() } else { format!(" for {} error in contact area", percent(error)) };
+            let own = percent(own.contact_area());
+            format!(
+                "no setting is advised{wanted}: the reference's own error, about {own}, is of the size of the errors compared"
+            )
+        }
+        Advice::NoChoice => "no setting is advised: no other run is quicker than the reference".to_owned(),
+    };
+    let mut advice = found.map(sentence).to_vec();
+    advice.dedup();
+    advice
 }

@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use plateau_io::units::{self, Dimension};
+use plateau_run::accuracy::Ladder;
 
 use super::{ExecutionArguments, SceneArguments};
 
@@ -17,7 +19,7 @@ pub struct AccuracyArguments {
     pub budget: f64,
     /// Ladders that are climbed, with commas between; all but mesh and perturbation unless given
     #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
-    pub ladders: Vec<Ladder>,
+    pub ladders: Vec<LadderArgument>,
     /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here; finer than
     /// the scene
     #[arg(long, value_name = "RUN")]
@@ -32,32 +34,33 @@ pub struct AccuracyArguments {
     pub execution: ExecutionArguments,
 }
 
-/// What runs differ in whose errors are measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-#[value(rename_all = "snake_case")]
-pub enum Ladder {
-    /// Revolutions that a simulated one stands for
-    TimeAcceleration,
-    /// Accelerations that the run chooses itself, by the error that it may make
-    Tolerance,
-    /// Coarser meshes, with the initial surfaces averaged
-    Mesh,
-    /// The other integrator of wear
-    Integrator,
-    /// The reference anew with initial heights that differ a little: how much of the errors is chance
-    Perturbation,
-}
+/// A value of `--ladder`.
+#[derive(Debug, Clone, Copy)]
+pub struct LadderArgument(pub Ladder);
 
-impl Ladder {
-    /// Its name on the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::TimeAcceleration => "time_acceleration",
-            Self::Tolerance => "tolerance",
-            Self::Mesh => "mesh",
-            Self::Integrator => "integrator",
-            Self::Perturbation => "perturbation",
-        }
+impl ValueEnum for LadderArgument {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [LadderArgument; 5] = [
+            LadderArgument(Ladder::ALL[0]),
+            LadderArgument(Ladder::ALL[1]),
+            LadderArgument(Ladder::ALL[2]),
+            LadderArgument(Ladder::ALL[3]),
+            LadderArgument(Ladder::ALL[4]),
+        ];
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self.0 {
+            Ladder::TimeAcceleration => "Revolutions that a simulated one stands for",
+            Ladder::Tolerance => "Accelerations that the run chooses itself, by the error that it may make",
+            Ladder::Mesh => "Coarser meshes, with the initial surfaces averaged",
+            Ladder::Integrator => "The other integrator of wear",
+            Ladder::Perturbation => {
+                "The reference anew with initial heights that differ a little: how much of the errors is chance"
+            }
+        };
+        Some(PossibleValue::new(self.0.name()).help(help))
     }
 }
 

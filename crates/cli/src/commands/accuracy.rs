@@ -6,17 +6,19 @@ use std::path::PathBuf;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
+use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Wish, reference, search};
 use plateau_run::execution::decide;
 use plateau_run::input_files;
 
 use super::load_scene;
-use crate::accuracy::{Found, Making, ReadReference, Wish, csv, json, read_reference, search, text};
-use crate::arguments::{AccuracyArguments, Ladder};
+use crate::accuracy::{Making, csv, json, text};
+use crate::arguments::AccuracyArguments;
 use crate::failure::Failure;
 use crate::figure::accuracy::figure;
 use crate::output;
 use crate::table::print;
 use crate::terminal::{Messages, Terminal};
+use crate::version;
 
 /// The ladders that are climbed unless others are asked for.
 const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Integrator];
@@ -28,8 +30,9 @@ const FILES: [&str; 4] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accu
 pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
-    let reference = arguments.reference.as_deref();
-    let reference = reference.map(|path| read_reference(path, &scene, &loaded.inputs)).transpose()?;
+    let path = arguments.reference.as_deref();
+    let reference =
+        path.map(|path| reference::read(path, &scene, &loaded.inputs)).transpose().map_err(Failure::input)?;
     let is_new = !arguments.output.exists();
     output::make_directory(&arguments.output)?;
     let result = measure_into(arguments, &scene, loaded, reference);
@@ -51,12 +54,13 @@ fn measure_into(
     let start_time = now();
     let options = arguments.execution.options();
     let execution = decide(scene, 1, &options, &loaded.surfaces, &mut Messages).map_err(Failure::run)?;
-    let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
+    let asked: Vec<Ladder> = arguments.ladders.iter().map(|ladder| ladder.0).collect();
+    let mut ladders = if asked.is_empty() { USUAL.to_vec() } else { asked };
     ladders.sort_unstable();
     ladders.dedup();
-    let wish = Wish { ladders, budget: arguments.budget, reference };
+    let wish = Wish { ladders, budget: arguments.budget, reference, program: version::this() };
     let mut terminal = Terminal::listen(true).map_err(Failure::run)?;
-    let Found { report, stopped } = search(scene, &loaded.surfaces, execution, wish, &mut terminal)?;
+    let Found { report, stopped } = search(scene, &loaded.surfaces, execution, wish, &mut terminal).map_err(failure)?;
 
     let making = Making {
         scene: scene.resolved.clone(),
@@ -103,4 +107,14 @@ fn places(
     let places = FILES.map(|name| arguments.output.join(name));
     places.iter().try_for_each(|path| output::check(path, arguments.force, &inputs))?;
     Ok(places)
+}
+
+/// Whose fault it is that errors cannot be measured.
+fn failure(error: AccuracyError) -> Failure {
+    match error {
+        AccuracyError::Input(error) => Failure::input(error),
+        AccuracyError::Run(error) => Failure::of(error),
+        AccuracyError::Stopped { signal, .. } => Failure::Stopped { signal, message: Some(error.to_string()) },
+        AccuracyError::Mesh(_) | AccuracyError::Failed { .. } => Failure::run(error),
+    }
 }

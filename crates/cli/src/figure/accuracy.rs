@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use plateau_run::accuracy::{Ladder, Report, Row};
 use plotters::style::RGBColor;
 
 use super::axes::Axis;
@@ -11,8 +12,6 @@ use super::labels::Labels;
 use super::page::{Content, KeyStyle, Page};
 use super::run::Figure;
 use super::run::chart::{COLUMN, Chart, Meaning, page};
-use crate::accuracy::{Report, Row};
-use crate::arguments::Ladder;
 
 /// Height of the box, pixels.
 const HEIGHT: f64 = 860.0;

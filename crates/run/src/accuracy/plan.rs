@@ -1,9 +1,7 @@
 //! Which runs are made within a budget of wall time, and which of them is the reference.
 
-use super::ladder::{Rung, rungs};
-use super::numerics::Numerics;
-use super::windows::{LEAST_WINDOW, Windows, common_multiple};
-use crate::arguments::Ladder;
+use super::history::{LEAST_WINDOW, Windows, common_multiple};
+use super::ladder::{Ladder, Numerics, Rung, rungs};
 
 /// Part of the budget that is planned for: later steps may take longer than those of the trial.
 const PLANNED: f64 = 0.9;

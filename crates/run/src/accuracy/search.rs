@@ -5,24 +5,21 @@ use std::time::Instant;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
 use plateau_io::dataset_file::now;
+use plateau_io::number;
 use plateau_io::scene::recipe::Scene;
-use plateau_run::Observer;
-use plateau_run::execution::cores;
 
-use super::comparison::{Comparison, HistoryError};
-use super::history::History;
-use super::ladder::{COARSENINGS, Rung, time_accelerations};
-use super::measure::Unfinished;
-use super::numerics::Numerics;
-use super::outcome::Outcome;
+use super::comparison::{Comparison, HistoryError, Outcome};
+use super::error::{AccuracyError, PlanError, enough};
+use super::history::{History, LEAST_WINDOW, Windows, common_multiple};
+use super::ladder::{COARSENINGS, Ladder, Numerics, Rung, time_accelerations};
 use super::plan::{Plan, Refusal, Task, plan};
 use super::reference::{OwnError, Provenance, ReadReference, Reference};
 use super::report::{Measured, Report, Row};
-use super::runs::Runs;
-use super::windows::{LEAST_WINDOW, Windows, common_multiple};
-use crate::arguments::Ladder;
-use crate::failure::Failure;
-use crate::{machine, number, version};
+use super::runs::{Runs, Unfinished};
+use crate::execution::cores;
+use crate::machine;
+use crate::observer::Observer;
+use crate::options::Program;
 
 /// Samples of a reference in a window that ends between them, at least: interpolation errs by a part of their distance.
 const SAMPLES_PER_WINDOW: f64 = 20.0;
@@ -36,6 +33,8 @@ pub struct Wish {
     pub budget: f64,
     /// A reference that was read.
     pub reference: Option<ReadReference>,
+    /// Who makes the runs.
+    pub program: Program,
 }
 
 /// What was found, and the signal that stopped the search, if one did.
@@ -50,15 +49,15 @@ pub struct Found {
 /// Makes the reference, unless there is one, and the runs that fit into the budget.
 ///
 /// # Errors
-/// [`Failure::Input`] when the budget is too small or the reference too coarse, [`Failure::Run`] when the reference fails, and
-/// [`Failure::Stopped`] when a signal came before anything could be compared.
+/// [`AccuracyError`] when the budget is too small or the reference too coarse, when the reference fails, and when a signal came
+/// before anything could be compared.
 pub fn search(
     scene: &Scene,
     surfaces: &InitialSurfaces,
     execution: Execution,
     mut wish: Wish,
     observer: &mut dyn Observer,
-) -> Result<Found, Failure> {
+) -> Result<Found, AccuracyError> {
     let started = Instant::now();
     let runs = Runs::new(scene, surfaces, execution, &wish.ladders, observer)?;
     let read = wish.reference.take();
@@ -97,7 +96,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn plan(&self, read: Option<&ReadReference>) -> Result<Plan, Failure> {
+    fn plan(&self, read: Option<&ReadReference>) -> Result<Plan, AccuracyError> {
         let scene = self.runs.scene;
         let (own, revolution) = (Numerics::of(scene), self.revolution());
         let accelerations = time_accelerations(own.time_acceleration, scene.duration / revolution);
@@ -112,7 +111,7 @@ impl Search<'_> {
         };
         let read = read.map(|read| read.reference.time_acceleration);
         let plan = plan(&task, read, |numerics| self.runs.seconds(numerics));
-        plan.map_err(|refusal| self.refuse(&refusal, &own, read))
+        Ok(plan.map_err(|refusal| self.refuse(&refusal, &own, read))?)
     }
 
     fn note_what_is_left_out(&mut self, plan: &Plan, is_read: bool) {
@@ -148,18 +147,11 @@ impl Search<'_> {
     }
 
     /// Says why there is no plan.
-    fn refuse(&self, refusal: &Refusal, own: &Numerics, read: Option<f64>) -> Failure {
+    fn refuse(&self, refusal: &Refusal, own: &Numerics, read: Option<f64>) -> PlanError {
         let scene = own.acceleration();
         match *refusal {
-            Refusal::NotFiner => Failure::input(format_args!(
-                "the reference has time_acceleration = {}, the scene has {scene}: expected a reference that is finer than the \
-                 scene, or 1",
-                read.unwrap_or(f64::NAN)
-            )),
-            Refusal::NothingToRun { reference } => Failure::input(format_args!(
-                "nothing is coarser than the reference with time_acceleration = {reference}: choose other ladders or a \
-                 longer duration"
-            )),
+            Refusal::NotFiner => PlanError::NotFiner { reference: read.unwrap_or(f64::NAN), scene },
+            Refusal::NothingToRun { reference } => PlanError::NothingToRun { reference },
             Refusal::TooSmall { reference, needed, budget_of_model } => {
                 let (what, model) = match read {
                     Some(_) => ("the runs to hold against the reference".to_owned(), String::new()),
@@ -178,14 +170,8 @@ impl Search<'_> {
                         },
                     ),
                 };
-                Failure::input(format_args!(
-                    "the budget of {} is too small: at {} steps/s, as measured, {what} take about {}; give --budget {} or \
-                     more{model}",
-                    number::duration(self.wish.budget),
-                    number::grouped(self.runs.speed() as u64),
-                    number::duration(needed),
-                    enough(needed)
-                ))
+                let (budget, speed) = (self.wish.budget, self.runs.speed());
+                PlanError::TooSmall { budget, speed, what, needed, model }
             }
         }
     }
@@ -218,7 +204,7 @@ impl Search<'_> {
 
     /// Runs the opening with the model itself, as the reference does and as the scene does. Gives the reference's error there,
     /// and that of the scene against the reference.
-    fn open(&mut self, plan: &Plan, read: Option<&ReadReference>) -> Result<(OwnError, f64), Failure> {
+    fn open(&mut self, plan: &Plan, read: Option<&ReadReference>) -> Result<(OwnError, f64), AccuracyError> {
         let Some(opening) = plan.opening else { return Ok((OwnError::NONE, f64::NAN)) };
         let (own, end) = (Numerics::of(self.runs.scene), opening.span());
         let integrator = read.map_or(own.integrator, |read| read.integrator);
@@ -226,7 +212,7 @@ impl Search<'_> {
             let name = format!("the first {} s with {}", number::short(end), numerics.acceleration());
             let made = self.runs.make(&numerics, end, &opening, &name);
             let outcome = made.map_err(|unfinished| unfinished_before_any(unfinished, &name))?;
-            Ok(outcome.history.mean_areas())
+            Ok::<_, AccuracyError>(outcome.history.mean_areas())
         };
         let model = areas(own.accelerated(1.0))?;
         let reference = areas(Numerics { integrator, ..own.accelerated(plan.reference) })?;
@@ -240,7 +226,7 @@ impl Search<'_> {
         Ok((error, HistoryError::of(&scene, &reference).mean_square))
     }
 
-    fn make_reference(&mut self, time_acceleration: f64, windows: &Windows) -> Result<Reference, Failure> {
+    fn make_reference(&mut self, time_acceleration: f64, windows: &Windows) -> Result<Reference, AccuracyError> {
         let numerics = Numerics::of(self.runs.scene).accelerated(time_acceleration);
         let start_time = now();
         let name = format!("the reference run with {}", numerics.acceleration());
@@ -250,8 +236,8 @@ impl Search<'_> {
             .map_err(|unfinished| unfinished_before_any(unfinished, &name))?;
         let provenance = Provenance {
             file: None,
-            program: version::program(),
-            source_revision: version::REVISION.to_owned(),
+            program: self.wish.program.name.clone(),
+            source_revision: self.wish.program.revision.clone(),
             host: machine::host(),
             workers: self.runs.execution.workers as u64,
             start_time,
@@ -265,7 +251,7 @@ impl Search<'_> {
         plan: &Plan,
         reference: &Reference,
         windows: &Windows,
-    ) -> Result<(Vec<Row>, Option<u8>), Failure> {
+    ) -> Result<(Vec<Row>, Option<u8>), AccuracyError> {
         let (mut rows, mut stopped) = (Vec::new(), None);
         for rung in &plan.rungs {
             // Without the first the reference would be for nothing.
@@ -274,9 +260,8 @@ impl Search<'_> {
             }
             match self.runs.make(&rung.numerics, self.runs.scene.duration, windows, &rung.full_name()) {
                 Err(Unfinished::Stopped(signal)) if rows.is_empty() => {
-                    let message =
-                        format!("stopped by signal {signal} before any run could be compared; nothing is written");
-                    return Err(Failure::Stopped { signal, message: Some(message) });
+                    let moment = "before any run could be compared".to_owned();
+                    return Err(AccuracyError::Stopped { signal, moment });
                 }
                 Err(Unfinished::Stopped(signal)) => {
                     stopped = Some(signal);
@@ -338,18 +323,10 @@ impl Search<'_> {
     }
 }
 
-/// A budget that suffices, as it is given on the command line: with room, for what is needed (s) is an estimate.
-fn enough(needed: f64) -> String {
-    format!("{}s", (1.2 * needed).ceil().max(1.0))
-}
-
 /// Why there is nothing to compare with.
-fn unfinished_before_any(unfinished: Unfinished, run: &str) -> Failure {
+fn unfinished_before_any(unfinished: Unfinished, run: &str) -> AccuracyError {
     match unfinished {
-        Unfinished::Stopped(signal) => Failure::Stopped {
-            signal,
-            message: Some(format!("stopped by signal {signal} during {run}; nothing is written")),
-        },
-        failed => Failure::run(format_args!("{run}: {failed}")),
+        Unfinished::Stopped(signal) => AccuracyError::Stopped { signal, moment: format!("during {run}") },
+        error => AccuracyError::Failed { run: run.to_owned(), error },
     }
 }

@@ -1,15 +1,13 @@
 //! All that was found: what the table, the files and the figure show.
 
+use plateau_io::number::percent;
+
 use super::choice::{CLEAR, Cost, front};
-use super::comparison::Comparison;
-use super::history::History;
-use super::ladder::Rung;
+use super::comparison::{Comparison, Outcome};
+use super::history::{History, Windows};
+use super::ladder::{Ladder, Rung};
 use super::order::{self, Point};
-use super::outcome::Outcome;
 use super::reference::{OwnError, Reference};
-use super::windows::Windows;
-use crate::arguments::Ladder;
-use crate::number::percent;
 
 /// All that was found.
 #[derive(Debug, Clone)]

@@ -1,28 +1,29 @@
-//! The runs of a scene: how each is made, and how long it takes.
+//! The runs of a scene: how each is made and measured, and how long it takes.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::smoothness::Smoothness;
 use plateau_core::model::mesh::MeshError;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
-use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
-use plateau_core::simulation::{Execution, Simulation};
+use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
+use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::recipe::{OutputRecipe, Scene};
-use plateau_run::execution::time_per_step;
-use plateau_run::{Assembly, InputError, Observer, RunError};
+use thiserror::Error;
 
 use super::coarsening::Coarsening;
-use super::ladder::COARSENINGS;
-use super::measure::{Unfinished, measure};
-use super::numerics::{Numerics, steps_until};
-use super::outcome::Outcome;
-use super::windows::Windows;
-use crate::arguments::Ladder;
-use crate::failure::Failure;
+use super::comparison::{End, Heights, Outcome};
+use super::error::AccuracyError;
+use super::history::{History, Windows};
+use super::ladder::{COARSENINGS, Ladder, Numerics, steps_until};
+use crate::assembly::Assembly;
+use crate::error::{InputError, RunError};
+use crate::execution::time_per_step;
+use crate::observer::Observer;
+use crate::time_loop::Sink;
 
 /// What a run that chooses its acceleration is thought to choose, at least, before it is made.
 const USUAL_ACCELERATION: f64 = 20.0;
@@ -48,14 +49,14 @@ impl<'a> Runs<'a> {
     /// Makes coarser meshes where they are asked for, and times the first steps on every mesh.
     ///
     /// # Errors
-    /// [`Failure`] when the scene's surfaces make no simulation, or its first steps fail.
+    /// [`AccuracyError`] when the scene's surfaces make no simulation, or its first steps fail.
     pub fn new(
         scene: &'a Scene,
         surfaces: &'a InitialSurfaces,
         execution: Execution,
         ladders: &[Ladder],
         observer: &'a mut dyn Observer,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, AccuracyError> {
         let mut runs = Self {
             scene,
             execution,
@@ -66,7 +67,7 @@ impl<'a> Runs<'a> {
             step_times: BTreeMap::new(),
         };
         if ladders.contains(&Ladder::Mesh) {
-            runs.coarsen().map_err(Failure::run)?;
+            runs.coarsen()?;
         }
         let time = runs.try_steps(1)?;
         runs.step_times.insert(1, time);
@@ -79,14 +80,13 @@ impl<'a> Runs<'a> {
     }
 
     /// Wall time of the first steps on a mesh, s each; without time acceleration, which could be too much for the scene.
-    fn try_steps(&self, coarsening: usize) -> Result<f64, Failure> {
+    fn try_steps(&self, coarsening: usize) -> Result<f64, RunError> {
         let numerics = Numerics { coarsening, ..Numerics::of(self.scene).accelerated(1.0) };
         let (parameters, surfaces) = (self.parameters(&numerics), self.surfaces(&numerics));
-        let mut simulation = Simulation::with_execution(parameters, surfaces, self.execution)
-            .map_err(InputError::Simulation)
-            .map_err(Failure::input)?;
+        let mut simulation =
+            Simulation::with_execution(parameters, surfaces, self.execution).map_err(InputError::Simulation)?;
         let last = steps_until(simulation.parameters(), self.scene.duration);
-        time_per_step(&mut simulation, last, TRIAL).map_err(Failure::run)
+        Ok(time_per_step(&mut simulation, last, TRIAL)?)
     }
 
     fn coarsen(&mut self) -> Result<(), MeshError> {
@@ -180,5 +180,85 @@ impl<'a> Runs<'a> {
             surfaces.disc_height.iter_mut().for_each(|height| *height *= 1.0 + numerics.perturbation);
         }
         surfaces
+    }
+}
+
+/// Why a run did not come to its end.
+#[derive(Debug, Error)]
+pub enum Unfinished {
+    /// It could not be put together, or a step failed.
+    #[error(transparent)]
+    Failed(#[from] RunError),
+    /// A quantity became infinite or no number.
+    #[error("contact area or heights were no finite numbers after step {step}")]
+    NotFinite {
+        /// The step after which that was seen.
+        step: u64,
+    },
+    /// This signal asked to stop.
+    #[error("stopped by signal {0}")]
+    Stopped(u8),
+}
+
+impl From<SimulationError> for Unfinished {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+/// Takes the steps of a run that is compared over so many windows, and keeps what is compared.
+///
+/// # Errors
+/// [`Unfinished`].
+pub fn measure(mut assembly: Assembly, windows: usize, observer: &mut dyn Observer) -> Result<Outcome, Unfinished> {
+    let (history, last, heights) = (History::start(), Sample::default(), Heights::default());
+    let mut record = Record { observer, windows, history, last, heights };
+    let start = Instant::now();
+    assembly.run_to_end(&mut record)?;
+    let wall_time = Some(start.elapsed().as_secs_f64());
+    let Record { history, last, heights, .. } = record;
+    let end = End::of(&last, assembly.simulation.course().largest_load_residual);
+    Ok(Outcome { steps: assembly.simulation.steps_done(), wall_time, history, end, heights })
+}
+
+/// Keeps what is compared.
+struct Record<'a> {
+    observer: &'a mut dyn Observer,
+    windows: usize,
+    history: History,
+    last: Sample,
+    heights: Heights,
+}
+
+impl Sink for Record<'_> {
+    type Error = Unfinished;
+
+    fn sample(&mut self, sample: Sample) -> Result<(), Unfinished> {
+        if !(sample.contact_area_integral.is_finite() && sample.filled_fraction.is_finite()) {
+            return Err(Unfinished::NotFinite { step: sample.step });
+        }
+        // What comes after the last window is its end.
+        if self.history.moments() < self.windows {
+            self.history.record(sample.time, sample.contact_area_integral, sample.filled_fraction);
+        }
+        self.last = sample;
+        Ok(())
+    }
+
+    fn snapshot(&mut self, snapshot: Snapshot) -> Result<(), Unfinished> {
+        for (map, values) in snapshot.maps {
+            let MapValues::Float(heights) = values else { continue };
+            match map {
+                Map::DiscHeight => self.heights.disc = Some(heights),
+                Map::PinHeight => self.heights.pin = Some(heights),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Unfinished> {
+        self.observer.progress(simulation);
+        self.observer.asked_to_stop().map_or(Ok(steps), |signal| Err(Unfinished::Stopped(signal)))
     }
 }

@@ -1,10 +1,10 @@
 //! Ladders: runs of a scene that differ in one of its numerics.
 
 use plateau_core::acceleration::Adaptive;
-use plateau_core::model::parameters::Integrator;
+use plateau_core::model::parameters::{Integrator, Parameters};
+use plateau_io::scene::recipe::Scene;
 
-use super::numerics::{Numerics, integrator_name};
-use crate::arguments::Ladder;
+use super::coarsening::Coarsening;
 
 /// Time accelerations that are tried, besides the scene's own: they have small common multiples, so that there are windows
 /// of whole revolutions of all of them.
@@ -19,6 +19,38 @@ const TOLERANCES: [f64; 5] = [0.002, 0.005, 0.01, 0.02, 0.05];
 const LARGEST: f64 = 1000.0;
 /// Parts of themselves by which initial heights are changed.
 const PERTURBATIONS: [f64; 3] = [1e-9, 1e-6, 1e-4];
+
+/// What runs differ in whose errors are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Ladder {
+    /// Revolutions that a simulated one stands for.
+    TimeAcceleration,
+    /// Accelerations that the run chooses itself, by the error that it may make.
+    Tolerance,
+    /// Coarser meshes, with the initial surfaces averaged.
+    Mesh,
+    /// The other integrator of wear.
+    Integrator,
+    /// The reference anew with initial heights that differ a little: how much of the errors is chance.
+    Perturbation,
+}
+
+impl Ladder {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::TimeAcceleration, Self::Tolerance, Self::Mesh, Self::Integrator, Self::Perturbation];
+
+    /// Its name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TimeAcceleration => "time_acceleration",
+            Self::Tolerance => "tolerance",
+            Self::Mesh => "mesh",
+            Self::Integrator => "integrator",
+            Self::Perturbation => "perturbation",
+        }
+    }
+}
 
 /// One run of a ladder.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,6 +153,82 @@ pub fn rungs(
     }
     rungs.retain(|rung| rung.ladder == Ladder::Perturbation || rung.numerics.is_judged_by(reference));
     rungs
+}
+
+/// The numerics of one run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numerics {
+    /// m: how many revolutions a simulated one stands for; where the run chooses it, at the start.
+    pub time_acceleration: f64,
+    /// How the run chooses its acceleration, if it does.
+    pub adaptive: Option<Adaptive>,
+    /// Cells of the scene's mesh along a cell; 1 is the scene's mesh.
+    pub coarsening: usize,
+    /// How wear follows from contact.
+    pub integrator: Integrator,
+    /// Initial heights of the disc are changed by this part of themselves; 0 leaves them as they are.
+    pub perturbation: f64,
+}
+
+impl Numerics {
+    /// Those of the scene itself.
+    pub fn of(scene: &Scene) -> Self {
+        let parameters = &scene.parameters;
+        Self {
+            time_acceleration: parameters.time_acceleration,
+            adaptive: scene.adaptive,
+            coarsening: 1,
+            integrator: parameters.integrator,
+            perturbation: 0.0,
+        }
+    }
+
+    /// The same with another time acceleration, which never changes.
+    pub fn accelerated(self, time_acceleration: f64) -> Self {
+        Self { time_acceleration, adaptive: None, ..self }
+    }
+
+    /// The time acceleration as a scene gives it.
+    pub fn acceleration(&self) -> String {
+        match self.adaptive {
+            None => format!("time_acceleration = {}", self.time_acceleration),
+            Some(Adaptive { tolerance, largest }) => {
+                format!("time_acceleration = {{ tolerance = {tolerance}, max = {largest} }}")
+            }
+        }
+    }
+
+    /// Whether a reference with this time acceleration is finer than the run, or the model itself. A run that chooses its
+    /// acceleration begins with 1, so that nothing but the model is finer.
+    pub fn is_judged_by(&self, reference: f64) -> bool {
+        reference == 1.0 || (self.adaptive.is_none() && reference < self.time_acceleration)
+    }
+
+    /// What a simulation with these numerics is told; `coarsening` is that of the mesh, if there is one.
+    pub fn parameters(&self, scene: &Scene, coarsening: Option<&Coarsening>) -> Parameters {
+        let mut parameters = Parameters {
+            time_acceleration: self.time_acceleration,
+            integrator: self.integrator,
+            ..scene.parameters.clone()
+        };
+        if let Some(coarsening) = coarsening {
+            parameters.mesh = coarsening.mesh.clone();
+        }
+        parameters
+    }
+}
+
+/// Steps of a run of `duration` (s), as when the scene is run.
+pub fn steps_until(parameters: &Parameters, duration: f64) -> u64 {
+    parameters.clock().steps_until(duration).max(1)
+}
+
+/// Name of an integrator in a scene.
+pub fn integrator_name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Explicit => "explicit",
+        Integrator::Exponential => "exponential",
+    }
 }
 
 #[cfg(test)]

@@ -8,10 +8,10 @@ use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{InputFile, ReadError, RunFile, State};
 use plateau_io::scene::{Difference, differences, recipe::Scene};
 
+use super::comparison::{End, Heights, Outcome};
+use super::error::ReferenceError;
 use super::history::History;
-use super::numerics::integrator_name;
-use super::outcome::{End, Heights, Outcome};
-use crate::failure::Failure;
+use super::ladder::integrator_name;
 
 /// What every other run is held against.
 #[derive(Debug, Clone)]
@@ -93,24 +93,18 @@ const MOST_KEYS: usize = 5;
 /// Reads the reference of a scene; `inputs` are the surface files that the scene reads, with their digests.
 ///
 /// # Errors
-/// [`Failure::Input`] when it is no finished run with samples of this scene.
-pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<ReadReference, Failure> {
-    let shown = path.display();
-    let run = RunFile::open(path).map_err(Failure::input)?;
+/// [`ReferenceError`] when it is no finished run with samples of this scene.
+pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<ReadReference, ReferenceError> {
+    let run = RunFile::open(path)?;
     if run.state() != State::Finished {
-        return Err(Failure::input(format_args!(
-            "the reference {shown} is {}, expected a run that is finished",
-            run.state().name()
-        )));
+        return Err(ReferenceError::NotFinished { path: path.to_owned(), state: run.state().name() });
     }
     refuse_another_scene(&run, scene, inputs)?;
     let numerics = |key: &str| run.scene().get("numerics").and_then(|numerics| numerics.get(key));
     let time_acceleration =
         numerics("time_acceleration").and_then(|value| value.as_float().or(value.as_integer().map(|m| m as f64)));
     let Some(time_acceleration) = time_acceleration else {
-        return Err(Failure::input(format_args!(
-            "the scene of the reference {shown} has no numerics.time_acceleration"
-        )));
+        return Err(ReferenceError::NoTimeAcceleration { path: path.to_owned() });
     };
     let integrator = numerics("integrator").and_then(|value| value.as_str());
     let integrator = [Integrator::Explicit, Integrator::Exponential]
@@ -122,15 +116,12 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
     let end = run.time().last().copied().unwrap_or(0.0);
     // A run ends at its duration or up to a step later.
     if (end - scene.duration).abs() > 1.01 * parameters.step_time() {
-        return Err(Failure::input(format_args!(
-            "the reference {shown} ends at {end} s, expected {} s as the scene says",
-            scene.duration
-        )));
+        return Err(ReferenceError::OtherEnd { path: path.to_owned(), end, expected: scene.duration });
     }
     let mut missing = Vec::new();
     let outcome = outcome(&run, parameters.clock().steps_until(scene.duration).max(1), &mut missing)?;
     let sample_every = [0.0].iter().chain(run.time()).zip(run.time()).map(|(one, next)| next - one).fold(0.0, f64::max);
-    let file = InputFile::read(path).map_err(|error| Failure::input(format_args!("{shown}: {error}")))?;
+    let file = InputFile::read(path).map_err(|error| ReferenceError::File { path: path.to_owned(), error })?;
     let text = |name: &str| run.attribute(name).unwrap_or_default();
     let provenance = Provenance {
         file: Some(file),
@@ -144,21 +135,21 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
     Ok(ReadReference { reference, integrator, sample_every, missing })
 }
 
-fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outcome, Failure> {
+fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outcome, ReferenceError> {
     let shown = run.path().display();
     let mut needed = Vec::new();
     for name in NEEDED {
-        match run.values(name).map_err(Failure::input)? {
+        match run.values(name)? {
             Some(values) => needed.push(values),
-            None => return Err(Failure::input(format_args!("the reference {shown} has no series {name}"))),
+            None => return Err(ReferenceError::NoSeries { path: run.path().to_owned(), name }),
         }
     }
     let mut history = History::start();
     for (index, time) in run.time().iter().enumerate() {
         history.record(*time, needed[0][index], needed[1][index]);
     }
-    let series = |name: &str| run.values(name).map_err(Failure::input).map(Option::unwrap_or_default);
-    let last = |name: &str| series(name).map(|values| values.last().copied().unwrap_or(f64::NAN));
+    let series = |name: &str| run.values(name).map(Option::unwrap_or_default);
+    let last = |name: &str| series(name).map(|values: Vec<f64>| values.last().copied().unwrap_or(f64::NAN));
     let end = End {
         filled: last("filled_fraction")?,
         worn: last("worn_pin")? + last("worn_resin")? + last("worn_disc")?,
@@ -179,7 +170,7 @@ fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outco
 }
 
 /// A map of heights at the end of a run, if there is one.
-fn last_map(run: &RunFile, map: Map) -> Result<Option<Vec<f64>>, Failure> {
+fn last_map(run: &RunFile, map: Map) -> Result<Option<Vec<f64>>, ReadError> {
     let (Some(time), Some(end), Some(index)) =
         (run.map_time().last(), run.time().last(), run.map_time().len().checked_sub(1))
     else {
@@ -188,7 +179,7 @@ fn last_map(run: &RunFile, map: Map) -> Result<Option<Vec<f64>>, Failure> {
     if time != end {
         return Ok(None);
     }
-    let values = run.map(map, index).map_err(|error: ReadError| Failure::input(error))?;
+    let values = run.map(map, index)?;
     Ok(values.and_then(|values| match values {
         MapValues::Float(heights) => Some(heights),
         MapValues::Status(_) => None,
@@ -196,7 +187,7 @@ fn last_map(run: &RunFile, map: Map) -> Result<Option<Vec<f64>>, Failure> {
 }
 
 /// Refuses a run whose scene differs in more than numerics and output.
-fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<(), Failure> {
+fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<(), ReferenceError> {
     let read: Vec<InputFile> = run.attribute("inputs").map(|text| parsed_inputs(&text)).unwrap_or_default();
     let digest_there = |path: &str| read.iter().find(|input| input.path == path).map(|input| input.sha256.as_str());
     let digest_here =
@@ -227,10 +218,7 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
     if message.is_empty() {
         return Ok(());
     }
-    Err(Failure::input(format_args!(
-        "the reference {} is a run of another scene; only numerics and output may differ:{message}",
-        run.path().display()
-    )))
+    Err(ReferenceError::OtherScene { path: run.path().to_owned(), differences: message })
 }
 
 /// Whether runs that differ in this key are of different scenes. How long they are is compared by their ends.
