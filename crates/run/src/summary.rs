@@ -39,7 +39,7 @@ pub struct RunSummary {
     pub peak_memory: Option<u64>,
     /// Contact area, m².
     pub contact_area: f64,
-    /// Its mean since the last sample but one, m².
+    /// Its mean over the last simulated revolution, m².
     pub contact_area_mean: f64,
     /// Its mean over the last tenth of the run, where there are enough samples.
     pub contact_area_last_tenth: Option<WindowMean>,

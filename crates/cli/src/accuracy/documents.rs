@@ -2,8 +2,7 @@
 
 use plateau_io::dataset_file::now;
 use plateau_io::run_file::InputFile;
-use plateau_run::accuracy::ladder::integrator_name;
-use plateau_run::accuracy::report::{Measured, Report, Row};
+use plateau_run::accuracy::{Measured, Report, Row, integrator_name};
 use serde_json::{Map, Value, json};
 
 use super::text::advice;

@@ -1,9 +1,7 @@
 //! What was found, as tables and sentences for people.
 
 use plateau_core::model::parameters::Integrator;
-use plateau_run::accuracy::choice::{Advice, judge};
-use plateau_run::accuracy::reference::OwnError;
-use plateau_run::accuracy::report::{Measured, Report, Row};
+use plateau_run::accuracy::{Advice, Measured, OwnError, Report, Row, judge};
 
 use crate::number::{self, percent};
 use crate::table::{columns, list, table};

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValue;
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use plateau_io::units::{self, Dimension};
 use plateau_run::accuracy::Ladder;
 
@@ -18,8 +18,8 @@ pub struct AccuracyArguments {
     #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
     pub budget: f64,
     /// Ladders that are climbed, with commas between; all but mesh and perturbation unless given
-    #[arg(long = "ladder", value_enum, value_name = "NAME", value_delimiter = ',')]
-    pub ladders: Vec<LadderArgument>,
+    #[arg(long = "ladder", value_parser = ladder(), value_name = "NAME", value_delimiter = ',')]
+    pub ladders: Vec<Ladder>,
     /// Run file of the same scene, numerics and output apart, that is the reference instead of a run made here; finer than
     /// the scene
     #[arg(long, value_name = "RUN")]
@@ -35,32 +35,22 @@ pub struct AccuracyArguments {
 }
 
 /// A value of `--ladder`.
-#[derive(Debug, Clone, Copy)]
-pub struct LadderArgument(pub Ladder);
+fn ladder() -> impl TypedValueParser<Value = Ladder> {
+    let value = |ladder: Ladder| PossibleValue::new(ladder.name()).help(meaning(ladder));
+    let named = |name: String| Ladder::ALL.into_iter().find(|ladder| ladder.name() == name).ok_or("no such ladder");
+    PossibleValuesParser::new(Ladder::ALL.map(value)).try_map(named)
+}
 
-impl ValueEnum for LadderArgument {
-    fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [LadderArgument; 5] = [
-            LadderArgument(Ladder::ALL[0]),
-            LadderArgument(Ladder::ALL[1]),
-            LadderArgument(Ladder::ALL[2]),
-            LadderArgument(Ladder::ALL[3]),
-            LadderArgument(Ladder::ALL[4]),
-        ];
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self.0 {
-            Ladder::TimeAcceleration => "Revolutions that a simulated one stands for",
-            Ladder::Tolerance => "Accelerations that the run chooses itself, by the error that it may make",
-            Ladder::Mesh => "Coarser meshes, with the initial surfaces averaged",
-            Ladder::Integrator => "The other integrator of wear",
-            Ladder::Perturbation => {
-                "The reference anew with initial heights that differ a little: how much of the errors is chance"
-            }
-        };
-        Some(PossibleValue::new(self.0.name()).help(help))
+/// What the runs of a ladder differ in.
+fn meaning(ladder: Ladder) -> &'static str {
+    match ladder {
+        Ladder::TimeAcceleration => "Revolutions that a simulated one stands for",
+        Ladder::Tolerance => "Accelerations that the run chooses itself, by the error that it may make",
+        Ladder::Mesh => "Coarser meshes, with the initial surfaces averaged",
+        Ladder::Integrator => "The other integrator of wear",
+        Ladder::Perturbation => {
+            "The reference anew with initial heights that differ a little: how much of the errors is chance"
+        }
     }
 }
 

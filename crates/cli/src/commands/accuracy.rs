@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
-use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Wish, reference, search};
+use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Wish, read_reference, search};
 use plateau_run::execution::decide;
 use plateau_run::input_files;
 
@@ -32,7 +32,7 @@ pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let path = arguments.reference.as_deref();
     let reference =
-        path.map(|path| reference::read(path, &scene, &loaded.inputs)).transpose().map_err(Failure::input)?;
+        path.map(|path| read_reference(path, &scene, &loaded.inputs)).transpose().map_err(Failure::input)?;
     let is_new = !arguments.output.exists();
     output::make_directory(&arguments.output)?;
     let result = measure_into(arguments, &scene, loaded, reference);
@@ -54,8 +54,7 @@ fn measure_into(
     let start_time = now();
     let options = arguments.execution.options();
     let execution = decide(scene, 1, &options, &loaded.surfaces, &mut Messages).map_err(Failure::run)?;
-    let asked: Vec<Ladder> = arguments.ladders.iter().map(|ladder| ladder.0).collect();
-    let mut ladders = if asked.is_empty() { USUAL.to_vec() } else { asked };
+    let mut ladders = if arguments.ladders.is_empty() { USUAL.to_vec() } else { arguments.ladders.clone() };
     ladders.sort_unstable();
     ladders.dedup();
     let wish = Wish { ladders, budget: arguments.budget, reference, program: version::this() };

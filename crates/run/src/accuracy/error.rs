@@ -4,11 +4,11 @@ use std::io;
 use std::path::PathBuf;
 
 use plateau_core::model::mesh::MeshError;
+use plateau_core::simulation::SimulationError;
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
 use thiserror::Error;
 
-use super::runs::Unfinished;
 use crate::error::RunError;
 
 /// Why errors cannot be measured.
@@ -39,6 +39,29 @@ pub enum AccuracyError {
         /// When, in words.
         moment: String,
     },
+}
+
+/// Why a run did not come to its end.
+#[derive(Debug, Error)]
+pub enum Unfinished {
+    /// It could not be put together, or a step failed.
+    #[error(transparent)]
+    Failed(#[from] RunError),
+    /// A quantity became infinite or no number.
+    #[error("contact area or heights were no finite numbers after step {step}")]
+    NotFinite {
+        /// The step after which that was seen.
+        step: u64,
+    },
+    /// This signal asked to stop.
+    #[error("stopped by signal {0}")]
+    Stopped(u8),
+}
+
+impl From<SimulationError> for Unfinished {
+    fn from(error: SimulationError) -> Self {
+        Self::Failed(error.into())
+    }
 }
 
 /// Why there are no runs to compare.

@@ -37,7 +37,7 @@ pub struct Row {
     pub stiffness_number: f64,
     /// What was measured, or why the run failed.
     pub result: Result<Measured, String>,
-    /// Whether the error of the contact area is at least [`CLEAR`] times the reference's own.
+    /// Whether the error of the contact area is well above the reference's own.
     pub is_clear: bool,
     /// Whether no other rung is as quick and as exact.
     pub on_front: bool,

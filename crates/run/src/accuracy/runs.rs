@@ -10,13 +10,12 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::recipe::{OutputRecipe, Scene};
-use thiserror::Error;
 
 use super::coarsening::Coarsening;
 use super::comparison::{End, Heights, Outcome};
-use super::error::AccuracyError;
+use super::error::{AccuracyError, Unfinished};
 use super::history::{History, Windows};
 use super::ladder::{COARSENINGS, Ladder, Numerics, steps_until};
 use crate::assembly::Assembly;
@@ -180,29 +179,6 @@ impl<'a> Runs<'a> {
             surfaces.disc_height.iter_mut().for_each(|height| *height *= 1.0 + numerics.perturbation);
         }
         surfaces
-    }
-}
-
-/// Why a run did not come to its end.
-#[derive(Debug, Error)]
-pub enum Unfinished {
-    /// It could not be put together, or a step failed.
-    #[error(transparent)]
-    Failed(#[from] RunError),
-    /// A quantity became infinite or no number.
-    #[error("contact area or heights were no finite numbers after step {step}")]
-    NotFinite {
-        /// The step after which that was seen.
-        step: u64,
-    },
-    /// This signal asked to stop.
-    #[error("stopped by signal {0}")]
-    Stopped(u8),
-}
-
-impl From<SimulationError> for Unfinished {
-    fn from(error: SimulationError) -> Self {
-        Self::Failed(error.into())
     }
 }
 

@@ -9,13 +9,13 @@ use plateau_io::number;
 use plateau_io::scene::recipe::Scene;
 
 use super::comparison::{Comparison, HistoryError, Outcome};
-use super::error::{AccuracyError, PlanError, enough};
+use super::error::{AccuracyError, PlanError, Unfinished, enough};
 use super::history::{History, LEAST_WINDOW, Windows, common_multiple};
 use super::ladder::{COARSENINGS, Ladder, Numerics, Rung, time_accelerations};
 use super::plan::{Plan, Refusal, Task, plan};
 use super::reference::{OwnError, Provenance, ReadReference, Reference};
 use super::report::{Measured, Report, Row};
-use super::runs::{Runs, Unfinished};
+use super::runs::Runs;
 use crate::execution::cores;
 use crate::machine;
 use crate::observer::Observer;

@@ -9,8 +9,8 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 
-use super::work_queue::WorkQueue;
-use super::{Agreement, PieceEnd};
+use super::agreement::Agreement;
+use super::work_queue::{PieceEnd, WorkQueue};
 use crate::error::{InputError, RunError, RunFailure};
 
 /// Between two looks for ranks that want work.

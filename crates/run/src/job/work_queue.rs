@@ -2,7 +2,16 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use super::PieceEnd;
+/// How a piece of shared work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PieceEnd {
+    /// It is done.
+    Done,
+    /// It failed; the others go on.
+    Failed,
+    /// No more is to be begun.
+    Stopped,
+}
 
 /// Hands out pieces, each once.
 #[derive(Debug)]

@@ -1,0 +1,120 @@
+//! A run as another program has it: observed, stopped, gone on with, refused.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+use plateau_core::observe::Sample;
+use plateau_core::simulation::{Execution, SimulationError};
+use plateau_io::run_file::RunFile;
+use plateau_io::scene::recipe::Scene;
+use plateau_io::{scene, surface};
+use plateau_run::{Assembly, InputError, Job, Observer, Progress, RunError, RunOptions, Sink, StartMode, run};
+
+/// Notes what a run says, and stops it after so many samples.
+#[derive(Default)]
+struct Notes {
+    said: Vec<String>,
+    samples: Vec<Sample>,
+    stop_after: Option<usize>,
+}
+
+impl Observer for Notes {
+    fn note(&mut self, message: &dyn Display) {
+        self.said.push(message.to_string());
+    }
+
+    fn sample(&mut self, sample: &Sample) {
+        self.samples.push(*sample);
+    }
+
+    fn asked_to_stop(&mut self) -> Option<u8> {
+        self.stop_after.filter(|samples| self.samples.len() >= *samples).map(|_| 2)
+    }
+}
+
+/// The first half of the quick scene, 300 samples.
+fn quick() -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes/quick.toml");
+    scene::load(&path, &["operation.duration=30 s".to_owned()]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn options(output: &Path, mode: StartMode) -> RunOptions {
+    RunOptions { output: Some(output.to_owned()), mode, ..RunOptions::default() }
+}
+
+fn job() -> Job {
+    Job::start().unwrap()
+}
+
+fn contact_areas(file: &PathBuf) -> Vec<f64> {
+    RunFile::open(file).unwrap().values("contact_area").unwrap().unwrap()
+}
+
+#[test]
+fn an_observer_is_told_every_sample_that_is_in_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run.h5");
+    let mut notes = Notes::default();
+    let summary = run(quick(), &options(&file, StartMode::New), &mut job(), &mut notes).unwrap().unwrap();
+    assert_eq!((summary.steps, notes.samples.len()), (quick().steps, 300));
+    let areas: Vec<f64> = notes.samples.iter().map(|sample| sample.contact_area).collect();
+    assert_eq!(contact_areas(&file), areas);
+    assert_eq!(summary.contact_area, areas[299]);
+}
+
+#[test]
+fn a_run_that_was_stopped_goes_on_to_the_same_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let [whole, stopped] = ["whole.h5", "stopped.h5"].map(|name| folder.path().join(name));
+    run(quick(), &options(&whole, StartMode::New), &mut job(), &mut ()).unwrap();
+    let mut notes = Notes { stop_after: Some(20), ..Notes::default() };
+    let Err(RunError::Stopped(stop)) = run(quick(), &options(&stopped, StartMode::New), &mut job(), &mut notes) else {
+        panic!("not stopped")
+    };
+    let Progress::Saved { steps, samples, .. } = stop.progress else { panic!("{stop}") };
+    assert!(stop.signal == 2 && (20..300).contains(&samples) && (1..quick().steps).contains(&steps), "{stop:?}");
+    let mut notes = Notes::default();
+    let summary = run(quick(), &options(&stopped, StartMode::Resume), &mut job(), &mut notes).unwrap().unwrap();
+    assert!(notes.said[0].starts_with(&format!("goes on from step {steps}, ")), "{:?}", notes.said);
+    assert_eq!((summary.steps, notes.samples.len()), (quick().steps, 300 - samples));
+    assert_eq!(contact_areas(&stopped), contact_areas(&whole));
+    // Now there is nothing left to do, and that is said.
+    let mut notes = Notes::default();
+    assert!(run(quick(), &options(&stopped, StartMode::Resume), &mut job(), &mut notes).unwrap().is_none());
+    assert!(notes.said[0].contains("is finished"), "{:?}", notes.said);
+}
+
+#[test]
+fn a_file_that_is_there_is_a_wrong_input_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run.h5");
+    std::fs::write(&file, "mine").unwrap();
+    let refused = run(quick(), &options(&file, StartMode::New), &mut job(), &mut ());
+    assert!(matches!(refused, Err(RunError::Input(InputError::RunFile(_)))), "{refused:?}");
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
+}
+
+/// Contact areas.
+#[derive(Default)]
+struct Areas(Vec<f64>);
+
+impl Sink for Areas {
+    type Error = SimulationError;
+
+    fn sample(&mut self, sample: Sample) -> Result<(), SimulationError> {
+        self.0.push(sample.contact_area);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_run_without_a_file_has_the_same_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("run.h5");
+    run(quick(), &options(&file, StartMode::New), &mut job(), &mut ()).unwrap();
+    let scene = quick();
+    let surfaces = surface::load(&scene).unwrap().surfaces;
+    let mut areas = Areas::default();
+    Assembly::new(&scene, surfaces, Execution::default()).unwrap().run_to_end(&mut areas).unwrap();
+    assert_eq!(areas.0, contact_areas(&file));
+}
