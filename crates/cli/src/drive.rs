@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::scout::{Scout, ScoutCheckpoint};
 use plateau_core::observe::schedule::Schedule;
-use plateau_core::observe::{ChosenAcceleration, Sample, Snapshot};
+use plateau_core::observe::{ACCELERATION, Sample, Snapshot};
 use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
@@ -75,7 +75,7 @@ pub fn drive<S: Sink>(
     output: &OutputRecipe,
     sink: &mut S,
 ) -> Result<(), S::Error> {
-    let OutputRecipe { maps, roughness, pressure_spread, .. } = output;
+    let OutputRecipe { maps, extras, .. } = output;
     let mut steps_per_look = 1;
     if simulation.steps_done() == 0 && schedule.has_maps(0) && !maps.is_empty() {
         sink.snapshot(simulation.snapshot(maps)?)?;
@@ -98,10 +98,10 @@ pub fn drive<S: Sink>(
             }
         }
         if sampled {
-            let mut sample = simulation.sample()?;
-            sample.roughness = roughness.then(|| simulation.roughness()).transpose()?;
-            sample.pressure_spread = pressure_spread.then(|| simulation.pressure_spread()).transpose()?;
-            sample.acceleration = scout.as_deref().map(chosen);
+            let mut sample = simulation.sample_with(extras)?;
+            if let Some(choice) = scout.as_deref().map(Scout::choice) {
+                sample.add(ACCELERATION.quantities, [choice.acceleration(), choice.error()]);
+            }
             sink.sample(sample)?;
         }
         if mapped {
@@ -120,11 +120,6 @@ pub fn drive<S: Sink>(
     }
     simulation.check_heights()?;
     Ok(())
-}
-
-/// The acceleration of a run and the error that it is thought to cause.
-fn chosen(scout: &Scout) -> ChosenAcceleration {
-    ChosenAcceleration { acceleration: scout.choice().acceleration(), error: scout.choice().error() }
 }
 
 /// The number of steps between two looks, after that many took so long.

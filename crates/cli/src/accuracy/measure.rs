@@ -10,7 +10,6 @@ use plateau_core::simulation::{Simulation, SimulationError};
 use plateau_io::scene::recipe::OutputRecipe;
 
 use super::history::History;
-use super::numerics::steps_until;
 use super::outcome::{End, Heights, Outcome};
 use super::windows::Windows;
 use crate::drive::{Sink, drive};
@@ -65,14 +64,13 @@ pub fn measure(
         sample_every: SampleEvery::Time(windows.width),
         maps_at: Vec::new(),
         maps: vec![Map::DiscHeight, Map::PinHeight],
-        roughness: false,
-        pressure_spread: false,
+        extras: Vec::new(),
         checkpoint_every: f64::INFINITY,
     };
     let end = if scout.is_some() {
         schedule::End::Time(duration)
     } else {
-        schedule::End::Steps(steps_until(&parameters, duration))
+        schedule::End::Steps(parameters.steps_of(duration))
     };
     let schedule = Schedule::new(parameters.clock(), end, output.sample_every, &output.maps_at);
     let mut record = Record {

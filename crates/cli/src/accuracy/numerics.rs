@@ -69,11 +69,6 @@ impl Numerics {
     }
 }
 
-/// Steps of a run of `duration` (s), as when the scene is run.
-pub fn steps_until(parameters: &Parameters, duration: f64) -> u64 {
-    parameters.clock().steps_until(duration).max(1)
-}
-
 /// Name of an integrator in a scene.
 pub fn integrator_name(integrator: Integrator) -> &'static str {
     match integrator {

@@ -128,7 +128,7 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
         )));
     }
     let mut missing = Vec::new();
-    let outcome = outcome(&run, parameters.clock().steps_until(scene.duration).max(1), &mut missing)?;
+    let outcome = outcome(&run, parameters.steps_of(scene.duration), &mut missing)?;
     let sample_every = [0.0].iter().chain(run.time()).zip(run.time()).map(|(one, next)| next - one).fold(0.0, f64::max);
     let file = InputFile::read(path).map_err(|error| Failure::input(format_args!("{shown}: {error}")))?;
     let text = |name: &str| run.attribute(name).unwrap_or_default();

@@ -14,7 +14,7 @@ use plateau_io::scene::recipe::Scene;
 use super::coarsening::Coarsening;
 use super::ladder::COARSENINGS;
 use super::measure::{Unfinished, measure};
-use super::numerics::{Numerics, steps_until};
+use super::numerics::Numerics;
 use super::outcome::Outcome;
 use super::windows::Windows;
 use crate::arguments::Ladder;
@@ -80,7 +80,7 @@ impl<'a> Runs<'a> {
     fn try_steps(&self, coarsening: usize) -> Result<f64, Failure> {
         let numerics = Numerics { coarsening, ..Numerics::of(self.scene).accelerated(1.0) };
         let mut simulation = self.simulation(&numerics).map_err(Failure::input)?;
-        let last = steps_until(simulation.parameters(), self.scene.duration);
+        let last = simulation.parameters().steps_of(self.scene.duration);
         time_per_step(&mut simulation, last, TRIAL).map_err(Failure::run)
     }
 
@@ -109,7 +109,7 @@ impl<'a> Runs<'a> {
 
     /// About how long a run takes, s.
     pub fn seconds(&self, numerics: &Numerics) -> f64 {
-        let steps = steps_until(&self.parameters(numerics), self.scene.duration) as f64;
+        let steps = self.parameters(numerics).steps_of(self.scene.duration) as f64;
         let time = self.step_times.get(&numerics.coarsening).copied().unwrap_or(0.0) * steps;
         if numerics.adaptive.is_some() && !self.too_smooth { time / USUAL_ACCELERATION } else { time }
     }

@@ -7,7 +7,8 @@ use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::{Mesh, MeshError};
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::Base;
-use plateau_core::observe::Extras;
+use plateau_core::observe::extra::Extra;
+use plateau_core::observe::requested;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
@@ -108,7 +109,7 @@ fn parameters_and_steps(settings: &Settings) -> Result<(Parameters, u64), Proble
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
     }
     let (steps_key, steps) = match settings.optional_number("operation.duration")? {
-        Some(duration) => ("operation.duration", parameters.clock().steps_until(duration).max(1)),
+        Some(duration) => ("operation.duration", parameters.steps_of(duration)),
         None => ("operation.steps", settings.integer("operation.steps")?),
     };
     if steps > MOST_STEPS {
@@ -129,12 +130,7 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let extras = Extras {
-            roughness: settings.bool("output.roughness")?,
-            pressure_spread: settings.bool("output.pressure_spread")?,
-            acceleration: adaptive(settings)?.is_some(),
-        };
-        let needed = memory::estimate(counts, maps, extras);
+        let needed = memory::estimate(counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
                 "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",
@@ -363,11 +359,15 @@ fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Res
     maps.dedup();
     settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
     let file = PathBuf::from(settings.text("output.file")?);
-    let roughness = settings.bool("output.roughness")?;
-    let pressure_spread = settings.bool("output.pressure_spread")?;
+    let extras = extras(settings)?;
     let checkpoint_every = settings.number("output.checkpoint_every")?;
     let maps_at = map_times(settings, end, warnings);
-    Ok(OutputRecipe { file, sample_every, maps_at, maps, roughness, pressure_spread, checkpoint_every })
+    Ok(OutputRecipe { file, sample_every, maps_at, maps, extras, checkpoint_every })
+}
+
+/// The series on request whose switches are on.
+fn extras(settings: &Settings) -> Result<Vec<&'static Extra>, Problem> {
+    requested(|name| settings.bool(&join("output", name)))
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.

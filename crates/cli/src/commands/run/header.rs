@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use plateau_core::observe::Extras;
 use plateau_core::simulation::Simulation;
 use plateau_io::run_file::{Header, InputFile};
 use plateau_io::scene::recipe::Scene;
@@ -31,7 +30,7 @@ pub(super) fn header(
         mesh: scene.parameters.mesh.clone(),
         pin_base: simulation.pin_base().to_vec(),
         maps: scene.output.maps.clone(),
-        extras: Extras { acceleration: accelerates, ..scene.extras() },
+        extras: scene.extras(accelerates),
         expected_samples,
         scene: scene.resolved.clone(),
         program: version::program(),

@@ -109,7 +109,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
         &scene,
         surface_report,
         &path,
-        &keeper.last_sample.unwrap_or_default(),
+        &keeper.last_sample.clone().unwrap_or_default(),
         contact_area,
         simulation.course(),
         report,

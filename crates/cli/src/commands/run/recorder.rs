@@ -59,7 +59,7 @@ impl Sink for Recorder<'_> {
 
     fn sample(&mut self, sample: Sample) -> Result<(), RunFailure> {
         self.recorded.add(&sample);
-        self.keeper.sampled(sample);
+        self.keeper.sampled(sample.clone());
         self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample)).map_err(RunFailure::RunFile)
     }
 

@@ -1,5 +1,7 @@
 //! The table of keys.
 
+use plateau_core::observe::EXTRAS;
+
 use super::{Choose, Group, Key, Kind, Meaningless, Need, Range};
 use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Text, Times, True};
@@ -202,18 +204,11 @@ pub(super) fn all() -> Vec<Key> {
     );
     table.key("maps_at", Times, Default("[]"), "physical times of maps; the last state is always written");
     table.key("maps", Maps, Computed("all seven"), "maps that are written");
-    table.key(
-        "roughness",
-        Bool,
-        Default("false"),
-        "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
-    );
-    table.key(
-        "pressure_spread",
-        Bool,
-        Default("false"),
-        "whether the coefficient of variation and the Gini coefficient of the pressure are written with every sample",
-    );
+    for extra in EXTRAS {
+        if let Some(request) = &extra.request {
+            table.key(extra.name, Bool, Default("false"), request.meaning);
+        }
+    }
     table.key(
         "checkpoint_every",
         time(Range::POSITIVE),
