@@ -3,6 +3,7 @@
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::parameters::{Integrator, Parameters};
 use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::schema::choices;
 
 use super::coarsening::Coarsening;
 
@@ -71,8 +72,5 @@ impl Numerics {
 
 /// Name of an integrator in a scene.
 pub fn integrator_name(integrator: Integrator) -> &'static str {
-    match integrator {
-        Integrator::Explicit => "explicit",
-        Integrator::Exponential => "exponential",
-    }
+    choices::word(&choices::INTEGRATOR, &integrator)
 }
