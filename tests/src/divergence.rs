@@ -2,21 +2,15 @@
 
 use std::fmt;
 
-use plateau_core::observe::pressure_spread::PressureSpread;
-use plateau_core::observe::roughness::BothRoughness;
-use plateau_core::observe::{self, ChosenAcceleration, Extras, Map, MapValues, QUANTITIES, Sample};
+use plateau_core::observe::{self, EXTRAS, Map, QUANTITIES, Sample};
 use plateau_core::simulation::Simulation;
 
 /// Steps between two comparisons; where one fails, the steps before it are taken once more, one by one.
 const STEPS_BETWEEN: u64 = 100;
 
 // A sample is its step, its time and the quantities: none of its numbers is left out of a comparison.
-const _: () = {
-    let options = size_of::<Option<BothRoughness>>()
-        + size_of::<Option<PressureSpread>>()
-        + size_of::<Option<ChosenAcceleration>>();
-    assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + options);
-};
+const _: () =
+    assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + size_of::<Vec<(&'static str, f64)>>());
 
 /// The first step after which two simulations differ, and in what.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,18 +101,13 @@ impl Moment {
     fn reach(simulation: &mut Simulation, step: u64) -> Result<Self, String> {
         let mut told = || {
             simulation.advance_to(step)?;
-            let (roughness, pressure_spread) = (Some(simulation.roughness()?), Some(simulation.pressure_spread()?));
-            Ok((Sample { roughness, pressure_spread, ..simulation.sample()? }, simulation.snapshot(&Map::ALL)?))
+            Ok((simulation.sample_with(EXTRAS)?, simulation.snapshot(&Map::ALL)?))
         };
         let (sample, snapshot) =
             told().map_err(|error: plateau_core::simulation::SimulationError| error.to_string())?;
         let mut quantities = vec![("step", sample.step as f64), ("time", sample.time)];
-        quantities.extend(observe::quantities(Extras::ALL).map(|quantity| (quantity.name, (quantity.value)(&sample))));
-        let numbers = |values| match values {
-            MapValues::Float(values) => values,
-            MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),
-        };
-        let maps = snapshot.maps.into_iter().map(|(map, values)| (map, numbers(values))).collect();
+        quantities.extend(observe::quantities(EXTRAS).map(|quantity| (quantity.name, quantity.value(&sample))));
+        let maps = snapshot.maps.into_iter().map(|(map, values)| (map, values.into_numbers())).collect();
         Ok(Self { quantities, maps })
     }
 

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use plateau_core::observe::EXTRAS;
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, scene, vector};
 use plateau_tests::run_file::RunFile;
 use serde_json::Value;
@@ -206,9 +207,10 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "map pin_substrate",
         "map pin_status",
         "map pressure",
-        "roughness with every sample",
-        "spread of the pressure with every sample",
     ];
+    let on_request = || EXTRAS.iter().filter_map(|extra| Some((extra.name, extra.request.as_ref()?.what)));
+    let of_series = on_request().map(|(_, what)| format!("{what} with every sample"));
+    let optional: Vec<String> = optional.into_iter().map(str::to_owned).chain(of_series).collect();
     let least = [
         "materials.pin_primary.specific_wear_rate=0 1/Pa",
         "pin.base.uniform=primary",
@@ -217,7 +219,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "output.maps=[]",
     ];
     let least: Vec<&str> = least.iter().flat_map(|set| ["--set", set]).collect();
-    assert_eq!((parts(&least, "left_out"), parts(&least, "needed")), (optional.map(str::to_owned).to_vec(), vec![]));
+    assert_eq!((parts(&least, "left_out"), parts(&least, "needed")), (optional.clone(), vec![]));
     let most = [
         "materials.disc_primary.specific_wear_rate=1e-16 1/Pa",
         "materials.pin_secondary.youngs_modulus=2e9 Pa",
@@ -225,11 +227,11 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "plateaus.captured_fraction=0.06",
         "numerics.integrator=exponential",
         "numerics.workers=2",
-        "output.roughness=true",
-        "output.pressure_spread=true",
     ];
-    let most: Vec<&str> = most.iter().flat_map(|set| ["--set", set]).collect();
-    assert_eq!((parts(&most, "needed"), parts(&most, "left_out")), (optional.map(str::to_owned).to_vec(), vec![]));
+    let switches: Vec<String> = on_request().map(|(name, _)| format!("output.{name}=true")).collect();
+    let most = most.into_iter().chain(switches.iter().map(String::as_str));
+    let most: Vec<&str> = most.flat_map(|set| ["--set", set]).collect();
+    assert_eq!((parts(&most, "needed"), parts(&most, "left_out")), (optional, vec![]));
 }
 
 #[test]

@@ -6,9 +6,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use plateau_core::observe::{
-    ACCELERATION_QUANTITIES, Map, PRESSURE_SPREAD_QUANTITIES, QUANTITIES, Quantity, ROUGHNESS_QUANTITIES,
-};
+use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
 use plateau_io::units::Dimension;
 
@@ -228,9 +226,9 @@ fn series(quantities: &[Quantity]) -> String {
 #[test]
 fn every_series_is_documented() {
     expect_table("run-file.md", "series", &series(QUANTITIES));
-    expect_table("run-file.md", "roughness series", &series(ROUGHNESS_QUANTITIES));
-    expect_table("run-file.md", "pressure spread series", &series(PRESSURE_SPREAD_QUANTITIES));
-    expect_table("run-file.md", "acceleration series", &series(ACCELERATION_QUANTITIES));
+    for extra in EXTRAS {
+        expect_table("run-file.md", &format!("{} series", extra.name.replace('_', " ")), &series(extra.quantities));
+    }
 }
 
 /// Markdown files of the repository, by their path from its root.

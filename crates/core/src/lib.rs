@@ -24,7 +24,7 @@
 //! | 4P formation | d = min(γ, s), s = M/S | [`debris::Debris::prepare`](engine::debris::Debris::prepare), [`plateau`](engine::plateau) |
 //! | 4P balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`](engine::debris::Debris::settle) |
 //! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance_to`] |
-//! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::roughness`] |
+//! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::sample_with`] |
 //!
 //! [`model::step`] is all of it as it is read, cell by cell. The engine takes the same steps: `worker` takes the rules in turn,
 //! those of eight cells are `kernel::worn` (4.2) and `kernel::cells` (4P), that of a cell with local debris `kernel::deposit` (4L).

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::acceleration::scout::ScoutCheckpoint;
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::{Extras, Sample};
+use plateau_core::observe::Sample;
 use plateau_core::simulation::checkpoint::Checkpoint;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -89,9 +89,9 @@ pub enum CheckpointError {
 
 /// Bytes of a checkpoint, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
 /// twice.
-pub fn size_estimate(mesh: &Mesh, extras: Extras) -> u64 {
+pub fn size_estimate(mesh: &Mesh, chooses_acceleration: bool) -> u64 {
     let cells = (mesh.disc_cells() + mesh.pin_cells()) as u64;
-    let states = if extras.acceleration { 2 } else { 1 };
+    let states = if chooses_acceleration { 2 } else { 1 };
     BESIDES + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
 }
 

@@ -46,7 +46,7 @@ fn a_finished_run_is_read_as_it_was_sent() {
     for quantity in QUANTITIES {
         let series = run.series().iter().find(|series| series.name == quantity.name).unwrap();
         assert_eq!((series.unit.as_str(), series.long_name.as_str()), (quantity.unit, quantity.long_name));
-        let sent: Vec<f64> = (1..=100).map(|step| (quantity.value)(&sample(step))).collect();
+        let sent: Vec<f64> = (1..=100).map(|step| quantity.value(&sample(step))).collect();
         assert_eq!(run.values(quantity.name).unwrap(), Some(sent), "{}", quantity.name);
     }
     for (index, time) in [(0, 0.0), (1, 25.0)] {

@@ -61,8 +61,7 @@ fn scene() -> Scene {
         pin_base_mirror: false,
         workers: Workers::Count(1),
         output: OutputRecipe {
-            roughness: false,
-            pressure_spread: false,
+            extras: Vec::new(),
             checkpoint_every: 60.0,
             file: PathBuf::from("test.h5"),
             sample_every: SampleEvery::Steps(1),

@@ -55,7 +55,7 @@ impl Checkpointer {
             last: now,
             start: now,
             earlier: earlier.map_or(0.0, |state| state.wall_time),
-            last_sample: earlier.and_then(|state| state.last),
+            last_sample: earlier.and_then(|state| state.last.clone()),
             sent: earlier.map_or([0, 0], |state| [state.samples, state.snapshots]),
             writing: None,
         }
@@ -98,7 +98,7 @@ impl Checkpointer {
             scene,
             inputs,
             samples: self.sent[0],
-            last: self.last_sample,
+            last: self.last_sample.clone(),
             snapshots: self.sent[1],
             wall_time: self.earlier + self.start.elapsed().as_secs_f64(),
             finished,

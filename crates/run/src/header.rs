@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use plateau_core::observe::Extras;
 use plateau_io::run_file::{Header, InputFile};
 use plateau_io::scene::recipe::Scene;
 
@@ -29,7 +28,7 @@ pub fn header(
         mesh: scene.parameters.mesh.clone(),
         pin_base: assembly.simulation.pin_base().to_vec(),
         maps: scene.output.maps.clone(),
-        extras: Extras { acceleration: assembly.chooses_acceleration(), ..scene.extras() },
+        extras: scene.extras(assembly.chooses_acceleration()),
         expected_samples: assembly.schedule.samples(),
         scene: scene.resolved.clone(),
         program: program.name.clone(),

@@ -61,7 +61,7 @@ impl Sink for Recorder<'_> {
 
     fn sample(&mut self, sample: Sample) -> Result<(), Interruption> {
         self.recorded.add(&sample);
-        self.checkpointer.sampled(sample);
+        self.checkpointer.sampled(sample.clone());
         self.observer.sample(&sample);
         Ok(self.writer.as_mut().map_or(Ok(()), |writer| writer.sample(sample))?)
     }

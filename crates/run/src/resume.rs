@@ -5,15 +5,11 @@ use std::path::Path;
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
 use plateau_io::scene::differences;
+use plateau_io::scene::schema::{self, Role};
 
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
 use crate::observer::Observer;
-
-/// Keys that may differ, for they do not show in the steps, or only in how many there are.
-const FREE: [&str; 4] = ["title", "numerics.workers", "output.file", "output.checkpoint_every"];
-/// Keys that say how long the run is, or depend on that.
-const LENGTH: [&str; 3] = ["operation.duration", "operation.steps", "output.maps_at"];
 
 /// The states to go on from, the newest first; none if there is no checkpoint.
 ///
@@ -77,7 +73,11 @@ fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: b
 /// [`InputError`], which names the keys that differ.
 pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, extends: bool) -> Result<(), InputError> {
     let now = identity.scene.parse().unwrap_or_default();
-    let free = |key: &str| FREE.contains(&key) || (extends && LENGTH.contains(&key));
+    let free = |key: &str| match schema::role(key) {
+        Role::Nothing => true,
+        Role::Length | Role::MapTimes => extends,
+        _ => false,
+    };
     let keys: Vec<String> = differences(scene, &now)
         .into_iter()
         .filter(|difference| !free(&difference.key))

@@ -127,7 +127,7 @@ impl Prepared {
         let contact_area = RunFile::open(&path).and_then(|run| run.last_contact_area()).map_err(RunFailure::Read)?;
         let implausible = recorded.warnings(&scene);
         warn_of_scene(&mut scene, implausible, observer);
-        let last = checkpointer.last_sample.unwrap_or_default();
+        let last = checkpointer.last_sample.clone().unwrap_or_default();
         let course = assembly.simulation.course();
         let wall_time = start.elapsed().as_secs_f64();
         let summary = RunSummary::new(&scene, header.surfaces, path, &last, contact_area, course, report, wall_time);

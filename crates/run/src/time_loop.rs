@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::scout::Scout;
-use plateau_core::observe::{ChosenAcceleration, Sample, Snapshot};
+use plateau_core::observe::{ACCELERATION, Sample, Snapshot};
 use plateau_core::simulation::{Simulation, SimulationError};
 
 use crate::assembly::Assembly;
@@ -93,14 +93,10 @@ impl Assembly {
 
     /// What is reported of the step just done.
     fn sample(&mut self) -> Result<Sample, SimulationError> {
-        let mut sample = self.simulation.sample()?;
-        sample.roughness = self.output.roughness.then(|| self.simulation.roughness()).transpose()?;
-        sample.pressure_spread = self.output.pressure_spread.then(|| self.simulation.pressure_spread()).transpose()?;
-        let chosen = |scout: &Scout| ChosenAcceleration {
-            acceleration: scout.choice().acceleration(),
-            error: scout.choice().error(),
-        };
-        sample.acceleration = self.scout.as_ref().map(chosen);
+        let mut sample = self.simulation.sample_with(&self.output.extras)?;
+        if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
+            sample.add(ACCELERATION.quantities, [choice.acceleration(), choice.error()]);
+        }
         Ok(sample)
     }
 

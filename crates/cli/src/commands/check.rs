@@ -184,15 +184,14 @@ impl Check {
             let chosen = (true, Reasoned { part: ACCELERATION.into(), reason });
             reasoned.iter_mut().filter(|(_, part)| part.part == ACCELERATION).for_each(|part| *part = chosen.clone());
         }
-        let extras = scene.extras();
-        for (key, asked, what) in [
-            ("roughness", extras.roughness, "roughness with every sample"),
-            ("pressure_spread", extras.pressure_spread, "spread of the pressure with every sample"),
-        ] {
-            reasoned.push((asked, Reasoned { part: what.into(), reason: format!("output.{key} = {asked}") }));
-        }
+        reasoned.extend(plateau_core::observe::EXTRAS.iter().filter_map(|extra| {
+            let asked = scene.output.extras.contains(extra);
+            let part = format!("{} with every sample", extra.request.as_ref()?.what);
+            Some((asked, Reasoned { part, reason: format!("output.{} = {asked}", extra.name) }))
+        }));
         let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
         let stiffness_number = parameters.stiffness_number();
+        let extras = scene.extras(scene.adaptive.is_some());
         let maps = if scene.output.maps.is_empty() { 0 } else { schedule.maps() };
         Self {
             title: scene.title.clone(),
@@ -211,8 +210,8 @@ impl Check {
             samples: schedule.samples(),
             maps,
             memory: memory_estimate(scene),
-            run_file: size_estimate(mesh, &scene.output.maps, scene.extras(), schedule.samples(), maps as u64),
-            checkpoint: checkpoint::size_estimate(mesh, scene.extras()),
+            run_file: size_estimate(mesh, &scene.output.maps, &extras, schedule.samples(), maps as u64),
+            checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()),
             workers: execution.workers,
             instruction_set: execution.means(),
             estimated_time: seconds_per_step * scene.steps as f64,

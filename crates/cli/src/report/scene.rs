@@ -2,35 +2,23 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use plateau_io::scene::values;
+
 use super::outcome::UNKNOWN;
 
 /// A row for every key that does not have the same value in all scenes: the key, and its value in each.
 pub fn differences(scenes: &[&toml::Table]) -> Vec<Vec<String>> {
-    let scenes: Vec<_> = scenes.iter().map(|scene| keys(scene)).collect();
+    let scenes: Vec<_> = scenes.iter().map(|scene| values(scene)).collect();
     let all: BTreeSet<_> = scenes.iter().flat_map(BTreeMap::keys).collect();
     let differs = |key: &String| scenes.iter().any(|scene| scene.get(key) != scenes[0].get(key));
     let row = |key: &String| {
-        let values = scenes.iter().map(|scene| scene.get(key).cloned().unwrap_or_else(|| UNKNOWN.into()));
-        std::iter::once(key.clone()).chain(values).collect()
+        let texts = scenes.iter().map(|scene| match scene.get(key) {
+            Some(toml::Value::String(text)) => text.clone(),
+            value => value.map_or_else(|| UNKNOWN.into(), toml::Value::to_string),
+        });
+        std::iter::once(key.clone()).chain(texts).collect()
     };
     all.into_iter().filter(|key| differs(key)).map(row).collect()
-}
-
-/// Values by the paths of their keys, such as `disc.surface.synthetic.seed`.
-fn keys(scene: &toml::Table) -> BTreeMap<String, String> {
-    let mut found = BTreeMap::new();
-    let mut open: Vec<(String, &toml::Table)> = vec![(String::new(), scene)];
-    while let Some((path, table)) = open.pop() {
-        for (key, value) in table {
-            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            match value {
-                toml::Value::Table(table) => open.push((path, table)),
-                toml::Value::String(text) => drop(found.insert(path, text.clone())),
-                value => drop(found.insert(path, value.to_string())),
-            }
-        }
-    }
-    found
 }
 
 #[cfg(test)]

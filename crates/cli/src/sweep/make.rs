@@ -111,7 +111,7 @@ impl<'a> Recorder<'a> {
                 && responses.iter().any(|other| other.series.starts_with("contact_area"));
             of_area || responses.iter().any(|response| response.series == name)
         };
-        let kept: Vec<_> = quantities(scene.extras())
+        let kept: Vec<_> = quantities(&scene.extras(scene.adaptive.is_some()))
             .filter(|quantity| {
                 study.series.as_ref().is_none_or(|series| series.iter().any(|name| name == quantity.name))
                     || asked(quantity.name)
@@ -145,7 +145,7 @@ impl Sink for Recorder<'_> {
     fn sample(&mut self, sample: Sample) -> Result<(), Ended> {
         let revolutions = sample.step as f64 / self.disc_columns as f64;
         let values =
-            [sample.time, revolutions].into_iter().chain(self.kept.iter().map(|quantity| (quantity.value)(&sample)));
+            [sample.time, revolutions].into_iter().chain(self.kept.iter().map(|quantity| quantity.value(&sample)));
         self.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         Ok(())
     }

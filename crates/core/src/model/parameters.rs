@@ -95,6 +95,11 @@ impl Parameters {
         Clock::new(self.step_time())
     }
 
+    /// Steps of a run of `duration` (s) whose acceleration never changes: at least one.
+    pub fn steps_of(&self, duration: f64) -> u64 {
+        self.clock().steps_until(duration).max(1)
+    }
+
     /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2
     /// it is unstable (model section 8).
     pub fn stiffness_number(&self) -> f64 {

@@ -1,77 +1,74 @@
 //! Roughness of disc and pin while they wear: height parameters of their cells (ISO 25178-2:2021, 4.2).
 
-use serde::{Deserialize, Serialize};
-
+use super::extra::{Extra, Request};
+use super::map::Map;
+use super::sample::Quantity;
 use crate::model::mesh::Mesh;
 
-/// Height parameters of the cells of one body.
+/// Roughness of both bodies with every sample, peaks positive on either: of the whole ring, since all of it passes under the pin,
+/// and of the whole pin.
+pub const EXTRA: Extra = Extra {
+    name: "roughness",
+    quantities: &[
+        Quantity::extra("disc_sa", "m", "arithmetical mean height Sa of the disc"),
+        Quantity::extra("disc_sq", "m", "root-mean-square height Sq of the disc"),
+        Quantity::extra("disc_ssk", "1", "skewness Ssk of the disc heights"),
+        Quantity::extra("disc_sku", "1", "kurtosis Sku of the disc heights"),
+        Quantity::extra("pin_sa", "m", "arithmetical mean height Sa of the pin"),
+        Quantity::extra("pin_sq", "m", "root-mean-square height Sq of the pin"),
+        Quantity::extra("pin_ssk", "1", "skewness Ssk of the pin heights, peaks toward the disc"),
+        Quantity::extra("pin_sku", "1", "kurtosis Sku of the pin heights"),
+    ],
+    request: Some(Request {
+        what: "roughness",
+        meaning: "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
+        maps: &[Map::DiscHeight, Map::PinHeight],
+        measure: |parameters, heights| {
+            let [disc, mut pin] = [0, 1].map(|body| height_parameters(&parameters.mesh, &heights[body]));
+            // The pin's z grows away from the disc.
+            pin[2] = -pin[2];
+            [disc, pin].concat()
+        },
+    }),
+};
+
+/// Sa, Sq, Ssk and Sku of heights of every cell of disc or pin, m, column by column, peaks positive: Sa = Σ A |z − z̄| / Σ A,
+/// Sq = √(Σ A (z − z̄)² / Σ A), Ssk = Σ A (z − z̄)³ / Σ A / Sq³, Sku = Σ A (z − z̄)⁴ / Σ A / Sq⁴. Where all heights are equal the
+/// last two are NaN.
 ///
 /// A cell counts with its area, which differs from row to row, and heights are measured from the mean so weighted;
-/// nothing else is taken out: that the track runs in as a groove is part of it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Roughness {
-    /// Sa = Σ A |z − z̄| / Σ A, m.
-    pub arithmetical_mean_height: f64,
-    /// Sq = √(Σ A (z − z̄)² / Σ A), m.
-    pub root_mean_square_height: f64,
-    /// Ssk = Σ A (z − z̄)³ / Σ A / Sq³; NaN where all heights are equal.
-    pub skewness: f64,
-    /// Sku = Σ A (z − z̄)⁴ / Σ A / Sq⁴; NaN where all heights are equal.
-    pub kurtosis: f64,
-}
-
-/// Roughness of both bodies, peaks positive on either.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct BothRoughness {
-    /// The whole ring: all of it passes under the pin.
-    pub disc: Roughness,
-    /// The whole pin.
-    pub pin: Roughness,
-}
-
-impl Roughness {
-    /// Of heights of every cell of disc or pin, m, column by column, peaks positive.
-    ///
-    /// The sums are taken in the order of the mesh, column by column: their bits do not depend on how a simulation is
-    /// carried out.
-    pub fn of(mesh: &Mesh, heights: &[f64]) -> Self {
-        let columns = heights.len() / mesh.rows();
-        let area = columns as f64 * mesh.column_area();
-        let mean_of = |terms: &dyn Fn(f64) -> [f64; 4]| {
-            let mut sums = [0.0; 4];
-            for column in heights.chunks_exact(mesh.rows()) {
-                let mut own = [0.0; 4];
-                for (height, area) in column.iter().zip(mesh.area()) {
-                    own.iter_mut().zip(terms(*height)).for_each(|(sum, term)| *sum += area * term);
-                }
-                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+/// nothing else is taken out: that the track runs in as a groove is part of it. The sums are taken in the order of the mesh,
+/// column by column: their bits do not depend on how a simulation is carried out.
+fn height_parameters(mesh: &Mesh, heights: &[f64]) -> [f64; 4] {
+    let columns = heights.len() / mesh.rows();
+    let area = columns as f64 * mesh.column_area();
+    let mean_of = |terms: &dyn Fn(f64) -> [f64; 4]| {
+        let mut sums = [0.0; 4];
+        for column in heights.chunks_exact(mesh.rows()) {
+            let mut own = [0.0; 4];
+            for (height, area) in column.iter().zip(mesh.area()) {
+                own.iter_mut().zip(terms(*height)).for_each(|(sum, term)| *sum += area * term);
             }
-            sums.map(|sum| sum / area)
-        };
-        let [first, ..] = mean_of(&|height| [height, 0.0, 0.0, 0.0]);
-        // What rounding left of the mean the first time; not added to it, which would round it again.
-        let [rest, ..] = mean_of(&|height| [height - first, 0.0, 0.0, 0.0]);
-        let [absolute, square, cube, fourth] = mean_of(&|height| {
-            let z = (height - first) - rest;
-            [z.abs(), z * z, z * z * z, z * z * z * z]
-        });
-        let root_mean_square_height = square.sqrt();
-        let flat = heights.iter().all(|height| *height == heights[0]);
-        let relative = |moment: f64| if flat { f64::NAN } else { moment };
-        Self {
-            arithmetical_mean_height: absolute,
-            root_mean_square_height,
-            skewness: relative(cube / (square * root_mean_square_height)),
-            kurtosis: relative(fourth / (square * square)),
+            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
-    }
-
-    /// Of heights of the pin, whose z grows away from the disc.
-    pub fn of_pin(mesh: &Mesh, heights: &[f64]) -> Self {
-        let mut roughness = Self::of(mesh, heights);
-        roughness.skewness = -roughness.skewness;
-        roughness
-    }
+        sums.map(|sum| sum / area)
+    };
+    let [first, ..] = mean_of(&|height| [height, 0.0, 0.0, 0.0]);
+    // What rounding left of the mean the first time; not added to it, which would round it again.
+    let [rest, ..] = mean_of(&|height| [height - first, 0.0, 0.0, 0.0]);
+    let [absolute, square, cube, fourth] = mean_of(&|height| {
+        let z = (height - first) - rest;
+        [z.abs(), z * z, z * z * z, z * z * z * z]
+    });
+    let root_mean_square_height = square.sqrt();
+    let flat = heights.iter().all(|height| *height == heights[0]);
+    let relative = |moment: f64| if flat { f64::NAN } else { moment };
+    [
+        absolute,
+        root_mean_square_height,
+        relative(cube / (square * root_mean_square_height)),
+        relative(fourth / (square * square)),
+    ]
 }
 
 /// √(Σ A (z − z̄_i)² / Σ A) of the disc's cells, m, heights being measured from the mean z̄_i of their own track (row).
@@ -102,13 +99,9 @@ mod tests {
         let heights: Vec<f64> = (0..12).map(|cell| f64::from(cell % 2)).collect();
         let (p, q) = (0.625_f64, 0.375_f64);
         let expected = [2.0 * p * q, (p * q).sqrt(), (q - p) / (p * q).sqrt(), (1.0 - 3.0 * p * q) / (p * q)];
-        let Roughness { arithmetical_mean_height, root_mean_square_height, skewness, kurtosis } =
-            Roughness::of(&mesh, &heights);
-        let found = [arithmetical_mean_height, root_mean_square_height, skewness, kurtosis];
-        for (found, expected) in found.into_iter().zip(expected) {
+        for (found, expected) in height_parameters(&mesh, &heights).into_iter().zip(expected) {
             assert!((found / expected - 1.0).abs() < 1e-14, "{found}, {expected}");
         }
-        assert_eq!(Roughness::of_pin(&mesh, &heights).skewness, -skewness);
     }
 
     #[test]
@@ -125,15 +118,16 @@ mod tests {
         let mesh = Mesh::new(4, 10, 3, 1.0, 1.5).unwrap();
         let heights: Vec<f64> = (0..40).map(|cell| f64::from(cell * cell % 7)).collect();
         let shifted: Vec<f64> = heights.iter().map(|height| height + 1e6).collect();
-        let (near, far) = (Roughness::of(&mesh, &heights), Roughness::of(&mesh, &shifted));
-        assert!((near.root_mean_square_height / far.root_mean_square_height - 1.0).abs() < 1e-14);
-        assert!((near.skewness / far.skewness - 1.0).abs() < 1e-13);
+        let ([_, near_sq, near_ssk, _], [_, far_sq, far_ssk, _]) =
+            (height_parameters(&mesh, &heights), height_parameters(&mesh, &shifted));
+        assert!((near_sq / far_sq - 1.0).abs() < 1e-14);
+        assert!((near_ssk / far_ssk - 1.0).abs() < 1e-13);
     }
 
     #[test]
     fn a_flat_body_has_no_skewness() {
         let mesh = Mesh::new(3, 7, 3, 1.0, 1.5).unwrap();
-        let flat = Roughness::of(&mesh, &[0.1; 21]);
-        assert!(flat.root_mean_square_height < 1e-16 && flat.skewness.is_nan() && flat.kurtosis.is_nan());
+        let [_, sq, ssk, sku] = height_parameters(&mesh, &[0.1; 21]);
+        assert!(sq < 1e-16 && ssk.is_nan() && sku.is_nan());
     }
 }

@@ -26,8 +26,7 @@ use crate::engine::worker::{Worker, halo_words};
 use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
 use crate::model::state::{Base, Disc, InitialSurfaces, Pin};
-use crate::observe::pressure_spread::PressureSpread;
-use crate::observe::roughness::{BothRoughness, Roughness};
+use crate::observe::extra::Extra;
 use crate::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
 
 /// A pin on a disc, and everything that happened to them so far.
@@ -261,7 +260,22 @@ impl Simulation {
         // A ratio may have nothing to be a ratio of.
         let amounts = || QUANTITIES.iter().filter(|quantity| quantity.unit != "1");
         let name = |place| format!("the {}", amounts().nth(place).map_or("", |quantity| quantity.long_name));
-        self.refuse_not_finite(amounts().map(|quantity| (quantity.value)(&sample)), name)?;
+        self.refuse_not_finite(amounts().map(|quantity| quantity.value(&sample)), name)?;
+        Ok(sample)
+    }
+
+    /// The same with series on request. Each takes about as long as the maps that it is measured of.
+    ///
+    /// # Errors
+    /// As [`Simulation::sample`].
+    pub fn sample_with(&mut self, extras: &[&Extra]) -> Result<Sample, SimulationError> {
+        let mut sample = self.sample()?;
+        for extra in extras {
+            let Some(request) = &extra.request else { continue };
+            let fields: Vec<Vec<f64>> =
+                self.snapshot(request.maps)?.maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
+            sample.add(extra.quantities, (request.measure)(&self.parameters, &fields));
+        }
         Ok(sample)
     }
 
@@ -308,30 +322,8 @@ impl Simulation {
         Ok(Pin { height, substrate, base: self.pin_base.clone() })
     }
 
-    /// The roughness of disc and pin as they are now. It takes about as long as a map of either.
-    ///
-    /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed.
-    pub fn roughness(&mut self) -> Result<BothRoughness, SimulationError> {
-        let [disc, pin] = self.fields([Map::DiscHeight, Map::PinHeight])?;
-        let mesh = &self.parameters.mesh;
-        Ok(BothRoughness { disc: Roughness::of(mesh, &disc), pin: Roughness::of_pin(mesh, &pin) })
-    }
-
-    /// The spread of the pressures of the last step. It takes about as long as their map.
-    ///
-    /// # Errors
-    /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`].
-    pub fn pressure_spread(&mut self) -> Result<PressureSpread, SimulationError> {
-        let [pressures] = self.fields([Map::Pressure])?;
-        Ok(PressureSpread::of(&self.parameters.mesh, &pressures))
-    }
-
     fn fields<const COUNT: usize>(&mut self, maps: [Map; COUNT]) -> Result<[Vec<f64>; COUNT], SimulationError> {
-        let mut fields = self.snapshot(&maps)?.maps.into_iter().map(|(_, values)| match values {
-            MapValues::Float(values) => values,
-            MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),
-        });
+        let mut fields = self.snapshot(&maps)?.maps.into_iter().map(|(_, values)| values.into_numbers());
         Ok(std::array::from_fn(|_| fields.next().unwrap_or_default()))
     }
 

@@ -192,9 +192,7 @@ impl Plain {
             },
             load_residual: step.map_or(0.0, |step| self.load_residual(step)),
             balance_residual: totals.balance_residual(pool),
-            acceleration: None,
-            roughness: None,
-            pressure_spread: None,
+            extras: Vec::new(),
         })
     }
 

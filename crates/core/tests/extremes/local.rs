@@ -50,7 +50,8 @@ mod tests {
         let [pooled, local] = [pooled, local].map(|case| LocalLaws::of(&case.parameters, &case.surfaces));
 
         let sound = Sample::default();
-        let (with_pool, with_return) = (Sample { pool: 1e-30, ..sound }, Sample { returned: 1e-30, ..sound });
+        let (with_pool, with_return) =
+            (Sample { pool: 1e-30, ..sound.clone() }, Sample { returned: 1e-30, ..sound.clone() });
         assert_eq!(local.broken(&sound, &[highest]), None);
         assert!(local.broken(&sound, &[highest.next_up()]).is_some());
         assert!(local.broken(&with_pool, &[highest]).is_some());

@@ -2,7 +2,7 @@
 
 use plateau_core::model::material::Status;
 use plateau_core::model::parameters::Parameters;
-use plateau_core::observe::{Map, MapValues, QUANTITIES, Sample};
+use plateau_core::observe::{Map, QUANTITIES, Sample};
 use plateau_core::simulation::{Simulation, SimulationError};
 
 use super::case::{Case, Expected};
@@ -187,7 +187,7 @@ fn recession_rounding(case: &Case) -> f64 {
 impl Measured {
     fn take(&mut self, sample: &Sample) {
         self.balance_residual = self.balance_residual.max(sample.balance_residual.abs());
-        self.is_finite &= QUANTITIES.iter().map(|quantity| (quantity.value)(sample)).all(f64::is_finite);
+        self.is_finite &= QUANTITIES.iter().map(|quantity| quantity.value(sample)).all(f64::is_finite);
     }
 }
 
@@ -201,10 +201,7 @@ struct State {
 impl State {
     fn of(simulation: &mut Simulation) -> Result<Self, SimulationError> {
         let maps = simulation.snapshot(&[Map::DiscHeight, Map::PinHeight, Map::PinStatus])?.maps;
-        let mut fields = maps.into_iter().map(|(_, values)| match values {
-            MapValues::Float(heights) => heights,
-            MapValues::Status(statuses) => statuses.into_iter().map(f64::from).collect(),
-        });
+        let mut fields = maps.into_iter().map(|(_, values)| values.into_numbers());
         let mut next = || fields.next().unwrap_or_default();
         Ok(Self { disc: next(), pin: next(), pin_status: next() })
     }

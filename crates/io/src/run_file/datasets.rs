@@ -26,7 +26,7 @@ pub(super) struct Datasets {
 impl Datasets {
     pub(super) fn open(file: &File, header: &Header) -> hdf5::Result<Self> {
         let mut digests = Digests::default();
-        for quantity in quantities(header.extras) {
+        for quantity in quantities(&header.extras) {
             digests.append(&series_path(quantity.name), &[]);
         }
         for path in [TIME, MAP_TIME].into_iter().take(if header.maps.is_empty() { 1 } else { 2 }) {
@@ -35,7 +35,7 @@ impl Datasets {
         let maps = Map::ALL.into_iter().filter(|map| header.maps.contains(map));
         Ok(Self {
             time: file.dataset(TIME)?,
-            series: quantities(header.extras)
+            series: quantities(&header.extras)
                 .map(|quantity| Ok((quantity, file.dataset(&series_path(quantity.name))?)))
                 .collect::<hdf5::Result<_>>()?,
             map_time: if header.maps.is_empty() { None } else { Some(file.dataset(MAP_TIME)?) },
@@ -53,7 +53,11 @@ impl Datasets {
 
     /// Appends samples and makes them visible to readers.
     pub(super) fn append_samples(&mut self, file: &File, batch: &[Sample]) -> hdf5::Result<()> {
-        let columns = self.series.iter().map(|(quantity, _)| batch.iter().map(quantity.value).collect()).collect();
+        let columns = self
+            .series
+            .iter()
+            .map(|(quantity, _)| batch.iter().map(|sample| quantity.value(sample)).collect())
+            .collect();
         self.append(file, columns, batch.iter().map(|sample| sample.time).collect())
     }
 

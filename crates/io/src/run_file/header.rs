@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::Base;
-use plateau_core::observe::{Extras, Map};
+use plateau_core::observe::Map;
+use plateau_core::observe::extra::Extra;
 use serde::{Deserialize, Serialize};
 
 use super::RunFileError;
@@ -23,7 +24,7 @@ pub struct Header {
     /// The maps to be recorded; no others exist in the file.
     pub maps: Vec<Map>,
     /// Series besides those that every run has.
-    pub extras: Extras,
+    pub extras: Vec<&'static Extra>,
     /// About how many samples will be sent; any number will do, a good one makes the file small and quick to write.
     pub expected_samples: u64,
     /// The whole resolved scene, TOML.

@@ -98,7 +98,7 @@ pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: O
     write_provenance(file, header, start)?;
     let mut layout = Layout::new(file, header, source)?;
     layout.coordinates(!header.maps.is_empty())?;
-    for quantity in quantities(header.extras) {
+    for quantity in quantities(&header.extras) {
         layout.series(quantity.name, quantity.unit, quantity.long_name)?;
     }
     for map in Map::ALL.into_iter().filter(|map| header.maps.contains(map)) {

@@ -7,7 +7,7 @@ use hdf5::{Dataset, H5Type};
 use ndarray::s;
 use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::{Extras, Map, MapValues, quantities};
+use plateau_core::observe::{EXTRAS, Map, MapValues, quantities};
 
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
 use super::read_error::ReadError;
@@ -301,8 +301,7 @@ impl Opening<'_> {
         });
         let mut series: Vec<Series> = series.collect::<Result<_, _>>()?;
         // As they are reported; what is not known here comes last.
-        let place =
-            |name: &str| quantities(Extras::ALL).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
+        let place = |name: &str| quantities(EXTRAS).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
         series.sort_by(|one, other| (place(&one.name), &one.name).cmp(&(place(&other.name), &other.name)));
         Ok(series)
     }

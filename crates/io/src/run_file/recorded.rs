@@ -4,7 +4,7 @@ use std::path::Path;
 
 use plateau_core::model::material::Status;
 use plateau_core::model::state::Base;
-use plateau_core::observe::{Extras, Map};
+use plateau_core::observe::{EXTRAS, Map};
 
 use super::{Header, InputFile, ReadError, RunFile};
 
@@ -32,11 +32,7 @@ impl Header {
                 .map(|base| if *base == Status::None as u8 { Base::None } else { Base::Primary })
                 .collect(),
             maps: Map::ALL.into_iter().filter(|map| run.has_map(*map)).collect(),
-            extras: Extras {
-                roughness: has("disc_sa"),
-                pressure_spread: has("pressure_gini"),
-                acceleration: has("time_acceleration"),
-            },
+            extras: EXTRAS.iter().copied().filter(|extra| has(extra.quantities[0].name)).collect(),
             expected_samples: run.time().len() as u64,
             scene: text("scene")?,
             program: text("program")?,

@@ -96,7 +96,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     Temporary::remove_abandoned(&resolve(path, true)?);
     let old = RunFile::open(path)?;
     let header = Header::of(&old)?;
-    let known = |name: &str| quantities(header.extras).any(|quantity| quantity.name == name);
+    let known = |name: &str| quantities(&header.extras).any(|quantity| quantity.name == name);
     if let Some(unknown) = old.series().iter().find(|series| !known(&series.name)) {
         let program = old.attribute("program").unwrap_or_default();
         return Err(RepairError::Unknown { path: path.into(), name: unknown.name.clone(), program });

@@ -1,7 +1,8 @@
 //! How large a run file will be.
 
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::{Extras, Map, quantities};
+use plateau_core::observe::extra::Extra;
+use plateau_core::observe::{Map, quantities};
 
 use super::layout::series_chunk;
 
@@ -14,7 +15,7 @@ const PER_MAP: u64 = 128;
 
 /// Bytes of a run file with so many samples and moments with maps, at most: what they take when nothing can be compressed.
 /// Heights and series of a worn pair take about four fifths of that, statuses hardly anything.
-pub fn size_estimate(mesh: &Mesh, maps: &[Map], extras: Extras, samples: u64, moments: u64) -> u64 {
+pub fn size_estimate(mesh: &Mesh, maps: &[Map], extras: &[&Extra], samples: u64, moments: u64) -> u64 {
     let float = size_of::<f64>() as u64;
     let chunk = series_chunk(samples) as u64;
     let chunks = samples.div_ceil(chunk);

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::{Mesh, MeshError};
-use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
-use plateau_core::model::state::Base;
-use plateau_core::observe::Extras;
+use plateau_core::model::parameters::{Parameters, PlateauRules};
+use plateau_core::observe::extra::Extra;
+use plateau_core::observe::requested;
 use plateau_core::observe::schedule::SampleEvery;
-use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
-use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
+use plateau_core::surface::micrograph::{Micrograph, Threshold};
+use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation, Texture};
 
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
 use super::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
-use super::schema::{ROTATIONS, join};
+use super::schema::{choices, join};
 use super::settings::Settings;
 use super::{Warning, memory, resolved};
 use crate::surface::ReadOptions;
@@ -98,17 +98,14 @@ fn parameters_and_steps(settings: &Settings) -> Result<(Parameters, u64), Proble
         materials: materials(settings)?,
         plateaus: plateaus(settings)?,
         time_acceleration: settings.optional_number(ACCELERATION)?.unwrap_or(1.0),
-        integrator: match settings.text("numerics.integrator")? {
-            "exponential" => Integrator::Exponential,
-            _ => Integrator::Explicit,
-        },
+        integrator: settings.choice("numerics.integrator", &choices::INTEGRATOR)?,
     };
     if !parameters.step_time().is_normal() {
         let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
     }
     let (steps_key, steps) = match settings.optional_number("operation.duration")? {
-        Some(duration) => ("operation.duration", parameters.clock().steps_until(duration).max(1)),
+        Some(duration) => ("operation.duration", parameters.steps_of(duration)),
         None => ("operation.steps", settings.integer("operation.steps")?),
     };
     if steps > MOST_STEPS {
@@ -129,12 +126,7 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let extras = Extras {
-            roughness: settings.bool("output.roughness")?,
-            pressure_spread: settings.bool("output.pressure_spread")?,
-            acceleration: adaptive(settings)?.is_some(),
-        };
-        let needed = memory::estimate(counts, maps, extras);
+        let needed = memory::estimate(counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
                 "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",
@@ -204,11 +196,7 @@ fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
         captured_resin_fraction: settings.optional_number("plateaus.captured_resin_fraction")?,
         // Local debris has neither.
         pad_share: settings.optional_number("plateaus.pad_share")?.unwrap_or(0.0),
-        debris: match settings.text("plateaus.debris")? {
-            "local" => DebrisRule::Local,
-            "track" => DebrisRule::Track,
-            _ => DebrisRule::Contact,
-        },
+        debris: settings.choice("plateaus.debris", &choices::DEBRIS)?,
         formation: settings.bool("plateaus.formation")?,
         destruction: settings.get("plateaus.destruction").is_some() && settings.bool("plateaus.destruction")?,
     })
@@ -225,19 +213,9 @@ fn heights(settings: &Settings, body: &str) -> Result<HeightRecipe, Problem> {
         HeightSource::Synthetic(synthesis(settings, &surface("synthetic"))?)
     };
     let preparation = Preparation {
-        level: match settings.text(&prepare("level"))? {
-            "quadratic" => Level::Quadratic,
-            "plane" => Level::Plane,
-            "mean" => Level::Mean,
-            _ => Level::None,
-        },
+        level: settings.choice(&prepare("level"), &choices::LEVEL)?,
         outliers: settings.optional_number(&prepare("outliers"))?,
-        fill: settings.get(&prepare("fill")).map(|_| settings.text(&prepare("fill"))).transpose()?.map(
-            |fill| match fill {
-                "interpolate" => Fill::Interpolate,
-                _ => Fill::Level,
-            },
-        ),
+        fill: settings.get(&prepare("fill")).map(|_| settings.choice(&prepare("fill"), &choices::FILL)).transpose()?,
         pixel: settings.optional_number(&prepare("pixel"))?,
         cutoff: settings.optional_number(&prepare("cutoff"))?,
         repeat: settings.bool(&prepare("repeat"))?,
@@ -281,10 +259,7 @@ fn base(settings: &Settings) -> Result<BaseSource, Problem> {
         return Ok(BaseSource::Image { path: path.into(), recipe: micrograph(settings)? });
     }
     if settings.get("pin.base.uniform").is_some() {
-        return Ok(BaseSource::Uniform(match settings.text("pin.base.uniform")? {
-            "primary" => Base::Primary,
-            _ => Base::None,
-        }));
+        return Ok(BaseSource::Uniform(settings.choice("pin.base.uniform", &choices::UNIFORM)?));
     }
     let synthesis = FibreSynthesis {
         seed: settings.integer("pin.base.synthetic.seed")?,
@@ -326,20 +301,15 @@ fn micrograph(settings: &Settings) -> Result<Micrograph, Problem> {
         let message = "an image does not say how large it is: give pixel = \"10 um\", the distance of its pixels";
         return Err(Problem::new(&settings.origin("pin.base.image"), "pin.base.image", message));
     };
-    let rotation = settings.text("pin.base.rotate")?;
-    let quarters = ROTATIONS.iter().position(|known| *known == rotation).unwrap_or(0);
     Ok(Micrograph {
         pixel,
-        quarters: quarters as u8,
+        quarters: settings.choice("pin.base.rotate", &choices::ROTATE)?,
         smooth: settings.optional_number("pin.base.smooth")?,
         threshold: match settings.get("pin.base.threshold") {
             Some(Setting::Number(level)) => Threshold::Level(*level),
             _ => Threshold::Otsu,
         },
-        fibres: match settings.text("pin.base.fibres")? {
-            "dark" => Fibres::Dark,
-            _ => Fibres::Bright,
-        },
+        fibres: settings.choice("pin.base.fibres", &choices::FIBRES)?,
         despeckle: settings.optional_number("pin.base.despeckle")?,
     })
 }
@@ -363,11 +333,15 @@ fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Res
     maps.dedup();
     settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
     let file = PathBuf::from(settings.text("output.file")?);
-    let roughness = settings.bool("output.roughness")?;
-    let pressure_spread = settings.bool("output.pressure_spread")?;
+    let extras = extras(settings)?;
     let checkpoint_every = settings.number("output.checkpoint_every")?;
     let maps_at = map_times(settings, end, warnings);
-    Ok(OutputRecipe { file, sample_every, maps_at, maps, roughness, pressure_spread, checkpoint_every })
+    Ok(OutputRecipe { file, sample_every, maps_at, maps, extras, checkpoint_every })
+}
+
+/// The series on request whose switches are on.
+fn extras(settings: &Settings) -> Result<Vec<&'static Extra>, Problem> {
+    requested(|name| settings.bool(&join("output", name)))
 }
 
 /// Times of maps, increasing; times beyond the end are left out with a warning, because runs are shortened by `--set`.

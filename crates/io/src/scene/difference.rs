@@ -1,6 +1,10 @@
 //! What two resolved scenes do not have in common.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use toml::{Table, Value};
+
+use super::schema;
 
 /// A key that two scenes do not give alike.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,21 +20,13 @@ pub struct Difference {
 /// The keys that two resolved scenes do not give alike, in the order of the alphabet. A text that is no TOML counts as a
 /// scene without keys.
 pub fn differences(first: &str, second: &Table) -> Vec<Difference> {
-    let mut values = Vec::new();
-    flatten("", &first.parse().unwrap_or_default(), &mut values);
-    let first = values;
-    let mut second_values = Vec::new();
-    flatten("", second, &mut second_values);
-    let find = |values: &[(String, String)], key: &str| {
-        values.iter().find(|(known, _)| known == key).map(|(_, value)| value.clone())
-    };
-    let mut keys: Vec<&String> = first.iter().chain(&second_values).map(|(key, _)| key).collect();
-    keys.sort_unstable();
-    keys.dedup();
+    let [first, second] = [values(&first.parse().unwrap_or_default()), values(second)];
+    let keys: BTreeSet<&String> = first.keys().chain(second.keys()).collect();
+    let text = |value: Option<&Value>| value.map(Value::to_string);
     let differences = keys.into_iter().map(|key| Difference {
         key: key.clone(),
-        first: find(&first, key),
-        second: find(&second_values, key),
+        first: text(first.get(key)),
+        second: text(second.get(key)),
     });
     differences.filter(|difference| difference.first != difference.second).collect()
 }
@@ -38,16 +34,21 @@ pub fn differences(first: &str, second: &Table) -> Vec<Difference> {
 /// A key that had another name when older scenes were resolved, and its present name.
 const FORMER_NAME: [&str; 2] = ["plateaus.debris_pool", "plateaus.debris"];
 
-/// Every key of a table and of those in it, by its present name, with its value as text.
-fn flatten(above: &str, table: &Table, values: &mut Vec<(String, String)>) {
-    for (name, value) in table {
-        let path = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
-        match value {
-            Value::Table(table) => flatten(&path, table, values),
-            value if path == FORMER_NAME[0] => values.push((FORMER_NAME[1].to_owned(), value.to_string())),
-            value => values.push((path, value.to_string())),
+/// The value of every key of a resolved scene, by the key's full path and present name.
+pub fn values(scene: &Table) -> BTreeMap<String, Value> {
+    let mut found = BTreeMap::new();
+    let mut open = vec![(String::new(), scene)];
+    while let Some((above, table)) = open.pop() {
+        for (name, value) in table {
+            let path = schema::join(&above, name);
+            match value {
+                Value::Table(table) => open.push((path, table)),
+                value if path == FORMER_NAME[0] => drop(found.insert(FORMER_NAME[1].to_owned(), value.clone())),
+                value => drop(found.insert(path, value.clone())),
+            }
         }
     }
+    found
 }
 
 #[cfg(test)]

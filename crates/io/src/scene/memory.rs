@@ -3,12 +3,14 @@
 use std::fs;
 use std::path::Path;
 
-use plateau_core::observe::{Extras, Map};
+use plateau_core::observe::Map;
+use plateau_core::observe::extra::Extra;
 
 use super::recipe::Scene;
 
-/// Snapshots that exist at once: one on its way to the writer, one that it writes.
-const SNAPSHOTS: u128 = 2;
+/// Copies of a map that exist at once: one on its way to the writer, one that it writes; and of a field that a series is
+/// measured of, that of one worker and that of all.
+const COPIES: u128 = 2;
 
 const FLOAT: u128 = size_of::<f64>() as u128;
 const STATUS: u128 = size_of::<u8>() as u128;
@@ -20,29 +22,32 @@ const STATUS: u128 = size_of::<u8>() as u128;
 pub fn memory_estimate(scene: &Scene) -> u64 {
     let mesh = &scene.parameters.mesh;
     let counts = [mesh.rows(), mesh.disc_columns(), mesh.pin_columns()].map(|count| count as u64);
-    estimate(counts, &scene.output.maps, scene.extras())
+    estimate(counts, &scene.output.maps, &scene.output.extras, scene.adaptive.is_some())
 }
 
 /// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
-pub(super) fn estimate([rows, disc_columns, pin_columns]: [u64; 3], maps: &[Map], extras: Extras) -> u64 {
+pub(super) fn estimate(
+    [rows, disc_columns, pin_columns]: [u64; 3],
+    maps: &[Map],
+    extras: &[&Extra],
+    chooses_acceleration: bool,
+) -> u64 {
     let cells = |columns: u64| u128::from(rows) * u128::from(columns);
     let (disc, pin) = (cells(disc_columns), cells(pin_columns));
     let sum = |parts: &[(u128, u128)]| {
         parts.iter().fold(0_u128, |sum, (count, bytes)| sum.saturating_add(count.saturating_mul(*bytes)))
     };
     // A run that chooses its acceleration has a scout with a state of its own.
-    let simulations = if extras.acceleration { 2 } else { 1 };
+    let simulations = if chooses_acceleration { 2 } else { 1 };
     // Height and substrate of both, the pin's base, two working arrays over the pin, radius and area of every row.
     let state = sum(&[(disc, 2 * FLOAT), (pin, 4 * FLOAT + STATUS), (rows.into(), 2 * FLOAT)]);
     let surfaces = sum(&[(disc, 2 * FLOAT), (pin, 2 * (FLOAT + STATUS))]);
     let size = |map: &Map| {
         let bytes = if map.is_status() { STATUS } else { FLOAT };
-        (if map.on_disc() { disc } else { pin }, SNAPSHOTS * bytes)
+        (if map.on_disc() { disc } else { pin }, COPIES * bytes)
     };
-    // Roughness gathers the heights: those of one worker and those of all.
-    let gathered = if extras.roughness { 2 * FLOAT } else { 0 };
-    let maps = maps.iter().map(size).chain([(disc, gathered), (pin, gathered)]);
-    let output = sum(&maps.collect::<Vec<_>>());
+    let gathered = extras.iter().filter_map(|extra| extra.request.as_ref()).flat_map(|request| request.maps);
+    let output = sum(&maps.iter().chain(gathered).map(size).collect::<Vec<_>>());
     u64::try_from(state.saturating_mul(simulations).saturating_add(surfaces.max(output))).unwrap_or(u64::MAX)
 }
 
@@ -82,22 +87,21 @@ pub(super) fn in_words(bytes: u64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use plateau_core::observe::EXTRAS;
+
     use super::*;
 
     #[test]
     fn counts_every_array() {
         // By hand, 2 rows, 10 disc and 3 pin columns (20 and 6 cells): state 20·16 + 6·(32 + 1) + 2·16 = 550,
         // surfaces 20·16 + 6·18 = 428; maps: two snapshots of disc height and pin status 2·(20·8 + 6) = 332.
-        let (maps, none) = ([Map::DiscHeight, Map::PinStatus], Extras::default());
-        assert_eq!(estimate([2, 10, 3], &maps, none), 550 + 428);
+        let (maps, none) = ([Map::DiscHeight, Map::PinStatus], []);
+        assert_eq!(estimate([2, 10, 3], &maps, &none, false), 550 + 428);
         // All seven: disc 20·17, pin 6·(17 + 8), twice.
-        assert_eq!(estimate([2, 10, 3], &Map::ALL, none), 550 + 2 * (20 * 17 + 6 * 25));
-        // With the heights of both, own and gathered.
-        assert_eq!(
-            estimate([2, 10, 3], &Map::ALL, Extras { roughness: true, ..none }),
-            550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6)
-        );
-        assert_eq!(estimate([u64::MAX; 3], &maps, Extras::ALL), u64::MAX);
+        assert_eq!(estimate([2, 10, 3], &Map::ALL, &none, false), 550 + 2 * (20 * 17 + 6 * 25));
+        // With the heights of both and the pressure, own and gathered.
+        assert_eq!(estimate([2, 10, 3], &Map::ALL, EXTRAS, false), 550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6));
+        assert_eq!(estimate([u64::MAX; 3], &maps, EXTRAS, true), u64::MAX);
     }
 
     #[test]

@@ -22,7 +22,7 @@ mod warning;
 
 use std::path::Path;
 
-pub use difference::{Difference, differences};
+pub use difference::{Difference, differences, values};
 pub use error::{Origin, Problem, SceneError};
 pub use memory::memory_estimate;
 use recipe::Scene;

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::extra::Extra;
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
-use plateau_core::observe::{Extras, Map};
+use plateau_core::observe::{ACCELERATION, Map};
 use plateau_core::surface::micrograph::Micrograph;
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation};
 
@@ -63,13 +64,10 @@ impl Scene {
         Schedule::new(self.parameters.clock(), self.end(), *sample_every, maps_at)
     }
 
-    /// Series besides those that every run has.
-    pub fn extras(&self) -> Extras {
-        Extras {
-            roughness: self.output.roughness,
-            pressure_spread: self.output.pressure_spread,
-            acceleration: self.adaptive.is_some(),
-        }
+    /// Series besides those that every run has, where the run chooses its acceleration or does not.
+    pub fn extras(&self, chooses_acceleration: bool) -> Vec<&'static Extra> {
+        let acceleration = chooses_acceleration.then_some(&ACCELERATION);
+        self.output.extras.iter().copied().chain(acceleration).collect()
     }
 
     /// When the run is over.
@@ -149,10 +147,8 @@ pub struct OutputRecipe {
     pub maps_at: Vec<f64>,
     /// The maps that are written.
     pub maps: Vec<Map>,
-    /// Whether the roughness of disc and pin is written with every sample.
-    pub roughness: bool,
-    /// Whether the spread of the pressures is written with every sample.
-    pub pressure_spread: bool,
+    /// The series on request that are written with every sample.
+    pub extras: Vec<&'static Extra>,
     /// Wall time between two checkpoints, s.
     pub checkpoint_every: f64,
 }

@@ -8,6 +8,7 @@ use plateau_core::observe::Map;
 use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem};
 use super::interpret::{Setting, interpret};
+use super::schema::choices::Choices;
 use super::schema::{self, Key, Need};
 
 /// Checked values by full path, with the place of each.
@@ -78,6 +79,17 @@ impl Settings {
             Some(Setting::Text(text)) => Ok(text),
             other => Err(self.unlike(path, "a text", other)),
         }
+    }
+
+    /// What the word of a choice that a checked scene has stands for.
+    pub(super) fn choice<T: Copy, const COUNT: usize>(
+        &self,
+        path: &str,
+        choices: &Choices<T, COUNT>,
+    ) -> Result<T, Problem> {
+        let found = self.text(path)?;
+        let known = choices.iter().find(|(word, _)| *word == found).map(|(_, meaning)| *meaning);
+        known.ok_or_else(|| self.unlike(path, "a word of its choice", self.get(path)))
     }
 
     /// The value of a switch that a checked scene has.

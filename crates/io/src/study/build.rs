@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use plateau_core::observe::{Extras, quantities};
+use plateau_core::observe::{EXTRAS, quantities};
 use plateau_study::design::{Alpha, Fraction, Kind};
 use toml::Spanned;
 
@@ -331,7 +331,7 @@ fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, P
 /// `/series/pool` or `pool`.
 fn series_name(found: &Spanned<String>, key: &str, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
     let name = found.get_ref().trim_start_matches("/series/");
-    let known = || quantities(Extras::ALL).map(|quantity| quantity.name);
+    let known = || quantities(EXTRAS).map(|quantity| quantity.name);
     if known().any(|known| known == name) {
         return Some(name.to_owned());
     }

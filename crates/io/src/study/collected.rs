@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-use plateau_core::observe::{Extras, quantities};
+use plateau_core::observe::{EXTRAS, quantities};
 use thiserror::Error;
 
 use super::identity::firsts;
@@ -231,7 +231,7 @@ impl Collected {
             }
         }
         let along_samples = if common.is_some() { "time" } else { "sample" };
-        for quantity in quantities(Extras::ALL).filter(|quantity| along.contains(quantity.name)) {
+        for quantity in quantities(EXTRAS).filter(|quantity| along.contains(quantity.name)) {
             content.variables.push(rows(quantity.name, quantity.unit, quantity.long_name, along_samples));
         }
         content
@@ -261,7 +261,7 @@ fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
 
 /// SI unit of a series.
 pub fn unit_of(series: &str) -> &'static str {
-    quantities(Extras::ALL).find(|quantity| quantity.name == series).map_or("1", |quantity| quantity.unit)
+    quantities(EXTRAS).find(|quantity| quantity.name == series).map_or("1", |quantity| quantity.unit)
 }
 
 fn coordinate(

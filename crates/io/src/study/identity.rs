@@ -10,17 +10,7 @@ use sha2::{Digest, Sha256};
 
 use crate::digest::sha256;
 use crate::scene::recipe::{BaseSource, HeightSource, Scene};
-
-/// Keys of a resolved scene that do not show in the series of its run, by table.
-const IRRELEVANT: [(&str, &[&str]); 6] = [
-    ("", &["title"]),
-    ("numerics", &["workers"]),
-    ("output", &["file", "maps", "maps_at", "checkpoint_every"]),
-    // Their content counts, not their name.
-    ("disc.surface", &["file"]),
-    ("pin.surface", &["file"]),
-    ("pin.base", &["file", "image"]),
-];
+use crate::scene::schema::{self, Role};
 
 /// Digests of files, each read once.
 #[derive(Debug, Default)]
@@ -75,9 +65,13 @@ fn relevant(resolved: &str) -> impl Iterator<Item = &str> {
         if let Some(name) = line.strip_prefix('[') {
             table = name.trim_end_matches(']');
         }
-        let key = line.split_once(" = ").map_or("", |(key, _)| key);
-        !IRRELEVANT.iter().any(|(other, keys)| *other == table && keys.contains(&key))
+        line.split_once(" = ").is_none_or(|(name, _)| shows(&schema::join(table, name)))
     })
+}
+
+/// Whether a key shows in the series of its run. Of files the content counts, not the name.
+fn shows(key: &str) -> bool {
+    !matches!(schema::role(key), Role::Nothing | Role::Maps | Role::MapTimes) && !schema::is_input(key)
 }
 
 /// The surface files of a scene, and what they are for.

@@ -3,6 +3,7 @@
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::parameters::{Integrator, Parameters};
 use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::schema::choices;
 
 use super::coarsening::Coarsening;
 
@@ -218,17 +219,9 @@ impl Numerics {
     }
 }
 
-/// Steps of a run of `duration` (s), as when the scene is run.
-pub fn steps_until(parameters: &Parameters, duration: f64) -> u64 {
-    parameters.clock().steps_until(duration).max(1)
-}
-
 /// Name of an integrator in a scene.
 pub fn integrator_name(integrator: Integrator) -> &'static str {
-    match integrator {
-        Integrator::Explicit => "explicit",
-        Integrator::Exponential => "exponential",
-    }
+    choices::word(&choices::INTEGRATOR, &integrator)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::model::parameters::Integrator;
 use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{InputFile, ReadError, RunFile, State};
+use plateau_io::scene::schema::{self, Role};
 use plateau_io::scene::{Difference, differences, recipe::Scene};
 
 use super::comparison::{End, Heights, Outcome};
@@ -119,7 +120,7 @@ pub fn read(path: &Path, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<
         return Err(ReferenceError::OtherEnd { path: path.to_owned(), end, expected: scene.duration });
     }
     let mut missing = Vec::new();
-    let outcome = outcome(&run, parameters.clock().steps_until(scene.duration).max(1), &mut missing)?;
+    let outcome = outcome(&run, parameters.steps_of(scene.duration), &mut missing)?;
     let sample_every = [0.0].iter().chain(run.time()).zip(run.time()).map(|(one, next)| next - one).fold(0.0, f64::max);
     let file = InputFile::read(path).map_err(|error| ReferenceError::File { path: path.to_owned(), error })?;
     let text = |name: &str| run.attribute(name).unwrap_or_default();
@@ -196,9 +197,10 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
     let mut different: Vec<Difference> = differences(&scene.resolved, run.scene());
     // A file may have another place and the same content.
     different.retain(|Difference { key, first, second }| {
-        let same_content = is_input(key)
+        let same_content = schema::is_input(key)
             && digest_here(&plain(first)).is_some_and(|digest| digest_there(&plain(second)) == Some(digest));
-        matters(key) && !same_content
+        // How long runs are is compared by their ends.
+        schema::role(key) == Role::Physics && !same_content
     });
     let mut message = String::new();
     for Difference { key, first, second } in different.iter().take(MOST_KEYS) {
@@ -219,17 +221,6 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
         return Ok(());
     }
     Err(ReferenceError::OtherScene { path: run.path().to_owned(), differences: message })
-}
-
-/// Whether runs that differ in this key are of different scenes. How long they are is compared by their ends.
-fn matters(key: &str) -> bool {
-    const NUMERICS: [&str; 5] = ["title", "version", "contact.load_tolerance", "operation.duration", "operation.steps"];
-    !(key.starts_with("numerics.") || key.starts_with("output.") || NUMERICS.contains(&key))
-}
-
-/// Whether a key names a file that is read.
-fn is_input(key: &str) -> bool {
-    key.ends_with(".file") || key.ends_with(".image")
 }
 
 /// The files that a run file says its run has read.

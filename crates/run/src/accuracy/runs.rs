@@ -17,7 +17,7 @@ use super::coarsening::Coarsening;
 use super::comparison::{End, Heights, Outcome};
 use super::error::{AccuracyError, Unfinished};
 use super::history::{History, Windows};
-use super::ladder::{COARSENINGS, Ladder, Numerics, steps_until};
+use super::ladder::{COARSENINGS, Ladder, Numerics};
 use crate::assembly::Assembly;
 use crate::error::{InputError, RunError};
 use crate::execution::time_per_step;
@@ -84,7 +84,7 @@ impl<'a> Runs<'a> {
         let (parameters, surfaces) = (self.parameters(&numerics), self.surfaces(&numerics));
         let mut simulation =
             Simulation::with_execution(parameters, surfaces, self.execution).map_err(InputError::Simulation)?;
-        let last = steps_until(simulation.parameters(), self.scene.duration);
+        let last = simulation.parameters().steps_of(self.scene.duration);
         Ok(time_per_step(&mut simulation, last, TRIAL)?)
     }
 
@@ -113,7 +113,7 @@ impl<'a> Runs<'a> {
 
     /// About how long a run takes, s.
     pub fn seconds(&self, numerics: &Numerics) -> f64 {
-        let steps = steps_until(&self.parameters(numerics), self.scene.duration) as f64;
+        let steps = self.parameters(numerics).steps_of(self.scene.duration) as f64;
         let time = self.step_times.get(&numerics.coarsening).copied().unwrap_or(0.0) * steps;
         if numerics.adaptive.is_some() && !self.too_smooth { time / USUAL_ACCELERATION } else { time }
     }
@@ -156,11 +156,10 @@ impl<'a> Runs<'a> {
             sample_every: SampleEvery::Time(windows.width),
             maps_at: Vec::new(),
             maps: vec![Map::DiscHeight, Map::PinHeight],
-            roughness: false,
-            pressure_spread: false,
+            extras: Vec::new(),
             checkpoint_every: f64::INFINITY,
         };
-        let (steps, adaptive) = (steps_until(&parameters, duration), numerics.adaptive);
+        let (steps, adaptive) = (parameters.steps_of(duration), numerics.adaptive);
         let mut scene = Scene { parameters, steps, adaptive, duration, output, ..self.scene.clone() };
         let mut assembly = Assembly::new(&scene, self.surfaces(numerics), self.execution)?;
         if assembly.idle().is_some() {

@@ -56,9 +56,7 @@ impl<C: Communicator> Worker<C> {
             filled_fraction: self.filling.filled_fraction(open_volume),
             load_residual: self.contact.residual(),
             balance_residual: self.debris.balance_residual(),
-            acceleration: None,
-            roughness: None,
-            pressure_spread: None,
+            extras: Vec::new(),
         })
     }
 

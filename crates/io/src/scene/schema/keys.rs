@@ -1,6 +1,9 @@
 //! The table of keys.
 
-use super::{Choose, Group, Key, Kind, Meaningless, Need, Range};
+use plateau_core::observe::EXTRAS;
+
+use super::choices::{self, words};
+use super::{Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
 use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Text, Times, True};
 use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, SameAs};
@@ -47,9 +50,6 @@ pub const MEANINGLESS: &[Meaningless] = &[
     },
 ];
 
-/// Quarters of a turn, in order.
-pub(crate) const ROTATIONS: &[&str] = &["0 deg", "90 deg", "180 deg", "270 deg"];
-
 const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
 const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
 const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
@@ -64,11 +64,12 @@ const fn time(range: Range) -> Kind {
 }
 
 pub(super) fn all() -> Vec<Key> {
-    let mut table = Table { keys: Vec::new(), section: "" };
+    let mut table = Table { keys: Vec::new(), section: "", role: Role::Nothing };
     table.key("version", Integer(1), Required, "version of the scene format: 1");
     table.key("title", Text, Computed("the scene file's name"), "title of the run");
     table.key("extends", Text, Optional, "scene that this one takes as its base, relative to this file");
 
+    table.role = Role::Physics;
     table.section = "mesh";
     table.key("inner_radius", length("mm", Range::POSITIVE), Required, "inner radius of the ring");
     table.key("outer_radius", length("mm", Range::POSITIVE), Required, "outer radius of the ring");
@@ -83,8 +84,8 @@ pub(super) fn all() -> Vec<Key> {
     table.key("rotational_speed", rotation, OneOf, "rotational speed of the disc");
     let speed = Kind::Quantity { dimension: Speed, unit: "m/s", range: Range::POSITIVE };
     table.key("sliding_speed", speed, OneOf, "sliding speed at the mean radius");
-    table.key("duration", time(Range::POSITIVE), OneOf, "physical time to simulate");
-    table.key("steps", Integer(1), OneOf, "steps to simulate, each by one column of cells");
+    table.key("duration", time(Range::POSITIVE), OneOf, "physical time to simulate").role = Role::Length;
+    table.key("steps", Integer(1), OneOf, "steps to simulate, each by one column of cells").role = Role::Length;
 
     table.section = "contact";
     table.key(
@@ -93,7 +94,8 @@ pub(super) fn all() -> Vec<Key> {
         Required,
         "height h of the elastic foundation, which is E*/h stiff per area",
     );
-    table.key("load_tolerance", Number(BETWEEN_0_AND_1), Default("1e-9"), "accepted |sum k A u - F| / F");
+    let tolerance = Number(BETWEEN_0_AND_1);
+    table.key("load_tolerance", tolerance, Default("1e-9"), "accepted |sum k A u - F| / F").role = Role::Nothing;
 
     table.material("materials.disc_primary", None);
     table.material("materials.disc_secondary", Some("materials.disc_primary"));
@@ -107,11 +109,12 @@ pub(super) fn all() -> Vec<Key> {
     table.section = "plateaus";
     table.key(
         "debris",
-        Choice(&["local", "contact", "track"]),
+        Choice(&const { words(&choices::DEBRIS) }),
         Computed("`\"contact\"`"),
         "where wear debris goes: into the gap behind the cell that wears, into a pool, or into one for each row of cells",
     );
-    table.key("debris_pool", Choice(&["contact", "track"]), Optional, "the former name of `debris`, for the two pools");
+    let former = Choice(&const { words(&choices::DEBRIS_POOL) });
+    table.key("debris_pool", former, Optional, "the former name of `debris`, for the two pools");
     table.key(
         "captured_fraction",
         Number(Range::FRACTION),
@@ -141,7 +144,8 @@ pub(super) fn all() -> Vec<Key> {
     table.key("synthetic.fibre_width", length("um", Range::POSITIVE), Required, "width of a fibre");
     table.key("image", InputFile, OneOf, "micrograph of the pin: .png .tif");
     table.key("pixel", length("um", Range::POSITIVE), Optional, "distance of the image's pixels; required beside it");
-    table.key("rotate", Choice(ROTATIONS), Computed("`\"0 deg\"`"), "how far the image is turned, counterclockwise");
+    let rotations = Choice(&const { words(&choices::ROTATE) });
+    table.key("rotate", rotations, Computed("`\"0 deg\"`"), "how far the image is turned, counterclockwise");
     table.key("smooth", length("um", Range::NOT_NEGATIVE), Optional, "standard deviation of a Gaussian over the image");
     let threshold = NumberOr(Range::FRACTION, "otsu");
     table.key(
@@ -150,12 +154,14 @@ pub(super) fn all() -> Vec<Key> {
         Computed("`\"otsu\"`"),
         "grey level, black 0 to white 1, that parts fibre and resin",
     );
-    table.key("fibres", Choice(&["bright", "dark"]), Computed("`\"bright\"`"), "which side of the threshold is fibre");
+    let fibres = Choice(&const { words(&choices::FIBRES) });
+    table.key("fibres", fibres, Computed("`\"bright\"`"), "which side of the threshold is fibre");
     let area = Kind::Quantity { dimension: Area, unit: "um^2", range: Range::NOT_NEGATIVE };
     table.key("despeckle", area, Optional, "area below which specks of fibre, then holes in it, are removed");
     table.key("file", InputFile, OneOf, "HDF5 file with the fibre map");
     table.key("dataset", Text, Optional, "dataset in the file: integers, 0 none, 1 primary, shape (pin_columns, rows)");
-    table.key("uniform", Choice(&["primary", "none"]), OneOf, "all cells alike: fibre or resin");
+    let uniform = Choice(&const { words(&choices::UNIFORM) });
+    table.key("uniform", uniform, OneOf, "all cells alike: fibre or resin");
     table.key("mirror", Bool, Default("false"), "whether the map is a view of the pin's face, to be mirrored");
 
     table.section = "pin.surface";
@@ -169,6 +175,7 @@ pub(super) fn all() -> Vec<Key> {
     table.section = "pin.prepare";
     table.preparation();
 
+    table.role = Role::Numerics;
     table.section = "numerics";
     table.key(
         "time_acceleration",
@@ -185,14 +192,16 @@ pub(super) fn all() -> Vec<Key> {
     table.key("time_acceleration.max", Number(AT_LEAST_1), Required, "largest acceleration that the run chooses");
     table.key(
         "integrator",
-        Choice(&["explicit", "exponential"]),
+        Choice(&const { words(&choices::INTEGRATOR) }),
         Default("\"explicit\""),
         "how much a step wears; exponential is stable for any step, docs/model.md",
     );
-    table.key("workers", CountOr("auto"), Default("1"), "threads that share the ring");
+    table.key("workers", CountOr("auto"), Default("1"), "threads that share the ring").role = Role::Nothing;
 
+    table.role = Role::Series;
     table.section = "output";
-    table.key("file", Text, Computed("the scene file's name with .h5"), "run file, relative to the working directory");
+    let file = "run file, relative to the working directory";
+    table.key("file", Text, Computed("the scene file's name with .h5"), file).role = Role::Nothing;
     table.key("sample_every", time(Range::POSITIVE), OneOf, "physical time between samples");
     table.key(
         "sample_every_steps",
@@ -200,38 +209,32 @@ pub(super) fn all() -> Vec<Key> {
         Computed("one revolution, unless sample_every is given"),
         "steps between samples",
     );
-    table.key("maps_at", Times, Default("[]"), "physical times of maps; the last state is always written");
-    table.key("maps", Maps, Computed("all seven"), "maps that are written");
-    table.key(
-        "roughness",
-        Bool,
-        Default("false"),
-        "whether Sa, Sq, Ssk and Sku of disc and pin are written with every sample",
-    );
-    table.key(
-        "pressure_spread",
-        Bool,
-        Default("false"),
-        "whether the coefficient of variation and the Gini coefficient of the pressure are written with every sample",
-    );
-    table.key(
-        "checkpoint_every",
-        time(Range::POSITIVE),
-        Default("\"60 s\""),
-        "wall time between two checkpoints, from which a run that was stopped or killed goes on",
-    );
+    let maps_at = "physical times of maps; the last state is always written";
+    table.key("maps_at", Times, Default("[]"), maps_at).role = Role::MapTimes;
+    table.key("maps", Maps, Computed("all seven"), "maps that are written").role = Role::Maps;
+    for extra in EXTRAS {
+        if let Some(request) = &extra.request {
+            table.key(extra.name, Bool, Default("false"), request.meaning);
+        }
+    }
+    let checkpoint_every = "wall time between two checkpoints, from which a run that was stopped or killed goes on";
+    let usual = Default("\"60 s\"");
+    table.key("checkpoint_every", time(Range::POSITIVE), usual, checkpoint_every).role = Role::Nothing;
     table.keys
 }
 
-/// Collects keys; `section` is the table to which the next ones belong.
+/// Collects keys; `section` is the table to which the next ones belong, `role` what they change.
 struct Table {
     keys: Vec<Key>,
     section: &'static str,
+    role: Role,
 }
 
 impl Table {
-    fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) {
-        self.keys.push(Key { section: self.section, name, kind, need, meaning });
+    fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) -> &mut Key {
+        let place = self.keys.len();
+        self.keys.push(Key { section: self.section, name, kind, need, meaning, role: self.role });
+        &mut self.keys[place]
     }
 
     fn elasticity(&mut self, need: Need) {
@@ -283,11 +286,11 @@ impl Table {
     }
 
     fn preparation(&mut self) {
-        let levels = Choice(&["quadratic", "plane", "mean", "none"]);
+        let levels = Choice(&const { words(&choices::LEVEL) });
         self.key("level", levels, Default("\"none\""), "form that is taken out first");
         let outliers = "robust standard deviations from the median beyond which points are taken out";
         self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
-        let fills = Choice(&["level", "interpolate"]);
+        let fills = Choice(&const { words(&choices::FILL) });
         self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
         self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
         self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");

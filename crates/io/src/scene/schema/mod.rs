@@ -3,6 +3,7 @@
 //! One table ([`keys`]) serves for checking, for messages about unknown keys, for the resolved scene and for
 //! documentation. The order is that of docs/scenes.md.
 
+pub mod choices;
 mod example;
 mod json_schema;
 mod keys;
@@ -15,7 +16,6 @@ use std::sync::LazyLock;
 use crate::units::Dimension;
 
 pub use json_schema::document as json_schema;
-pub(crate) use keys::ROTATIONS;
 pub use keys::{GROUPS, MEANINGLESS};
 pub(crate) use suggest::{nearest, unknown};
 pub use tables::table_meaning;
@@ -33,6 +33,8 @@ pub struct Key {
     pub need: Need,
     /// What it means, in one line.
     pub meaning: &'static str,
+    /// What changes with it.
+    pub role: Role,
 }
 
 impl Key {
@@ -55,6 +57,35 @@ impl Key {
     pub fn inline_table(&self) -> Option<String> {
         self.name.rsplit_once('.').map(|(table, _)| join(self.section, table))
     }
+}
+
+/// What changes with a key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// What is simulated.
+    Physics,
+    /// The same, computed otherwise.
+    Numerics,
+    /// How much of it is simulated.
+    Length,
+    /// Which series are recorded, and when.
+    Series,
+    /// Which maps are recorded.
+    Maps,
+    /// When maps are recorded. None is after the end, so this may change with the length.
+    MapTimes,
+    /// No step and nothing that is recorded: names, threads, what is warned of, checkpoints.
+    Nothing,
+}
+
+/// What changes with the key with this full path; of one that is not known (any more, or yet) what is simulated.
+pub fn role(path: &str) -> Role {
+    find(path).map_or(Role::Physics, |key| key.role)
+}
+
+/// Whether the key with this full path names a file whose content is read.
+pub fn is_input(path: &str) -> bool {
+    find(path).is_some_and(|key| key.kind == Kind::InputFile)
 }
 
 /// What a key holds.

@@ -1,0 +1,151 @@
+//! Samples, and the quantities that every run reports.
+
+use serde::{Deserialize, Serialize};
+
+/// The reported quantities at the end of one step, in SI units.
+///
+/// Displacement, contact area and pressures are those of that step's load balance, everything else is the state after
+/// the step.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Sample {
+    /// Steps done.
+    pub step: u64,
+    /// t, s.
+    pub time: f64,
+    /// δ, m: displacement of the rigid pin.
+    pub displacement: f64,
+    /// Σ A over cells in contact, m².
+    pub contact_area: f64,
+    /// Mean of the contact area over the last simulated revolution, m²; over all steps so far before the first is done.
+    pub contact_area_mean: f64,
+    /// Σ contact area · m Δt since t = 0, m² s.
+    pub contact_area_integral: f64,
+    /// Distance slid at the mean radius in the physical time, m.
+    pub sliding_distance: f64,
+    /// Contact area over the area of the pin.
+    pub contact_ratio: f64,
+    /// Σ p A / Σ A over cells in contact, Pa.
+    pub mean_pressure: f64,
+    /// Largest pressure of any cell, Pa.
+    pub max_pressure: f64,
+    /// Volume worn off plateaus of the pin, m³, cumulative.
+    pub worn_pin: f64,
+    /// Volume worn off resin, m³, cumulative.
+    pub worn_resin: f64,
+    /// Volume worn off the disc, m³, cumulative.
+    pub worn_disc: f64,
+    /// M, m³: debris in the contact that is not compacted (the sum over tracks where each has its own pool).
+    pub pool: f64,
+    /// Debris that left the contact, m³, cumulative.
+    pub emitted: f64,
+    /// Debris compacted on the pin, m³, cumulative.
+    pub deposited_pin: f64,
+    /// Debris compacted on the disc, m³, cumulative.
+    pub deposited_disc: f64,
+    /// Build-up of unsupported plateaus that went back to the pool, m³, cumulative.
+    pub returned: f64,
+    /// Area fraction of the pin that is primary plateau.
+    pub pin_primary: f64,
+    /// Area fraction of the pin that is secondary plateau.
+    pub pin_secondary: f64,
+    /// Area fraction of the pin that is no plateau.
+    pub pin_none: f64,
+    /// Area fraction of the whole ring that is secondary plateau.
+    pub disc_secondary: f64,
+    /// 1 − V(t)/V(0), V = Σ A (z_ref − z_d)₊ with z_ref the highest initial disc height.
+    pub filled_fraction: f64,
+    /// |Σ k A u − F_N| / F_N.
+    pub load_residual: f64,
+    /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
+    pub balance_residual: f64,
+    /// Quantities that not every run has, by their names; none in a checkpoint.
+    #[serde(with = "former_extras")]
+    pub extras: Vec<(&'static str, f64)>,
+}
+
+impl Sample {
+    /// Adds the values of quantities that not every run has.
+    pub fn add(&mut self, quantities: &'static [Quantity], values: impl IntoIterator<Item = f64>) {
+        self.extras.extend(quantities.iter().map(|quantity| quantity.name).zip(values));
+    }
+}
+
+/// What a checkpoint has in place of the extras of its last sample, which nobody reads: room for three series, as it was
+/// when these were fields.
+mod former_extras {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    type Former = (Option<[f64; 2]>, Option<[f64; 8]>, Option<[f64; 2]>);
+
+    pub fn serialize<S: Serializer>(_: &[(&'static str, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+        Former::default().serialize(serializer)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(&'static str, f64)>, D::Error> {
+        Former::deserialize(deserializer).map(|_| Vec::new())
+    }
+}
+
+/// Name, unit and meaning of one reported quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Name of the series in a run file.
+    pub name: &'static str,
+    /// SI unit as UDUNITS writes it.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub long_name: &'static str,
+    /// Where a sample keeps it; else it is among the extras.
+    field: Option<fn(&Sample) -> f64>,
+}
+
+impl Quantity {
+    /// One that not every run has.
+    pub const fn extra(name: &'static str, unit: &'static str, long_name: &'static str) -> Self {
+        Self { name, unit, long_name, field: None }
+    }
+
+    /// The value in a sample; NaN in one without it.
+    pub fn value(&self, sample: &Sample) -> f64 {
+        let among_extras = || sample.extras.iter().find(|(name, _)| *name == self.name).map(|(_, value)| *value);
+        self.field.map(|field| field(sample)).or_else(among_extras).unwrap_or(f64::NAN)
+    }
+}
+
+macro_rules! quantities {
+    ($($field:ident, $unit:literal, $long_name:literal;)*) => {
+        &[$(Quantity {
+            name: stringify!($field),
+            unit: $unit,
+            long_name: $long_name,
+            field: Some(|sample| sample.$field),
+        }),*]
+    };
+}
+
+/// Every series that each run file has, but the time, in the order in which they are reported.
+pub const QUANTITIES: &[Quantity] = quantities! {
+    displacement, "m", "displacement of the rigid pin";
+    contact_area, "m2", "contact area";
+    contact_area_mean, "m2", "contact area, mean over the last simulated revolution";
+    contact_area_integral, "m2 s", "contact area, integral over time";
+    sliding_distance, "m", "sliding distance at the mean radius";
+    contact_ratio, "1", "contact area over the area of the pin";
+    mean_pressure, "Pa", "mean pressure over the cells in contact";
+    max_pressure, "Pa", "largest pressure of any cell";
+    worn_pin, "m3", "volume worn off plateaus of the pin";
+    worn_resin, "m3", "volume worn off the resin of the pin";
+    worn_disc, "m3", "volume worn off the disc";
+    pool, "m3", "wear debris in the contact, not compacted";
+    emitted, "m3", "wear debris that left the contact";
+    deposited_pin, "m3", "wear debris compacted on the pin";
+    deposited_disc, "m3", "wear debris compacted on the disc";
+    returned, "m3", "build-up of unsupported plateaus returned to the pool";
+    pin_primary, "1", "area fraction of the pin that is primary plateau";
+    pin_secondary, "1", "area fraction of the pin that is secondary plateau";
+    pin_none, "1", "area fraction of the pin that is no plateau";
+    disc_secondary, "1", "area fraction of the disc ring that is secondary plateau";
+    filled_fraction, "1", "fraction of the initial volume below the highest disc height that is filled";
+    load_residual, "1", "relative residual of the load balance";
+    balance_residual, "1", "relative residual of the debris balance";
+};

@@ -1,0 +1,45 @@
+//! The words of choices, and what each stands for.
+
+use plateau_core::model::parameters::{DebrisRule, Integrator};
+use plateau_core::model::state::Base;
+use plateau_core::surface::micrograph::Fibres;
+use plateau_core::surface::{Fill, Level};
+
+/// Words, each with its meaning.
+pub type Choices<T, const COUNT: usize> = [(&'static str, T); COUNT];
+
+/// `plateaus.debris`.
+pub(crate) const DEBRIS: Choices<DebrisRule, 3> =
+    [("local", DebrisRule::Local), ("contact", DebrisRule::Contact), ("track", DebrisRule::Track)];
+/// `plateaus.debris_pool`, as `plateaus.debris` was called when there were only these.
+pub(crate) const DEBRIS_POOL: Choices<DebrisRule, 2> = [DEBRIS[1], DEBRIS[2]];
+/// `numerics.integrator`.
+pub const INTEGRATOR: Choices<Integrator, 2> =
+    [("explicit", Integrator::Explicit), ("exponential", Integrator::Exponential)];
+/// `level` of a preparation.
+pub(crate) const LEVEL: Choices<Level, 4> =
+    [("quadratic", Level::Quadratic), ("plane", Level::Plane), ("mean", Level::Mean), ("none", Level::None)];
+/// `fill` of a preparation.
+pub(crate) const FILL: Choices<Fill, 2> = [("level", Fill::Level), ("interpolate", Fill::Interpolate)];
+/// `pin.base.rotate`: quarters of a turn.
+pub(crate) const ROTATE: Choices<u8, 4> = [("0 deg", 0), ("90 deg", 1), ("180 deg", 2), ("270 deg", 3)];
+/// `pin.base.fibres`.
+pub(crate) const FIBRES: Choices<Fibres, 2> = [("bright", Fibres::Bright), ("dark", Fibres::Dark)];
+/// `pin.base.uniform`.
+pub(crate) const UNIFORM: Choices<Base, 2> = [("primary", Base::Primary), ("none", Base::None)];
+
+/// The words alone.
+pub(super) const fn words<T, const COUNT: usize>(choices: &Choices<T, COUNT>) -> [&'static str; COUNT] {
+    let mut words = [""; COUNT];
+    let mut place = 0;
+    while place < COUNT {
+        words[place] = choices[place].0;
+        place += 1;
+    }
+    words
+}
+
+/// The word that stands for a value of a choice.
+pub fn word<T: PartialEq, const COUNT: usize>(choices: &Choices<T, COUNT>, value: &T) -> &'static str {
+    choices.iter().find(|(_, other)| other == value).map_or("", |(word, _)| word)
+}
