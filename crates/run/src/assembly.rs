@@ -21,7 +21,7 @@ pub struct Assembly {
     /// Why there is no scout although the scene asks for one.
     idle: Option<Idle>,
     /// When samples and maps are due, as far as is known now; may be another one before the first step.
-    pub schedule: Schedule,
+    pub(crate) schedule: Schedule,
     pub(crate) output: OutputRecipe,
 }
 
@@ -38,7 +38,12 @@ impl Assembly {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn on(job: &Job, scene: &Scene, surfaces: InitialSurfaces, execution: Execution) -> Result<Self, RunError> {
+    pub(crate) fn on(
+        job: &Job,
+        scene: &Scene,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+    ) -> Result<Self, RunError> {
         Self::made_by(
             |parameters, surfaces, execution| job.simulation(parameters, surfaces, execution),
             scene,
@@ -69,12 +74,12 @@ impl Assembly {
     }
 
     /// Whether the run chooses its acceleration, and so has a series of it.
-    pub fn chooses_acceleration(&self) -> bool {
+    pub(crate) fn chooses_acceleration(&self) -> bool {
         self.scout.is_some()
     }
 
     /// Why the run is not accelerated (any more), if its scene has it choose.
-    pub fn idle(&self) -> Option<Idle> {
+    pub(crate) fn idle(&self) -> Option<Idle> {
         self.idle.or_else(|| self.scout.as_ref().and_then(Scout::idle))
     }
 

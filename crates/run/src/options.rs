@@ -34,7 +34,7 @@ pub enum StartMode {
 
 impl StartMode {
     /// Whether a run that is there is to be gone on with.
-    pub fn resumes(self) -> bool {
+    pub(crate) fn resumes(self) -> bool {
         self != Self::New
     }
 }
