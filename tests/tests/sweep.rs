@@ -7,6 +7,7 @@ use std::process::Stdio;
 use std::thread;
 use std::time::Duration;
 
+use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::run_file::RunFile;
 use plateau_tests::scenes::Stream;
@@ -176,8 +177,10 @@ fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     let summary = json(&directory.plateau(["run", &scene, "-o", "alone.h5", "--json"].into_iter().chain(sets)));
     let window = &summary["contact_area_last_tenth"];
-    // The run adds up step by step, the study over the samples of its integral.
-    assert!((window["mean"].as_f64().unwrap() / file.floats("/mean_contact_area")[3] - 1.0).abs() < 1e-14, "{window}");
+    // The run adds up step by step, the study takes the difference of integrals that are ten times as large; each step rounds once.
+    let tolerance = 10.0 * summary["steps"].as_f64().unwrap() * f64::EPSILON;
+    let ratio = window["mean"].as_f64().unwrap() / file.floats("/mean_contact_area")[3];
+    assert!((ratio - 1.0).abs() < tolerance, "{window} {ratio}");
     // The revolutions of a run file follow from its sliding distance.
     let error = file.floats("/mean_contact_area_standard_error")[3];
     assert!((window["standard_error"].as_f64().unwrap() / error - 1.0).abs() < 1e-6, "{window} {error}");
@@ -244,9 +247,10 @@ fn tasks_share_a_study_and_nothing_of_it_shows() {
 }
 
 #[test]
-fn a_sweep_killed_fifty_times_ends_like_an_undisturbed_one() {
+fn a_sweep_killed_again_and_again_ends_like_an_undisturbed_one() {
+    let (kills, seeds) = few_or_all((12, 10), (50, 30));
     let (undisturbed, killed) = (directory(), directory());
-    let seeds: Vec<String> = (1..=30).map(|seed: u32| seed.to_string()).collect();
+    let seeds: Vec<String> = (1..=seeds).map(|seed: u32| seed.to_string()).collect();
     let runs = 9 * seeds.len();
     let study = study().replace("7, 8, 9", &seeds.join(", "));
     for directory in [&undisturbed, &killed] {
@@ -256,7 +260,7 @@ fn a_sweep_killed_fifty_times_ends_like_an_undisturbed_one() {
     let expected = results(&undisturbed);
     let mut random = Stream(1);
     let (mut before, mut met) = (0, 0);
-    for _ in 0..50 {
+    for _ in 0..kills {
         let mut command = killed.command(["sweep", "run", "study.toml", "--jobs", "2"]);
         let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         // At some moment after its first results, for as long as there are any.
@@ -270,7 +274,7 @@ fn a_sweep_killed_fifty_times_ends_like_an_undisturbed_one() {
         met += u32::from(different.len() < runs);
         before = different.len();
     }
-    assert!(met > 10, "only {met} of the kills met a sweep at work");
+    assert!(met > kills / 5, "only {met} of the kills met a sweep at work");
     let last = sweep(&killed, &[]);
     assert_eq!(last["finished_before"].as_u64(), Some(before as u64));
     assert_eq!(results(&killed), expected);
