@@ -31,6 +31,17 @@ pub fn program() -> PathBuf {
     program
 }
 
+/// Commands that the program's own help lists.
+///
+/// # Panics
+/// When there is no list in it.
+pub fn commands() -> Vec<String> {
+    let help = WorkingDirectory::new().plateau(["--help"]).quiet_success();
+    let (_, list) = help.split_once("Commands:\n").expect("a list of commands");
+    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
+    names.filter(|name| *name != "help").map(str::to_owned).collect()
+}
+
 /// The root of the repository.
 pub fn repository() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))

@@ -1,16 +1,15 @@
 //! `plateau accuracy`: its numbers are computed anew from run files of `plateau run` with the same settings.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::Duration;
+mod endings;
+mod reference;
 
-use hdf5::types::VarLenUnicode;
+use std::fs;
+
 use ndarray::{Array2, ArrayView2};
 use plateau_tests::figure::Figure;
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository, wait_until};
-use plateau_tests::run_file::{RunFile, changed, created};
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository};
+use plateau_tests::run_file::{RunFile, created};
+use plateau_tests::table::{Row, number, relative_error, rows};
 
 /// Windows of the small scene, s: whole revolutions (60 s/850) of the runs with 1, 2, 5, 10 and 20 times the speed of time,
 /// and not narrower than 5 s.
@@ -18,9 +17,6 @@ const WINDOW: f64 = 4.0 * 20.0 * 60.0 / 850.0;
 /// Their number in 20 s.
 const WINDOWS: usize = 3;
 const ROWS: usize = 20;
-
-/// A row of `accuracy.csv` by the names of the columns.
-type Row = BTreeMap<String, String>;
 
 /// A directory with `scene.toml`, 20 s of the quick scene with a sample at the end of every window, and other edits.
 fn with_scene(edits: &[(&str, &str)]) -> WorkingDirectory {
@@ -48,34 +44,6 @@ fn number_of(value: &serde_json::Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("found {value}, expected a number"))
 }
 
-/// The rows of a CSV text; texts may stand in quotation marks.
-fn rows(csv: &str) -> Vec<Row> {
-    let cells = |line: &str| {
-        let (mut cells, mut quoted) = (vec![String::new()], false);
-        for letter in line.chars() {
-            match letter {
-                '"' => quoted = !quoted,
-                ',' if !quoted => cells.push(String::new()),
-                letter => cells.last_mut().unwrap().push(letter),
-            }
-        }
-        cells
-    };
-    let mut lines = csv.lines();
-    let names = cells(lines.next().expect("names"));
-    lines
-        .map(|line| {
-            let cells = cells(line);
-            assert_eq!(cells.len(), names.len(), "{line}");
-            names.iter().cloned().zip(cells).collect()
-        })
-        .collect()
-}
-
-fn number(row: &Row, name: &str) -> f64 {
-    row[name].parse().unwrap_or_else(|_| panic!("{name} is {:?}", row[name]))
-}
-
 /// Runs the scene into a file.
 fn run(directory: &WorkingDirectory, file: &str, sets: &[String]) -> RunFile {
     let sets = sets.iter().flat_map(|set| ["--set", set]);
@@ -93,13 +61,6 @@ fn mean_areas(run: &RunFile) -> Vec<f64> {
     (0..WINDOWS).map(mean).collect()
 }
 
-/// Root mean square error relative to a reference.
-fn error(values: &[f64], reference: &[f64]) -> f64 {
-    let squares = |pairs: &mut dyn Iterator<Item = f64>| pairs.map(|value| value * value).sum::<f64>();
-    let difference = squares(&mut values.iter().zip(reference).map(|(a, b)| a - b));
-    (difference / squares(&mut reference.iter().copied())).sqrt()
-}
-
 fn expect_near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!((found - expected).abs() <= tolerance, "{what}: {found}, expected {expected}");
 }
@@ -115,6 +76,18 @@ fn weighted_rms(field: &[f64], radii: &[f64], about_mean: bool) -> f64 {
     let mean = (0..field.len()).map(|cell| weight(cell) * field[cell]).sum::<f64>() / whole;
     let level = if about_mean { mean } else { 0.0 };
     ((0..field.len()).map(|cell| weight(cell) * (field[cell] - level).powi(2)).sum::<f64>() / whole).sqrt()
+}
+
+/// What is wrong is said in one message, and nothing is written.
+fn expect_refusal(directory: &WorkingDirectory, arguments: &[&str], words: &[&str]) {
+    let before = directory.content();
+    let Outcome { status, stdout, stderr } = directory.plateau(["accuracy"].iter().chain(arguments));
+    assert_eq!((status, stdout.as_str()), (Some(2), ""), "{stderr}");
+    assert!(stderr.starts_with("plateau: "), "{stderr}");
+    for words in words {
+        assert!(stderr.contains(words), "{words:?} is not in {stderr}");
+    }
+    assert!(directory.content() == before, "something was written");
 }
 
 #[test]
@@ -143,12 +116,12 @@ fn every_error_is_that_of_the_run_files() {
         let near =
             |name: &str, expected: f64| expect_near(number(row, name), expected, 1e-12, &format!("{what}, {name}"));
         let found = mean_areas(&run);
-        near("contact_area_error", error(&found, &areas));
+        near("contact_area_error", relative_error(&found, &areas));
         let largest = found.iter().zip(&areas).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
         near("contact_area_largest_error", largest);
         match row["ladder"].as_str() {
             "time_acceleration" | "perturbation" => assert_eq!(row["contact_area_change"], ""),
-            _ => near("contact_area_change", error(&found, &own)),
+            _ => near("contact_area_change", relative_error(&found, &own)),
         }
         let [filled, expected] = [&run, &reference].map(|run| run.floats("/series/filled_fraction"));
         near("filled_fraction_error", filled[WINDOWS] - expected[WINDOWS]);
@@ -251,7 +224,12 @@ fn a_coarser_mesh_is_averaged_by_area() {
     ];
     let run = run(&directory, "run.h5", &sets.map(str::to_owned));
     // What is rounded otherwise grows little.
-    expect_near(number(row, "contact_area_error"), error(&mean_areas(&run), &mean_areas(&fine)), 1e-6, "error");
+    expect_near(
+        number(row, "contact_area_error"),
+        relative_error(&mean_areas(&run), &mean_areas(&fine)),
+        1e-6,
+        "error",
+    );
     let worn = |run: &RunFile| last(run, "worn_pin");
     expect_near(number(row, "worn_error"), worn(&run) / worn(&fine) - 1.0, 1e-6, "worn");
     let coarse_radii = run.floats("/radius");
@@ -345,242 +323,6 @@ fn every_file_has_the_same_numbers() {
     assert!(fs::read(directory.path("accuracy/accuracy.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
-/// What is wrong is said in one message, and nothing is written.
-fn expect_refusal(directory: &WorkingDirectory, arguments: &[&str], words: &[&str]) {
-    let before = directory.content();
-    let Outcome { status, stdout, stderr } = directory.plateau(["accuracy"].iter().chain(arguments));
-    assert_eq!((status, stdout.as_str()), (Some(2), ""), "{stderr}");
-    assert!(stderr.starts_with("plateau: "), "{stderr}");
-    for words in words {
-        assert!(stderr.contains(words), "{words:?} is not in {stderr}");
-    }
-    assert!(directory.content() == before, "something was written");
-}
-
-#[test]
-fn bad_input_is_refused() {
-    let directory = with_scene(&[]);
-    let fine = ["numerics.time_acceleration=5".to_owned()];
-    drop(run(&directory, "good.h5", &fine));
-    drop(run(&directory, "other.h5", &[fine.to_vec(), vec!["operation.normal_force=6 N".to_owned()]].concat()));
-    drop(run(&directory, "short.h5", &[fine.to_vec(), vec!["operation.duration=10 s".to_owned()]].concat()));
-    fs::copy(directory.path("good.h5"), directory.path("stopped.h5")).unwrap();
-    let file = changed(directory.path("stopped.h5"));
-    let state: VarLenUnicode = "interrupted".parse().unwrap();
-    file.attr("state").unwrap().write_scalar(&state).unwrap();
-    file.close().unwrap();
-    let model = ["--set", "numerics.time_acceleration=1"];
-    let chosen = ["--set", "numerics.time_acceleration={ tolerance = 0.01, max = 20 }"];
-    let cases: [(&[&str], &[&str]); 14] = [
-        (
-            &["scene.toml", "--ladder", "steps"],
-            &["'steps'", "time_acceleration, tolerance, mesh, integrator, perturbation"],
-        ),
-        (&["scene.toml", "--budget", "10"], &["'10'", "a time such as"]),
-        (&["scene.toml", "--budget", "0 s"], &["expected more than 0 s"]),
-        (
-            &["scene.toml", "--budget", "1 us"],
-            &[
-                "the budget of",
-                "is too small: at ",
-                "steps/s, as measured, a reference with time_acceleration = ",
-                "finer than the scene's time_acceleration = 20",
-                "give --budget",
-                "for a reference with 1, the model itself",
-            ],
-        ),
-        (
-            &[&["scene.toml", "--budget", "1 us"], &model[..]].concat(),
-            &["too small", "the scene's own run, which is the reference, and one to hold against it take about"],
-        ),
-        (&["missing.toml"], &["missing.toml"]),
-        (&["scene.toml", "--reference", "scene.toml"], &["scene.toml is no HDF5 file"]),
-        (
-            &["scene.toml", "--reference", "other.h5"],
-            &["other.h5 is a run of another scene", "operation.normal_force: \"6 N\" there, \"5 N\" here"],
-        ),
-        (&["scene.toml", "--reference", "short.h5"], &["short.h5 ends at 10.", "expected 20 s"]),
-        (&["scene.toml", "--reference", "stopped.h5"], &["stopped.h5 is interrupted, expected a run that is finished"]),
-        (
-            &["scene.toml", "--reference", "good.h5", "--ladder", "mesh", "--budget", "1 us"],
-            &["the budget of", "is too small: at ", "the runs to hold against the reference take about"],
-        ),
-        // A reference is finer than what it judges.
-        (
-            &["scene.toml", "--reference", "good.h5", "--set", "numerics.time_acceleration=5"],
-            &["the reference has time_acceleration = 5, the scene has time_acceleration = 5: expected a reference"],
-        ),
-        (
-            &[&["scene.toml", "--reference", "good.h5"], &chosen[..]].concat(),
-            &["the scene has time_acceleration = { tolerance = 0.01, max = 20 }: expected a reference"],
-        ),
-        (&["scene.toml", "-o", "scene.toml"], &["cannot make the folder scene.toml"]),
-    ];
-    for (arguments, words) in cases {
-        expect_refusal(&directory, arguments, words);
-    }
-    directory.write("taken/accuracy.svg", "mine");
-    expect_refusal(&directory, &["scene.toml", "-o", "taken"], &["taken/accuracy.svg exists; give --force"]);
-}
-
-/// Arguments that make the scene one of 196 million steps with `time_acceleration` = 1, which no machine does in 10 s.
-fn long(time_acceleration: &str, budget: &str) -> Vec<String> {
-    let sets = [
-        "operation.duration=20000 s",
-        "mesh.rows=1",
-        // As long as two of the wide cells.
-        "disc.surface.synthetic.correlation_length=400 um",
-        "pin.surface.synthetic.correlation_length=400 um",
-        &format!("numerics.time_acceleration={time_acceleration}"),
-    ];
-    let sets = sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]);
-    sets.chain(["--budget", budget, "--ladder", "integrator"].map(str::to_owned)).collect()
-}
-
-#[test]
-fn a_budget_for_no_finer_reference_is_too_small() {
-    let directory = with_scene(&[]);
-    // There would be time for runs that are coarser than the scene.
-    let arguments = long("2", "4 s");
-    let arguments: Vec<&str> = ["scene.toml"].into_iter().chain(arguments.iter().map(String::as_str)).collect();
-    let words = [
-        "the budget of 4.0 s is too small: at ",
-        "a reference with time_acceleration = 1, finer than the scene's time_acceleration = 2",
-        "give --budget ",
-    ];
-    expect_refusal(&directory, &arguments, &words);
-}
-
-#[test]
-fn a_small_budget_has_a_reference_between_the_model_and_the_scene() {
-    let directory = with_scene(&[]);
-    // 1.3 million steps are needed.
-    let arguments = long("1000", "20 s");
-    let (text, rows) = measured(&directory, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
-    assert!(
-        text.contains("the finest that the budget of 20.0 s allows; for 1, the model itself, give --budget"),
-        "{text}"
-    );
-    let results = document(&directory);
-    let reference = number_of(&results["reference"]["time_acceleration"]);
-    assert!(1.0 < reference && reference < 1000.0, "{text}");
-    assert!(rows.iter().all(|row| number(row, "time_acceleration") > reference), "{text}");
-    assert!(rows.iter().any(|row| row["value"] == "1000.0"), "{text}");
-    assert!(number_of(&results["reference"]["contact_area_error"]) > 0.0, "{text}");
-}
-
-#[test]
-fn the_own_error_of_a_reference_is_that_of_its_opening_and_grows_with_the_scene() {
-    let directory = with_scene(&[]);
-    drop(run(&directory, "five.h5", &["numerics.time_acceleration=5".to_owned()]));
-    let (text, rows) = measured(&directory, &["--ladder", "integrator,mesh", "--reference", "five.h5"]);
-    let results = document(&directory);
-    // Windows of the opening are whole revolutions with 5 and with 20: as wide as those of all runs.
-    let end = number_of(&results["reference"]["opening_end"]);
-    let windows = (end / WINDOW).round() as usize;
-    assert!((1..=WINDOWS).contains(&windows) && (end / WINDOW - windows as f64).abs() < 1e-12, "{end}");
-    let areas = |time_acceleration: &str| {
-        let mut areas =
-            mean_areas(&run(&directory, "run.h5", &[format!("numerics.time_acceleration={time_acceleration}")]));
-        areas.truncate(windows);
-        areas
-    };
-    let [model, reference, scene] = ["1", "5", "20"].map(areas);
-    let opening = error(&reference, &model);
-    expect_near(number_of(&results["reference"]["opening_error"]), opening, 1e-12, "error in the opening");
-    let own = rows.iter().find(|row| row["value"] == "20.0").expect("the scene's own run");
-    let growth = (number(own, "contact_area_error") / error(&scene, &reference)).max(1.0);
-    let own_error = number_of(&results["reference"]["contact_area_error"]);
-    expect_near(own_error, opening * growth, 1e-12, "own error");
-    assert!(own_error > 0.0 && text.contains(" in contact area: "), "{text}");
-    for row in &rows {
-        let above = number(row, "contact_area_error") >= 3.0 * own_error;
-        assert_eq!(number(row, "above_reference_error"), f64::from(u8::from(above)));
-    }
-
-    // A line across the figure.
-    let figure = Figure::read(&fs::read_to_string(directory.path("accuracy/accuracy.svg")).unwrap());
-    let panel = figure.panel(figure.boxes()[0]);
-    let height = panel.y.place(100.0 * own_error);
-    let is_there = |line: &[[f64; 2]]| line.len() == 2 && line.iter().all(|place| (place[1] - height).abs() < 3.0);
-    assert!(figure.lines.iter().any(|(_, line)| is_there(line)), "no line at the reference's own error");
-}
-
-#[test]
-fn nothing_is_advised_from_a_reference_that_is_hardly_better() {
-    let directory = with_scene(&[]);
-    drop(run(&directory, "half.h5", &["numerics.time_acceleration=10".to_owned()]));
-    let (text, rows) = measured(&directory, &["--ladder", "integrator", "--reference", "half.h5"]);
-    let results = document(&directory);
-    let own_error = number_of(&results["reference"]["contact_area_error"]);
-    for row in &rows {
-        assert!(number(row, "contact_area_error") < 3.0 * own_error, "{own_error}: {row:?}");
-        assert_eq!([number(row, "above_reference_error"), number(row, "on_front")], [0.0, 0.0]);
-    }
-    let advice = results["advice"][0].as_str().unwrap();
-    assert!(advice.starts_with("no setting is advised") && results["advice"][1].is_null(), "{advice}");
-    assert!(text.contains(advice) && text.contains("in brackets: the reference's own error is of that size"), "{text}");
-    assert!(!text.contains("error in contact area use"), "{text}");
-
-    let figure = Figure::read(&fs::read_to_string(directory.path("accuracy/accuracy.svg")).unwrap());
-    let is_said = |words: &str| figure.texts.iter().any(|text| text.text.contains(words));
-    assert!(is_said("its own error") && !is_said("no other run"), "{:?}", figure.texts);
-}
-
-#[test]
-fn nothing_is_advised_that_is_slower_than_the_reference() {
-    let directory = with_scene(&[]);
-    drop(run(&directory, "quick.h5", &["numerics.time_acceleration=1".to_owned()]));
-    let file = changed(directory.path("quick.h5"));
-    file.attr("wall_time").unwrap().write_scalar(&1e-9).unwrap();
-    file.close().unwrap();
-    let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
-    assert!(text.contains("no setting is advised: no other run is quicker than the reference"), "{text}");
-    assert!(!text.contains("error in contact area use"), "{text}");
-    assert!(rows.len() == 4 && rows.iter().all(|row| number(row, "on_front") == 0.0), "{text}");
-
-    // A reference that was cut out of a run has no wall time.
-    let file = changed(directory.path("quick.h5"));
-    file.attr("wall_time").unwrap().write_scalar(&f64::NAN).unwrap();
-    file.close().unwrap();
-    let (text, rows) = measured(&directory, &["--ladder", "time_acceleration", "--reference", "quick.h5"]);
-    assert!(text.contains("not recorded, for ") && !text.contains("NaN"), "{text}");
-    assert!(rows.iter().any(|row| number(row, "on_front") == 1.0), "{text}");
-}
-
-#[test]
-fn a_smooth_disc_with_pooled_debris_needs_the_model_itself_as_the_reference() {
-    let directory = with_scene(&[]);
-    let smooth = ["disc.prepare.scale=0.01", "plateaus.debris=contact", "plateaus.captured_fraction=0.06"];
-    let sets = smooth.iter().chain(&["numerics.time_acceleration=2"]).map(|set| (*set).to_owned());
-    drop(run(&directory, "two.h5", &sets.collect::<Vec<_>>()));
-    let set: Vec<&str> = smooth.iter().flat_map(|set| ["--set", set]).collect();
-    let (text, _) = measured(&directory, &[&["--ladder", "integrator", "--reference", "two.h5"], &set[..]].concat());
-    assert!(text.contains("no setting is advised: on a disc as smooth as this one"), "{text}");
-    assert!(text.contains("more later"), "{text}");
-}
-
-#[test]
-fn a_signal_ends_it_in_good_order() {
-    let directory = with_scene(&[]);
-    let long = ["accuracy", "scene.toml", "--set", "operation.duration=1000 h", "--budget", "10000 h"];
-    let mut command = directory.command(long);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    // The folder is made just before signals are heard; the reference takes hours.
-    let started = wait_until(|| directory.path("accuracy").is_dir());
-    sleep(Duration::from_secs(1));
-    let sent = Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
-    let outcome = child.wait_with_output().unwrap();
-    let message = String::from_utf8_lossy(&outcome.stderr);
-    assert!(started && sent.success());
-    assert_eq!(outcome.status.code(), Some(130), "{message}");
-    assert!(
-        message.contains("stopped by signal 2 during the reference run with time_acceleration = 1; nothing is written"),
-        "{message}"
-    );
-    assert_eq!(directory.names(), ["scene.toml"]);
-}
-
 #[test]
 fn the_help_tells_every_ladder() {
     insta::assert_snapshot!(WorkingDirectory::new().plateau(["accuracy", "--help"]).quiet_success());
@@ -594,25 +336,4 @@ fn every_column_is_documented() {
     for name in rows[0].keys() {
         assert!(documentation.contains(&format!("`{name}`")), "{name} is not in docs/accuracy.md");
     }
-}
-
-#[test]
-fn a_run_that_fails_is_in_the_table_and_the_others_go_on() {
-    let directory = with_scene(&[]);
-    // The explicit rule wears far beyond what numbers can hold; the exponential one no farther than the overlap.
-    let sets = [
-        "numerics.integrator=exponential",
-        "materials.pin_primary.specific_wear_rate=1e100 1/Pa",
-        "plateaus.debris=contact",
-        "plateaus.captured_fraction=0.06",
-    ];
-    let mut arguments: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
-    arguments.extend(["--ladder", "integrator", "--ladder", "time_acceleration"]);
-    let (text, rows) = measured(&directory, &arguments);
-    let failed: Vec<&Row> = rows.iter().filter(|row| row["state"] == "failed").collect();
-    assert_eq!(failed.len(), 1, "{text}");
-    assert_eq!((failed[0]["integrator"].as_str(), failed[0]["contact_area_error"].as_str()), ("explicit", ""));
-    assert!(failed[0]["failure"].contains("nothing carries the load"), "{failed:?}");
-    assert!(rows.len() > 3 && text.contains("integrator = \"explicit\" failed: step "), "{text}");
-    assert!(text.contains("above 2 it is unstable"), "{text}");
 }

@@ -8,6 +8,7 @@ use plateau_tests::divergence::differences;
 use plateau_tests::program::{WorkingDirectory, scene};
 use plateau_tests::run_file::RunFile;
 use plateau_tests::scenes::{all_primary, wear_only};
+use plateau_tests::table::relative_error;
 
 const CHOSEN: &str = "numerics.time_acceleration={ tolerance = 0.01, max = 1000 }";
 
@@ -100,12 +101,6 @@ fn history(run: &RunFile, duration: u32, width: u32) -> Vec<f64> {
     edges.windows(2).map(|edge| (edge[1] - edge[0]) / f64::from(width)).collect()
 }
 
-/// Root mean square of the difference of two histories, over that of the first.
-fn error(reference: &[f64], other: &[f64]) -> f64 {
-    let differences: f64 = reference.iter().zip(other).map(|(one, other)| (one - other).powi(2)).sum();
-    (differences / reference.iter().map(|mean| mean.powi(2)).sum::<f64>()).sqrt()
-}
-
 /// Seeds of all three surfaces.
 fn seeds(seed: u32) -> impl Iterator<Item = String> {
     let surfaces = ["disc.surface", "pin.base", "pin.surface"];
@@ -121,7 +116,7 @@ fn kept(sets: impl IntoIterator<Item = String>) -> f64 {
     sets.pop();
     sets.push(CHOSEN.into());
     let run = run(DURATION, &sets);
-    let error = error(&reference, &history(&run, DURATION, 5));
+    let error = relative_error(&history(&run, DURATION, 5), &reference);
     assert!(error < 0.01, "{sets:?}: {error}");
     *run.floats("/series/time_acceleration").last().unwrap()
 }

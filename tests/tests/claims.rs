@@ -8,12 +8,10 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
+use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
 use plateau_tests::scenes::Stream;
-
-/// How often the test below lets processes race, unless `PLATEAU_RACES` says.
-const RACES: usize = 8;
 
 /// A run of about a second with many samples and checkpoints.
 fn racer(directory: &WorkingDirectory, file: &str, more: &str) -> Command {
@@ -53,9 +51,10 @@ fn writes(process: u32, folder: &Path) -> bool {
     })
 }
 
+/// Lets processes race as often as `PLATEAU_RACES` says, if it does.
 #[test]
 fn of_processes_that_go_on_at_once_one_writes_and_the_others_say_so() {
-    let races = std::env::var("PLATEAU_RACES").map_or(RACES, |races| races.parse().unwrap());
+    let races = std::env::var("PLATEAU_RACES").map_or(few_or_all(4, 8), |races| races.parse().unwrap());
     let whole = {
         let directory = WorkingDirectory::new();
         assert!(racer(&directory, "run.h5", "--resume").stderr(Stdio::null()).status().unwrap().success());

@@ -10,11 +10,9 @@ use std::path::Path;
 use std::process::Command;
 
 use plateau_tests::fault::{Fault, count, strike};
+use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{WorkingDirectory, run, scene};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
-
-/// Unless all are asked for, every so many calls is looked at. No multiple of the number of faults.
-const STRIDE: usize = 47;
 
 /// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
@@ -33,12 +31,12 @@ fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
     command
 }
 
-/// The calls to look at, each with a fault.
+/// The calls to look at, each with a fault: unless all are asked for every so many, which is no multiple of the number of faults.
 fn strikes(calls: usize) -> Vec<(Fault, usize)> {
     let asked = std::env::var("PLATEAU_FAULTS").ok();
     let first = asked.as_ref().and_then(|first| first.parse().ok()).unwrap_or(1);
     let all = (first..=calls).flat_map(|call| Fault::ALL.map(|fault| (fault, call)));
-    all.step_by(if asked.is_some() { 1 } else { STRIDE }).collect()
+    all.step_by(if asked.is_some() { 1 } else { few_or_all(149, 47) }).collect()
 }
 
 /// The content of an undisturbed run.

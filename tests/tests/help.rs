@@ -2,16 +2,8 @@
 
 use std::os::unix::fs::symlink;
 
-use plateau_tests::program::{WorkingDirectory, program, repository, run};
+use plateau_tests::program::{WorkingDirectory, commands, program, repository, run};
 use plateau_tests::run_file::RunFile;
-
-/// Commands that the program's own help lists.
-fn commands() -> Vec<String> {
-    let help = WorkingDirectory::new().plateau(["--help"]).quiet_success();
-    let (_, list) = help.split_once("Commands:\n").expect("a list of commands");
-    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(str::to_owned).collect()
-}
 
 /// The lines of a help text below "Example:" or "Examples:".
 fn examples(help: &str) -> Vec<&str> {

@@ -6,6 +6,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::simulation::{Execution, Simulation};
+use plateau_tests::patience::few_or_all;
 use plateau_tests::scenes::{primary_stiffness, random_surfaces, wear_only};
 use proptest::option;
 use proptest::prelude::*;
@@ -54,7 +55,7 @@ fn rotated(mesh: &Mesh, field: &[f64], columns: usize) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: few_or_all(32, 96), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn a_rotated_disc_gives_the_same_bits((parameters, seed) in scenes(), columns in 0..50_usize) {

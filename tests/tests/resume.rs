@@ -8,6 +8,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
+use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::Stream;
@@ -42,12 +43,10 @@ fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stre
     kill(child);
 }
 
-/// How often the test below kills, unless `PLATEAU_KILLS` says.
-const KILLS: usize = 12;
-
+/// Kills as often as `PLATEAU_KILLS` says, if it does.
 #[test]
 fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
-    let kills = std::env::var("PLATEAU_KILLS").map_or(KILLS, |kills| kills.parse().unwrap());
+    let kills = std::env::var("PLATEAU_KILLS").map_or(few_or_all(4, 12), |kills| kills.parse().unwrap());
     let directory = WorkingDirectory::new();
     assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
     let whole = RunFile::open(directory.path("whole.h5")).content();

@@ -2,15 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use plateau_tests::program::{Outcome, WorkingDirectory, program, run};
-
-/// Commands that the program's own help lists.
-fn commands() -> Vec<String> {
-    let help = WorkingDirectory::new().plateau(["--help"]).quiet_success();
-    let (_, list) = help.split_once("Commands:\n").expect("a list of commands");
-    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
-    names.filter(|name| *name != "help").map(str::to_owned).collect()
-}
+use plateau_tests::program::{Outcome, WorkingDirectory, commands, program, run};
 
 /// Long options that the help of a command lists.
 fn options(command: &str) -> Vec<String> {

@@ -1,15 +1,14 @@
 //! Studies: planned, run, stopped, gone on with and collected, as their users do it.
 
+mod stopped;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Stdio;
-use std::thread;
-use std::time::Duration;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
+use plateau_tests::program::{Outcome, WorkingDirectory, scene};
 use plateau_tests::run_file::RunFile;
-use plateau_tests::scenes::Stream;
 use serde_json::Value;
 
 /// Load times fibre fraction, three sets of surfaces each: 27 runs of some milliseconds.
@@ -176,8 +175,10 @@ fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
     let sets = sets.iter().flat_map(|set| ["--set", set]);
     let summary = json(&directory.plateau(["run", &scene, "-o", "alone.h5", "--json"].into_iter().chain(sets)));
     let window = &summary["contact_area_last_tenth"];
-    // The run adds up step by step, the study over the samples of its integral.
-    assert!((window["mean"].as_f64().unwrap() / file.floats("/mean_contact_area")[3] - 1.0).abs() < 1e-14, "{window}");
+    // The run adds up step by step, the study takes the difference of integrals that are ten times as large; each step rounds once.
+    let tolerance = 10.0 * summary["steps"].as_f64().unwrap() * f64::EPSILON;
+    let ratio = window["mean"].as_f64().unwrap() / file.floats("/mean_contact_area")[3];
+    assert!((ratio - 1.0).abs() < tolerance, "{window} {ratio}");
     // The revolutions of a run file follow from its sliding distance.
     let error = file.floats("/mean_contact_area_standard_error")[3];
     assert!((window["standard_error"].as_f64().unwrap() / error - 1.0).abs() < 1e-6, "{window} {error}");
@@ -241,86 +242,6 @@ fn tasks_share_a_study_and_nothing_of_it_shows() {
     assert_eq!(results(&shared), results(&whole));
     assert_eq!(records(&shared).into_iter().collect::<BTreeSet<_>>().len(), RUNS);
     assert!(fs::read_dir(shared.path("results/journal")).unwrap().count() <= 8);
-}
-
-#[test]
-fn a_sweep_killed_fifty_times_ends_like_an_undisturbed_one() {
-    let (undisturbed, killed) = (directory(), directory());
-    let seeds: Vec<String> = (1..=30).map(|seed: u32| seed.to_string()).collect();
-    let runs = 9 * seeds.len();
-    let study = study().replace("7, 8, 9", &seeds.join(", "));
-    for directory in [&undisturbed, &killed] {
-        directory.write("study.toml", &study);
-    }
-    sweep(&undisturbed, &["--jobs", "2"]);
-    let expected = results(&undisturbed);
-    let mut random = Stream(1);
-    let (mut before, mut met) = (0, 0);
-    for _ in 0..50 {
-        let mut command = killed.command(["sweep", "run", "study.toml", "--jobs", "2"]);
-        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        // At some moment after its first results, for as long as there are any.
-        wait_until(|| before == runs || records(&killed).len() > before);
-        thread::sleep(Duration::from_secs_f64(0.02 * random.uniform()));
-        kill(child);
-        let records = records(&killed);
-        let different: BTreeSet<_> = records.iter().collect();
-        assert_eq!(records.len(), different.len(), "a run was made twice");
-        assert!(different.len() >= before, "a result was lost");
-        met += u32::from(different.len() < runs);
-        before = different.len();
-    }
-    assert!(met > 10, "only {met} of the kills met a sweep at work");
-    let last = sweep(&killed, &[]);
-    assert_eq!(last["finished_before"].as_u64(), Some(before as u64));
-    assert_eq!(results(&killed), expected);
-}
-
-#[test]
-fn an_interrupted_sweep_says_what_is_left() {
-    let directory = directory();
-    let long = study().replace("duration = '3 s'", "duration = '300 s'");
-    directory.write("study.toml", long);
-    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "2"]);
-    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-    thread::sleep(Duration::from_millis(400));
-    let interrupted = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(interrupted.success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("are left, the same command goes on"), "{said}");
-}
-
-#[test]
-fn a_long_run_that_was_stopped_or_killed_goes_on() {
-    let long = study()
-        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"");
-    let long =
-        long.replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]").replace("seeds = [7, 8, 9]", "seeds = [7]");
-    let [whole, directory] = [(), ()].map(|()| {
-        let directory = WorkingDirectory::new();
-        directory.write("study.toml", &long);
-        directory
-    });
-    let start = ["sweep", "run", "study.toml", "--jobs", "2"];
-    assert_eq!(whole.plateau(start).status, Some(0));
-    let states = || fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
-    for signal in ["TERM", "KILL"] {
-        let mut command = directory.command(start);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        thread::sleep(Duration::from_millis(100));
-        assert!(wait_until(|| states() > 0), "no run is under way");
-        let sent = std::process::Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
-        assert!(sent.unwrap().success());
-        child.wait().unwrap();
-        assert!(states() > 0, "nothing was kept after {signal}");
-    }
-    let last = directory.plateau(start);
-    assert_eq!(last.status, Some(0), "{last:?}");
-    assert!(last.stderr.contains("a run that was stopped goes on from step "), "{last:?}");
-    assert_eq!(results(&directory), results(&whole));
-    assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
 }
 
 #[test]

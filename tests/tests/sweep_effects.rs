@@ -1,10 +1,10 @@
 //! `plateau sweep effects`: figures and page show what the table has.
 
-use std::collections::BTreeMap;
 use std::fs;
 
 use plateau_tests::figure::{Figure, Frame};
 use plateau_tests::program::{Outcome, WorkingDirectory, scene};
+use plateau_tests::table::{Row, number, rows};
 use serde_json::Value;
 
 /// Colour of means, and of bars and dots that are significant.
@@ -69,28 +69,15 @@ fn figures(directory: &WorkingDirectory) -> Vec<String> {
     figures
 }
 
-/// The cells of a table in CSV, by the names of its columns; none of these studies has commas in its names.
-fn table(text: &str) -> Vec<BTreeMap<String, String>> {
-    let mut lines = text.lines();
-    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    lines
-        .map(|line| names.iter().zip(line.split(',')).map(|(name, cell)| ((*name).into(), cell.into())).collect())
-        .collect()
-}
-
-fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
-    row[name].parse().unwrap_or_else(|error| panic!("{name} of {row:?}: {error}"))
-}
-
 /// The row of a term.
-fn term(directory: &WorkingDirectory, name: &str) -> BTreeMap<String, String> {
-    table(&read(directory, "effects.csv")).into_iter().find(|row| row["term"] == name).expect("the term")
+fn term(directory: &WorkingDirectory, name: &str) -> Row {
+    rows(&read(directory, "effects.csv")).into_iter().find(|row| row["term"] == name).expect("the term")
 }
 
 /// The mean of the contact area, mm², over the runs that have these cells in their table.
 fn mean(directory: &WorkingDirectory, cells: &[(&str, &str)]) -> f64 {
     directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
-    let rows = table(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
+    let rows = rows(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
     let own = rows.iter().filter(|row| cells.iter().all(|(column, cell)| row[*column] == *cell));
     let values: Vec<f64> = own.map(|row| number(row, "contact area [m2]") * 1e6).collect();
     values.iter().sum::<f64>() / values.len() as f64
@@ -168,7 +155,7 @@ fn figures_show_the_means_and_effects_of_the_table() {
     let pareto = figure(&directory, "contact-area-pareto");
     let frame = pareto.boxes()[0];
     let x = pareto.x_axis(frame);
-    let rows = table(&read(&directory, "effects.csv"));
+    let rows = rows(&read(&directory, "effects.csv"));
     let mut lengths: Vec<f64> =
         rows.iter().filter(|row| !row["t"].is_empty()).map(|row| number(row, "t").abs()).collect();
     lengths.sort_by(|one, other| other.total_cmp(one));
@@ -209,7 +196,7 @@ fn the_page_holds_every_term_and_loads_nothing() {
     assert_eq!(files.len(), 2 + 2 * 4);
     assert!(files.iter().all(|file| directory.path(file).is_file()), "{files:?}");
     let page = read(&directory, "effects.html");
-    for row in table(&read(&directory, "effects.csv")) {
+    for row in rows(&read(&directory, "effects.csv")) {
         assert!(page.contains(&format!("<th scope=\"row\">{}</th>", row["term"])), "{row:?}");
     }
     for loading in ["src=", "http:", "https:", "url(", "@import", "fetch(", "<link rel=\"stylesheet"] {
@@ -392,8 +379,8 @@ fn a_space_filling_design_is_fitted_with_squares_or_says_why_not() {
 }
 
 /// The rows of terms.
-fn table_of_terms(directory: &WorkingDirectory) -> Vec<BTreeMap<String, String>> {
-    let rows = table(&read(directory, "effects.csv"));
+fn table_of_terms(directory: &WorkingDirectory) -> Vec<Row> {
+    let rows = rows(&read(directory, "effects.csv"));
     rows.into_iter().filter(|row| !["residual", "total"].contains(&row["term"].as_str())).collect()
 }
 

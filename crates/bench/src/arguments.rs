@@ -2,11 +2,12 @@
 
 use clap::{Parser, Subcommand};
 
-use crate::costs::{self, CostOptions};
+use crate::costs::{CostOptions, costs};
 use crate::error::BenchError;
-use crate::report::ReportOptions;
+use crate::peers::peers;
+use crate::report::{ReportOptions, give_out, report};
 use crate::session::{Options, WorkerOptions};
-use crate::{kernel, parts, peers, report, scaling};
+use crate::steps::{kernel, parts, scaling};
 
 /// How long a step of Plateau takes, and why.
 #[derive(Debug, Parser)]
@@ -44,13 +45,17 @@ enum Command {
 impl Arguments {
     /// Does what is asked for.
     pub fn perform(self) -> Result<(), BenchError> {
-        match self.command {
-            Command::Kernel(options) => kernel::kernel(options),
-            Command::Scaling(options) => scaling::scaling(options),
-            Command::Parts(options) => parts::parts(options),
-            Command::Costs(options) => costs::costs(options),
-            Command::Peers(options) => peers::peers(options),
-            Command::Report(options) => report::report(&options),
-        }
+        let session = match self.command {
+            Command::Kernel(options) => kernel(options)?,
+            Command::Scaling(options) => scaling(options)?,
+            Command::Parts(options) => parts(options)?,
+            Command::Peers(options) => peers(options)?,
+            Command::Costs(options) => {
+                let json = options.json.clone();
+                return give_out(&costs(options)?, json.as_deref());
+            }
+            Command::Report(options) => return report(&options),
+        };
+        give_out(&session.document, session.json.as_deref())
     }
 }

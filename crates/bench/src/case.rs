@@ -17,6 +17,21 @@ const MODEL: &str = "numerics.time_acceleration=1";
 /// The time acceleration with which a pin wears in before a benchmark.
 const WEARING_IN: f64 = 100.0;
 
+/// All debris of the contact in one pool, which needs a captured fraction.
+pub const ONE_POOL: &str = "plateaus.debris=contact";
+/// A pool for each track, which needs one too.
+pub const POOL_PER_TRACK: &str = "plateaus.debris=track";
+/// The captured fraction of the pooled baseline.
+pub const POOLED_FRACTION: &str = "plateaus.captured_fraction=0.06";
+/// No plateau falls for want of support, which with local debris none does anyway.
+pub const NO_DESTRUCTION: &str = "plateaus.destruction=false";
+/// A hundredth of the wear rate of the pin.
+pub const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
+/// Half the modulus of the fibres.
+pub const SOFTER_DEBRIS: &str = "materials.pin_secondary.youngs_modulus=\"5e8 Pa\"";
+/// Twice the wear rate of the fibres.
+pub const FASTER_DEBRIS: &str = "materials.pin_secondary.specific_wear_rate=\"1e-13 1/Pa\"";
+
 /// Parameters and surfaces of a simulation.
 #[derive(Debug)]
 pub struct Case {

@@ -6,10 +6,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::{Deserialize, Serialize};
 
-use crate::build::Build;
 use crate::case::MeshSize;
+use crate::circumstances::{Build, Machine};
 use crate::error::BenchError;
-use crate::machine::Machine;
 
 /// Which benchmark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,7 +69,12 @@ pub struct Document {
 }
 
 /// Version of the format of [`Document`].
-pub const FORMAT: u32 = 1;
+const FORMAT: u32 = 1;
+
+/// Name of what is measured on meshes that do not depend on the number of workers.
+pub const STRONG: &str = "strong";
+/// Name of what is measured on meshes that are longer the more workers there are.
+pub const WEAK: &str = "weak";
 
 /// What was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,13 +1,13 @@
-//! Markdown tables made from results, and their places in a document.
+//! Results as tables: printed, or in their places in a document.
 
 use std::fs;
-use std::path::PathBuf;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::document::{Benchmark, Document};
 use crate::error::BenchError;
-use crate::session::print;
 use crate::tables::tables;
 
 /// Options of `report`.
@@ -19,6 +19,24 @@ pub struct ReportOptions {
     /// Put the tables into a document, between its marks, instead of printing them
     #[arg(long, value_name = "MARKDOWN")]
     pub into: Option<PathBuf>,
+}
+
+/// Prints the tables of results, and writes these to a JSON file if there is to be one.
+pub fn give_out(document: &Document, json: Option<&Path>) -> Result<(), BenchError> {
+    if let Some(path) = json {
+        document.write(path)?;
+    }
+    print(&tables(document).iter().map(|table| table.text() + "\n").collect::<String>())
+}
+
+/// Prints text on standard output; a reader who went away is no error.
+fn print(text: &str) -> Result<(), BenchError> {
+    match io::stdout().lock().write_all(text.as_bytes()) {
+        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => {
+            Err(BenchError::File { path: "standard output".into(), source })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Prints the tables, or puts them into a document between the marks of their benchmark; the text around is kept.

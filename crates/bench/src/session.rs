@@ -1,7 +1,6 @@
-//! What all benchmarks have in common: options, the document of results, and how it is given out.
+//! What all benchmarks of a step have in common: options, and the document that their results go into.
 
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
@@ -11,7 +10,6 @@ use crate::case::{MeshSize, Source, mesh_size};
 use crate::document::{Benchmark, Document, Settings};
 use crate::error::BenchError;
 use crate::race::Pace;
-use crate::tables::tables;
 
 /// Options of every benchmark.
 #[derive(Debug, Args)]
@@ -68,7 +66,8 @@ pub struct Session {
     pub quick: bool,
     /// Results, none yet.
     pub document: Document,
-    json: Option<PathBuf>,
+    /// Where they are to be written.
+    pub json: Option<PathBuf>,
 }
 
 impl Options {
@@ -115,29 +114,6 @@ impl Session {
     pub fn meshes(&self) -> Vec<MeshSize> {
         let grown = [1, 2, 4].map(|factor| self.mesh.times(factor));
         if self.quick { grown[..2].to_vec() } else { [&grown[..], &[MeshSize::FULL_PAD]].concat() }
-    }
-
-    /// Prints the tables, and writes the JSON file where one was asked for.
-    pub fn finish(self) -> Result<(), BenchError> {
-        give_out(&self.document, self.json.as_deref())
-    }
-}
-
-/// Prints the tables of results, and writes these to a JSON file if there is to be one.
-pub fn give_out(document: &Document, json: Option<&Path>) -> Result<(), BenchError> {
-    if let Some(path) = json {
-        document.write(path)?;
-    }
-    print(&tables(document).iter().map(|table| table.text() + "\n").collect::<String>())
-}
-
-/// Prints text on standard output; a reader who went away is no error.
-pub fn print(text: &str) -> Result<(), BenchError> {
-    match io::stdout().lock().write_all(text.as_bytes()) {
-        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => {
-            Err(BenchError::File { path: "standard output".into(), source })
-        }
-        _ => Ok(()),
     }
 }
 

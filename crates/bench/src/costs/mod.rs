@@ -4,12 +4,10 @@
 //! subject   a scene, and for how many steps it runs
 //! variant   what is switched on or off, and what that is set against
 //! program   the program `plateau`, run as its users run it
-//! table     the tables
 //! ```
 
 mod program;
 mod subject;
-pub mod table;
 mod variant;
 
 use std::path::PathBuf;
@@ -19,7 +17,6 @@ use clap::Args;
 use crate::case::Source;
 use crate::document::{Benchmark, Document, RunCost, Settings, Spread};
 use crate::error::BenchError;
-use crate::session::give_out;
 use program::{Program, Run};
 use subject::{SHIPPED, Subject, shipped};
 use variant::{Variant, variants};
@@ -46,9 +43,9 @@ pub struct CostOptions {
     pub json: Option<PathBuf>,
 }
 
-/// Measures and reports.
-pub fn costs(options: CostOptions) -> Result<(), BenchError> {
-    let CostOptions { scenes, sets, repeats, program, quick, json } = options;
+/// Runs every scene with every variant in turn.
+pub fn costs(options: CostOptions) -> Result<Document, BenchError> {
+    let CostOptions { scenes, sets, repeats, program, quick, json: _ } = options;
     let program = Program::find(program)?;
     let paths = match (scenes.is_empty(), quick) {
         (false, _) => scenes,
@@ -76,7 +73,7 @@ pub fn costs(options: CostOptions) -> Result<(), BenchError> {
     if let Some(revision) = program.revision(&subjects[0].source)? {
         document.build.revision = revision;
     }
-    give_out(&document, json.as_deref())
+    Ok(document)
 }
 
 /// Runs all variants of a scene in turn.

@@ -1,9 +1,7 @@
 //! What is switched on or off.
 
 use super::subject::Subject;
-use crate::parts::{
-    DISC_WEAR, FASTER_DEBRIS, NO_DESTRUCTION, ONE_POOL, POOL_PER_TRACK, POOLED_FRACTION, SOFTER_DEBRIS,
-};
+use crate::case::{DISC_WEAR, FASTER_DEBRIS, NO_DESTRUCTION, ONE_POOL, POOL_PER_TRACK, POOLED_FRACTION, SOFTER_DEBRIS};
 
 /// The scene as it is, for the steps of the subject.
 const SCENE: &str = "the scene";

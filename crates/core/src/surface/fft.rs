@@ -4,50 +4,13 @@
 //! bits differ between versions and processors.
 
 use std::f64::consts::PI;
-use std::ops::{Add, Mul, Sub};
 
-/// A complex number.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Complex {
-    pub(crate) re: f64,
-    pub(crate) im: f64,
-}
+pub(crate) use rustfft::num_complex::Complex64 as Complex;
 
-impl Complex {
-    /// exp(i π numerator / denominator).
-    fn root(numerator: usize, denominator: usize) -> Self {
-        let angle = PI * (numerator as f64 / denominator as f64);
-        Self { re: libm::cos(angle), im: libm::sin(angle) }
-    }
-
-    pub(crate) fn conjugate(self) -> Self {
-        Self { re: self.re, im: -self.im }
-    }
-
-    pub(crate) fn scaled(self, factor: f64) -> Self {
-        Self { re: self.re * factor, im: self.im * factor }
-    }
-}
-
-impl Add for Complex {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-}
-
-impl Sub for Complex {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
-    }
-}
-
-impl Mul for Complex {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
+/// exp(i π numerator / denominator).
+fn root(numerator: usize, denominator: usize) -> Complex {
+    let angle = PI * (numerator as f64 / denominator as f64);
+    Complex::new(libm::cos(angle), libm::sin(angle))
 }
 
 /// Plan of the transform X_k = Σ x_j exp(−2πi jk/N) of one length.
@@ -81,9 +44,9 @@ impl Fft {
     /// Transforms back in place, times the length: x_j = Σ X_k exp(2πi jk/N).
     pub(crate) fn backward(&mut self, values: &mut [Complex]) {
         // The backward transform is the conjugate of the forward transform of the conjugate.
-        values.iter_mut().for_each(|value| *value = value.conjugate());
+        values.iter_mut().for_each(|value| *value = value.conj());
         self.forward(values);
-        values.iter_mut().for_each(|value| *value = value.conjugate());
+        values.iter_mut().for_each(|value| *value = value.conj());
     }
 }
 
@@ -95,7 +58,7 @@ pub(crate) struct PowerOfTwo {
 
 impl PowerOfTwo {
     fn new(length: usize) -> Self {
-        Self { roots: (0..length / 2).map(|j| Complex::root(2 * j, length).conjugate()).collect() }
+        Self { roots: (0..length / 2).map(|j| root(2 * j, length).conj()).collect() }
     }
 
     fn forward(&self, values: &mut [Complex]) {
@@ -118,7 +81,7 @@ impl PowerOfTwo {
                 for ((a, b), root) in lower.iter_mut().zip(upper).zip(self.roots.iter().step_by(stride)) {
                     let turned = *b * *root;
                     *b = *a - turned;
-                    *a = *a + turned;
+                    *a += turned;
                 }
             }
             half *= 2;
@@ -140,20 +103,19 @@ impl Chirp {
     fn new(length: usize) -> Self {
         // j² is reduced modulo 2N in integers, or the angle would lose its digits.
         let period = 2 * length as u128;
-        let chirp: Vec<Complex> = (0..length)
-            .map(|j| Complex::root(((j as u128 * j as u128) % period) as usize, length).conjugate())
-            .collect();
+        let chirp: Vec<Complex> =
+            (0..length).map(|j| root(((j as u128 * j as u128) % period) as usize, length).conj()).collect();
         let padded = (2 * length - 1).next_power_of_two();
         let inner = PowerOfTwo::new(padded);
         let mut kernel = vec![Complex::default(); padded];
         for (j, value) in chirp.iter().enumerate() {
-            kernel[j] = value.conjugate();
-            kernel[(padded - j) % padded] = value.conjugate();
+            kernel[j] = value.conj();
+            kernel[(padded - j) % padded] = value.conj();
         }
         inner.forward(&mut kernel);
         // Here and in `forward`, the inner transform back is written as a conjugated forward one.
         let scale = 1.0 / padded as f64;
-        kernel.iter_mut().for_each(|value| *value = value.scaled(scale));
+        kernel.iter_mut().for_each(|value| *value = value.scale(scale));
         Self { chirp, kernel, inner, work: vec![Complex::default(); padded] }
     }
 
@@ -164,11 +126,11 @@ impl Chirp {
         }
         self.inner.forward(&mut self.work);
         for (work, kernel) in self.work.iter_mut().zip(&self.kernel) {
-            *work = (*work * *kernel).conjugate();
+            *work = (*work * *kernel).conj();
         }
         self.inner.forward(&mut self.work);
         for ((value, work), chirp) in values.iter_mut().zip(&self.work).zip(&self.chirp) {
-            *value = work.conjugate() * *chirp;
+            *value = work.conj() * *chirp;
         }
     }
 }
@@ -193,7 +155,7 @@ mod tests {
             for (k, found) in transformed.iter().enumerate() {
                 let mut expected = Complex::default();
                 for (j, value) in values.iter().enumerate() {
-                    expected = expected + *value * Complex::root(2 * (j * k % length), length).conjugate();
+                    expected += *value * root(2 * (j * k % length), length).conj();
                 }
                 let difference = *found - expected;
                 assert!(difference.re.hypot(difference.im) < 1e-13 * 8.0 * length as f64, "N = {length}, k = {k}");
@@ -210,7 +172,7 @@ mod tests {
             fft.forward(&mut transformed);
             fft.backward(&mut transformed);
             for (found, expected) in transformed.iter().zip(&values) {
-                let difference = found.scaled(1.0 / length as f64) - *expected;
+                let difference = found.scale(1.0 / length as f64) - *expected;
                 assert!(difference.re.hypot(difference.im) < 1e-12, "N = {length}");
             }
         }

@@ -24,7 +24,7 @@ pub(super) fn field(
     let gain = power.iter().map(|power| if *power > WEAKEST * strongest { power.sqrt() } else { 0.0 });
     let mut values: Vec<Complex> = power.iter().map(|_| Complex { re: random.normal(), im: 0.0 }).collect();
     plane.forward(&mut values);
-    values.iter_mut().zip(gain).for_each(|(value, gain)| *value = value.scaled(gain));
+    values.iter_mut().zip(gain).for_each(|(value, gain)| *value = value.scale(gain));
     plane.backward(&mut values);
     let columns = values.chunks_exact(grid.padded_rows).take(grid.columns);
     columns.flat_map(|column| column.iter().take(grid.rows).map(|value| value.re)).collect()
@@ -76,9 +76,9 @@ impl Plane {
 
     /// Transform back, times the number of points.
     fn backward(&mut self, values: &mut [Complex]) {
-        values.iter_mut().for_each(|value| *value = value.conjugate());
+        values.iter_mut().for_each(|value| *value = value.conj());
         self.forward(values);
-        values.iter_mut().for_each(|value| *value = value.conjugate());
+        values.iter_mut().for_each(|value| *value = value.conj());
     }
 
     /// Maps the real parts of what is symmetric in either direction.

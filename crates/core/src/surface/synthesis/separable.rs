@@ -59,7 +59,7 @@ impl Filter {
 
     fn apply(&mut self, line: &mut [Complex]) {
         self.fft.forward(line);
-        line.iter_mut().zip(&self.gain).for_each(|(value, gain)| *value = value.scaled(*gain));
+        line.iter_mut().zip(&self.gain).for_each(|(value, gain)| *value = value.scale(*gain));
         self.fft.backward(line);
     }
 }

@@ -1,9 +1,10 @@
 //! The tables that are made from results.
 
-use crate::costs;
-use crate::document::{Agreement, Benchmark, Document, Measurement, Spread};
-use crate::scaling::{STRONG, WEAK};
-use crate::table::Table;
+mod costs;
+mod table;
+
+use crate::document::{Agreement, Benchmark, Document, Measurement, STRONG, Spread, WEAK};
+use table::{Table, number, range};
 
 /// The tables of a benchmark, the last one with the circumstances of the measurement below it.
 pub fn tables(document: &Document) -> Vec<Table> {
@@ -11,7 +12,7 @@ pub fn tables(document: &Document) -> Vec<Table> {
         Benchmark::Kernel => vec![kernel(document)],
         Benchmark::Scaling => vec![strong(document), weak(document), sizes(document)],
         Benchmark::Parts => vec![parts(document)],
-        Benchmark::Costs => costs::table::tables(document),
+        Benchmark::Costs => costs::tables(document),
         Benchmark::Peers => vec![peers(document), agreements(document)],
     };
     tables.retain(|table| !table.rows.is_empty());
@@ -46,23 +47,6 @@ fn circumstances(document: &Document) -> String {
 /// Median, and least and largest.
 fn time(spread: Spread) -> [String; 2] {
     [number(spread.median), range(spread)]
-}
-
-/// Least and largest.
-pub fn range(spread: Spread) -> String {
-    format!("{} – {}", number(spread.minimum), number(spread.maximum))
-}
-
-/// At least three digits.
-pub fn number(value: f64) -> String {
-    let digits = if value >= 100.0 {
-        0
-    } else if value >= 10.0 {
-        1
-    } else {
-        2
-    };
-    format!("{value:.digits$}")
 }
 
 fn percent(fraction: f64) -> String {
@@ -218,14 +202,4 @@ fn agreements(document: &Document) -> Table {
         table.rows.push(circumstances.into_iter().chain(figures).collect());
     }
     table
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_three_digits() {
-        assert_eq!([1234.5, 123.4, 12.34, 1.234, 0.1234].map(number), ["1234", "123", "12.3", "1.23", "0.12"]);
-    }
 }

@@ -1,8 +1,7 @@
-//! The tables: one for each scene.
+//! Tables of what runs of the program cost, one for each scene.
 
+use super::table::{Table, number, range};
 use crate::document::{Document, RunCost, Spread, ratios};
-use crate::table::Table;
-use crate::tables::{number, range};
 
 /// A table for each scene, with a row for each variant.
 pub fn tables(document: &Document) -> Vec<Table> {

@@ -1,4 +1,6 @@
-//! Tables for people: as text and as Markdown.
+//! Tables for people, as text and as Markdown, and the numbers in them.
+
+use crate::document::Spread;
 
 /// A table; every row has as many cells as the header.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,6 +53,23 @@ impl Table {
     }
 }
 
+/// Least and largest.
+pub fn range(spread: Spread) -> String {
+    format!("{} – {}", number(spread.minimum), number(spread.maximum))
+}
+
+/// At least three digits.
+pub fn number(value: f64) -> String {
+    let digits = if value >= 100.0 {
+        0
+    } else if value >= 10.0 {
+        1
+    } else {
+        2
+    };
+    format!("{value:.digits$}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -62,5 +81,10 @@ mod tests {
         table.notes.push("On one core.".into());
         assert_eq!(table.text(), "Time\n  what     µs\n  a step  8.0\n  On one core.\n");
         assert_eq!(table.markdown(), "**Time**\n\n| what | µs |\n|---|---:|\n| a step | 8.0 |\n\nOn one core.\n");
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!([1234.5, 123.4, 12.34, 1.234, 0.1234].map(number), ["1234", "123", "12.3", "1.23", "0.12"]);
     }
 }

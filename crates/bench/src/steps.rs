@@ -1,15 +1,64 @@
-//! What the optional parts of the model and of the output cost.
+//! Benchmarks of a step: by instruction set and workers, by size of the mesh, and with optional parts on and off.
 
 use std::time::{Duration, Instant};
 
+use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::observe::Map;
 
-use crate::document::Benchmark;
+use crate::case::{
+    Case, DISC_WEAR, FASTER_DEBRIS, MeshSize, NO_DESTRUCTION, ONE_POOL, POOL_PER_TRACK, POOLED_FRACTION, SOFTER_DEBRIS,
+};
+use crate::document::{Benchmark, STRONG, WEAK};
 use crate::error::BenchError;
-use crate::kernel::entry;
 use crate::race::{Entry, Runner, race};
-use crate::session::Options;
+use crate::session::{Options, Session, WorkerOptions};
 use crate::stepper::{Setup, Stepper};
+
+/// Times a step for every instruction set and number of workers.
+pub fn kernel(options: WorkerOptions) -> Result<Session, BenchError> {
+    let mut session = options.begin(Benchmark::Kernel)?;
+    let case = session.source.case()?;
+    let mut entries = Vec::new();
+    for workers in &session.workers {
+        for instructions in InstructionSet::available() {
+            entries.push(entry(instructions.name(), session.mesh, &case, Setup { workers: *workers, instructions })?);
+        }
+    }
+    session.document.measurements = race(entries, session.pace)?;
+    Ok(session)
+}
+
+/// Times a step for every number of workers on meshes of several sizes.
+///
+/// Strong scaling: every number of workers on every mesh. Weak scaling: W workers on a mesh whose pin and ring have W
+/// times the columns, so that every worker has as many cells as one has on the first mesh.
+pub fn scaling(options: WorkerOptions) -> Result<Session, BenchError> {
+    let mut session = options.begin(Benchmark::Scaling)?;
+    let mut entries = Vec::new();
+    for mesh in session.meshes() {
+        let case = session.source.on(mesh)?.case()?;
+        for workers in &session.workers {
+            entries.push(entry(STRONG, mesh, &case, Setup::of(*workers))?);
+        }
+    }
+    for workers in session.workers.iter().filter(|workers| **workers > 1) {
+        let mesh = session.mesh.longer(*workers);
+        entries.push(entry(WEAK, mesh, &session.source.on(mesh)?.case()?, Setup::of(*workers))?);
+    }
+    session.document.measurements = race(entries, session.pace)?;
+    Ok(session)
+}
+
+/// A simulation that takes part in a race.
+pub fn entry(name: &str, mesh: MeshSize, case: &Case, setup: Setup) -> Result<Entry, BenchError> {
+    Ok(Entry {
+        name: name.to_owned(),
+        mesh,
+        workers: setup.workers,
+        instructions: setup.instructions.name().to_owned(),
+        runner: Box::new(Stepper::new(case, setup)?),
+    })
+}
 
 /// Changes of a scene that switch one part on or off.
 struct Variant {
@@ -35,23 +84,8 @@ const VARIANTS: &[Variant] = &[
     Variant { name: "time acceleration 100", sets: &["numerics.time_acceleration=100"] },
 ];
 
-/// All debris of the contact in one pool, which needs a captured fraction.
-pub const ONE_POOL: &str = "plateaus.debris=contact";
-/// A pool for each track, which needs one too.
-pub const POOL_PER_TRACK: &str = "plateaus.debris=track";
-/// The captured fraction of the pooled baseline.
-pub const POOLED_FRACTION: &str = "plateaus.captured_fraction=0.06";
-/// No plateau falls for want of support, which with local debris none does anyway.
-pub const NO_DESTRUCTION: &str = "plateaus.destruction=false";
-/// A hundredth of the wear rate of the pin.
-pub const DISC_WEAR: &str = "materials.disc_primary.specific_wear_rate=\"5e-16 1/Pa\"";
-/// Half the modulus of the fibres.
-pub const SOFTER_DEBRIS: &str = "materials.pin_secondary.youngs_modulus=\"5e8 Pa\"";
-/// Twice the wear rate of the fibres.
-pub const FASTER_DEBRIS: &str = "materials.pin_secondary.specific_wear_rate=\"1e-13 1/Pa\"";
-
-/// Measures and reports.
-pub fn parts(options: Options) -> Result<(), BenchError> {
+/// Times a step with optional parts of the model and of the output on and off.
+pub fn parts(options: Options) -> Result<Session, BenchError> {
     let mut session = options.begin(Benchmark::Parts)?;
     let setup = Setup::of(1);
     let mut entries = Vec::new();
@@ -72,7 +106,7 @@ pub fn parts(options: Options) -> Result<(), BenchError> {
         entries.push(Entry { name: name.to_owned(), mesh: session.mesh, workers: 1, instructions, runner });
     }
     session.document.measurements = race(entries, session.pace)?;
-    session.finish()
+    Ok(session)
 }
 
 /// A simulation that is looked at now and then.

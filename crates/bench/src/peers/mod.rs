@@ -1,5 +1,7 @@
 //! The same step in Python, as loops that Numba compiles.
 
+mod process;
+
 use std::path::Path;
 
 use plateau_core::model::parameters::DebrisRule;
@@ -9,10 +11,10 @@ use tempfile::TempDir;
 use crate::case::Case;
 use crate::document::{Agreement, Benchmark};
 use crate::error::BenchError;
-use crate::peer::{Peer, Trace, export, python};
 use crate::race::{Entry, race};
-use crate::session::Options;
+use crate::session::{Options, Session};
 use crate::stepper::{Setup, Stepper};
+use process::{Peer, Trace, export, python};
 
 /// What the peer is called.
 const PEER: &str = "Numba loops";
@@ -27,8 +29,8 @@ const FAST: &str = "numerics.time_acceleration=1000";
 const TIMED: f64 = 1e-9;
 const EXACT: f64 = 1e-14;
 
-/// Checks that the peer computes the same, measures and reports.
-pub fn peers(options: Options) -> Result<(), BenchError> {
+/// Checks that the peer computes the same, and times both.
+pub fn peers(options: Options) -> Result<Session, BenchError> {
     let mut session = options.begin(Benchmark::Peers)?;
     let mesh = session.mesh;
     if session.source.worn_in > 0.0 {
@@ -56,7 +58,7 @@ pub fn peers(options: Options) -> Result<(), BenchError> {
     let ours = entry("Plateau", setup.instructions.name(), Box::new(scene.simulation));
     let entries = vec![ours, entry(PEER, "its own", Box::new(peer))];
     session.document.measurements = race(entries, session.pace)?;
-    session.finish()
+    Ok(session)
 }
 
 /// What our simulation does from the start on, with which the peer is compared.

@@ -1,0 +1,94 @@
+//! Studies that are stopped or killed, and gone on with.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use plateau_tests::patience::few_or_all;
+use plateau_tests::program::{WorkingDirectory, kill, wait_until};
+use plateau_tests::scenes::Stream;
+
+use super::{directory, records, results, study, sweep};
+
+#[test]
+fn a_sweep_killed_again_and_again_ends_like_an_undisturbed_one() {
+    let (kills, seeds) = few_or_all((12, 10), (50, 30));
+    let (undisturbed, killed) = (directory(), directory());
+    let seeds: Vec<String> = (1..=seeds).map(|seed: u32| seed.to_string()).collect();
+    let runs = 9 * seeds.len();
+    let study = study().replace("7, 8, 9", &seeds.join(", "));
+    for directory in [&undisturbed, &killed] {
+        directory.write("study.toml", &study);
+    }
+    sweep(&undisturbed, &["--jobs", "2"]);
+    let expected = results(&undisturbed);
+    let mut random = Stream(1);
+    let (mut before, mut met) = (0, 0);
+    for _ in 0..kills {
+        let mut command = killed.command(["sweep", "run", "study.toml", "--jobs", "2"]);
+        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // At some moment after its first results, for as long as there are any.
+        wait_until(|| before == runs || records(&killed).len() > before);
+        thread::sleep(Duration::from_secs_f64(0.02 * random.uniform()));
+        kill(child);
+        let records = records(&killed);
+        let different: BTreeSet<_> = records.iter().collect();
+        assert_eq!(records.len(), different.len(), "a run was made twice");
+        assert!(different.len() >= before, "a result was lost");
+        met += u32::from(different.len() < runs);
+        before = different.len();
+    }
+    assert!(met > kills / 5, "only {met} of the kills met a sweep at work");
+    let last = sweep(&killed, &[]);
+    assert_eq!(last["finished_before"].as_u64(), Some(before as u64));
+    assert_eq!(results(&killed), expected);
+}
+
+#[test]
+fn an_interrupted_sweep_says_what_is_left() {
+    let directory = directory();
+    let long = study().replace("duration = '3 s'", "duration = '300 s'");
+    directory.write("study.toml", long);
+    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "2"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    thread::sleep(Duration::from_millis(400));
+    let interrupted = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupted.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("are left, the same command goes on"), "{said}");
+}
+
+#[test]
+fn a_long_run_that_was_stopped_or_killed_goes_on() {
+    let long = study()
+        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"");
+    let long =
+        long.replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]").replace("seeds = [7, 8, 9]", "seeds = [7]");
+    let [whole, directory] = [(), ()].map(|()| {
+        let directory = WorkingDirectory::new();
+        directory.write("study.toml", &long);
+        directory
+    });
+    let start = ["sweep", "run", "study.toml", "--jobs", "2"];
+    assert_eq!(whole.plateau(start).status, Some(0));
+    let states = || fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
+    for signal in ["TERM", "KILL"] {
+        let mut command = directory.command(start);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_millis(100));
+        assert!(wait_until(|| states() > 0), "no run is under way");
+        let sent = Command::new("kill").args(["-s", signal, &child.id().to_string()]).status();
+        assert!(sent.unwrap().success());
+        child.wait().unwrap();
+        assert!(states() > 0, "nothing was kept after {signal}");
+    }
+    let last = directory.plateau(start);
+    assert_eq!(last.status, Some(0), "{last:?}");
+    assert!(last.stderr.contains("a run that was stopped goes on from step "), "{last:?}");
+    assert_eq!(results(&directory), results(&whole));
+    assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
+}
