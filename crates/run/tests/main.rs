@@ -24,7 +24,7 @@ impl Observer for Notes {
     }
 
     fn sample(&mut self, sample: &Sample) {
-        self.samples.push(*sample);
+        self.samples.push(sample.clone());
     }
 
     fn asked_to_stop(&mut self) -> Option<u8> {
