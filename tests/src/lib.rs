@@ -7,3 +7,4 @@ pub mod patience;
 pub mod program;
 pub mod run_file;
 pub mod scenes;
+pub mod vector;
