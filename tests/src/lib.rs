@@ -8,3 +8,4 @@ pub mod program;
 pub mod run_file;
 pub mod scenes;
 pub mod table;
+pub mod vector;

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
-use plateau_tests::program::{WorkingDirectory, vector};
+use plateau_io::scene;
+use plateau_tests::program::{WorkingDirectory, vector as path_of};
 use plateau_tests::run_file::RunFile;
+use plateau_tests::vector;
 
 /// Accepted deviation of heights, m.
 const HEIGHT: f64 = 1e-12;
@@ -127,14 +129,14 @@ fn refused(name: &str, sets: &[&str]) -> Vec<Deviation> {
 /// The same with options of `run`.
 fn refused_by(name: &str, sets: &[&str], options: &[&str]) -> Vec<Deviation> {
     let directory = WorkingDirectory::new();
-    let scene = vector(name, "scene.toml");
+    let scene = path_of(name, "scene.toml");
     let mut arguments = vec!["run", &scene, "-o", "run.h5"];
     arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
     arguments.extend(options);
     // Three workers may be more than there are cores, which is said.
     let outcome = directory.plateau(arguments);
     assert_eq!(outcome.status, Some(0), "{outcome:?}");
-    let (run, expected) = (RunFile::open(directory.path("run.h5")), RunFile::open(vector(name, "expected.h5")));
+    let (run, expected) = (RunFile::open(directory.path("run.h5")), RunFile::open(path_of(name, "expected.h5")));
     assert_eq!(run.text("state"), "finished");
     let mut deviations = map_deviations(&run, &expected);
     deviations.extend(series_deviations(&run, &expected));
@@ -151,6 +153,46 @@ fn every_vector_is_reproduced() {
             let refused: Vec<_> = refused_by(name, &[], options).iter().map(Deviation::to_string).collect();
             assert!(refused.is_empty(), "{name} {options:?}:\n{}", refused.join("\n"));
         }
+    }
+}
+
+/// What is written for those who write the model anew is the independent implementation's too.
+#[test]
+fn a_vector_made_here_is_the_same() {
+    for name in ["flat", "rough", "track", "local"] {
+        let directory = WorkingDirectory::new();
+        let scene = scene::load(path_of(name, "scene.toml").as_ref(), &[]).expect("the vector's scene");
+        vector::write(&scene, directory.path("").as_ref()).expect("a vector");
+        for file in ["init.h5", "expected.h5"] {
+            let (made, there) = (RunFile::open(directory.path(file)), RunFile::open(path_of(name, file)));
+            let (made, there) = (made.content(), there.content());
+            assert_eq!(made.keys().collect::<Vec<_>>(), there.keys().collect::<Vec<_>>(), "{name}/{file}");
+            if file == "init.h5" {
+                assert_eq!(made, there, "{name}/{file}");
+            }
+        }
+        let (made, expected) =
+            (RunFile::open(directory.path("expected.h5")), RunFile::open(path_of(name, "expected.h5")));
+        let mut deviations = Vec::new();
+        for (path, content) in expected.content() {
+            let accepted = if path.ends_with("/height") { HEIGHT } else { RELATIVE };
+            let values = [&made, &expected].map(|file| file.floats(&path));
+            // Pressures may be 0 and pools may run empty, so their unit is the largest.
+            let scale = largest_value(&values[1]);
+            let size = |a: f64, b: f64| if path.ends_with("/height") { (a - b).abs() } else { relative(a, b, scale) };
+            assert_eq!(made.shape(&path), content.shape, "{name}: shape of {path}");
+            deviations
+                .push(Deviation::largest(&path, [&values[0], &values[1]], size, accepted, |index| index.to_string()));
+        }
+        for volume in expected.attributes().keys() {
+            let pair = [&made, &expected].map(|file| [file.number(volume)]);
+            let size = |a, b: f64| relative(a, b, b);
+            deviations.push(Deviation::largest(volume, [&pair[0], &pair[1]], size, RELATIVE, |_| "end".into()));
+        }
+        assert_eq!(deviations.len(), 16);
+        deviations.retain(|deviation| !deviation.is_accepted());
+        let refused: Vec<_> = deviations.iter().map(Deviation::to_string).collect();
+        assert!(refused.is_empty(), "{name}:\n{}", refused.join("\n"));
     }
 }
 

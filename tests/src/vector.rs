@@ -1,0 +1,94 @@
+//! Test vectors from the model as it is read: initial surfaces, and what every step comes to.
+//!
+//! They are for those who write the model anew, in this program or elsewhere; `tests/vectors/README.md` has the layout. This is the same
+//! few lines of physics that `plateau run --engine plain` takes, without the program around it.
+
+use std::error::Error;
+use std::path::Path;
+
+use ndarray::ArrayView2;
+use plateau_core::model::state::{Base, InitialSurfaces};
+use plateau_core::model::step::advance;
+use plateau_core::model::{State, Volumes};
+use plateau_io::scene::recipe::Scene;
+use plateau_io::surface;
+
+use crate::run_file::created;
+
+/// What is recorded of a step: name and value.
+type Record = [(&'static str, f64); 6];
+
+/// Takes a scene's steps one by one and writes `init.h5` and `expected.h5` into a folder.
+///
+/// # Errors
+/// When the surfaces cannot be made, no displacement carries the load, or a file cannot be written.
+pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
+    let surfaces = surface::load(scene)?.surfaces;
+    let (parameters, mesh) = (&scene.parameters, &scene.parameters.mesh);
+    let (disc, pin) = ([mesh.disc_columns(), mesh.rows()], [mesh.pin_columns(), mesh.rows()]);
+    write_initial(&surfaces, disc, pin, &folder.join("init.h5"))?;
+
+    let mut state = State::new(parameters, surfaces);
+    let (mut records, mut moved, mut pressure) = (Vec::new(), Volumes::default(), Vec::new());
+    for step in 1..=scene.steps {
+        let done = advance(parameters, &mut state)?;
+        let areas = || mesh.area().iter().cycle();
+        let record: Record = [
+            ("time", parameters.clock().time_at(step)),
+            ("displacement", done.displacement),
+            (
+                "contact_area",
+                done.contact.iter().zip(areas()).filter(|(touches, _)| **touches).map(|(_, area)| area).sum(),
+            ),
+            ("load", done.pressure.iter().zip(areas()).map(|(pressure, area)| pressure * area).sum()),
+            ("max_pressure", done.pressure.iter().copied().fold(0.0, f64::max)),
+            ("pool", state.pools.iter().sum()),
+        ];
+        records.push(record);
+        moved = moved + done.moved;
+        pressure = done.pressure;
+    }
+
+    let file = created(folder.join("expected.h5"));
+    for (series, (name, _)) in records.first().iter().flat_map(|record| record.iter()).enumerate() {
+        let values: Vec<f64> = records.iter().map(|record| record[series].1).collect();
+        file.new_dataset_builder().with_data(&values).create(format!("/series/{name}").as_str())?;
+    }
+    let maps = [
+        ("/disc/height", disc, &state.disc.height),
+        ("/pin/height", pin, &state.pin.height),
+        ("/pin/pressure", pin, &pressure),
+    ];
+    for (name, shape, values) in maps {
+        file.new_dataset_builder().with_data(ArrayView2::from_shape(shape, values)?).create(name)?;
+    }
+    let volumes = [
+        ("worn_pin", moved.worn_pin),
+        ("worn_resin", moved.worn_resin),
+        ("worn_disc", moved.worn_disc),
+        ("destroyed", moved.returned),
+        ("emitted", moved.emitted),
+        ("deposited_pin", moved.deposited_pin),
+        ("deposited_disc", moved.deposited_disc),
+    ];
+    for (name, volume) in volumes {
+        file.new_attr::<f64>().create(name)?.write_scalar(&volume)?;
+    }
+    Ok(file.close()?)
+}
+
+fn write_initial(
+    surfaces: &InitialSurfaces,
+    disc: [usize; 2],
+    pin: [usize; 2],
+    path: &Path,
+) -> Result<(), Box<dyn Error>> {
+    let file = created(path);
+    let base: Vec<u8> = surfaces.pin_base.iter().map(|base| u8::from(*base == Base::Primary)).collect();
+    let heights = [("/disc/height", disc, &surfaces.disc_height), ("/pin/height", pin, &surfaces.pin_height)];
+    for (name, shape, values) in heights {
+        file.new_dataset_builder().with_data(ArrayView2::from_shape(shape, values)?).create(name)?;
+    }
+    file.new_dataset_builder().with_data(ArrayView2::from_shape(pin, &base)?).create("/pin/base")?;
+    Ok(file.close()?)
+}
