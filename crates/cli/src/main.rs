@@ -3,33 +3,28 @@
 mod accuracy;
 mod arguments;
 mod commands;
-mod csv_table;
-mod deflate;
 mod drive;
 mod execution;
 mod failure;
-mod figure;
 mod interrupt;
 mod job;
 mod keeper;
-mod label;
 mod machine;
 mod message;
-mod number;
 mod output;
 mod progress;
-mod report;
 mod resume;
+mod screen;
 mod stability;
 mod summary;
 mod sweep;
 mod table;
 mod version;
-mod watch;
 
 use std::process::ExitCode;
 
 use clap::Parser;
+use plateau_present::{csv_table, number};
 
 fn main() -> ExitCode {
     failure::end_where_memory_does();

@@ -7,13 +7,14 @@ use plateau_io::dataset_file::now;
 use plateau_io::run_file::InputFile;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
+use plateau_present::figure::accuracy as drawing;
+use plateau_present::figure::run::Figure;
 
 use super::load_scene;
-use crate::accuracy::{Found, Making, ReadReference, Wish, csv, json, read_reference, search, text};
+use crate::accuracy::{Found, Making, ReadReference, Report, Row, Wish, csv, json, read_reference, search, text};
 use crate::arguments::{AccuracyArguments, Ladder};
 use crate::execution::decide;
 use crate::failure::Failure;
-use crate::figure::accuracy::figure;
 use crate::output;
 use crate::table::print;
 
@@ -112,4 +113,36 @@ fn inputs(scene: &Scene, surfaces: &[(PathBuf, String)]) -> Result<Vec<InputFile
             .map(|(path, sha256)| InputFile { path: path.to_string_lossy().into_owned(), sha256: sha256.clone() }),
     );
     Ok(inputs)
+}
+
+/// The figure of what was found.
+fn figure(report: &Report) -> Figure {
+    let rung = |row: &Row| {
+        let value = row.rung.value();
+        let label = match row.rung.ladder {
+            Ladder::TimeAcceleration => format!("{value}"),
+            Ladder::Tolerance => format!("tolerance {value}"),
+            Ladder::Mesh => format!("{value}\u{d7} coarser"),
+            Ladder::Integrator | Ladder::Perturbation => String::new(),
+        };
+        drawing::Rung { time: row.cost().time, error: row.error(), on_front: row.on_front, label }
+    };
+    let ladder = |rows: &'_ [Row]| {
+        let ladder = rows[0].rung.ladder;
+        drawing::Ladder {
+            name: ladder.name(),
+            colour: ladder as usize,
+            is_joined: matches!(ladder, Ladder::TimeAcceleration | Ladder::Mesh),
+            is_chance: ladder == Ladder::Perturbation,
+            rungs: rows.iter().map(rung).collect(),
+        }
+    };
+    let same = |one: &Row, next: &Row| one.rung.ladder == next.rung.ladder;
+    let ladders: Vec<drawing::Ladder> = report.rows.chunk_by(same).map(ladder).collect();
+    let reference = drawing::Reference {
+        time: report.reference.outcome.wall_time,
+        error: report.own_error.contact_area(),
+        time_acceleration: report.reference.time_acceleration,
+    };
+    drawing::figure(&reference, &ladders)
 }

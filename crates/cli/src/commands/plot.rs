@@ -1,8 +1,9 @@
 //! `plateau plot`: the figures of runs.
 
+use plateau_present::figure::run::{Figure, Options};
+
 use crate::arguments::{FigureFormat, PlotArguments};
 use crate::failure::Failure;
-use crate::figure::run::{Figure, Options};
 use crate::output;
 use crate::table::print;
 

@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 use plateau_core::surface::{Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, ReadOptions, WriteError, WriteOptions};
+use plateau_present::figure::{self, SurfaceFigure};
 
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
-use crate::figure::{self, SurfaceFigure};
 use crate::message;
 use crate::output;
 use crate::table::print;

@@ -7,10 +7,10 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, level};
 use plateau_io::surface::Measured;
+use plateau_present::figure::{Drawn, SurfaceFigure};
 
 use super::named;
 use crate::failure::Failure;
-use crate::figure::{Drawn, SurfaceFigure};
 
 /// A surface that was read or prepared, described.
 pub struct Subject {

@@ -2,6 +2,10 @@
 
 use std::path::Path;
 
+use plateau_present::study::analysis::{AnalysedResponse, Analysis};
+use plateau_present::study::model::{lack_of_fit, name};
+use plateau_present::study::quality::quality;
+use plateau_present::study::repeated;
 use plateau_study::effects::{self, Effects, Term};
 use serde::Serialize;
 
@@ -11,10 +15,6 @@ use crate::arguments::EffectsArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep;
-use crate::sweep::analysis::{AnalysedResponse, Analysis};
-use crate::sweep::model::{lack_of_fit, name};
-use crate::sweep::quality::quality;
-use crate::sweep::repeated;
 use crate::table::{columns, print, table};
 use crate::{message, number, output};
 

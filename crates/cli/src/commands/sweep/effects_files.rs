@@ -4,13 +4,13 @@ use std::path::Path;
 
 use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
+use plateau_present::figure::effects::figures;
+use plateau_present::figure::run::Figure;
+use plateau_present::report::{Picture, Pictures, StudyPage, effects_page};
+use plateau_present::study::analysis::Analysis;
 
 use crate::failure::Failure;
-use crate::figure::effects::figures;
-use crate::figure::run::Figure;
-use crate::output;
-use crate::report::{Picture, Pictures, StudyPage, effects_page};
-use crate::sweep::analysis::Analysis;
+use crate::{output, version};
 
 /// A figure in both formats of files.
 struct Drawn {
@@ -39,7 +39,8 @@ pub fn write(folder: &Path, plan: &Plan, collected: &Collected, analysis: &Analy
         }
         pictures.push(Pictures { pictures: drawn, left_out: of_response.left_out });
     }
-    let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures });
+    let program = version::program();
+    let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures, program: &program });
     add("effects.html", page.as_bytes())?;
     Ok(files)
 }

@@ -12,7 +12,7 @@ use super::recorded::{MOST_POINTS, Recorded, recorded};
 use super::section::Section;
 use super::{comparison, provenance, scene};
 use crate::label::labels;
-use crate::{number, version};
+use crate::number;
 
 /// Bytes of a page, as far as maps can be reduced to meet it.
 const MOST_BYTES: usize = 4_900_000;
@@ -30,11 +30,11 @@ const SCRIPT: &str = concat!(
     include_str!("assets/main.js"),
 );
 
-/// One self-contained HTML page about runs and figures of them.
+/// One self-contained HTML page about runs and figures of them, made by a program of that name and version.
 ///
 /// # Errors
 /// [`ReadError::Damaged`] when a series or a map cannot be read.
-pub fn page(runs: &[RunFile], pictures: &Pictures) -> Result<String, ReadError> {
+pub fn page(runs: &[RunFile], pictures: &Pictures, program: &str) -> Result<String, ReadError> {
     let labels = labels(runs);
     let series = runs.iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
     let contact_areas = runs.iter().map(RunFile::last_contact_area).collect::<Result<Vec<_>, _>>()?;
@@ -66,7 +66,7 @@ pub fn page(runs: &[RunFile], pictures: &Pictures) -> Result<String, ReadError> 
     ];
     let page = Layout {
         title: &parts.title(),
-        subtitle: &parts.subtitle(),
+        subtitle: &parts.subtitle(program),
         notices: &parts.notices(),
         without_scripts: "Charts, maps and figures need JavaScript; tables and scenes do not.",
         sections: &sections,
@@ -100,9 +100,9 @@ impl Parts<'_> {
         }
     }
 
-    fn subtitle(&self) -> String {
+    fn subtitle(&self, program: &str) -> String {
         let names = if self.labels.len() > 1 { format!("{}. ", self.labels.join(" · ")) } else { String::new() };
-        format!("{names}Made by {}.", version::program())
+        format!("{names}Made by {program}.")
     }
 
     /// What deserves attention before the numbers.

@@ -3,7 +3,7 @@
 use super::StudyPage;
 use crate::number;
 use crate::report::html;
-use crate::sweep::aliases;
+use crate::study::aliases;
 
 /// The section about the study.
 pub fn html(of: &StudyPage) -> String {

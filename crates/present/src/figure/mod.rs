@@ -39,5 +39,6 @@ mod surface;
 mod ticks;
 mod unit;
 
+pub use canvas::FigureError;
 pub use colour::{STATUSES, viridis};
 pub use surface::{Drawn, SurfaceFigure, surfaces};

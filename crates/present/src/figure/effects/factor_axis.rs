@@ -10,8 +10,8 @@ use crate::figure::canvas::TEXT;
 use crate::figure::font::{shortened, text_width};
 use crate::figure::ticks::raised;
 use crate::number;
-use crate::sweep::analysis::AnalysedFactor;
-use crate::sweep::reading::split;
+use crate::study::analysis::AnalysedFactor;
+use crate::study::reading::split;
 
 /// Room beside the first and the last level, in distances of levels.
 const BESIDE: f64 = 0.45;
@@ -175,7 +175,7 @@ mod tests {
     use plateau_study::effects::Factor;
 
     use super::*;
-    use crate::sweep::reading::Reading;
+    use crate::study::reading::Reading;
 
     fn factor(name: &str, kind: FactorKind, labels: &[&str]) -> AnalysedFactor {
         let labels = labels.iter().map(|label| (*label).to_owned()).collect();

@@ -1,6 +1,6 @@
 //! Figures that the program made, for the page.
 
-use crate::failure::Failure;
+use crate::figure::FigureError;
 use crate::figure::run::{Figure, Figures};
 
 /// A figure: a drawing in SVG with what is said below it.
@@ -27,13 +27,13 @@ impl Pictures {
     /// Draws figures.
     ///
     /// # Errors
-    /// [`Failure::Run`] when one cannot be drawn.
-    pub fn draw(figures: &Figures) -> Result<Self, Failure> {
+    /// [`FigureError`] when one cannot be drawn.
+    pub fn draw(figures: &Figures) -> Result<Self, FigureError> {
         let picture = |figure: &Figure| {
-            let svg = figure.svg().map_err(Failure::run)?;
+            let svg = figure.svg()?;
             Ok(Picture { name: figure.name.clone(), caption: figure.caption.clone(), svg })
         };
-        let pictures = figures.figures.iter().map(picture).collect::<Result<_, Failure>>()?;
+        let pictures = figures.figures.iter().map(picture).collect::<Result<_, FigureError>>()?;
         Ok(Self { pictures, left_out: figures.left_out.iter().map(|reason| format!("Figures: {reason}.")).collect() })
     }
 }

@@ -7,9 +7,9 @@ use crate::figure::effects::{FactorAxis, ResponseUnit, unit};
 use crate::number;
 use crate::report::html;
 use crate::report::picture::{Picture, Pictures};
-use crate::sweep::analysis::AnalysedResponse;
-use crate::sweep::model::lack_of_fit;
-use crate::sweep::quality::quality;
+use crate::study::analysis::AnalysedResponse;
+use crate::study::model::lack_of_fit;
+use crate::study::quality::quality;
 
 /// Digits of numbers.
 const DIGITS: usize = 4;

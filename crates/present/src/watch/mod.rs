@@ -6,14 +6,11 @@
 //! | how fast the run is, and whether it still goes on | [`pace`] |
 //! | a curve made of characters | [`curve`] |
 //! | a look in words and as a page of the terminal | [`page`] |
-//! | where it is shown: a page that is drawn anew, or lines | [`screen`] |
 
 mod curve;
 mod look;
 mod pace;
-mod page;
-mod screen;
+pub mod page;
 
 pub use look::Look;
 pub use pace::Pace;
-pub use screen::Screen;

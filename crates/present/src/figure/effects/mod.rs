@@ -27,7 +27,7 @@ use plateau_study::effects::Effects;
 use super::page::Page;
 use super::run::Figure;
 use crate::number;
-use crate::sweep::analysis::{AnalysedResponse, Analysis};
+use crate::study::analysis::{AnalysedResponse, Analysis};
 
 pub use factor_axis::FactorAxis;
 pub use names::file_names;

@@ -19,9 +19,8 @@ use super::picture::Pictures;
 use super::section::Section;
 use crate::figure::effects::axes;
 use crate::number;
-use crate::sweep::analysis::Analysis;
-use crate::sweep::repeated;
-use crate::version;
+use crate::study::analysis::Analysis;
+use crate::study::repeated;
 use parallel::Parallel;
 
 const STYLE: &str = include_str!("../assets/parallel.css");
@@ -38,6 +37,8 @@ pub struct StudyPage<'a> {
     pub analysis: &'a Analysis,
     /// Figures of each response.
     pub pictures: &'a [Pictures],
+    /// Name and version of the program that makes it.
+    pub program: &'a str,
 }
 
 /// The page about a study.
@@ -57,7 +58,7 @@ pub fn page(of: &StudyPage) -> String {
     let style = [STYLE, &parallel::colours()].concat();
     Layout {
         title: &study.title,
-        subtitle: &format!("Effects of {factors} on {responses}. Made by {}.", version::program()),
+        subtitle: &format!("Effects of {factors} on {responses}. Made by {}.", of.program),
         notices: &notices(of),
         without_scripts: "Without JavaScript the lines of all runs cannot be filtered; everything else is there.",
         sections: &sections,

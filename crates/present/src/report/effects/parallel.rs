@@ -11,7 +11,7 @@ use crate::figure::effects::{FactorAxis, ResponseUnit};
 use crate::figure::viridis;
 use crate::number;
 use crate::report::html;
-use crate::sweep::analysis::{AnalysedResponse, Analysis};
+use crate::study::analysis::{AnalysedResponse, Analysis};
 
 /// Colours of lines.
 const COLOURS: usize = 16;

@@ -4,9 +4,9 @@ use std::env;
 use std::io::{self, Write};
 
 use console::Term;
+use plateau_present::watch::page::{self, Style};
+use plateau_present::watch::{Look, Pace};
 
-use super::page::{self, Style};
-use super::{Look, Pace};
 use crate::message;
 
 /// Standard output.

@@ -1,0 +1,21 @@
+//! What runs, studies and surfaces look like: nothing here reads arguments or talks to a terminal.
+//!
+//! | what | where |
+//! |---|---|
+//! | figures as PNG, SVG and PDF | [`figure`] |
+//! | HTML pages | [`report`] |
+//! | a run that goes on, as lines and as a page of text | [`watch`] |
+//! | what a study shows | [`study`] |
+//! | tables as text and as CSV | [`table`], [`csv_table`] |
+//! | numbers as people read them | [`number`] |
+//! | what runs are called | [`label`] |
+
+pub mod csv_table;
+mod deflate;
+pub mod figure;
+pub mod label;
+pub mod number;
+pub mod report;
+pub mod study;
+pub mod table;
+pub mod watch;
