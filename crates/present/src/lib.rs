@@ -7,14 +7,20 @@
 //! | a run that goes on, as lines and as a page of text | [`watch`] |
 //! | what a study shows | [`study`] |
 //! | tables as text and as CSV | [`table`], [`csv_table`] |
+//! | what is shown: titles, units, signs, colour maps | [`quantity`], [`colour`] |
 //! | numbers as people read them | [`number`] |
 //! | what runs are called | [`label`] |
 
+// The tables of files are for those who read the source: they name what is private, too.
+#![allow(rustdoc::private_intra_doc_links)]
+
+mod colour;
 pub mod csv_table;
 mod deflate;
 pub mod figure;
 pub mod label;
 pub mod number;
+mod quantity;
 pub mod report;
 pub mod study;
 pub mod table;

@@ -7,8 +7,7 @@ use plateau_io::dataset_file::now;
 use plateau_io::run_file::InputFile;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
-use plateau_present::figure::accuracy as drawing;
-use plateau_present::figure::run::Figure;
+use plateau_present::figure::{Figure, Format, accuracy as drawing};
 
 use super::load_scene;
 use crate::accuracy::{Found, Making, ReadReference, Report, Row, Wish, csv, json, read_reference, search, text};
@@ -21,8 +20,8 @@ use crate::table::print;
 /// The ladders that are climbed unless others are asked for.
 const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Integrator];
 
-/// Files that are written, by their endings.
-const FILES: [&str; 4] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accuracy.svg"];
+/// Files that are written: tables, and the figure in every format, in the order of those.
+const FILES: [&str; 5] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accuracy.svg", "accuracy.pdf"];
 
 /// Measures the errors of a scene's runs.
 pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
@@ -67,12 +66,13 @@ fn measure_into(
     };
     let figure = figure(&report);
     let document = json(&report, &making);
-    let [csv_file, json_file, png_file, svg_file] = &places;
+    let [csv_file, json_file, drawings @ ..] = &places;
     let force = arguments.force;
     output::write(csv_file, csv(&report.rows).as_bytes(), force)?;
     output::write(json_file, document.as_bytes(), force)?;
-    output::write(png_file, &figure.png().map_err(Failure::run)?, force)?;
-    output::write(svg_file, figure.svg().map_err(Failure::run)?.as_bytes(), force)?;
+    for (path, format) in drawings.iter().zip(Format::ALL) {
+        output::write(path, &figure.draw(format).map_err(Failure::run)?, force)?;
+    }
     if arguments.scene.json {
         print(&document)?;
     } else {
@@ -94,7 +94,7 @@ fn places(
     arguments: &AccuracyArguments,
     scene: &Scene,
     surfaces: &[(PathBuf, String)],
-) -> Result<[PathBuf; 4], Failure> {
+) -> Result<[PathBuf; 5], Failure> {
     let mut inputs = scene.files.clone();
     inputs.extend(surfaces.iter().map(|(path, _)| path.clone()));
     inputs.extend(arguments.reference.clone());

@@ -4,11 +4,11 @@ use std::ops::RangeInclusive;
 
 use super::axes::Axis;
 use super::canvas::{Anchor, LINE, TEXT};
-use super::colour::{APART, FAINT};
+use super::chart::{COLUMN, Chart, Meaning, colour, page};
+use super::format::Figure;
 use super::labels::Labels;
 use super::page::{Content, KeyStyle, Page};
-use super::run::Figure;
-use super::run::chart::{COLUMN, Chart, Meaning, colour, page};
+use crate::colour::{APART, FAINT};
 
 /// Height of the box, pixels.
 const HEIGHT: f64 = 860.0;

@@ -5,9 +5,9 @@ use std::ops::RangeInclusive;
 use plotters::prelude::DrawingBackend;
 
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
-use super::colour::INK;
 use super::font::text_width;
 use super::ticks::{logarithmic_ticks, ticks};
+use crate::colour::INK;
 
 /// Length of a tick, pixels.
 const TICK: f64 = 10.0;

@@ -8,8 +8,8 @@ use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea as _, IntoF
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontTransform, RGBColor, ShapeStyle, WHITE};
 
-use super::colour::INK;
 use super::font::{self, FONT_NAME};
+use crate::colour::INK;
 
 /// Height of the letters of numbers and words, pixels.
 pub const TEXT: u32 = 34;

@@ -4,9 +4,9 @@ use plotters::prelude::DrawingBackend;
 
 use super::axes::{Axis, Frame, most_ticks_upward};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
-use super::colour::{COLOURS, INK, colour_map, viridis};
 use super::font::text_width;
 use super::picture::Picture;
+use crate::colour::{COLOURS, INK, colour_map, viridis};
 
 /// A bar with the values of its colours to the right.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,13 +22,6 @@ impl ColourBar {
     pub fn strip(&self) -> Picture {
         let indices = (0..COLOURS).rev().map(|colour| colour as u8).collect();
         Picture { columns: 1, rows: COLOURS, indices, palette: colour_map() }
-    }
-
-    /// Draws strip, numbers and label.
-    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
-        let (width, height) = (self.frame.width() as u32, self.frame.height().max(1.0) as u32);
-        canvas.bitmap((self.frame.x[0], self.frame.y[0]), (width, height), self.strip().stretched(width, height))?;
-        self.draw_scale(canvas)
     }
 
     /// Draws all but the strip. The bar ends in points: what is beyond has the colour of its end.

@@ -4,7 +4,6 @@
 //! |---|---|
 //! | a page and what is put on it: lines, areas, bitmaps, text | [`canvas`] |
 //! | the font | [`font`] |
-//! | colours and the colour map | [`colour`] |
 //! | a box with axes round it | [`axes`] |
 //! | where ticks are and what they say | [`ticks`] |
 //! | a map of heights, reduced to what a picture shows | [`raster`] |
@@ -12,7 +11,9 @@
 //! | the colour bar of a map | [`colour_bar`] |
 //! | curves with no more places than there is to see | [`simplify`] |
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
-//! | map, histogram and Abbott-Firestone curve of surfaces | [`surface`] |
+//! | charts beside and below each other | [`chart`] |
+//! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`] |
+//! | the fibre map of a pin beside its micrograph | [`fibre_map`] |
 //! | labels beside points | [`labels`] |
 //! | lines of equal value | [`contour`] |
 //! | the figures of runs | [`run`] |
@@ -22,10 +23,11 @@
 pub mod accuracy;
 mod axes;
 mod canvas;
-mod colour;
+mod chart;
 mod colour_bar;
 mod contour;
 pub mod effects;
+pub mod fibre_map;
 mod font;
 mod format;
 mod histogram;
@@ -35,10 +37,8 @@ mod picture;
 mod raster;
 pub mod run;
 mod simplify;
-mod surface;
+pub mod surface_description;
 mod ticks;
-mod unit;
 
 pub use canvas::FigureError;
-pub use colour::{STATUSES, viridis};
-pub use surface::{Drawn, SurfaceFigure, surfaces};
+pub use format::{Figure, Format};

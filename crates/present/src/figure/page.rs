@@ -7,10 +7,10 @@ use plotters::style::RGBColor;
 
 use super::axes::{Axes, Frame};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
-use super::colour::GROUND;
 use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
+use crate::colour::GROUND;
 
 /// Pixels of a millimetre on paper: letters are of 6 points then.
 pub const PER_MILLIMETRE: f64 = 16.0;
@@ -120,6 +120,12 @@ pub enum Content {
 }
 
 impl Page {
+    /// Width and height in whole pixels.
+    pub fn pixels(&self) -> (u32, u32) {
+        let [width, height] = self.size.map(|length| length.round() as u32);
+        (width, height)
+    }
+
     /// The bitmaps of the page, which lie below all else.
     pub fn pictures(&self) -> Vec<(Frame, Picture)> {
         let maps = self.panels.iter().flat_map(|panel| {

@@ -4,8 +4,11 @@ use std::ops::RangeInclusive;
 
 use plateau_core::surface::describe::Grid;
 
-use super::colour::{MISSING, viridis};
+use super::picture::Picture;
+use crate::colour::{COLOURS, MISSING, colour_index, colour_map};
 
+/// Number of the colour of points that were not measured.
+const NOT_MEASURED: u8 = COLOURS as u8;
 /// Points along a side that a picture shows, at most.
 const MOST_POINTS: usize = 1500;
 
@@ -39,26 +42,18 @@ impl Raster {
         Self { columns, rows, values }
     }
 
-    /// A picture of so many pixels, three bytes a pixel, row by row from the top, where y is largest; `range` spans the
-    /// colour map.
-    pub fn picture(&self, width: u32, height: u32, range: &RangeInclusive<f64>) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(3 * width as usize * height as usize);
+    /// A picture with a point for every value, from the top, where y is largest; `range` spans the colour map.
+    pub fn picture(&self, range: &RangeInclusive<f64>) -> Picture {
         let length = range.end() - range.start();
-        let nearest = |pixel: u32, pixels: u32, points: usize| {
-            (u64::from(pixel) * points as u64 / u64::from(pixels.max(1))) as usize
-        };
-        for line in (0..height).rev() {
-            let row = nearest(line, height, self.rows);
-            for pixel in 0..width {
-                let value = self.values.get(nearest(pixel, width, self.columns) * self.rows + row).copied();
-                let colour = match value {
-                    Some(value) if !value.is_nan() => viridis((value - range.start()) / length),
-                    _ => MISSING,
-                };
-                bytes.extend([colour.0, colour.1, colour.2]);
-            }
+        let colour =
+            |value: f64| if value.is_nan() { NOT_MEASURED } else { colour_index((value - range.start()) / length) };
+        let row = |row: usize| (0..self.columns).map(move |column| colour(self.values[column * self.rows + row]));
+        Picture {
+            columns: self.columns,
+            rows: self.rows,
+            indices: (0..self.rows).rev().flat_map(row).collect(),
+            palette: colour_map().into_iter().chain([MISSING]).collect(),
         }
-        bytes
     }
 }
 
@@ -70,9 +65,10 @@ mod tests {
     fn y_grows_upward_and_missing_points_are_grey() {
         let heights = [0.0, 1.0, f64::NAN, 0.5];
         let grid = Grid { columns: 2, rows: 2, pitch: None, heights: &heights };
-        let picture = Raster::of(&grid, 0.0).picture(2, 2, &(0.0..=1.0));
+        let picture = Raster::of(&grid, 0.0).picture(&(0.0..=1.0)).stretched(2, 2);
         // By hand: the upper line holds row 1, the heights 1 and 0.5; the lower one row 0, 0 and the missing point.
-        let colours = [viridis(1.0), viridis(0.5), viridis(0.0), MISSING];
+        let map = colour_map();
+        let colours = [map[COLOURS - 1], map[usize::from(colour_index(0.5))], map[0], MISSING];
         assert_eq!(picture, colours.iter().flat_map(|colour| [colour.0, colour.1, colour.2]).collect::<Vec<_>>());
     }
 

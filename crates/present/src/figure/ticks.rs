@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use crate::number;
+
 /// Places of ticks in a range, and what they say: multiples of 1, 2 or 5 times a power of ten, at most `most` of them.
 pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
     let (low, high) = (*range.start(), *range.end());
@@ -19,7 +21,7 @@ pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
     let tick = |index: usize| {
         // Adding 0 makes a negative zero a plain one.
         let value = (first + index as f64) * step + 0.0;
-        (value, crate::number::with_minus(&format!("{value:.decimals$}")))
+        (value, number::with_minus(&format!("{value:.decimals$}")))
     };
     (0..count(step)).map(tick).collect()
 }
@@ -53,22 +55,10 @@ fn power_label(digit: i32, power: i32) -> String {
         0..=4 => format!("{}", i64::from(digit) * 10_i64.pow(power as u32)),
         -3..=-1 => format!("{:.*}", power.unsigned_abs() as usize, f64::from(digit) * 10_f64.powi(power)),
         _ => {
-            let exponent = raised(power);
+            let exponent = number::raised(power);
             if digit == 1 { format!("10{exponent}") } else { format!("{digit}\u{b7}10{exponent}") }
         }
     }
-}
-
-/// An integer as an exponent.
-pub fn raised(power: i32) -> String {
-    let letter = |letter: char| match letter {
-        '-' => '\u{207b}',
-        '1' => '\u{b9}',
-        '2' => '\u{b2}',
-        '3' => '\u{b3}',
-        digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-    };
-    power.to_string().chars().map(letter).collect()
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ pub fn rows(runs: &[Vec<Measure>]) -> Vec<Vec<String>> {
     let row = |(index, reference): (usize, &Measure)| {
         let compared =
             others.iter().map(|run| run.get(index).map_or_else(|| UNKNOWN.into(), |run| compare(reference, run)));
-        [reference.name.to_owned(), reference.text()].into_iter().chain(compared).collect()
+        [reference.name.clone(), reference.text()].into_iter().chain(compared).collect()
     };
     first.iter().enumerate().map(row).collect()
 }
@@ -19,7 +19,7 @@ pub fn rows(runs: &[Vec<Measure>]) -> Vec<Vec<String>> {
 /// The value of `other`, and how far it is from that of `reference`, absolutely and in percent of it.
 fn compare(reference: &Measure, other: &Measure) -> String {
     let (Some(from), Some(to)) = (reference.value, other.value) else { return other.text() };
-    let difference = (to - from) * other.unit.scale;
+    let difference = (to - from) * other.unit.per_si;
     if difference == 0.0 {
         return format!("{} (same)", other.text());
     }
@@ -54,16 +54,16 @@ fn signed(number: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::unit::ReadingUnit;
     use super::{Measure, rows};
+    use crate::quantity::Unit;
 
-    fn measure(symbol: &'static str, scale: f64, value: f64) -> Measure {
-        Measure { name: "area", unit: ReadingUnit { symbol, scale }, value: Some(value), error: None }
+    fn measure(unit: Unit, value: f64) -> Measure {
+        Measure { name: "area".into(), unit, value: Some(value), error: None }
     }
 
     #[test]
     fn differences_are_relative_to_the_first() {
-        let run = |value| vec![measure("mm²", 1e6, value)];
+        let run = |value| vec![measure(Unit::MM2, value)];
         // By hand: 5 is 25 % more than 4, 3 is 25 % less,
         // and 4.0012 is 0.03 % more.
         let rows = rows(&[run(4e-6), run(5e-6), run(3e-6), run(4e-6), run(4.0012e-6)]);
@@ -82,9 +82,9 @@ mod tests {
 
     #[test]
     fn no_percent_of_percent_or_of_nothing() {
-        let shown = rows(&[vec![measure("%", 100.0, 0.5)], vec![measure("%", 100.0, 0.625)]]);
+        let shown = rows(&[vec![measure(Unit::PERCENT, 0.5)], vec![measure(Unit::PERCENT, 0.625)]]);
         assert_eq!(shown[0][2], "62.500 % (+12.5 points)");
-        let shown = rows(&[vec![measure("", 1.0, 0.0)], vec![measure("", 1.0, 2.0)]]);
+        let shown = rows(&[vec![measure(Unit::NUMBER, 0.0)], vec![measure(Unit::NUMBER, 2.0)]]);
         assert_eq!(shown[0][2], "2.0000 (+2)");
     }
 }

@@ -1,6 +1,5 @@
 //! The JSON document from which the scripts of the page draw charts, maps and figures.
 
-use plateau_core::model::material::Status;
 use plateau_io::run_file::{ReadError, RunFile};
 use plotters::style::RGBColor;
 use serde::Serialize;
@@ -10,8 +9,8 @@ use super::pack;
 use super::picture::Picture;
 use super::recorded::Recorded;
 use super::reduction::Reduction;
-use super::unit::ReadingUnit;
-use crate::figure::{STATUSES, viridis};
+use crate::colour::viridis;
+use crate::quantity::{STATUS_LOOKS, StatusLook, Unit};
 
 /// All of it.
 #[derive(Debug, Serialize)]
@@ -59,7 +58,7 @@ struct PageMesh {
 struct PageSeries {
     name: String,
     label: String,
-    unit: ReadingUnit,
+    unit: Unit,
     /// Where the times of its points are among `time` of the run, packed.
     at: String,
     /// The values, SI, packed.
@@ -69,7 +68,7 @@ struct PageSeries {
 #[derive(Debug, Serialize)]
 struct StatusName {
     code: u8,
-    name: &'static str,
+    name: String,
     colour: String,
 }
 
@@ -92,7 +91,7 @@ impl Document {
         Self {
             runs: runs.map(|((run, label), series)| Run::new(run, label, series)).collect(),
             colours: (0..=255).map(|index| hexadecimal(viridis(f64::from(index) / 255.0))).collect(),
-            statuses: statuses(),
+            statuses: STATUS_LOOKS.iter().map(StatusName::of).collect(),
             pictures: pictures.collect(),
         }
     }
@@ -188,25 +187,18 @@ impl PageSeries {
         Self {
             name: series.name.clone(),
             label: series.long_name.clone(),
-            unit: series.unit,
+            unit: series.unit.clone(),
             at: pack::indices(&at),
             values: pack::singles(series.values.iter().copied()),
         }
     }
 }
 
-fn statuses() -> Vec<StatusName> {
-    let names = [
-        (Status::None, "none (resin)"),
-        (Status::Primary, "primary plateau"),
-        (Status::Secondary, "secondary plateau"),
-    ];
-    let status = |((status, name), colour): ((Status, _), RGBColor)| StatusName {
-        code: status as u8,
-        name,
-        colour: hexadecimal(colour),
-    };
-    names.into_iter().zip(STATUSES).map(status).collect()
+impl StatusName {
+    fn of(look: &StatusLook) -> Self {
+        let name = format!("{} ({})", look.name, look.made_of);
+        Self { code: look.status as u8, name, colour: hexadecimal(look.colour) }
+    }
 }
 
 fn hexadecimal(colour: RGBColor) -> String {

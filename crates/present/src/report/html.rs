@@ -18,6 +18,12 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
+/// A text that begins with a capital letter.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// A JSON document that may stand within a `script` element: what would end the element is written otherwise.
 pub fn json_in_script(json: &str) -> String {
     // In JSON a `<` can only be within a string, where this means the same.

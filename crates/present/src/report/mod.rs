@@ -9,7 +9,6 @@
 //! | the page about runs | [`mod@page`] |
 //! | the page about a study | [`effects`] |
 //! | text as HTML, tables | [`html`] |
-//! | units in which people read a quantity | [`mod@unit`] |
 //! | a series with its last and largest value, thinned | [`recorded`], [`thin`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
 //! | scenes, and in which keys they differ | [`scene`] |
@@ -38,7 +37,6 @@ mod scene;
 mod section;
 mod template;
 mod thin;
-mod unit;
 
 pub use effects::{StudyPage, page as effects_page};
 pub use page::page;

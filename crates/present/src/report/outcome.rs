@@ -5,9 +5,10 @@ use std::fs;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::run_file::{RunFile, State};
 
+use super::html::capital;
 use super::recorded::Recorded;
-use super::unit::ReadingUnit;
 use crate::number;
+use crate::quantity::{SeriesLook, Unit};
 
 /// Shown where a run file does not say.
 pub const UNKNOWN: &str = "–";
@@ -16,9 +17,9 @@ pub const UNKNOWN: &str = "–";
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
     /// What it is.
-    pub name: &'static str,
+    pub name: String,
     /// The unit in which it is read.
-    pub unit: ReadingUnit,
+    pub unit: Unit,
     /// Its value, SI; none if the run file does not have it.
     pub value: Option<f64>,
     /// Standard error of the value, SI, where there is one.
@@ -29,8 +30,8 @@ impl Measure {
     /// The number with its unit.
     pub fn text(&self) -> String {
         let text = |value: f64| match self.error {
-            Some(error) => number::with_error(value * self.unit.scale, Some(error * self.unit.scale)),
-            None => readable(value * self.unit.scale),
+            Some(error) => number::with_error(self.unit.value(value), Some(self.unit.value(error))),
+            None => readable(self.unit.value(value)),
         };
         self.value.map_or_else(|| UNKNOWN.into(), |value| self.unit.with_symbol(&text(value)))
     }
@@ -42,45 +43,38 @@ pub fn readable(value: f64) -> String {
     number::with_minus(&number::significant(value + 0.0, 5))
 }
 
-const PERCENT: ReadingUnit = ReadingUnit { symbol: "%", scale: 100.0 };
-const AREA: ReadingUnit = ReadingUnit { symbol: "mm²", scale: 1e6 };
-const VOLUME: ReadingUnit = ReadingUnit { symbol: "mm³", scale: 1e9 };
-const LENGTH: ReadingUnit = ReadingUnit { symbol: "m", scale: 1.0 };
-
 /// The numbers of a run, the same ones in the same order for every run: its series, and its mean contact area.
 pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Measure> {
     let find = |name: &str| series.iter().find(|series| series.name == name);
     let last = |name: &str| find(name).and_then(|series| series.last);
     let largest = |name: &str| find(name).and_then(|series| series.largest).map(f64::abs);
-    let worn = ["worn_pin", "worn_resin", "worn_disc"].map(last);
-    let all_worn = worn.into_iter().sum::<Option<f64>>();
-    let measure = |name, unit, value| Measure { name, unit, value, error: None };
-    vec![
-        measure("Sliding distance", LENGTH, last("sliding_distance")),
-        Measure {
-            error: contact_area.and_then(|window| window.standard_error),
-            ..measure("Contact area, mean ± standard error", AREA, contact_area.map(|window| window.mean))
-        },
-        measure("– of the last step", AREA, last("contact_area")),
-        measure("Contact area over the area of the pin", PERCENT, last("contact_ratio")),
-        measure("Mean contact pressure", ReadingUnit::PRESSURE, last("mean_pressure")),
-        measure("Largest contact pressure", ReadingUnit::PRESSURE, last("max_pressure")),
-        measure("Disc filled", PERCENT, last("filled_fraction")),
-        measure("Disc covered by secondary plateaus", PERCENT, last("disc_secondary")),
-        measure("Pin covered by secondary plateaus", PERCENT, last("pin_secondary")),
-        measure("Pin covered by primary plateaus", PERCENT, last("pin_primary")),
-        measure("Pin without plateaus", PERCENT, last("pin_none")),
-        measure("Worn volume", VOLUME, all_worn),
-        measure("– of the pin's plateaus", VOLUME, worn[0]),
-        measure("– of the resin", VOLUME, worn[1]),
-        measure("– of the disc", VOLUME, worn[2]),
-        measure("Emitted debris", VOLUME, last("emitted")),
-        measure("Debris deposited on the pin", VOLUME, last("deposited_pin")),
-        measure("Debris deposited on the disc", VOLUME, last("deposited_disc")),
-        measure("Debris in the pool", VOLUME, last("pool")),
-        measure("Largest residual of the load balance", ReadingUnit::NUMBER, largest("load_residual")),
-        measure("Largest residual of the debris balance", ReadingUnit::NUMBER, largest("balance_residual")),
-    ]
+    let measure = |name: &str, unit, value| Measure { name: name.to_owned(), unit, value, error: None };
+    let shown = |name: &'static str| {
+        let SeriesLook { title, unit, .. } = SeriesLook::of(name);
+        measure(&capital(title), unit, last(name))
+    };
+    let part = |name: &'static str, of: &str| Measure { name: format!("– {of}"), ..shown(name) };
+    let worn = [("worn_pin", "of the pin's plateaus"), ("worn_resin", "of the resin"), ("worn_disc", "of the disc")];
+    let all_worn = worn.iter().map(|(name, _)| last(name)).sum::<Option<f64>>();
+    let mean = Measure {
+        name: "Contact area, mean ± standard error".to_owned(),
+        value: contact_area.map(|window| window.mean),
+        error: contact_area.and_then(|window| window.standard_error),
+        ..shown("contact_area")
+    };
+    let mut measures = vec![shown("sliding_distance"), mean, part("contact_area", "of the last step")];
+    let contact = ["contact_ratio", "mean_pressure", "max_pressure", "filled_fraction"];
+    measures.extend(contact.map(shown));
+    measures.extend(["disc_secondary", "pin_secondary", "pin_primary", "pin_none"].map(shown));
+    measures.push(measure("Worn volume", Unit::MM3, all_worn));
+    measures.extend(worn.map(|(name, of)| part(name, of)));
+    measures.extend(["emitted", "deposited_pin", "deposited_disc", "pool"].map(shown));
+    let residuals = [("load_residual", "load"), ("balance_residual", "debris")];
+    measures.extend(
+        residuals
+            .map(|(name, of)| measure(&format!("Largest residual of the {of} balance"), Unit::NUMBER, largest(name))),
+    );
+    measures
 }
 
 /// What there is to tell of a run besides its numbers: name and text. `contact_area` is its mean.
@@ -147,12 +141,11 @@ fn simulated(run: &RunFile) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Measure, ReadingUnit, measures};
+    use super::{Measure, Unit, measures};
 
     #[test]
     fn numbers_carry_their_units() {
-        let measure =
-            |value| Measure { name: "area", unit: ReadingUnit { symbol: "mm²", scale: 1e6 }, value, error: None };
+        let measure = |value| Measure { name: "area".into(), unit: Unit::MM2, value, error: None };
         assert_eq!(measure(Some(4.690_52e-6)).text(), "4.6905 mm²");
         assert_eq!(measure(Some(-0.0)).text(), "0 mm²");
         assert_eq!(measure(None).text(), "–");

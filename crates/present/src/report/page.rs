@@ -128,7 +128,7 @@ impl Parts<'_> {
             std::iter::once(name).chain(facts.iter().map(|facts| facts[index].1.clone())).collect()
         };
         let measure = |index: usize| {
-            let name = self.measures[0][index].name.to_owned();
+            let name = self.measures[0][index].name.clone();
             std::iter::once(name).chain(self.measures.iter().map(|measures| measures[index].text())).collect()
         };
         let rows: Vec<Vec<String>> =
@@ -193,7 +193,7 @@ impl Parts<'_> {
             ),
             "Colours of heights leave out the lowest and the highest 0.5 % of the values, which take the colours of the ends; \
              pressures begin at 0, and the highest 0.5 % of the cells in contact take the last colour. The pin wears by far \
-             more than it is rough: its colours are of heights less their median at each time."
+             more than it is rough: its colours are of heights less their mean at each time."
                 .to_owned(),
         ];
         for (run, file) in document.runs.iter().zip(self.runs) {

@@ -1,7 +1,7 @@
 //! Figures that the program made, for the page.
 
-use crate::figure::FigureError;
-use crate::figure::run::{Figure, Figures};
+use crate::figure::run::Figures;
+use crate::figure::{Figure, FigureError};
 
 /// A figure: a drawing in SVG with what is said below it.
 #[derive(Debug, Clone, PartialEq, Eq)]

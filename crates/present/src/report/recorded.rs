@@ -3,7 +3,7 @@
 use plateau_io::run_file::{ReadError, RunFile, Series};
 
 use super::thin::thin;
-use super::unit::ReadingUnit;
+use crate::quantity::{self, Unit};
 
 /// Points of a series on the page, at most.
 pub const MOST_POINTS: usize = 1500;
@@ -16,7 +16,7 @@ pub struct Recorded {
     /// What it is, in words.
     pub long_name: String,
     /// The unit in which people read it.
-    pub unit: ReadingUnit,
+    pub unit: Unit,
     /// The last value, SI; none without samples.
     pub last: Option<f64>,
     /// The value farthest from 0, SI; none without finite values.
@@ -42,7 +42,7 @@ fn read(run: &RunFile, series: &Series) -> Result<Option<Recorded>, ReadError> {
     Ok(Some(Recorded {
         name: series.name.clone(),
         long_name: if series.long_name.is_empty() { series.name.clone() } else { series.long_name.clone() },
-        unit: ReadingUnit::of_series(&series.name, &series.unit),
+        unit: quantity::unit(series),
         last: values.last().copied(),
         largest: finite.max_by(|one, other| one.abs().total_cmp(&other.abs())),
         values: at.iter().map(|index| values[*index]).collect(),

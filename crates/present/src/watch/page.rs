@@ -7,6 +7,7 @@ use super::curve::{Dots, curve};
 use super::{Look, Pace};
 use crate::label::on_one_line;
 use crate::number;
+use crate::quantity::SeriesLook;
 
 /// Characters of the progress bar, at least and at most.
 const BAR: (usize, usize) = (8, 28);
@@ -105,12 +106,14 @@ fn speed(look: &Look, pace: &Pace, warning: Option<&str>) -> Option<String> {
 
 fn contact_area(look: &Look) -> Option<String> {
     let area = look.contact_area.last()?;
-    let mut text = format!("contact area {:.4} mm²", area * 1e6);
+    let [area_look, mean_look, filled_look] =
+        ["contact_area", "contact_area_mean", "filled_fraction"].map(SeriesLook::of);
+    let mut text = format!("{} {}", area_look.title, area_look.text(*area, 4));
     if let Some(mean) = look.contact_area_mean.last() {
-        text += &format!(", mean of the last revolution {:.4} mm²", mean * 1e6);
+        text += &format!(", mean of the last revolution {}", mean_look.text(*mean, 4));
     }
     if let Some(filled) = look.filled_fraction {
-        text += &format!(", disc filled {:.1} %", filled * 100.0);
+        text += &format!(", {} {}", filled_look.title, filled_look.text(filled, 1));
     }
     Some(text)
 }
@@ -126,12 +129,13 @@ fn bar(done: f64, unicode: bool, room: usize) -> Option<String> {
 /// The contact area against time with its axes, where there is room for it and something to draw.
 fn chart(look: &Look, unicode: bool, width: usize, room: usize) -> Vec<String> {
     let (name, values) = if look.contact_area_mean.is_empty() {
-        ("contact area", &look.contact_area)
+        ("contact_area", &look.contact_area)
     } else {
-        ("contact area, mean of the last revolution", &look.contact_area_mean)
+        ("contact_area_mean", &look.contact_area_mean)
     };
-    let square_millimetres: Vec<f64> = values.iter().map(|area| area * 1e6).collect();
-    let finite = || square_millimetres.iter().copied().filter(|area| area.is_finite());
+    let SeriesLook { title, unit, .. } = SeriesLook::of(name);
+    let shown: Vec<f64> = values.iter().map(|area| unit.value(*area)).collect();
+    let finite = || shown.iter().copied().filter(|area| area.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     let labels = [number::short(high), number::short(low)];
     let margin = labels.iter().map(String::len).max().unwrap_or(0);
@@ -142,8 +146,8 @@ fn chart(look: &Look, unicode: bool, width: usize, room: usize) -> Vec<String> {
     let rows = room.min(CURVE_LINES.1);
     let dots = if unicode { Dots::Braille } else { Dots::Stars };
     let (side, corner, bottom) = if unicode { ('│', '└', "─") } else { ('|', '+', "-") };
-    let mut lines = vec![readable(&format!("{name}, mm²"), unicode)];
-    let drawn = curve(&look.times, &square_millimetres, (low, high), (columns, rows), dots);
+    let mut lines = vec![readable(&unit.label(title), unicode)];
+    let drawn = curve(&look.times, &shown, (low, high), (columns, rows), dots);
     for (row, line) in drawn.into_iter().enumerate() {
         let label = match row {
             0 => labels[0].as_str(),

@@ -8,8 +8,7 @@ use plateau_study::effects::FactorKind;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::TEXT;
 use crate::figure::font::{shortened, text_width};
-use crate::figure::ticks::raised;
-use crate::number;
+use crate::number::{self, raised};
 use crate::study::analysis::AnalysedFactor;
 use crate::study::reading::split;
 

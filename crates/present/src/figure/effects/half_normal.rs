@@ -3,13 +3,13 @@
 use plateau_study::effects::{Effects, HalfNormal};
 
 use super::{ResponseFigures, Subject};
+use crate::colour::{DATA, DATA_AREA, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{Anchor, LINE, TEXT};
-use crate::figure::colour::{DATA, DATA_AREA, FAINT};
+use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::labels::Labels;
 use crate::figure::page::{Content, KeyStyle, Mark};
-use crate::figure::run::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 
 /// Height of the box, pixels.
 const HEIGHT: f64 = 860.0;

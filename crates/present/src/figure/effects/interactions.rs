@@ -7,12 +7,12 @@ use plateau_study::design::Setting;
 use plateau_study::effects::Model;
 
 use super::{FactorAxis, ResponseFigures, Subject, range_of};
+use crate::colour::RUNS;
 use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, LINE, TEXT};
-use crate::figure::colour::RUNS;
+use crate::figure::chart::{COLUMN, MARGIN, TWO_COLUMNS};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Mark, Page, Panel};
-use crate::figure::run::chart::{COLUMN, MARGIN, TWO_COLUMNS};
 
 /// Factors of the matrix, at most.
 const MOST_FACTORS: usize = 6;

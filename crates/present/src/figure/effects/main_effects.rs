@@ -4,12 +4,12 @@ use plateau_study::design::Setting;
 use plateau_study::effects::{Cell, Model};
 
 use super::{FactorAxis, ResponseFigures, Subject, range_of, responses};
+use crate::colour::{DATA, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::colour::{DATA, FAINT};
+use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, page};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle, Mark};
-use crate::figure::run::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, page};
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 620.0;

@@ -6,10 +6,9 @@
 //! | means at pairs of levels | [`interactions`] |
 //! | how far effects are beyond their error, sorted | [`pareto`] |
 //! | effects as if they were nothing but error | [`half_normal`] |
-//! | the response over two factors | [`surface`] |
+//! | the response over two factors | [`response_surface`] |
 //!
-//! What they have in common: a factor as an axis in [`factor_axis`], the unit of a response in [`response_unit`], names of
-//! files in [`names`].
+//! What they have in common: a factor as an axis in [`factor_axis`], names of files in [`names`].
 
 mod factor_axis;
 mod half_normal;
@@ -17,21 +16,20 @@ mod interactions;
 mod main_effects;
 mod names;
 mod pareto;
-mod response_unit;
-mod surface;
+mod response_surface;
 
 use std::ops::RangeInclusive;
 
 use plateau_study::effects::Effects;
 
+use super::format::Figure;
 use super::page::Page;
-use super::run::Figure;
 use crate::number;
+use crate::quantity::Unit;
 use crate::study::analysis::{AnalysedResponse, Analysis};
 
 pub use factor_axis::FactorAxis;
 pub use names::file_names;
-pub use response_unit::ResponseUnit;
 
 /// The figures of one response.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -55,7 +53,7 @@ pub fn figures(analysis: &Analysis) -> Vec<ResponseFigures> {
             interactions::add(&subject, &mut figures);
             pareto::add(&subject, &mut figures);
             half_normal::add(&subject, &mut figures);
-            surface::add(&subject, &mut figures);
+            response_surface::add(&subject, &mut figures);
         }
         figures
     });
@@ -69,8 +67,8 @@ pub fn axes(analysis: &Analysis) -> Vec<FactorAxis<'_>> {
 }
 
 /// The unit in which a response is shown.
-pub fn unit(response: &AnalysedResponse, effects: &Effects) -> ResponseUnit {
-    ResponseUnit::new(response.unit, responses(effects).map(f64::abs).fold(0.0, f64::max))
+pub fn unit(response: &AnalysedResponse, effects: &Effects) -> Unit {
+    Unit::readable(response.unit, responses(effects).map(f64::abs).fold(0.0, f64::max))
 }
 
 /// The responses of the runs that have one.
@@ -83,7 +81,7 @@ struct Subject<'a> {
     analysis: &'a Analysis,
     response: &'a AnalysedResponse,
     effects: &'a Effects,
-    unit: ResponseUnit,
+    unit: Unit,
     /// The factors.
     axes: &'a [FactorAxis<'a>],
     /// What its files begin with.

@@ -10,12 +10,12 @@ use plateau_study::effects::{Effects, Term};
 use plotters::style::RGBColor;
 
 use super::{ResponseFigures, Subject};
+use crate::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
+use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle};
-use crate::figure::run::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::number;
 
 /// Bars, at most.

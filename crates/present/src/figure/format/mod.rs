@@ -1,9 +1,10 @@
-//! A page in the formats of files.
+//! Figures in the formats of files: every figure in each of them.
 
 mod pdf;
 mod pdf_backend;
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -12,11 +13,75 @@ use plotters::prelude::{BitMapBackend, SVGBackend};
 use super::canvas::{Canvas, FigureError, failed};
 use super::page::{PER_MILLIMETRE, Page};
 
-pub use pdf::pdf;
+/// A format of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// Pixels.
+    Png,
+    /// Lines and letters, for web pages and drawing programs.
+    Svg,
+    /// Lines and letters, for papers.
+    Pdf,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Pdf];
+
+    /// The ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        }
+    }
+
+    /// The format that the ending of a file tells.
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?;
+        Self::ALL.into_iter().find(|format| ending.eq_ignore_ascii_case(format.ending()))
+    }
+}
+
+/// One figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Its name, fit for a file.
+    pub name: String,
+    /// What it shows, in a few words.
+    pub title: String,
+    /// What it shows, in a sentence or two.
+    pub caption: String,
+    /// What is plotted where.
+    pub(super) page: Page,
+}
+
+impl Figure {
+    /// The content of a file with the figure.
+    ///
+    /// # Errors
+    /// [`FigureError`] when it cannot be drawn.
+    pub fn draw(&self, format: Format) -> Result<Vec<u8>, FigureError> {
+        match format {
+            Format::Png => png(&self.page),
+            Format::Svg => self.svg().map(String::into_bytes),
+            Format::Pdf => pdf::pdf(&self.page, &self.title),
+        }
+    }
+
+    /// The figure as SVG text.
+    ///
+    /// # Errors
+    /// [`FigureError`] when it cannot be drawn.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        svg(&self.page)
+    }
+}
 
 /// The page as PNG.
-pub fn png(page: &Page) -> Result<Vec<u8>, FigureError> {
-    let (width, height) = pixels(page);
+fn png(page: &Page) -> Result<Vec<u8>, FigureError> {
+    let (width, height) = page.pixels();
     let mut pixels = vec![0; 3 * width as usize * height as usize];
     let canvas = Canvas::new(BitMapBackend::with_buffer(&mut pixels, (width, height)))?;
     for (frame, picture) in page.pictures() {
@@ -37,8 +102,8 @@ pub fn png(page: &Page) -> Result<Vec<u8>, FigureError> {
 }
 
 /// The page as SVG: maps are pictures with a pixel for every cell.
-pub fn svg(page: &Page) -> Result<String, FigureError> {
-    let (width, height) = pixels(page);
+fn svg(page: &Page) -> Result<String, FigureError> {
+    let (width, height) = page.pixels();
     let mut drawing = String::new();
     let canvas = Canvas::clear(SVGBackend::with_string(&mut drawing, (width, height)));
     page.draw(&canvas)?;
@@ -63,9 +128,4 @@ pub fn svg(page: &Page) -> Result<String, FigureError> {
     }
     svg.push_str(elements);
     Ok(svg)
-}
-
-fn pixels(page: &Page) -> (u32, u32) {
-    let [width, height] = page.size.map(|length| length.round() as u32);
-    (width, height)
 }

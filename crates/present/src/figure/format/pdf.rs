@@ -6,7 +6,6 @@ use subsetter::GlyphRemapper;
 use ttf_parser::{Face, GlyphId};
 
 use super::pdf_backend::{Operators, PdfBackend};
-use super::pixels;
 use crate::deflate::deflate;
 use crate::figure::canvas::{Canvas, FigureError, failed};
 use crate::figure::font::FONT;
@@ -21,7 +20,7 @@ const IDENTITY: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str
 /// The page as PDF.
 pub fn pdf(page: &Page, title: &str) -> Result<Vec<u8>, FigureError> {
     let face = Face::parse(FONT, 0).map_err(failed)?;
-    let (width, height) = pixels(page);
+    let (width, height) = page.pixels();
     let [wide, high] = page.size.map(|length| (POINTS * length) as f32);
     let mut operators = Operators {
         content: Content::new(),

@@ -2,14 +2,14 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::chart::{COLUMN, Chart, Meaning, colour, line_width, page, up_from_zero};
 use super::spans::{band, means};
 use super::{Figures, Subject};
+use crate::colour::paler;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
-use crate::figure::colour::paler;
+use crate::figure::chart::{COLUMN, Chart, Meaning, colour, line_width, page, up_from_zero};
 use crate::figure::page::Content;
-use crate::figure::unit::ScaledUnit;
+use crate::quantity::{Unit, title};
 
 /// Colour of a line through single steps, as a part of the run's colour.
 const PALE: f64 = 0.5;
@@ -26,29 +26,29 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         return Ok(());
     }
     let largest = runs.iter().flat_map(|(_, _, single, mean)| single.iter().chain(mean)).copied().fold(0.0, f64::max);
-    let area = ScaledUnit::for_area(largest);
+    let area = Unit::for_size("m2", largest);
     let end = runs.iter().filter_map(|(_, subject, ..)| subject.run.time().last()).copied().fold(0.0, f64::max);
-    let time = ScaledUnit::for_time(end);
+    let time = Unit::for_size("s", end);
     let mut steps = Vec::new();
     let mut lines = Vec::new();
     let mut meanings = Vec::new();
     for (number, subject, single, mean) in &runs {
-        let times: Vec<f64> = subject.run.time().iter().map(|seconds| seconds * time.per_si).collect();
-        let single: Vec<f64> = single.iter().map(|value| value * area.per_si).collect();
+        let times: Vec<f64> = subject.run.time().iter().map(|seconds| time.value(*seconds)).collect();
+        let single: Vec<f64> = single.iter().map(|value| area.value(*value)).collect();
         steps.push(band(&times, &single, colour(*number)).unwrap_or_else(|| Content::Line {
             points: means(&times, &single),
             colour: paler(colour(*number), PALE),
             width: LINE,
         }));
-        let mean: Vec<f64> = mean.iter().map(|value| value * area.per_si).collect();
+        let mean: Vec<f64> = mean.iter().map(|value| area.value(*value)).collect();
         let points = means(&times, &mean);
         lines.push(Content::Line { points, colour: colour(*number), width: line_width(*number, subjects.len()) });
-        meanings.push(Meaning::of_run(*number, subject));
+        meanings.push(Meaning::of_run(*number, &subject.label));
     }
     let chart = Chart {
         title: String::new(),
-        x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
-        y: Axis::linear(up_from_zero(largest * area.per_si), format!("contact area, {}", area.symbol)),
+        x: Axis::linear(0.0..=time.value(end), time.label("time")),
+        y: Axis::linear(up_from_zero(area.value(largest)), area.label(title("contact_area"))),
         contents: steps.into_iter().chain(lines).collect(),
     };
     figures.add(

@@ -3,22 +3,17 @@
 use plateau_io::run_file::ReadError;
 use plotters::style::RGBColor;
 
-use super::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use super::{Figures, Subject};
+use crate::colour::{DEBRIS, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
-use crate::figure::colour::{DEBRIS, INK};
+use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::{Content, KeyStyle};
-use crate::figure::unit::ScaledUnit;
+use crate::quantity::{Unit, title};
 
 const NAME: &str = "debris";
 /// What debris becomes, from below in the stack.
-const PARTS: [(&str, &str); 4] = [
-    ("deposited_disc", "compacted on the disc"),
-    ("deposited_pin", "compacted on the pin"),
-    ("emitted", "left the contact"),
-    ("pool", "in the contact"),
-];
+const PARTS: [&str; 4] = ["deposited_disc", "deposited_pin", "emitted", "pool"];
 /// What debris comes from.
 const SOURCES: [&str; 4] = ["worn_pin", "worn_resin", "worn_disc", "returned"];
 /// Points along time, at most.
@@ -33,7 +28,7 @@ struct Balance {
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
-    let needed: Vec<&str> = PARTS.iter().map(|(name, _)| *name).chain(SOURCES).collect();
+    let needed: Vec<&str> = PARTS.into_iter().chain(SOURCES).collect();
     let mut balances = Vec::new();
     for (_, subject) in figures.with_series(NAME, subjects, &needed) {
         balances.push((subject, read(subject)?));
@@ -43,17 +38,17 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let largest = balances.iter().flat_map(|(_, balance)| &balance.supply).copied().fold(0.0, f64::max);
     let end = balances.iter().filter_map(|(_, balance)| balance.times.last()).copied().fold(0.0, f64::max);
-    let (volume, time) = (ScaledUnit::for_volume(largest), ScaledUnit::for_time(end));
+    let (volume, time) = (Unit::for_size("m3", largest), Unit::for_size("s", end));
     let chart = |(subject, balance): &(&Subject, Balance)| Chart {
         title: subject.label.clone(),
-        x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
-        y: Axis::linear(up_from_zero(largest * volume.per_si), format!("debris, {}", volume.symbol)),
-        contents: stack(balance, time, volume),
+        x: Axis::linear(0.0..=time.value(end), time.label("time")),
+        y: Axis::linear(up_from_zero(volume.value(largest)), volume.label("debris")),
+        contents: stack(balance, &time, &volume),
     };
     let charts: Vec<Chart> = balances.iter().map(chart).collect();
     let meaning = |(colour, text): (RGBColor, &str)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() };
     // As they lie on each other, from the top.
-    let stacked = DEBRIS.into_iter().zip(PARTS.map(|(_, text)| text)).rev();
+    let stacked = DEBRIS.into_iter().zip(PARTS.map(title)).rev();
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
     meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line, text: "worn + returned".to_owned() });
     let (width, across) = match charts.len() {
@@ -74,7 +69,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
 fn read(subject: &Subject) -> Result<Balance, ReadError> {
     let values = |name: &str| Ok(subject.run.values(name)?.unwrap_or_default());
     let mut parts: [Vec<f64>; 4] = Default::default();
-    for (part, (name, _)) in parts.iter_mut().zip(PARTS) {
+    for (part, name) in parts.iter_mut().zip(PARTS) {
         *part = values(name)?;
     }
     let mut times = subject.run.time().to_vec();
@@ -89,7 +84,7 @@ fn read(subject: &Subject) -> Result<Balance, ReadError> {
 }
 
 /// Bands on each other, and the line that they must reach.
-fn stack(balance: &Balance, time: ScaledUnit, volume: ScaledUnit) -> Vec<Content> {
+fn stack(balance: &Balance, time: &Unit, volume: &Unit) -> Vec<Content> {
     let every = balance.times.len().div_ceil(MOST_POINTS).max(1);
     let last = balance.times.len() - 1;
     let chosen: Vec<usize> = (0..last).step_by(every).chain([last]).collect();
@@ -99,12 +94,12 @@ fn stack(balance: &Balance, time: ScaledUnit, volume: ScaledUnit) -> Vec<Content
         let mut spans = Vec::with_capacity(chosen.len());
         for (index, floor) in chosen.iter().zip(&mut floor) {
             let low = *floor;
-            *floor += values[*index] * volume.per_si;
-            spans.push([balance.times[*index] * time.per_si, low, *floor]);
+            *floor += volume.value(values[*index]);
+            spans.push([time.value(balance.times[*index]), low, *floor]);
         }
         contents.push(Content::Band { spans, colour, opacity: 1.0 });
     }
-    let point = |index: &usize| [balance.times[*index] * time.per_si, balance.supply[*index] * volume.per_si];
+    let point = |index: &usize| [time.value(balance.times[*index]), volume.value(balance.supply[*index])];
     contents.push(Content::Line { points: chosen.iter().map(point).collect(), colour: INK, width: LINE + 2 });
     contents
 }
@@ -121,8 +116,7 @@ mod tests {
             parts: [1.0, 2.0, 3.0, 4.0].map(|value| vec![0.0, value]),
             supply: vec![0.0, 10.0],
         };
-        let one = ScaledUnit { symbol: "", per_si: 1.0 };
-        let contents = stack(&balance, one, one);
+        let contents = stack(&balance, &Unit::NUMBER, &Unit::NUMBER);
         let Content::Band { spans, .. } = &contents[3] else { panic!("a band") };
         assert_eq!(spans, &[[1.0, 0.0, 0.0], [2.0, 6.0, 10.0]]);
         let Content::Line { points, .. } = &contents[4] else { panic!("a line") };

@@ -2,36 +2,30 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
 use super::spans::{band, means_between_ends};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
 use crate::figure::page::Content;
-use crate::figure::unit::ScaledUnit;
+use crate::quantity::{Unit, title};
 
 const NAME: &str = "filled";
-const SERIES: [(&str, &str); 4] = [
-    ("filled_fraction", "disc, filled volume"),
-    ("disc_secondary", "disc, secondary plateaus"),
-    ("pin_secondary", "pin, secondary plateaus"),
-    ("pin_primary", "pin, primary plateaus"),
-];
+const SERIES: [&str; 4] = ["filled_fraction", "disc_secondary", "pin_secondary", "pin_primary"];
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
     let end = subjects.iter().filter_map(|subject| subject.run.time().last()).copied().fold(0.0, f64::max);
-    let time = ScaledUnit::for_time(end);
-    let percent = ScaledUnit::PERCENT.per_si;
+    let time = Unit::for_size("s", end);
     let mut charts = Vec::new();
     let mut shown = vec![false; subjects.len()];
-    for (series, title) in SERIES {
+    for series in SERIES {
         let (mut bands, mut lines) = (Vec::new(), Vec::new());
         let mut largest = 0.0_f64;
         for (number, subject) in figures.with_series(NAME, subjects, &[series]) {
             shown[number] = true;
             let values = subject.run.values(series)?.unwrap_or_default();
-            let times: Vec<f64> = subject.run.time().iter().map(|at| at * time.per_si).collect();
-            let values: Vec<f64> = values.iter().map(|value| value * percent).collect();
+            let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
+            let values: Vec<f64> = values.iter().map(|value| Unit::PERCENT.value(*value)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
             bands.extend(band(&times, &values, colour(number)));
             let width = line_width(number, subjects.len());
@@ -40,11 +34,11 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         if lines.is_empty() {
             continue;
         }
-        let y = if series == "filled_fraction" { "filled, %" } else { "part of the area, %" };
+        let y = if series == "filled_fraction" { "part of the volume" } else { "part of the area" };
         charts.push(Chart {
-            title: title.to_owned(),
-            x: Axis::linear(0.0..=end * time.per_si, format!("time, {}", time.symbol)),
-            y: Axis::linear(up_from_zero(largest), y),
+            title: title(series).to_owned(),
+            x: Axis::linear(0.0..=time.value(end), time.label("time")),
+            y: Axis::linear(up_from_zero(largest), Unit::PERCENT.label(y)),
             contents: bands.into_iter().chain(lines).collect(),
         });
     }
@@ -55,7 +49,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .iter()
         .enumerate()
         .filter(|(number, _)| shown[*number])
-        .map(|(number, subject)| Meaning::of_run(number, subject))
+        .map(|(number, subject)| Meaning::of_run(number, &subject.label))
         .collect();
     figures.add(
         NAME,

@@ -7,14 +7,13 @@ use plateau_core::surface::describe::MaterialCurve;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::having;
-use super::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
-use super::moments::{ends, floats, mean};
-use super::robust_range::RobustRange;
+use super::moments::{ends, heights};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
 use crate::figure::histogram::Histogram;
 use crate::figure::page::Content;
-use crate::figure::unit::AxisUnit;
+use crate::quantity::{MapLook, RobustRange};
 
 const NAME: &str = "heights";
 /// Classes of the distribution.
@@ -39,7 +38,7 @@ struct Distribution {
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
     let mut charts = Vec::new();
     let mut shown = vec![false; subjects.len()];
-    for (body, map) in [("disc", Map::DiscHeight), ("pin", Map::PinHeight)] {
+    for map in [Map::DiscHeight, Map::PinHeight] {
         let having = having(figures, NAME, subjects, map);
         let runs: Vec<(usize, &Subject)> = subjects
             .iter()
@@ -50,41 +49,41 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             continue;
         }
         runs.iter().for_each(|(run, _)| shown[*run] = true);
-        charts.extend(body_charts(body, map, &runs, subjects.len())?);
+        charts.extend(body_charts(MapLook::of(map), &runs, subjects.len())?);
     }
     if charts.is_empty() {
         return Ok(());
     }
-    let runs =
-        subjects.iter().enumerate().filter(|(run, _)| shown[*run]).map(|(run, subject)| Meaning::of_run(run, subject));
+    let runs = subjects
+        .iter()
+        .enumerate()
+        .filter(|(run, _)| shown[*run])
+        .map(|(run, subject)| Meaning::of_run(run, &subject.label));
     let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
     figures.add(
         NAME,
         "Height distributions",
         "Left the distribution of the heights, right the Abbott-Firestone curve, at the last recorded moment and, paler, at \
-         the first. The disc's heights are the model's z; the pin's are counted from their mean, positive toward the disc. \
-         Every cell counts alike.",
+         the first. Heights are the model's z; the pin's are counted from their mean and positive away from the disc, so that \
+         its peaks are below. Every cell counts alike.",
         page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
     );
     Ok(())
 }
 
-/// Heights in µm: of the disc as they are, of the pin about their mean and positive toward the disc.
-fn heights(subject: &Subject, map: Map, index: usize) -> Result<Vec<f64>, ReadError> {
-    let mut heights = floats(subject.run, map, index)?;
-    let zero = mean(&heights);
-    for height in &mut heights {
-        *height = AxisUnit::MICROMETRE.per_metre * if map.on_disc() { *height } else { zero - *height };
-    }
+/// Heights of a body in the unit that they are shown in.
+fn scaled(subject: &Subject, look: &MapLook, index: usize) -> Result<Vec<f64>, ReadError> {
+    let (mut heights, _) = heights(subject.run, look.map, index)?;
+    heights.iter_mut().for_each(|height| *height = look.unit.value(*height));
     Ok(heights)
 }
 
 /// The distribution of a body and its Abbott-Firestone curve.
-fn body_charts(body: &str, map: Map, runs: &[(usize, &Subject)], count: usize) -> Result<[Chart; 2], ReadError> {
+fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Result<[Chart; 2], ReadError> {
     let mut range = RobustRange::default();
     for (_, subject) in runs {
         for index in ends(subject.run) {
-            range.add(heights(subject, map, index)?.into_iter());
+            range.add(scaled(subject, look, index)?.into_iter());
         }
     }
     let range = wider(&range.between(0.001, 0.999));
@@ -92,17 +91,21 @@ fn body_charts(body: &str, map: Map, runs: &[(usize, &Subject)], count: usize) -
     for (run, subject) in runs {
         let moments = ends(subject.run);
         for index in &moments {
-            let heights = heights(subject, map, *index)?;
+            let mut heights = scaled(subject, look, *index)?;
+            let histogram = Histogram::of(&heights, 0.0, range.clone(), CLASSES);
+            // The material ratio counts from the peaks.
+            heights.iter_mut().for_each(|height| *height *= look.peaks());
             let curve = MaterialCurve::of(&heights, 0.0);
             distributions.push(Distribution {
                 run: *run,
                 first: *index == 0 && moments.len() > 1,
-                histogram: Histogram::of(&heights, 0.0, range.clone(), CLASSES),
-                curve: (0..=CURVE).map(|part| curve.height(part as f64 / CURVE as f64)).collect(),
+                histogram,
+                curve: (0..=CURVE).map(|part| look.peaks() * curve.height(part as f64 / CURVE as f64)).collect(),
             });
         }
     }
-    let y = Axis::linear(range, format!("{body}, height, µm"));
+    let body = look.body();
+    let y = Axis::linear(range, look.unit.label(&format!("{body}, {}", look.what)));
     let line = |distribution: &Distribution, points| Content::Line {
         points,
         colour: colour_at(distribution.run, distribution.first),

@@ -3,10 +3,10 @@
 use plateau_core::model::mesh::Mesh;
 use plotters::style::RGBColor;
 
-use super::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};
 use super::shape::{Shape, Window};
 use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, TEXT, TITLE};
+use crate::figure::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, LINE_OF_TEXT, Page, Panel};

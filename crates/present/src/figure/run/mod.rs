@@ -13,11 +13,10 @@
 //! | where the debris is | [`debris`] |
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
-//! What they have in common: charts in [`chart`], maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
-//! shown in [`moments`], ranges in [`robust_range`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
+//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
+//! shown in [`moments`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
 
 mod bodies;
-pub(super) mod chart;
 mod contact_area;
 mod debris;
 mod filled;
@@ -26,7 +25,6 @@ mod map_page;
 mod moments;
 mod plateau_sizes;
 mod pressure;
-mod robust_range;
 mod shape;
 mod spans;
 mod status;
@@ -37,14 +35,13 @@ use std::path::PathBuf;
 
 use plateau_io::run_file::{ReadError, RunFile};
 
-use super::canvas::FigureError;
-use super::format;
+use super::format::Figure;
 use super::page::Page;
 use crate::label::labels;
 use shape::Shape;
 
 /// More runs make no legible figure, and have no colours of their own.
-pub const MOST_RUNS: usize = super::colour::RUNS.len();
+pub const MOST_RUNS: usize = crate::colour::RUNS.len();
 
 /// How figures are to look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -57,45 +54,6 @@ impl Options {
     /// How the disc is shown.
     fn disc_shape(&self) -> Shape {
         if self.polar { Shape::Polar } else { Shape::Unrolled }
-    }
-}
-
-/// One figure of one or several runs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Figure {
-    /// Its name, fit for a file.
-    pub name: String,
-    /// What it shows, in a few words.
-    pub title: String,
-    /// What it shows, in a sentence or two.
-    pub caption: String,
-    /// What is plotted where.
-    pub(super) page: Page,
-}
-
-impl Figure {
-    /// The figure as SVG text.
-    ///
-    /// # Errors
-    /// [`FigureError`] when it cannot be drawn.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        format::svg(&self.page)
-    }
-
-    /// The figure as PNG.
-    ///
-    /// # Errors
-    /// [`FigureError`] when it cannot be drawn.
-    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        format::png(&self.page)
-    }
-
-    /// The figure as PDF, one page of its size.
-    ///
-    /// # Errors
-    /// [`FigureError`] when it cannot be drawn.
-    pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
-        format::pdf(&self.page, &self.title)
     }
 }
 

@@ -3,8 +3,8 @@
 use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{ReadError, RunFile};
 
-use crate::figure::unit::ScaledUnit;
 use crate::number;
+use crate::quantity::{MapLook, Unit};
 
 /// Indices of the first and the last moment of the maps; one of them if it is both.
 pub fn ends(run: &RunFile) -> Vec<usize> {
@@ -18,8 +18,8 @@ pub fn ends(run: &RunFile) -> Vec<usize> {
 /// The moment, in words.
 pub fn moment(run: &RunFile, index: usize) -> String {
     let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
-    let unit = if seconds > 0.0 { ScaledUnit::for_time(seconds) } else { ScaledUnit::SECOND };
-    format!("{} {}", number::rounded(seconds * unit.per_si, 4), unit.symbol)
+    let unit = if seconds > 0.0 { Unit::for_size("s", seconds) } else { Unit::usual("s") };
+    unit.with_symbol(&number::rounded(unit.value(seconds), 4))
 }
 
 /// Heights or pressures of a map, column by column; nothing if there are none.
@@ -38,8 +38,10 @@ pub fn statuses(run: &RunFile, map: Map, index: usize) -> Result<Vec<u8>, ReadEr
     }
 }
 
-/// Mean of the values that are numbers.
-pub fn mean(values: &[f64]) -> f64 {
-    let numbers = values.iter().filter(|value| value.is_finite());
-    numbers.clone().sum::<f64>() / numbers.count().max(1) as f64
+/// Heights of a map as they are shown, and what they are counted from, m.
+pub fn heights(run: &RunFile, map: Map, index: usize) -> Result<(Vec<f64>, f64), ReadError> {
+    let mut heights = floats(run, map, index)?;
+    let zero = MapLook::of(map).zero(&heights);
+    heights.iter_mut().for_each(|height| *height -= zero);
+    Ok((heights, zero))
 }

@@ -6,12 +6,12 @@ use plateau_core::observe::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::{any_of, having};
-use super::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
 use super::moments::{ends, statuses};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
+use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
 use crate::figure::page::Content;
-use crate::figure::unit::ScaledUnit;
+use crate::quantity::Unit;
 
 const NAME: &str = "plateau-sizes";
 /// Count to which the axis reaches at least: ticks within a factor of two would stand at parts of a plateau.
@@ -70,7 +70,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let largest = all().filter_map(|sizes| sizes.areas.first()).copied().fold(0.0, f64::max);
     let least = all().filter_map(|sizes| sizes.areas.last()).copied().fold(largest, f64::min);
     let most = all().map(|sizes| sizes.areas.len()).max().unwrap_or(1);
-    let unit = ScaledUnit::for_area(largest);
+    let unit = Unit::for_size("m2", largest);
     let range = [0.7 * least * unit.per_si, 1.5 * largest * unit.per_si];
     let floor = 0.7;
     let chart = |(number, (title, sizes)): (usize, &(&str, Vec<Sizes>))| {
@@ -82,7 +82,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         let y = Axis::logarithmic(floor..=1.6 * most.max(LEAST_COUNT) as f64, "plateaus at least that large");
         Chart {
             title: (*title).to_owned(),
-            x: Axis::logarithmic(range[0]..=range[1], format!("area, {}", unit.symbol)),
+            x: Axis::logarithmic(range[0]..=range[1], unit.label("area")),
             y: if number == 0 { y } else { y.shared() },
             contents: sizes.iter().filter(|sizes| !sizes.areas.is_empty()).map(line).collect(),
         }
@@ -94,7 +94,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .iter()
         .enumerate()
         .filter(|(run, _)| all().any(|sizes| sizes.run == *run))
-        .map(|(run, subject)| Meaning::of_run(run, subject));
+        .map(|(run, subject)| Meaning::of_run(run, &subject.label));
     let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
     figures.add(
         NAME,

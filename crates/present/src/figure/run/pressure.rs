@@ -4,17 +4,16 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::{Painted, having, rows};
-use super::chart::Meaning;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
 use super::moments::{floats, moment};
-use super::robust_range::RobustRange;
 use super::shape::Shape;
 use super::{Figures, Subject};
+use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::{Axis, Scale};
-use crate::figure::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
+use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
-use crate::figure::unit::ScaledUnit;
 use crate::number;
+use crate::quantity::{BEYOND, MapLook, RobustRange, Unit};
 
 const NAME: &str = "pressure";
 /// Pressures that differ more than this many times are shown on a scale of equal ratios.
@@ -42,13 +41,14 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for together in shown.chunks(MOST_ACROSS) {
         let rows = rows(together, Shape::Unrolled, false, moments, |subject, index| {
             let pressures = floats(subject.run, Map::Pressure, index)?;
+            let look = MapLook::of(Map::Pressure);
             let colour = |pressure: &f64| match *pressure {
-                pressure if pressure > 0.0 => colour_index(scale.part(pressure * unit.per_si)),
+                pressure if look.is_coloured(pressure) => colour_index(scale.part(unit.value(pressure))),
                 _ => NO_CONTACT,
             };
-            let largest = number::rounded(pressures.iter().copied().fold(0.0, f64::max) * unit.per_si, 3);
-            let title = format!("pin, {}", moment(subject.run, index));
-            let remark = format!("at most {largest} {}", unit.symbol);
+            let largest = number::rounded(unit.value(pressures.iter().copied().fold(0.0, f64::max)), 3);
+            let title = format!("{}, {}", look.body(), moment(subject.run, index));
+            let remark = format!("at most {}", unit.with_symbol(&largest));
             let cells: Vec<u8> = pressures.iter().map(colour).collect();
             Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
         })?;
@@ -77,21 +77,24 @@ fn moments(subject: &Subject) -> Vec<usize> {
 }
 
 /// The scale that all maps share, and the unit that it is in.
-fn scale(subjects: &[&Subject]) -> Result<(Axis, ScaledUnit), ReadError> {
+fn scale(subjects: &[&Subject]) -> Result<(Axis, Unit), ReadError> {
+    let look = MapLook::of(Map::Pressure);
     let mut range = RobustRange::default();
     for subject in subjects {
         for index in moments(subject) {
             let pressures = floats(subject.run, Map::Pressure, index)?;
-            range.add(pressures.into_iter().filter(|pressure| *pressure > 0.0).collect::<Vec<_>>().into_iter());
+            range.add(
+                pressures.into_iter().filter(|pressure| look.is_coloured(*pressure)).collect::<Vec<_>>().into_iter(),
+            );
         }
     }
-    let (low, high) = (range.quantile(0.005).unwrap_or(1.0), range.quantile(0.995).unwrap_or(1.0));
-    let unit = ScaledUnit::for_pressure(high);
-    let label = format!("pressure, {}", unit.symbol);
+    let (low, high) = (range.quantile(BEYOND).unwrap_or(1.0), range.quantile(1.0 - BEYOND).unwrap_or(1.0));
+    let unit = Unit::for_size("Pa", high);
+    let label = unit.label(look.what);
     let scale = if high > MOST_LINEAR * low { Scale::Logarithmic } else { Scale::Linear };
     let range = match scale {
-        Scale::Logarithmic => low * unit.per_si..=high * unit.per_si,
-        Scale::Linear => 0.0..=high * unit.per_si,
+        Scale::Logarithmic => unit.value(low)..=unit.value(high),
+        Scale::Linear => 0.0..=unit.value(high),
     };
     Ok((Axis { scale, ..Axis::linear(range, label) }, unit))
 }

@@ -5,18 +5,17 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::bodies::{Painted, any_of, having, rows};
-use super::chart::Meaning;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
 use super::moments::{ends, moment, statuses};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
-use crate::figure::colour::{GROUND, STATUSES};
+use crate::colour::GROUND;
+use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
 use crate::number;
+use crate::quantity::{MapLook, STATUS_LOOKS, StatusLook};
 
 const NAME: &str = "status";
-const MEANINGS: [&str; 3] =
-    ["none: resin", "primary plateau: fibre, or coating", "secondary plateau: compacted debris"];
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Result<(), ReadError> {
@@ -26,7 +25,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     if shown.is_empty() {
         return Ok(());
     }
-    let palette: Vec<_> = STATUSES.into_iter().chain([GROUND]).collect();
+    let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([GROUND]).collect();
     let disc_shape = options.disc_shape();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
@@ -46,8 +45,12 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
                 .collect(),
         });
     }
-    let meaning = |(colour, text): (_, &str)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() };
-    let meanings: Vec<Meaning> = STATUSES.into_iter().zip(MEANINGS).map(meaning).collect();
+    let meaning = |look: &StatusLook| Meaning {
+        colour: look.colour,
+        style: KeyStyle::Area,
+        text: format!("{}: {}", look.name, look.made_of),
+    };
+    let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).collect();
     figures.add(
         NAME,
         "Status of disc and pin",
@@ -63,8 +66,7 @@ fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>,
         return Ok(None);
     }
     let [none, primary, secondary] = area_fractions(subject.run.mesh(), &cells).map(percent);
-    let body = if map.on_disc() { "disc" } else { "pin" };
-    let title = format!("{body}, {}", moment(subject.run, index));
+    let title = format!("{}, {}", MapLook::of(map).body(), moment(subject.run, index));
     let remark = format!("none {none}, primary {primary}, secondary {secondary} %");
     Ok(Some(Painted { title, remark, cells }))
 }

@@ -217,12 +217,12 @@ class MapView {
         this.reading.textContent = `${value} ${when}, arc length ${readable(along * 1e3, 5)} mm, radius ${readable(radius * 1e3, 5)} mm${cell}`;
     }
 
-    /** A value in words, also as told from the median where there is one. */
+    /** A value in words, also as told from the mean where there is one. */
     value(code) {
         const { map } = this;
         const [value, reference] = [valueOf(map, code), map.reference[this.time]];
         if (value === null || reference === 0) return withUnit(value, map.unit);
-        return `${withUnit(reference + value, map.unit, 6)} (median ${value < 0 ? "" : "+"}${withUnit(value, map.unit)})`;
+        return `${withUnit(reference + value, map.unit, 6)} (mean ${value < 0 ? "" : "+"}${withUnit(value, map.unit)})`;
     }
 
     showLegend() {
@@ -242,8 +242,8 @@ class MapView {
         const [low, high] = this.colours.map((value) => withUnit(value, this.map.unit));
         this.legend.className = "colour-bar";
         this.legend.replaceChildren(element("span", {}, low), bar, element("span", {}, high));
-        const median = this.map.reference[this.time];
-        if (median !== 0) this.legend.append(element("span", { className: "wide" }, `about the median, ${withUnit(median, this.map.unit, 6)}`));
+        const mean = this.map.reference[this.time];
+        if (mean !== 0) this.legend.append(element("span", { className: "wide" }, `about the mean, ${withUnit(mean, this.map.unit, 6)}`));
         if (this.map.name === "pressure") this.legend.append(element("span", {}, swatch(scheme().empty), " no contact"));
     }
 

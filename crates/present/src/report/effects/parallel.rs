@@ -7,9 +7,10 @@ use std::fmt::Write as _;
 use plateau_study::design::Setting;
 use serde::Serialize;
 
-use crate::figure::effects::{FactorAxis, ResponseUnit};
-use crate::figure::viridis;
+use crate::colour::viridis;
+use crate::figure::effects::FactorAxis;
 use crate::number;
+use crate::quantity::Unit;
 use crate::report::html;
 use crate::study::analysis::{AnalysedResponse, Analysis};
 
@@ -61,11 +62,11 @@ impl Parallel {
     /// The runs of a study.
     pub fn new(analysis: &Analysis, factors: &[FactorAxis]) -> Self {
         let mut axes: Vec<PlotAxis> = factors.iter().map(PlotAxis::of_factor).collect();
-        let units: Vec<ResponseUnit> = (0..analysis.responses.len())
+        let units: Vec<Unit> = (0..analysis.responses.len())
             .map(|at| {
                 let values = analysis.runs.iter().map(|(_, responses)| responses[at].abs());
                 let largest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
-                ResponseUnit::new(analysis.responses[at].unit, largest)
+                Unit::readable(analysis.responses[at].unit, largest)
             })
             .collect();
         let values = |(settings, responses): &(Vec<Setting>, Vec<f64>)| {
@@ -192,7 +193,7 @@ impl PlotAxis {
         Self { name, unit, low, high, levels, is_response: false }
     }
 
-    fn of_response(response: &AnalysedResponse, unit: ResponseUnit, values: impl Iterator<Item = f64>) -> Self {
+    fn of_response(response: &AnalysedResponse, unit: Unit, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) =
             values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         let (low, high) = match high - low {
@@ -201,7 +202,14 @@ impl PlotAxis {
             0.0 => (low - 0.5 * low.abs().max(1.0), high + 0.5 * low.abs().max(1.0)),
             _ => (0.0, 1.0),
         };
-        Self { name: response.name.clone(), unit: unit.symbol, low, high, levels: Vec::new(), is_response: true }
+        Self {
+            name: response.name.clone(),
+            unit: unit.symbol.into_owned(),
+            low,
+            high,
+            levels: Vec::new(),
+            is_response: true,
+        }
     }
 
     /// Values that are named beside the axis.

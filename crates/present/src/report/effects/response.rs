@@ -3,9 +3,10 @@
 use plateau_study::design::Setting;
 use plateau_study::effects::{Effects, Nature, Squares, Term, Test};
 
-use crate::figure::effects::{FactorAxis, ResponseUnit, unit};
+use crate::figure::effects::{FactorAxis, unit};
 use crate::number;
-use crate::report::html;
+use crate::quantity::Unit;
+use crate::report::html::{self, capital};
 use crate::report::picture::{Picture, Pictures};
 use crate::study::analysis::AnalysedResponse;
 use crate::study::model::lack_of_fit;
@@ -52,21 +53,16 @@ pub fn html(response: &AnalysedResponse, axes: &[FactorAxis], pictures: &Picture
     text + &pictures.pictures.iter().map(figure).collect::<String>()
 }
 
-fn sentence(effects: &Effects, unit: &ResponseUnit) -> String {
+fn sentence(effects: &Effects, unit: &Unit) -> String {
     let value = |value: f64| unit.with_symbol(&rounded(unit.value(value)));
     format!("{}.", capital(&quality(effects, value)))
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn rounded(value: f64) -> String {
     number::rounded(value, DIGITS)
 }
 
-fn heads(effects: &Effects, unit: &ResponseUnit) -> Vec<String> {
+fn heads(effects: &Effects, unit: &Unit) -> Vec<String> {
     let squared = if unit.symbol.is_empty() { String::new() } else { format!(", ({})²", unit.symbol) };
     let interval = format!("{} % interval", number::rounded(100.0 * effects.confidence, DIGITS));
     let mut heads = vec!["term".to_owned(), unit.label("effect"), unit.label(&interval)];
@@ -75,7 +71,7 @@ fn heads(effects: &Effects, unit: &ResponseUnit) -> Vec<String> {
     heads
 }
 
-fn rows(effects: &Effects, unit: &ResponseUnit) -> Vec<Vec<String>> {
+fn rows(effects: &Effects, unit: &Unit) -> Vec<Vec<String>> {
     let sizes = effects.rows().filter_map(|term| Some(unit.value(term.estimate?.effect).abs()));
     let decimals = decimals(sizes.fold(0.0, f64::max));
     let mut rows: Vec<Vec<String>> = effects.rows().map(|term| row(term, unit, decimals)).collect();
@@ -98,7 +94,7 @@ fn decimals(largest: f64) -> usize {
     if largest > 0.0 { (DIGITS as i32 - largest.log10().floor() as i32).clamp(0, 9) as usize } else { 0 }
 }
 
-fn row(term: &Term, unit: &ResponseUnit, decimals: usize) -> Vec<String> {
+fn row(term: &Term, unit: &Unit, decimals: usize) -> Vec<String> {
     let rounded = |value: f64| number::with_minus(&format!("{value:.decimals$}"));
     let estimate = term.estimate;
     let effect = estimate.map_or_else(String::new, |estimate| rounded(unit.value(estimate.effect)));
@@ -111,7 +107,7 @@ fn row(term: &Term, unit: &ResponseUnit, decimals: usize) -> Vec<String> {
 }
 
 /// Share, F, p, degrees of freedom, sum of squares, mean square.
-fn of_squares(squares: Squares, share: f64, test: Option<Test>, unit: &ResponseUnit) -> Vec<String> {
+fn of_squares(squares: Squares, share: f64, test: Option<Test>, unit: &Unit) -> Vec<String> {
     let square = |value: f64| rounded(unit.value(unit.value(value)));
     vec![
         format!("{:.1} %", 100.0 * share),
@@ -128,7 +124,7 @@ fn probability(p: f64) -> String {
 }
 
 /// Where a quadratic surface is level, in words; none where there are categories, each of which has its own.
-fn stationary(effects: &Effects, axes: &[FactorAxis], unit: &ResponseUnit) -> Option<String> {
+fn stationary(effects: &Effects, axes: &[FactorAxis], unit: &Unit) -> Option<String> {
     if !axes.iter().all(|axis| axis.factor.factor.is_numeric()) {
         return None;
     }

@@ -1,20 +1,20 @@
-//! Map, histogram and Abbott-Firestone curve of surfaces in one picture.
+//! Map, histogram and Abbott-Firestone curve of surfaces on one page.
 
-use std::io::Cursor;
 use std::ops::RangeInclusive;
 
-use image::{ImageFormat, RgbImage};
 use plateau_core::surface::describe::{CoreHeight, Description, Grid};
-use plotters::prelude::{BitMapBackend, DrawingBackend};
 
 use super::axes::{Axes, Axis, Frame};
-use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT, TITLE, failed};
-use super::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT, MISSING};
+use super::canvas::{Anchor, LINE, TEXT, TITLE};
 use super::colour_bar::ColourBar;
 use super::font::{shortened, text_width};
+use super::format::Figure;
 use super::histogram::Histogram;
+use super::page::{Content, Key, KeyStyle, Page, Panel};
 use super::raster::Raster;
-use super::unit::AxisUnit;
+use crate::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT, MISSING};
+use crate::number::{significant, with_minus};
+use crate::quantity::Unit;
 
 /// Width of the part of a page that shows one surface, pixels: printed 90 mm wide, letters are of 6 points.
 const WIDTH: f64 = 1440.0;
@@ -40,8 +40,6 @@ const MOST_ELONGATED: f64 = 5.0;
 const FENCE: f64 = 5.0;
 /// Classes of the histogram.
 const CLASSES: usize = 64;
-/// Distance of the places that a curve is drawn through, pixels: rounded to pixels, nearer ones would make it ragged.
-const STEP: f64 = 8.0;
 
 /// What a picture shows of the heights themselves.
 #[derive(Debug, Clone)]
@@ -61,7 +59,7 @@ impl Drawn {
 
 /// One surface to be drawn.
 #[derive(Debug, Clone)]
-pub struct SurfaceFigure<'a> {
+pub struct DescribedSurface<'a> {
     /// Its name.
     pub title: String,
     /// Points along x and y.
@@ -81,66 +79,67 @@ struct Room {
     map: f64,
 }
 
-/// Draws surfaces beside and below each other; gives the picture as PNG.
-pub fn surfaces(figures: &[SurfaceFigure]) -> Result<Vec<u8>, FigureError> {
-    let across = match figures.len() {
+/// The figure of surfaces, beside and below each other.
+pub fn figure(surfaces: &[DescribedSurface]) -> Figure {
+    let across = match surfaces.len() {
         0 | 1 => 1,
         2..=4 => 2,
         _ => 3,
     };
-    let down = figures.len().div_ceil(across).max(1);
-    let remarks = if figures.iter().any(SurfaceFigure::has_remarks) { REMARKS } else { 0.0 };
-    let room =
-        Room { head: HEAD + remarks, map: figures.iter().map(|figure| figure.map_size()[1]).fold(0.0, f64::max) };
+    let down = surfaces.len().div_ceil(across).max(1);
+    let remarks = if surfaces.iter().any(DescribedSurface::has_remarks) { REMARKS } else { 0.0 };
+    let largest = surfaces.iter().map(|surface| surface.map_size()[1]).fold(0.0, f64::max);
+    let room = Room { head: HEAD + remarks, map: largest };
     let height = room.head + room.map + FOOT + CAPTION + CHART + FOOT;
-    let size = [(WIDTH * across as f64) as u32, (height * down as f64) as u32];
-    let mut image = RgbImage::new(size[0], size[1]);
-    let canvas = Canvas::new(BitMapBackend::with_buffer(&mut image, (size[0], size[1])))?;
-    for (index, figure) in figures.iter().enumerate() {
+    let size = [WIDTH * across as f64, (height * down as f64).floor()];
+    let mut page = Page { size, ..Page::default() };
+    for (index, surface) in surfaces.iter().enumerate() {
         let origin = [(index % across) as f64 * WIDTH, (index / across) as f64 * height];
-        figure.draw(&canvas, origin, room)?;
+        surface.place(&mut page, origin, room);
     }
-    canvas.finish()?;
-    let mut png = Cursor::new(Vec::new());
-    image.write_to(&mut png, ImageFormat::Png).map_err(failed)?;
-    Ok(png.into_inner())
+    Figure {
+        name: "surfaces".to_owned(),
+        title: "Surfaces".to_owned(),
+        caption: "Map of the heights, their distribution and the Abbott-Firestone curve.".to_owned(),
+        page,
+    }
 }
 
-impl SurfaceFigure<'_> {
-    /// Draws the surface with the upper left corner there.
-    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>, [x, y]: [f64; 2], room: Room) -> Result<(), FigureError> {
-        self.draw_title(canvas, [x + LEFT, y])?;
+impl DescribedSurface<'_> {
+    /// Puts the surface on the page with its upper left corner there.
+    fn place(&self, page: &mut Page, [x, y]: [f64; 2], room: Room) {
+        self.write_title(page, [x + LEFT, y]);
         let ([left, _], [width, height]) = (MAP.0, self.map_size());
         let top = y + room.head;
-        self.draw_map(canvas, Frame { x: [x + left, x + left + width], y: [top, top + height] })?;
+        self.add_map(page, Frame { x: [x + left, x + left + width], y: [top, top + height] });
         let top = top + room.map + FOOT + CAPTION;
         let chart = |ends: [f64; 2]| Frame { x: ends.map(|end| x + end), y: [top, top + CHART] };
         let unit = self.height_unit();
-        let range = scaled(&self.drawn.histogram.range, unit);
-        self.draw_histogram(canvas, chart(HISTOGRAM), &range, unit)?;
-        self.draw_curve(canvas, chart(CURVE), &range, unit)
+        let range = scaled(&self.drawn.histogram.range, &unit);
+        self.add_histogram(page, chart(HISTOGRAM), &range, &unit);
+        self.add_curve(page, chart(CURVE), &range, &unit);
     }
 
     /// The name, and what is to know of the map.
-    fn draw_title<B: DrawingBackend>(&self, canvas: &Canvas<B>, [x, y]: [f64; 2]) -> Result<(), FigureError> {
-        canvas.text(&shortened(&self.title, TITLE, WIDTH - LEFT - 40.0), (x, y + 30.0), Anchor::BelowRight, TITLE)?;
+    fn write_title(&self, page: &mut Page, [x, y]: [f64; 2]) {
+        let title = shortened(&self.title, TITLE, WIDTH - LEFT - 40.0);
+        page.write(title, (x, y + 30.0), Anchor::BelowRight, TITLE);
         let (middle, mut begin) = (y + 106.0, x);
         let missing = 1.0 - self.description.measured as f64 / (self.points[0] * self.points[1]) as f64;
         if missing > 0.0 {
-            let key = Frame { x: [begin, begin + 34.0], y: [middle - 13.0, middle + 13.0] };
-            canvas.area(&key.corners(), MISSING)?;
+            let frame = Frame { x: [begin, begin + 34.0], y: [middle - 13.0, middle + 13.0] };
+            page.keys.push(Key { frame, colour: MISSING, style: KeyStyle::Area });
             let text = format!("no height: {} %", percent(missing));
-            canvas.text(&text, (key.x[1] + 12.0, middle), Anchor::Right, TEXT)?;
-            begin = key.x[1] + 12.0 + text_width(&text, TEXT) + 40.0;
+            let width = text_width(&text, TEXT);
+            page.write(text, (frame.x[1] + 12.0, middle), Anchor::Right, TEXT);
+            begin = frame.x[1] + 12.0 + width + 40.0;
         }
-        let [stretched_x, stretched_y] = self.stretch();
-        for (axis, stretched) in [("x", stretched_x), ("y", stretched_y)] {
+        for (axis, stretched) in ["x", "y"].into_iter().zip(self.stretch()) {
             if stretched > 1.0 {
                 let text = format!("{axis} stretched {} times", number(stretched));
-                canvas.text(&text, (begin, middle), Anchor::Right, TEXT)?;
+                page.write(text, (begin, middle), Anchor::Right, TEXT);
             }
         }
-        Ok(())
     }
 
     /// Whether there is anything to know of the map.
@@ -168,127 +167,104 @@ impl SurfaceFigure<'_> {
         [y / x / MOST_ELONGATED, x / y / MOST_ELONGATED]
     }
 
-    fn draw_map<B: DrawingBackend>(&self, canvas: &Canvas<B>, frame: Frame) -> Result<(), FigureError> {
+    fn add_map(&self, page: &mut Page, frame: Frame) {
         let extent = self.extent();
         let axis = |extent: f64, name: &str| {
-            let unit = if self.pitch.is_some() { AxisUnit::for_length(extent) } else { AxisUnit::POINTS };
-            let label = format!("{name}, {}", unit.symbol);
-            Axis::linear(0.0..=extent * unit.per_metre, label)
+            let unit = if self.pitch.is_some() { Unit::for_size("m", extent) } else { Unit::POINTS };
+            Axis::linear(0.0..=unit.value(extent), unit.label(name))
         };
         let colours = colour_range(self.description);
-        let (width, height) = (frame.width() as u32, frame.height() as u32);
-        canvas.bitmap((frame.x[0], frame.y[0]), (width, height), self.drawn.map.picture(width, height, &colours))?;
-        Axes { frame, x: axis(extent[0], "x"), y: axis(extent[1], "y") }.draw(canvas)?;
+        let picture = self.drawn.map.picture(&colours);
+        let axes = Axes { frame, x: axis(extent[0], "x"), y: axis(extent[1], "y") };
+        page.panels.push(Panel { axes, contents: vec![Content::Map(picture)] });
         let unit = self.height_unit();
         // Points at its ends and room for them.
         let bar = Frame { x: [frame.x[1] + 40.0, frame.x[1] + 80.0], y: [frame.y[0] + 28.0, frame.y[1] - 28.0] };
-        let axis = Axis::linear(scaled(&colours, unit), format!("height, {}", unit.symbol));
-        ColourBar { frame: bar, axis }.draw(canvas)
+        page.colour_bars.push(ColourBar { frame: bar, axis: height_axis(scaled(&colours, &unit), &unit) });
     }
 
-    fn draw_histogram<B: DrawingBackend>(
-        &self,
-        canvas: &Canvas<B>,
-        frame: Frame,
-        range: &RangeInclusive<f64>,
-        unit: AxisUnit,
-    ) -> Result<(), FigureError> {
+    fn add_histogram(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {
         let fractions = &self.drawn.histogram.fractions;
         let largest = fractions.iter().copied().fold(0.0, f64::max).max(1e-6);
-        let y = Axis::linear(range.clone(), format!("height, {}", unit.symbol));
         let x = Axis::linear(0.0..=105.0 * largest, "points per class, %");
-        let axes = Axes { frame, x, y };
         let class = (range.end() - range.start()) / fractions.len() as f64;
-        let end = |class_number: usize| range.start() + class_number as f64 * class;
-        for (number, fraction) in fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0) {
-            let ((left, bottom), (right, top)) =
-                (axes.place(0.0, end(number)), axes.place(100.0 * fraction, end(number + 1)));
-            canvas.area(&Frame { x: [left, right], y: [top, bottom] }.corners(), DATA_AREA)?;
-        }
-        let outline = fractions
-            .iter()
-            .enumerate()
-            .flat_map(|(number, fraction)| [end(number), end(number + 1)].map(|y| axes.place(100.0 * fraction, y)));
-        canvas.line(&outline.collect::<Vec<_>>(), DATA, LINE)?;
-        axes.draw(canvas)?;
+        let ends = |number: usize| [0, 1].map(|end| range.start() + (number + end) as f64 * class);
+        let bar = |(number, fraction): (usize, &f64)| {
+            let [low, high] = ends(number);
+            let spans = [0.0, 100.0 * fraction].map(|x| [x, low, high]).to_vec();
+            Content::Band { spans, colour: DATA_AREA, opacity: 1.0 }
+        };
+        let filled = fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0);
+        let mut contents: Vec<Content> = filled.map(bar).collect();
+        let steps = fractions.iter().enumerate();
+        let points = steps.flat_map(|(number, fraction)| ends(number).map(|y| [100.0 * fraction, y])).collect();
+        contents.push(Content::Line { points, colour: DATA, width: LINE });
+        page.panels.push(Panel { axes: Axes { frame, x, y: height_axis(range.clone(), unit) }, contents });
         let (heights, outside) = (&self.description.heights, self.drawn.histogram.outside);
         let mut lines = vec![
-            format!("Sq {}", self.height(heights.root_mean_square_height, unit)),
+            format!("Sq {}", height_text(heights.root_mean_square_height, unit)),
             format!("Ssk {}   Sku {}", number(heights.skewness), number(heights.kurtosis)),
         ];
         if outside > 0.0 {
             lines.push(format!("beyond the axis: {} %", percent(outside)));
         }
-        write_above(canvas, &frame, &lines)
+        write_above(page, &frame, lines);
     }
 
-    fn draw_curve<B: DrawingBackend>(
-        &self,
-        canvas: &Canvas<B>,
-        frame: Frame,
-        range: &RangeInclusive<f64>,
-        unit: AxisUnit,
-    ) -> Result<(), FigureError> {
+    fn add_curve(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {
         let y = Axis::linear(range.clone(), "").shared();
         let axes = Axes { frame, x: Axis::linear(0.0..=100.0, "material ratio, %"), y };
         let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, upper, lower } =
             self.description.core;
-        let place = |ratio: f64, height: f64| axes.place_within(100.0 * ratio, height * unit.per_metre);
+        let line = |points, colour, width| Content::Line { points, colour, width };
+        let mut contents = Vec::new();
         if peak_ratio.is_finite() {
-            let peaks = [place(0.0, upper), place(0.0, upper + reduced_peak_height), place(peak_ratio, upper)];
-            let dales = [place(1.0, lower), place(1.0, lower - reduced_dale_depth), place(dale_ratio, lower)];
-            canvas.area(&peaks, DERIVED_AREA)?;
-            canvas.area(&dales, DERIVED_AREA)?;
-            for height in [upper, lower] {
-                canvas.line(&[place(0.0, height), place(1.0, height)], FAINT, 2)?;
-            }
-            canvas.line(&[place(0.0, upper), place(1.0, lower)], DERIVED, LINE)?;
+            let span = |ratio: f64, ends: [f64; 2]| [100.0 * ratio, unit.value(ends[0]), unit.value(ends[1])];
+            let peaks = vec![span(0.0, [upper, upper + reduced_peak_height]), span(peak_ratio, [upper; 2])];
+            let dales = vec![span(dale_ratio, [lower; 2]), span(1.0, [lower - reduced_dale_depth, lower])];
+            let triangle = |spans| Content::Band { spans, colour: DERIVED_AREA, opacity: 1.0 };
+            contents.extend([triangle(peaks), triangle(dales)]);
+            let [upper, lower] = [upper, lower].map(|height| unit.value(height));
+            contents.extend([upper, lower].map(|height| line(vec![[0.0, height], [100.0, height]], FAINT, 2)));
+            contents.push(line(vec![[0.0, upper], [100.0, lower]], DERIVED, LINE));
         }
         let curve = &self.description.material_curve;
-        let classes = curve.len().saturating_sub(1).max(1) as f64;
-        let places = curve.iter().enumerate().map(|(class, height)| place(class as f64 / classes, *height));
-        canvas.line(&apart(&places.collect::<Vec<_>>()), DATA, LINE + 2)?;
-        axes.draw(canvas)?;
+        let last = curve.len().saturating_sub(1).max(1) as f64;
+        let point = |(class, height): (usize, &f64)| [100.0 * class as f64 / last, unit.value(*height)];
+        contents.push(line(curve.iter().enumerate().map(point).collect(), DATA, LINE + 2));
+        page.panels.push(Panel { axes, contents });
         let [core, peak, dale] =
-            [core_height, reduced_peak_height, reduced_dale_depth].map(|height| self.height(height, unit));
-        let lines = [
+            [core_height, reduced_peak_height, reduced_dale_depth].map(|height| height_text(height, unit));
+        let lines = vec![
             format!("Sk {core}"),
             format!("Spk {peak}   Svk {dale}"),
             format!("Smr1 {} %   Smr2 {} %", percent(peak_ratio), percent(dale_ratio)),
         ];
-        write_above(canvas, &frame, &lines)
+        write_above(page, &frame, lines);
     }
 
     /// The unit of heights.
-    fn height_unit(&self) -> AxisUnit {
+    fn height_unit(&self) -> Unit {
         let range = &self.drawn.histogram.range;
-        AxisUnit::for_length(0.5 * (range.end() - range.start()))
+        Unit::for_size("m", 0.5 * (range.end() - range.start()))
     }
+}
 
-    fn height(&self, height: f64, unit: AxisUnit) -> String {
-        format!("{} {}", number(height * unit.per_metre), unit.symbol)
-    }
+fn height_axis(range: RangeInclusive<f64>, unit: &Unit) -> Axis {
+    Axis::linear(range, unit.label("height"))
+}
+
+fn height_text(height: f64, unit: &Unit) -> String {
+    unit.with_symbol(&number(unit.value(height)))
 }
 
 /// Lines of text above a box.
-fn write_above<B: DrawingBackend>(canvas: &Canvas<B>, frame: &Frame, lines: &[String]) -> Result<(), FigureError> {
-    for (line, text) in lines.iter().enumerate() {
-        let place = (frame.x[0], frame.y[0] - 10.0 - (lines.len() - line) as f64 * SPACING);
-        canvas.text(text, place, Anchor::BelowRight, TEXT)?;
+fn write_above(page: &mut Page, frame: &Frame, lines: Vec<String>) {
+    let count = lines.len();
+    for (line, text) in lines.into_iter().enumerate() {
+        let place = (frame.x[0], frame.y[0] - 10.0 - (count - line) as f64 * SPACING);
+        page.write(text, place, Anchor::BelowRight, TEXT);
     }
-    Ok(())
-}
-
-/// The first, the last and of the places between them those that are not too near to each other.
-fn apart(places: &[Place]) -> Vec<Place> {
-    let mut kept: Vec<Place> = Vec::new();
-    for place in places {
-        if kept.last().is_none_or(|last| (place.0 - last.0).hypot(place.1 - last.1) >= STEP) {
-            kept.push(*place);
-        }
-    }
-    kept.extend(places.last());
-    kept
 }
 
 /// Heights between two material ratios, as far as they are not far out, m above the mean.
@@ -323,8 +299,8 @@ fn colour_range(description: &Description) -> RangeInclusive<f64> {
     if high > low { low..=high } else { low - 1e-10..=high + 1e-10 }
 }
 
-fn scaled(range: &RangeInclusive<f64>, unit: AxisUnit) -> RangeInclusive<f64> {
-    range.start() * unit.per_metre..=range.end() * unit.per_metre
+fn scaled(range: &RangeInclusive<f64>, unit: &Unit) -> RangeInclusive<f64> {
+    unit.value(*range.start())..=unit.value(*range.end())
 }
 
 /// Three significant digits, with a minus sign.
@@ -332,10 +308,9 @@ fn number(value: f64) -> String {
     if value.is_nan() {
         return "\u{2013}".to_owned();
     }
-    let value = if value.abs() < 1e-3 { 0.0 } else { value };
-    crate::number::with_minus(&crate::number::significant(value, 3))
+    with_minus(&significant(if value.abs() < 1e-3 { 0.0 } else { value }, 3))
 }
 
 fn percent(fraction: f64) -> String {
-    if fraction.is_nan() { "\u{2013}".to_owned() } else { crate::number::significant(100.0 * fraction, 3) }
+    if fraction.is_nan() { "\u{2013}".to_owned() } else { significant(100.0 * fraction, 3) }
 }

@@ -1,15 +1,14 @@
-//! Charts of several runs: their boxes beside and below each other, and whose lines are whose.
+//! Charts: their boxes beside and below each other, and what their colours mean.
 
 use std::ops::RangeInclusive;
 
 use plotters::style::RGBColor;
 
-use super::Subject;
-use crate::figure::axes::{Axes, Axis, Frame};
-use crate::figure::canvas::{Anchor, LINE, TEXT};
-use crate::figure::colour::{INK, RUNS, paler};
-use crate::figure::font::{shortened, text_width};
-use crate::figure::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
+use super::axes::{Axes, Axis, Frame};
+use super::canvas::{Anchor, LINE, TEXT};
+use super::font::{shortened, text_width};
+use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
+use crate::colour::{INK, RUNS, paler};
 
 /// Width of a figure of one column and of two columns of a journal, pixels: 85 mm and 175 mm.
 pub const COLUMN: f64 = 1360.0;
@@ -76,8 +75,8 @@ impl Meaning {
     }
 
     /// That of a run's lines.
-    pub(super) fn of_run(number: usize, subject: &Subject) -> Self {
-        Self { colour: colour(number), style: KeyStyle::Line, text: subject.label.clone() }
+    pub fn of_run(number: usize, label: &str) -> Self {
+        Self { colour: colour(number), style: KeyStyle::Line, text: label.to_owned() }
     }
 }
 

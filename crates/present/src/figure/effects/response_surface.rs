@@ -4,15 +4,15 @@ use plateau_study::design::Setting;
 use plateau_study::effects::Model;
 
 use super::{FactorAxis, ResponseFigures, Subject};
+use crate::colour::{GROUND, INK, colour_index, colour_map};
 use crate::figure::axes::{Axes, Axis, Frame, most_ticks_upward};
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::colour::{GROUND, INK, colour_index, colour_map};
+use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::contour::Field;
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle, Mark, Page, Panel};
 use crate::figure::picture::Picture;
-use crate::figure::run::chart::{COLUMN, MARGIN, Meaning, legend};
 
 /// Points of the map along each axis.
 const POINTS: usize = 121;

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+/// Part of the values that may lie below, and above, the colours of a map.
+pub const BEYOND: f64 = 0.005;
 /// Values of one map that are looked at, at most: more do not move a quantile that can be seen.
 const MOST: usize = 250_000;
 
@@ -27,11 +29,6 @@ impl RobustRange {
         Some(*self.values.select_nth_unstable_by(rank, f64::total_cmp).1)
     }
 
-    /// The range without the lowest and the highest half per cent.
-    pub fn range(&mut self) -> RangeInclusive<f64> {
-        self.between(0.005, 0.995)
-    }
-
     /// The range between two quantiles; of a little width where all values are equal.
     pub fn between(&mut self, low: f64, high: f64) -> RangeInclusive<f64> {
         let (low, high) = (self.quantile(low).unwrap_or(0.0), self.quantile(high).unwrap_or(0.0));
@@ -51,10 +48,12 @@ mod tests {
         range.add((0..1001).map(f64::from));
         range.add([f64::NAN, 1e9].into_iter());
         // By hand: of 1002 values the ranks 5 and 996.
-        assert_eq!(range.range(), 5.0..=996.0);
+        assert_eq!(range.between(BEYOND, 1.0 - BEYOND), 5.0..=996.0);
         let mut equal = RobustRange::default();
         equal.add([3.0; 4].into_iter());
-        assert!(equal.range().contains(&3.0) && equal.range().end() > equal.range().start());
+        assert!(
+            equal.between(0.1, 0.9).contains(&3.0) && equal.between(0.1, 0.9).end() > equal.between(0.1, 0.9).start()
+        );
         assert_eq!(RobustRange::default().quantile(0.5), None);
     }
 }
