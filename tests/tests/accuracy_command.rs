@@ -321,6 +321,7 @@ fn every_file_has_the_same_numbers() {
         assert!(dots.map(|(_, dot)| dot).any(is_there), "no dot for {}", row["setting"]);
     }
     assert!(fs::read(directory.path("accuracy/accuracy.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(fs::read(directory.path("accuracy/accuracy.pdf")).unwrap().starts_with(b"%PDF-"));
 }
 
 #[test]

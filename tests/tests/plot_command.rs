@@ -191,7 +191,7 @@ fn topography_shows_the_heights_of_every_cell() {
     for moment in [0, 1] {
         let heights = run.map("/pin/height", moment);
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-        expect_colours(&figure, bars[1], &windows(&mut images, 40), |cell| Some((mean - heights[cell]) * 1e6));
+        expect_colours(&figure, bars[1], &windows(&mut images, 40), |cell| Some((heights[cell] - mean) * 1e6));
     }
     assert!(images.next().is_none());
 }
@@ -237,18 +237,25 @@ fn status_shows_the_status_of_every_cell() {
 fn heights_are_those_that_parts_of_the_cells_reach() {
     let directory = short();
     let figure = plotted(&directory, "heights");
-    let mut heights = RunFile::open(directory.path("run.h5")).last_map("/disc/height");
-    heights.sort_by(|one, other| other.total_cmp(one));
+    let run = RunFile::open(directory.path("run.h5"));
+    let disc = run.last_map("/disc/height");
+    let pin = run.last_map("/pin/height");
+    let mean = pin.iter().sum::<f64>() / pin.len() as f64;
+    let pin: Vec<f64> = pin.iter().map(|height| height - mean).collect();
     // Only the first box of a row has numbers on the left: the second one has the same axis.
     let boxes = figure.boxes();
     assert_eq!(boxes.len(), 4);
-    let (left, frame) = (figure.panel(boxes[0]), boxes[1]);
-    let curve = figure.line(FIRST_RUN, frame);
-    for per_cent in [5, 25, 50, 75, 95] {
-        let x = frame.x[0] + (frame.x[1] - frame.x[0]) * f64::from(per_cent) / 100.0;
-        // By the definition of the material ratio.
-        let expected = heights[(heights.len() * per_cent as usize / 100).saturating_sub(1)] * 1e6;
-        assert!(distance([x, left.y.place(expected)], &curve) < 3.0, "{per_cent} %");
+    // From the peaks on, which point down on the pin.
+    for (row, mut heights, peak) in [(0, disc, 1.0), (1, pin, -1.0)] {
+        heights.sort_by(|one, other| (peak * other).total_cmp(&(peak * one)));
+        let (left, frame) = (figure.panel(boxes[2 * row]), boxes[2 * row + 1]);
+        let curve = figure.line(FIRST_RUN, frame);
+        for per_cent in [5, 25, 50, 75, 95] {
+            let x = frame.x[0] + (frame.x[1] - frame.x[0]) * f64::from(per_cent) / 100.0;
+            // By the definition of the material ratio.
+            let expected = heights[(heights.len() * per_cent as usize / 100).saturating_sub(1)] * 1e6;
+            assert!(distance([x, left.y.place(expected)], &curve) < 3.0, "row {row}, {per_cent} %");
+        }
     }
 }
 

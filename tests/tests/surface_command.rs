@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use plateau_tests::figure::Figure;
 use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository};
 use plateau_tests::run_file::{RunFile, created};
 use serde_json::Value;
@@ -217,6 +218,30 @@ fn a_picture_shows_the_map_the_histogram_and_the_curve() {
         .enumerate_pixels()
         .filter(|(x, y, _)| *x == 0 || *y == 0 || *x == image.width() - 1 || *y == image.height() - 1);
     assert!(edge.into_iter().all(|(_, _, pixel)| pixel.0 == [255; 3]));
+}
+
+#[test]
+fn pictures_have_the_format_of_their_ending() {
+    let directory = WorkingDirectory::new();
+    directory.write("small.sdf", small_sdf());
+    let micrograph = plateau_tests::program::scene("micrograph.toml");
+    for ending in ["png", "svg", "PDF"] {
+        let (plot, preview) = (format!("plot.{ending}"), format!("preview.{ending}"));
+        directory.plateau(["surface", "small.sdf", "--plot", &plot]).quiet_success();
+        directory.plateau(["surface", "--prepare", &micrograph, "--preview", &preview]).quiet_success();
+        for name in [plot, preview] {
+            let content = fs::read(directory.path(&name)).unwrap();
+            match ending {
+                "png" => assert!(content.starts_with(b"\x89PNG"), "{name}"),
+                "svg" => {
+                    let figure = Figure::read(&String::from_utf8(content).unwrap());
+                    let pictures = figure.images.iter().filter(|(_, picture)| picture.width() > 1);
+                    assert!(pictures.count() > 0 && !figure.texts.is_empty(), "{name}");
+                }
+                _ => assert!(content.starts_with(b"%PDF-") && content.trim_ascii_end().ends_with(b"%%EOF"), "{name}"),
+            }
+        }
+    }
 }
 
 #[test]

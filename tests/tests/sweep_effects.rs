@@ -56,7 +56,7 @@ fn figure(directory: &WorkingDirectory, name: &str) -> Figure {
     Figure::read(&read(directory, &format!("{name}.svg")))
 }
 
-/// Names of all figures, each of which is there in both formats.
+/// Names of all figures, each of which is there in every format.
 fn figures(directory: &WorkingDirectory) -> Vec<String> {
     let entries = fs::read_dir(directory.path("results/effects")).unwrap();
     let names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -64,7 +64,9 @@ fn figures(directory: &WorkingDirectory) -> Vec<String> {
         names.iter().filter_map(|name| name.strip_suffix(".svg")).map(str::to_owned).collect();
     figures.sort();
     for figure in &figures {
-        assert!(names.contains(&format!("{figure}.png")), "{figure} in {names:?}");
+        for ending in ["png", "pdf"] {
+            assert!(names.contains(&format!("{figure}.{ending}")), "{figure} in {names:?}");
+        }
     }
     figures
 }
@@ -116,7 +118,7 @@ fn figures_show_the_means_and_effects_of_the_table() {
     let text = effects(&directory, &[]).stdout;
     let names = ["half-normal", "interactions", "main-effects", "pareto"].map(|name| format!("contact-area-{name}"));
     assert_eq!(figures(&directory), names);
-    assert!(text.contains("effects.html") && text.contains("4 figures as PNG and SVG"), "{text}");
+    assert!(text.contains("effects.html") && text.contains("4 figures as PNG, SVG and PDF"), "{text}");
 
     // Means of the runs at a level, and their difference: the effect.
     let main = figure(&directory, "contact-area-main-effects");

@@ -11,6 +11,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
+use plateau_present::figure::Format;
 use plateau_run::ExecutionOptions;
 
 pub use accuracy::AccuracyArguments;
@@ -228,13 +229,12 @@ pub enum FigureFormat {
     Pdf,
 }
 
-impl FigureFormat {
-    /// Ending of its files.
-    pub fn ending(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Svg => "svg",
-            Self::Pdf => "pdf",
+impl From<FigureFormat> for Format {
+    fn from(format: FigureFormat) -> Self {
+        match format {
+            FigureFormat::Png => Self::Png,
+            FigureFormat::Svg => Self::Svg,
+            FigureFormat::Pdf => Self::Pdf,
         }
     }
 }

@@ -3,27 +3,23 @@
 mod accuracy;
 mod arguments;
 mod commands;
-mod csv_table;
-mod deflate;
 mod failure;
-mod figure;
 mod interrupt;
-mod label;
 mod message;
 mod output;
 mod progress;
-mod report;
+mod screen;
 mod summary;
 mod sweep;
 mod table;
 mod terminal;
 mod version;
-mod watch;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 use plateau_io::number;
+use plateau_present::csv_table;
 use plateau_run::machine;
 
 fn main() -> ExitCode {

@@ -1,10 +1,10 @@
-//! Tables on standard output.
+//! Text on standard output.
 
-use std::fmt::Write as _;
 use std::io::{self, Write as _};
 
 use crate::failure::Failure;
-use crate::label::on_one_line;
+
+pub use plateau_present::table::{columns, list, table};
 
 /// Prints text on standard output.
 ///
@@ -16,54 +16,5 @@ pub fn print(text: &str) -> Result<(), Failure> {
             Err(Failure::run(format_args!("cannot write to standard output: {error}")))
         }
         _ => Ok(()),
-    }
-}
-
-/// A heading, which may be anybody's title, and rows of a name and a value, aligned.
-pub fn table(heading: &str, rows: &[(impl AsRef<str>, String)]) -> String {
-    let width = rows.iter().map(|(name, _)| name.as_ref().chars().count()).max().unwrap_or(0);
-    let mut text = format!("{}\n", on_one_line(heading));
-    for (name, value) in rows {
-        let name = name.as_ref();
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {name:width$}  {value}");
-    }
-    text
-}
-
-/// A heading and rows below the names of columns: the first one to the left, the others to the right.
-pub fn columns(heading: &str, names: &[&str], rows: &[Vec<String>]) -> String {
-    let header: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
-    let lines = || std::iter::once(&header).chain(rows);
-    let width = |column: usize| lines().filter_map(|line| line.get(column)).map(|cell| cell.chars().count()).max();
-    let widths: Vec<usize> = (0..names.len()).map(|column| width(column).unwrap_or(0)).collect();
-    let line = |cells: &Vec<String>| {
-        let cells = cells.iter().zip(&widths).enumerate().map(|(column, (cell, width))| match column {
-            0 => format!("{cell:width$}"),
-            _ => format!("{cell:>width$}"),
-        });
-        format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
-    };
-    format!("{heading}\n{}", lines().map(line).collect::<String>())
-}
-
-/// A heading and lines below it.
-pub fn list(heading: &str, lines: &[String]) -> String {
-    let lines: String = lines.iter().map(|line| format!("  {line}\n")).collect();
-    format!("{heading}\n{lines}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::columns;
-
-    #[test]
-    fn columns_are_aligned() {
-        let rows =
-            [vec!["a".to_owned(), "1 µm".to_owned(), "9".to_owned()], vec!["long".into(), "20".into(), String::new()]];
-        assert_eq!(
-            columns("Sizes", &["name", "size", "n"], &rows),
-            "Sizes\n  name  size  n\n  a     1 µm  9\n  long    20\n"
-        );
     }
 }

@@ -7,7 +7,7 @@ use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_io::scene;
 use plateau_io::scene::recipe::{BaseSource, Scene};
-use plateau_io::surface::{Loaded, base_preview, load};
+use plateau_io::surface::{Loaded, load, micrograph};
 use png::{BitDepth, ColorType};
 
 /// Square cells of 100 µm, a pin of 3 mm by 2 mm; without `[pin.base]`.
@@ -209,23 +209,16 @@ fn what_gives_no_fibre_map_is_told() {
 }
 
 #[test]
-fn the_preview_shows_picture_outline_and_cells() {
-    let (folder, scene) = grey("pixel = \"20 um\"");
-    let path = folder.path().join("preview.png");
-    std::fs::write(&path, base_preview(&scene, &load(&scene).unwrap().surfaces.pin_base).unwrap()).unwrap();
-    let decoder = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path).unwrap()));
-    let mut reader = decoder.read_info().unwrap();
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    let info = reader.next_frame(&mut pixels).unwrap();
-    // Two panels of 800 x 600 (5 to a pixel of the picture), 16 around and between.
-    assert_eq!((info.width, info.height), (2 * 800 + 48, 600 + 32));
-    let at = |panel: usize, x: usize, y: usize| {
-        let at = (16 + y) * info.width as usize + 16 + panel * 816 + x;
-        <[u8; 3]>::try_from(&pixels[3 * at..3 * at + 3]).unwrap()
-    };
-    assert_eq!((at(0, 700, 500), at(0, 100, 500)), ([200; 3], [50; 3]));
-    assert_eq!((at(0, 402, 500), at(0, 100, 148)), ([220, 30, 30], [220, 30, 30]));
-    // Cells of 100 µm are 25 pixels.
-    assert_eq!((at(1, 500, 400), at(1, 300, 400), at(1, 300, 70)), ([240, 190, 60], [60, 60, 70], [240, 190, 60]));
-    assert_eq!((at(1, 2, 2), at(1, 798, 598)), ([255; 3], [255; 3]));
+fn the_micrograph_is_what_the_base_is_made_of() {
+    let (_folder, scene) = grey("pixel = \"20 um\"");
+    let (map, pixel) = micrograph(&scene).unwrap().unwrap();
+    assert_eq!(pixel, 20e-6);
+    assert_eq!((map.grey.width, map.grey.height), SIZE);
+    for (x, line) in [(140, 100), (20, 100), (20, 10), (79, 30), (80, 30)] {
+        let (at, is_fibre) = (line * SIZE.0 + x, fibre(x, line));
+        assert_eq!(map.fibre.pixels[at], is_fibre, "{x}, {line}");
+        let level = if is_fibre { 200.0 } else { 50.0 };
+        assert!((255.0 * map.grey.pixels[at] - level).abs() < 1e-3, "{x}, {line}");
+    }
+    assert_eq!(load(&scene).unwrap().surfaces.pin_base, map.base);
 }

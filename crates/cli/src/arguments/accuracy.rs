@@ -24,7 +24,7 @@ pub struct AccuracyArguments {
     /// the scene
     #[arg(long, value_name = "RUN")]
     pub reference: Option<PathBuf>,
-    /// Folder for accuracy.csv, .json, .png and .svg, made if it is not there
+    /// Folder for accuracy.csv, .json, .png, .svg and .pdf, made if it is not there
     #[arg(short, long, value_name = "DIR", default_value = "accuracy")]
     pub output: PathBuf,
     /// Replace these files if they exist

@@ -19,8 +19,8 @@ pub struct SurfaceArguments {
     /// unless given
     #[arg(long, value_name = "FORM", value_parser = level)]
     pub level: Option<Level>,
-    /// Draw map, histogram and Abbott-Firestone curve of each surface
-    #[arg(long, value_name = "PNG")]
+    /// Draw map, histogram and Abbott-Firestone curve of each surface, in the format of the ending: .png, .svg or .pdf
+    #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
     /// Write the heights as they are, not levelled, in the format of the ending
     #[arg(long, value_name = "FILE")]
@@ -28,8 +28,8 @@ pub struct SurfaceArguments {
     /// Describe what a scene makes of its disc and pin surfaces, too
     #[arg(long, value_name = "SCENE")]
     pub prepare: Option<PathBuf>,
-    /// Draw the pin's fibre map that the scene makes, beside the micrograph that it comes from
-    #[arg(long, value_name = "PNG", requires = "prepare")]
+    /// Draw the pin's fibre map that the scene makes, beside the micrograph that it comes from, in the same formats
+    #[arg(long, value_name = "FILE", requires = "prepare")]
     pub preview: Option<PathBuf>,
     /// What the number 1 stands for in a file that does not say so, such as um
     #[arg(long, value_name = "UNIT", value_parser = unit)]

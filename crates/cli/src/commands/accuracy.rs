@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use plateau_io::dataset_file::now;
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
-use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Wish, read_reference, search};
+use plateau_present::figure::{Figure, Format, accuracy as drawing};
+use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Report, Row, Wish, read_reference, search};
 use plateau_run::execution::decide;
 use plateau_run::input_files;
 
@@ -14,7 +15,6 @@ use super::load_scene;
 use crate::accuracy::{Making, csv, json, text};
 use crate::arguments::AccuracyArguments;
 use crate::failure::Failure;
-use crate::figure::accuracy::figure;
 use crate::output;
 use crate::table::print;
 use crate::terminal::{Messages, Terminal};
@@ -23,8 +23,8 @@ use crate::version;
 /// The ladders that are climbed unless others are asked for.
 const USUAL: [Ladder; 3] = [Ladder::TimeAcceleration, Ladder::Tolerance, Ladder::Integrator];
 
-/// Files that are written, by their endings.
-const FILES: [&str; 4] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accuracy.svg"];
+/// Files that are written: tables, and the figure in every format, in the order of those.
+const FILES: [&str; 5] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accuracy.svg", "accuracy.pdf"];
 
 /// Measures the errors of a scene's runs.
 pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
@@ -72,12 +72,13 @@ fn measure_into(
     };
     let figure = figure(&report);
     let document = json(&report, &making);
-    let [csv_file, json_file, png_file, svg_file] = &places;
+    let [csv_file, json_file, drawings @ ..] = &places;
     let force = arguments.force;
     output::write(csv_file, csv(&report.rows).as_bytes(), force)?;
     output::write(json_file, document.as_bytes(), force)?;
-    output::write(png_file, &figure.png().map_err(Failure::run)?, force)?;
-    output::write(svg_file, figure.svg().map_err(Failure::run)?.as_bytes(), force)?;
+    for (path, format) in drawings.iter().zip(Format::ALL) {
+        output::write(path, &figure.draw(format).map_err(Failure::run)?, force)?;
+    }
     if arguments.scene.json {
         print(&document)?;
     } else {
@@ -99,7 +100,7 @@ fn places(
     arguments: &AccuracyArguments,
     scene: &Scene,
     surfaces: &[(PathBuf, String)],
-) -> Result<[PathBuf; 4], Failure> {
+) -> Result<[PathBuf; 5], Failure> {
     let mut inputs = scene.files.clone();
     inputs.extend(surfaces.iter().map(|(path, _)| path.clone()));
     inputs.extend(arguments.reference.clone());
@@ -116,4 +117,36 @@ fn failure(error: AccuracyError) -> Failure {
         AccuracyError::Stopped { signal, .. } => Failure::Stopped { signal, message: Some(error.to_string()) },
         AccuracyError::Mesh(_) | AccuracyError::Failed { .. } => Failure::run(error),
     }
+}
+
+/// The figure of what was found.
+fn figure(report: &Report) -> Figure {
+    let rung = |row: &Row| {
+        let value = row.rung.value();
+        let label = match row.rung.ladder {
+            Ladder::TimeAcceleration => format!("{value}"),
+            Ladder::Tolerance => format!("tolerance {value}"),
+            Ladder::Mesh => format!("{value}\u{d7} coarser"),
+            Ladder::Integrator | Ladder::Perturbation => String::new(),
+        };
+        drawing::Rung { time: row.cost().time, error: row.error(), on_front: row.on_front, label }
+    };
+    let ladder = |rows: &'_ [Row]| {
+        let ladder = rows[0].rung.ladder;
+        drawing::Ladder {
+            name: ladder.name(),
+            colour: ladder as usize,
+            is_joined: matches!(ladder, Ladder::TimeAcceleration | Ladder::Mesh),
+            is_chance: ladder == Ladder::Perturbation,
+            rungs: rows.iter().map(rung).collect(),
+        }
+    };
+    let same = |one: &Row, next: &Row| one.rung.ladder == next.rung.ladder;
+    let ladders: Vec<drawing::Ladder> = report.rows.chunk_by(same).map(ladder).collect();
+    let reference = drawing::Reference {
+        time: report.reference.outcome.wall_time.unwrap_or(f64::NAN),
+        error: report.own_error.contact_area(),
+        time_acceleration: report.reference.time_acceleration,
+    };
+    drawing::figure(&reference, &ladders)
 }

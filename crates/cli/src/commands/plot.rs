@@ -1,8 +1,10 @@
 //! `plateau plot`: the figures of runs.
 
-use crate::arguments::{FigureFormat, PlotArguments};
+use plateau_present::figure::run::Options;
+use plateau_present::figure::{Figure, Format};
+
+use crate::arguments::PlotArguments;
 use crate::failure::Failure;
-use crate::figure::run::{Figure, Options};
 use crate::output;
 use crate::table::print;
 
@@ -11,6 +13,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let PlotArguments { runs: paths, output, format, polar, force } = arguments;
     let runs = super::open_runs(paths)?;
     let figures = super::figures(&runs, &Options { polar: *polar })?;
+    let format = Format::from(*format);
     let directory = output.clone().unwrap_or_else(|| match paths.as_slice() {
         [path] => super::named_like(path, ""),
         _ => "figures".into(),
@@ -20,13 +23,8 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     // Before the first is written: either all are, or none.
     figures.figures.iter().try_for_each(|figure| output::check(&place(figure), *force, paths))?;
     for figure in &figures.figures {
-        let content = match format {
-            FigureFormat::Png => figure.png(),
-            FigureFormat::Svg => figure.svg().map(String::into_bytes),
-            FigureFormat::Pdf => figure.pdf(),
-        };
         let path = place(figure);
-        output::write(&path, &content.map_err(Failure::run)?, *force)?;
+        output::write(&path, &figure.draw(format).map_err(Failure::run)?, *force)?;
         print(&format!("wrote {}: {}\n", path.display(), figure.title))?;
     }
     Ok(())

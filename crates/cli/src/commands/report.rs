@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
+use plateau_io::number;
 use plateau_io::run_file::RunFile;
+use plateau_present::figure::run::Options;
+use plateau_present::label;
+use plateau_present::report::{self, Pictures};
 
 use crate::arguments::ReportArguments;
 use crate::failure::Failure;
-use crate::figure::run::Options;
-use crate::report::Pictures;
 use crate::table::{print, table};
-use crate::{label, number, output, report};
+use crate::{output, version};
 
 /// Makes a page of run files.
 pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
@@ -21,7 +23,8 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     output::check(page, *force, paths)?;
     let runs = super::open_runs(paths)?;
     let figures = super::figures(&runs, &Options::default())?;
-    let html = report::page(&runs, &Pictures::draw(&figures)?).map_err(Failure::input)?;
+    let html = report::page(&runs, &Pictures::draw(&figures).map_err(Failure::run)?, &version::program())
+        .map_err(Failure::input)?;
     output::write(page, html.as_bytes(), *force)?;
     tell(page, &runs, figures.figures.len(), html.len())
 }

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use plateau_io::number;
 use plateau_io::run_file::{RunFile, State};
+use plateau_present::figure::run::{self, Figures, MOST_RUNS, Options};
 
 use crate::failure::Failure;
-use crate::figure::run::{self, Figures, MOST_RUNS, Options};
-use crate::{message, number};
+use crate::message;
 
 /// Opens a run file; warns when it is not finished.
 ///

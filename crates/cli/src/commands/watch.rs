@@ -7,13 +7,14 @@ use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
 use plateau_io::run_file::{ReadError, State};
+use plateau_present::watch::{Look, Pace};
 
 use crate::arguments::WatchArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::message;
 use crate::number;
-use crate::watch::{Look, Pace, Screen};
+use crate::screen::Screen;
 
 /// Time between two looks, at least.
 const INTERVAL: Duration = Duration::from_secs(1);

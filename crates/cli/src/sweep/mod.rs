@@ -4,26 +4,14 @@
 //! |---|---|
 //! | the scenes of all runs, resolved | [`resolved`] |
 //! | what they will cost | [`estimate`] |
-//! | what their results tell of the factors | [`analysis`] |
-//! | which effects cannot be told from each other | [`aliases`] |
-//! | the unit in which a factor is read | [`reading`] |
-//! | which model is fitted, and what it misses | [`model`] |
-//! | how well a model fits, in a line | [`quality`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what is kept of those that are under way | [`under_way`] |
 //! | how far they are | [`progress`] |
-//! | which of them repeat another one | [`repeated`] |
 
-pub mod aliases;
-pub mod analysis;
 pub mod estimate;
 pub mod make;
-pub mod model;
 pub mod progress;
-pub mod quality;
-pub mod reading;
-pub mod repeated;
 pub mod resolved;
 pub mod under_way;
 

@@ -209,8 +209,20 @@ impl Loader<'_> {
     }
 }
 
+/// What a scene makes of the micrograph that the pin's base comes from, and the width of its pixels, m; none where it comes
+/// from something else.
+///
+/// # Errors
+/// [`SurfaceError`] as for [`load`].
+pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
+    let BaseSource::Image { path, recipe } = &scene.pin_base else { return Ok(None) };
+    let map = fibre_map(path, recipe, &scene.parameters.mesh);
+    let (map, _) = map.map_err(|reason| SurfaceError::File { key: "pin.base", path: path.clone(), reason })?;
+    Ok(Some((map, recipe.pixel)))
+}
+
 /// Makes the fibre map of an image file; says what the image is besides.
-pub(super) fn fibre_map(path: &Path, recipe: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
+fn fibre_map(path: &Path, recipe: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
     let format = detect(path)?;
     if !matches!(format, Format::Png | Format::Tiff) {
         return Err(FileError::NotAnImage(format));

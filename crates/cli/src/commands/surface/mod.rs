@@ -9,10 +9,12 @@ use std::path::{Path, PathBuf};
 use plateau_core::surface::{Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, ReadOptions, WriteError, WriteOptions};
+use plateau_present::figure::fibre_map::{self, Micrograph};
+use plateau_present::figure::surface_description::{self, DescribedSurface};
+use plateau_present::figure::{Figure, Format};
 
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
-use crate::figure::{self, SurfaceFigure};
 use crate::message;
 use crate::output;
 use crate::table::print;
@@ -54,8 +56,9 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     }
     for (option, picture) in [("--plot", plot), ("--preview", preview)] {
         let Some(picture) = picture else { continue };
-        if !picture.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-            return Err(Failure::input(format_args!("{option} {}: expected the ending .png", picture.display())));
+        if Format::of(picture).is_none() {
+            let endings = "expected the ending .png, .svg or .pdf";
+            return Err(Failure::input(format_args!("{option} {}: {endings}", picture.display())));
         }
     }
     let outputs: Vec<&PathBuf> = to.iter().chain(plot).chain(preview).collect();
@@ -110,8 +113,10 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
         output::check(picture, arguments.force, &inputs)?;
     }
     if let Some(preview) = &arguments.preview {
-        let picture = surface::base_preview(&scene, &surfaces.pin_base).map_err(Failure::input)?;
-        output::write(preview, &picture, arguments.force)?;
+        let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
+        let micrograph = micrograph.as_ref().map(|(map, pixel)| Micrograph { map, pixel: *pixel });
+        let figure = fibre_map::figure(&scene.parameters.mesh, &surfaces.pin_base, micrograph);
+        draw(&figure, preview, arguments.force)?;
     }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
     Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))
@@ -122,12 +127,18 @@ fn named(path: &Path, reason: impl std::fmt::Display) -> Failure {
     Failure::input(format_args!("{}: {reason}", path.display()))
 }
 
+/// Writes a figure in the format of the file's ending.
+fn draw(figure: &Figure, path: &Path, force: bool) -> Result<(), Failure> {
+    // An ending that tells no format was refused before.
+    let content = figure.draw(Format::of(path).unwrap_or(Format::Png)).map_err(Failure::run)?;
+    output::write(path, &content, force)
+}
+
 /// Draws and prints.
 fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failure> {
     if let Some(plot) = &arguments.plot {
-        let figures: Vec<SurfaceFigure> = subjects.iter().filter_map(Subject::figure).collect();
-        let picture = figure::surfaces(&figures).map_err(Failure::run)?;
-        output::write(plot, &picture, arguments.force)?;
+        let described: Vec<DescribedSurface> = subjects.iter().filter_map(Subject::described).collect();
+        draw(&surface_description::figure(&described), plot, arguments.force)?;
     }
     if arguments.json {
         return print(&document::document(subjects)?);

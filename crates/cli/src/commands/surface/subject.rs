@@ -7,10 +7,10 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, level};
 use plateau_io::surface::Measured;
+use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
 use super::named;
 use crate::failure::Failure;
-use crate::figure::{Drawn, SurfaceFigure};
 
 /// A surface that was read or prepared, described.
 pub struct Subject {
@@ -105,9 +105,9 @@ impl Subject {
     }
 
     /// What is drawn of it, if anything is.
-    pub fn figure(&self) -> Option<SurfaceFigure<'_>> {
+    pub fn described(&self) -> Option<DescribedSurface<'_>> {
         let title = Path::new(&self.name).file_name().map_or(self.name.clone(), |name| name.to_string_lossy().into());
-        Some(SurfaceFigure {
+        Some(DescribedSurface {
             title,
             points: [self.columns, self.rows],
             pitch: self.pitch,

@@ -2,6 +2,11 @@
 
 use std::path::Path;
 
+use plateau_present::figure::Format;
+use plateau_present::study::analysis::{AnalysedResponse, Analysis};
+use plateau_present::study::model::{lack_of_fit, name};
+use plateau_present::study::quality::quality;
+use plateau_present::study::repeated;
 use plateau_study::effects::{self, Effects, Term};
 use serde::Serialize;
 
@@ -11,10 +16,6 @@ use crate::arguments::EffectsArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep;
-use crate::sweep::analysis::{AnalysedResponse, Analysis};
-use crate::sweep::model::{lack_of_fit, name};
-use crate::sweep::quality::quality;
-use crate::sweep::repeated;
 use crate::table::{columns, print, table};
 use crate::{message, number, output};
 
@@ -63,12 +64,13 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
 /// The files, with those that are figures as one.
 fn told(folder: &Path, files: &[String]) -> Vec<(&'static str, String)> {
     let is_figure = |file: &&String| file.ends_with(".png");
-    let is_other = |file: &&String| !is_figure(file) && !file.ends_with(".svg");
-    let mut told: Vec<_> = files.iter().filter(is_other).map(|file| ("written", file.clone())).collect();
+    let is_drawing = |file: &&String| Format::of(Path::new(file)).is_some();
+    let mut told: Vec<_> =
+        files.iter().filter(|file| !is_drawing(file)).map(|file| ("written", file.clone())).collect();
     let figures = files.iter().filter(is_figure).count();
     if figures > 0 {
         let figures = number::count(figures, "figure");
-        told.push(("written", format!("{figures} as PNG and SVG in {}", folder.display())));
+        told.push(("written", format!("{figures} as PNG, SVG and PDF in {}", folder.display())));
     }
     told
 }

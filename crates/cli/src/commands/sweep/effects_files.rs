@@ -4,17 +4,17 @@ use std::path::Path;
 
 use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
+use plateau_present::figure::effects::figures;
+use plateau_present::figure::{Figure, Format};
+use plateau_present::report::{Picture, Pictures, StudyPage, effects_page};
+use plateau_present::study::analysis::Analysis;
 
 use crate::failure::Failure;
-use crate::figure::effects::figures;
-use crate::figure::run::Figure;
-use crate::output;
-use crate::report::{Picture, Pictures, StudyPage, effects_page};
-use crate::sweep::analysis::Analysis;
+use crate::{output, version};
 
-/// A figure in both formats of files.
+/// A figure in the formats of files, and for the page.
 struct Drawn {
-    png: Vec<u8>,
+    files: Vec<(Format, Vec<u8>)>,
     picture: Picture,
 }
 
@@ -32,14 +32,16 @@ pub fn write(folder: &Path, plan: &Plan, collected: &Collected, analysis: &Analy
     let mut pictures = Vec::new();
     for of_response in figures(analysis) {
         let mut drawn = Vec::new();
-        for Drawn { png, picture } in draw_all(&of_response.figures)? {
-            add(&format!("{}.png", picture.name), &png)?;
-            add(&format!("{}.svg", picture.name), picture.svg.as_bytes())?;
+        for Drawn { files, picture } in draw_all(&of_response.figures)? {
+            for (format, content) in files {
+                add(&format!("{}.{}", picture.name, format.ending()), &content)?;
+            }
             drawn.push(picture);
         }
         pictures.push(Pictures { pictures: drawn, left_out: of_response.left_out });
     }
-    let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures });
+    let program = version::program();
+    let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures, program: &program });
     add("effects.html", page.as_bytes())?;
     Ok(files)
 }
@@ -57,7 +59,11 @@ fn draw_all(figures: &[Figure]) -> Result<Vec<Drawn>, Failure> {
 
 fn draw(figure: &Figure) -> Result<Drawn, Failure> {
     let svg = figure.svg().map_err(Failure::run)?;
-    let png = figure.png().map_err(Failure::run)?;
+    let content = |format| match format {
+        Format::Svg => Ok(svg.clone().into_bytes()),
+        format => figure.draw(format).map_err(Failure::run),
+    };
+    let files = Format::ALL.into_iter().map(|format| Ok((format, content(format)?))).collect::<Result<_, Failure>>()?;
     let picture = Picture { name: figure.name.clone(), caption: figure.caption.clone(), svg };
-    Ok(Drawn { png, picture })
+    Ok(Drawn { files, picture })
 }

@@ -2,6 +2,7 @@
 
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
+use plateau_present::study::{aliases, repeated};
 use plateau_run::execution::cores;
 use serde::Serialize;
 
@@ -10,7 +11,7 @@ use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, aliases, journal, repeated};
+use crate::sweep::{self, journal};
 use crate::table::{columns, list, print, table};
 use crate::{number, output};
 

@@ -1,0 +1,140 @@
+//! Charts: their boxes beside and below each other, and what their colours mean.
+
+use std::ops::RangeInclusive;
+
+use plotters::style::RGBColor;
+
+use super::axes::{Axes, Axis, Frame};
+use super::canvas::{Anchor, LINE, TEXT};
+use super::font::{shortened, text_width};
+use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
+use crate::colour::{INK, RUNS, paler};
+
+/// Width of a figure of one column and of two columns of a journal, pixels: 85 mm and 175 mm.
+pub const COLUMN: f64 = 1360.0;
+pub const TWO_COLUMNS: f64 = 2800.0;
+/// Room round the page, pixels.
+pub const MARGIN: f64 = 24.0;
+/// Room between boxes, pixels.
+const BETWEEN: f64 = 48.0;
+/// Width of the sample of a colour, pixels.
+const KEY: f64 = 60.0;
+
+/// Colour of the first moment, as a part of the run's colour.
+const PALE: f64 = 0.45;
+
+/// Colour of a run at the first moment, or at the last.
+pub fn colour_at(number: usize, first: bool) -> RGBColor {
+    if first { paler(colour(number), PALE) } else { colour(number) }
+}
+
+/// Colour of a run.
+pub fn colour(number: usize) -> RGBColor {
+    RUNS[number % RUNS.len()]
+}
+
+/// Width of a run's lines, pixels: those that are drawn first are wider, or equal lines would hide each other.
+pub fn line_width(number: usize, runs: usize) -> u32 {
+    let after = runs.saturating_sub(number + 1) as u32;
+    let step = if runs > 4 { 1 } else { 2 };
+    LINE + 1 + step * after
+}
+
+/// One box of a chart, before it has a place.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    /// What it shows, above it; may be empty.
+    pub title: String,
+    /// The axis below.
+    pub x: Axis,
+    /// The axis to the left.
+    pub y: Axis,
+    /// What is in it.
+    pub contents: Vec<Content>,
+}
+
+/// One colour and what it means.
+#[derive(Debug, Clone)]
+pub struct Meaning {
+    /// The colour.
+    pub colour: RGBColor,
+    /// How it is shown.
+    pub style: KeyStyle,
+    /// What it means.
+    pub text: String,
+}
+
+impl Meaning {
+    /// Those of the lines of the first and the last moment, of all runs.
+    pub fn of_moments() -> [Self; 2] {
+        [(INK, "last map"), (paler(INK, PALE), "first map")].map(|(colour, text)| Self {
+            colour,
+            style: KeyStyle::Line,
+            text: text.to_owned(),
+        })
+    }
+
+    /// That of a run's lines.
+    pub fn of_run(number: usize, label: &str) -> Self {
+        Self { colour: colour(number), style: KeyStyle::Line, text: label.to_owned() }
+    }
+}
+
+/// Charts in rows of so many, each box so high, below a legend; all of the page's width.
+pub fn page(width: f64, height: f64, across: usize, charts: Vec<Chart>, meanings: &[Meaning]) -> Page {
+    let mut page = Page { size: [width, 0.0], ..Page::default() };
+    let mut top = legend(&mut page, meanings, MARGIN);
+    let rows: Vec<&[Chart]> = charts.chunks(across.max(1)).collect();
+    // A column of boxes begins at one place, whichever of them has the widest numbers.
+    let room = |column: usize| {
+        let charts = rows.iter().filter_map(|row| row.get(column));
+        charts.map(|chart| chart.y.room_beside(height)).fold(0.0, f64::max)
+    };
+    let rooms: Vec<f64> = (0..across).map(room).collect();
+    let taken = rooms.iter().sum::<f64>() + BETWEEN * across as f64 + 2.0 * MARGIN;
+    let box_width = ((width - taken) / across as f64).floor();
+    for row in rows {
+        let titled = row.iter().any(|chart| !chart.title.is_empty());
+        top += if titled { LINE_OF_TEXT + 12.0 } else { 16.0 };
+        let mut left = MARGIN;
+        let mut below = 0.0_f64;
+        for (chart, room) in row.iter().zip(&rooms) {
+            left += room;
+            let frame = Frame { x: [left, left + box_width], y: [top, top + height] };
+            let title = shortened(&chart.title, TEXT, box_width);
+            page.write(title, (left, top - LINE_OF_TEXT - 4.0), Anchor::BelowRight, TEXT);
+            below = below.max(chart.x.room_below());
+            let axes = Axes { frame, x: chart.x.clone(), y: chart.y.clone() };
+            page.panels.push(Panel { axes, contents: chart.contents.clone() });
+            left += box_width + BETWEEN;
+        }
+        top += height + below + 12.0;
+    }
+    page.size[1] = (top + MARGIN).ceil();
+    page
+}
+
+/// Writes what colours mean, from the top down, as many beside each other as there is room for; gives the place below.
+pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
+    let most = page.size[0] - 2.0 * MARGIN;
+    let (mut x, mut y) = (MARGIN, top);
+    for Meaning { colour, style, text } in meanings {
+        let key = if *style == KeyStyle::Line { KEY } else { 0.6 * KEY };
+        let text = shortened(text, TEXT, most - key - 16.0);
+        let width = key + 16.0 + text_width(&text, TEXT);
+        if x > MARGIN && x + width > page.size[0] - MARGIN {
+            (x, y) = (MARGIN, y + LINE_OF_TEXT);
+        }
+        let middle = y + 0.5 * LINE_OF_TEXT;
+        let frame = Frame { x: [x, x + key], y: [middle - 13.0, middle + 13.0] };
+        page.keys.push(Key { frame, colour: *colour, style: *style });
+        page.write(text, (x + key + 16.0, middle), Anchor::Right, TEXT);
+        x += width + 48.0;
+    }
+    if meanings.is_empty() { y } else { y + LINE_OF_TEXT + 16.0 }
+}
+
+/// From 0 to a little more than the largest value; to 1 where all values are 0.
+pub fn up_from_zero(largest: f64) -> RangeInclusive<f64> {
+    0.0..=if largest > 0.0 { 1.04 * largest } else { 1.0 }
+}

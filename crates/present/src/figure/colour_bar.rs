@@ -1,0 +1,54 @@
+//! The colour bar of a map.
+
+use plotters::prelude::DrawingBackend;
+
+use super::axes::{Axis, Frame, most_ticks_upward};
+use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
+use super::font::text_width;
+use super::picture::Picture;
+use crate::colour::{COLOURS, INK, colour_map, viridis};
+
+/// A bar with the values of its colours to the right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColourBar {
+    /// The bar.
+    pub frame: Frame,
+    /// Values from the first to the last colour, and what they measure.
+    pub axis: Axis,
+}
+
+impl ColourBar {
+    /// The colours, the last one on top.
+    pub fn strip(&self) -> Picture {
+        let indices = (0..COLOURS).rev().map(|colour| colour as u8).collect();
+        Picture { columns: 1, rows: COLOURS, indices, palette: colour_map() }
+    }
+
+    /// Draws all but the strip. The bar ends in points: what is beyond has the colour of its end.
+    pub fn draw_scale<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        let Frame { x: [left, right], y: [top, bottom] } = self.frame;
+        let (middle, point) = (0.5 * (left + right), 0.7 * self.frame.width());
+        for (end, tip, value) in [(top, top - point, 1.0), (bottom, bottom + point, 0.0)] {
+            canvas.area(&[(left, end), (middle, tip), (right, end)], viridis(value))?;
+        }
+        let outline = [
+            (left, top),
+            (middle, top - point),
+            (right, top),
+            (right, bottom),
+            (middle, bottom + point),
+            (left, bottom),
+            (left, top),
+        ];
+        canvas.line(&outline, INK, LINE)?;
+        let mut widest = 0.0_f64;
+        for (value, label) in self.axis.ticks(most_ticks_upward(self.frame.height())) {
+            let y = bottom - self.axis.part(value) * self.frame.height();
+            canvas.line(&[(right, y), (right + 8.0, y)], INK, LINE)?;
+            canvas.text(&label, (right + 16.0, y), Anchor::Right, TEXT)?;
+            widest = widest.max(text_width(&label, TEXT));
+        }
+        let beside = right + 16.0 + widest + 14.0 + f64::from(TEXT);
+        canvas.text(&self.axis.label, (beside, 0.5 * (top + bottom)), Anchor::Upward, TEXT)
+    }
+}

@@ -1,0 +1,227 @@
+//! The axis of a factor: its levels beside each other, or the values of its range.
+
+use std::ops::RangeInclusive;
+
+use plateau_study::design::Setting;
+use plateau_study::effects::FactorKind;
+
+use crate::figure::axes::Axis;
+use crate::figure::canvas::TEXT;
+use crate::figure::font::{shortened, text_width};
+use crate::study::analysis::AnalysedFactor;
+use crate::study::reading::split;
+use plateau_io::number::{self, raised};
+
+/// Room beside the first and the last level, in distances of levels.
+const BESIDE: f64 = 0.45;
+/// Room beside the ends of a range, as a part of it.
+const MARGIN: f64 = 0.06;
+/// Room between the names of two levels, pixels.
+const BETWEEN: f64 = 24.0;
+/// Least length of the axis of a range, pixels.
+const SHORTEST: f64 = 300.0;
+/// Names longer than this are shortened, pixels.
+const LONGEST_NAME: f64 = 440.0;
+
+/// A factor as an axis.
+#[derive(Debug, Clone)]
+pub struct FactorAxis<'a> {
+    /// The factor.
+    pub factor: &'a AnalysedFactor,
+    /// What its levels are called without the unit, in the order of the factor; none for ranges.
+    pub names: Vec<String>,
+    /// The unit that all levels have, or the unit of the range.
+    pub unit: String,
+    /// Where levels stand, in the order of the factor.
+    ranks: Vec<usize>,
+    /// Coded values of the least and the largest setting that was observed.
+    ends: [f64; 2],
+    /// How many different coded values were observed, at least as far as three tell more than two.
+    values: usize,
+}
+
+impl<'a> FactorAxis<'a> {
+    /// A factor with the settings that it had.
+    pub fn new(factor: &'a AnalysedFactor, observed: impl Iterator<Item = Setting>) -> Self {
+        let (names, unit) = named(&factor.labels);
+        let ranks = match &factor.factor.kind {
+            // As numbers ascend.
+            FactorKind::Levels(values) => {
+                let below = |value: &f64| values.iter().filter(|other| other.total_cmp(value).is_lt()).count();
+                values.iter().map(below).collect()
+            }
+            _ => (0..factor.labels.len()).collect(),
+        };
+        let mut coded: Vec<f64> = observed.filter_map(|setting| factor.factor.coded(setting)).collect();
+        coded.sort_unstable_by(f64::total_cmp);
+        coded.dedup_by(|one, other| (*one - *other).abs() < 1e-9);
+        let ends = [coded.first().map_or(-1.0, |low| low.min(-1.0)), coded.last().map_or(1.0, |high| high.max(1.0))];
+        let unit = if names.is_empty() { factor.reading.unit.clone() } else { unit };
+        Self { factor, names, unit, ranks, ends, values: coded.len() }
+    }
+
+    /// Whether it has values between its ends, so that lines are drawn from predictions.
+    pub fn is_continuous(&self) -> bool {
+        self.names.is_empty() && self.values > 2
+    }
+
+    /// Whether it is a range.
+    pub fn is_range(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// The value of a coded setting of a number, in the unit of the study.
+    pub fn natural(&self, coded: f64) -> f64 {
+        let [low, high] = self.factor.factor.range().unwrap_or([-1.0, 1.0]);
+        self.factor.reading.value(0.5 * ((1.0 - coded) * low + (1.0 + coded) * high))
+    }
+
+    /// Where a setting lies on the axis.
+    pub fn place(&self, setting: Setting) -> f64 {
+        match setting {
+            Setting::Level(level) => self.ranks.get(level).map_or(0.0, |rank| *rank as f64),
+            Setting::Coded(coded) => self.natural(coded),
+        }
+    }
+
+    /// A setting in words.
+    pub fn name(&self, setting: Setting) -> String {
+        match setting {
+            Setting::Level(level) => self.names.get(level).map_or_else(String::new, |name| self.with_unit(name)),
+            // A logarithm has no unit.
+            Setting::Coded(coded) if self.factor.reading.is_logarithmic() => number::rounded(self.natural(coded), 4),
+            Setting::Coded(coded) => self.with_unit(&number::rounded(self.natural(coded), 3)),
+        }
+    }
+
+    fn with_unit(&self, number: &str) -> String {
+        format!("{number} {}", self.unit).trim_end().to_owned()
+    }
+
+    /// What the axis says: name and unit.
+    pub fn label(&self) -> String {
+        let name = &self.factor.factor.name;
+        if self.unit.is_empty() { name.clone() } else { format!("{name}, {}", self.unit) }
+    }
+
+    /// Settings on the axis: all levels from the left, or so many values from end to end.
+    pub fn settings(&self, values: usize) -> Vec<Setting> {
+        if self.is_range() {
+            let [low, high] = self.ends;
+            let last = (values.max(2) - 1) as f64;
+            return (0..values).map(|at| Setting::Coded(low + (high - low) * at as f64 / last)).collect();
+        }
+        let mut levels: Vec<usize> = (0..self.names.len()).collect();
+        levels.sort_by_key(|level| self.ranks[*level]);
+        levels.into_iter().map(Setting::Level).collect()
+    }
+
+    /// Values at the ends of the axis.
+    pub fn range(&self) -> RangeInclusive<f64> {
+        if !self.is_range() {
+            return -BESIDE..=self.names.len() as f64 - 1.0 + BESIDE;
+        }
+        let margin = MARGIN * (self.ends[1] - self.ends[0]);
+        self.natural(self.ends[0] - margin)..=self.natural(self.ends[1] + margin)
+    }
+
+    /// Length that the axis needs to be read, pixels.
+    pub fn room(&self) -> f64 {
+        let widest = self.names.iter().map(|name| text_width(name, TEXT)).fold(0.0, f64::max);
+        let levels = if self.is_range() { SHORTEST } else { (widest + BETWEEN) * self.distances() };
+        levels.max(text_width(&self.label(), TEXT).min(LONGEST_NAME))
+    }
+
+    /// The axis where it is so long, pixels.
+    pub fn axis(&self, length: f64) -> Axis {
+        let label = shortened(&self.label(), TEXT, length);
+        if self.is_range() {
+            return Axis::linear(self.range(), label);
+        }
+        let room = length / self.distances() - 0.5 * BETWEEN;
+        let mark = |(name, rank): (&String, &usize)| (*rank as f64, shortened(name, TEXT, room));
+        Axis::marked(self.range(), label, self.names.iter().zip(&self.ranks).map(mark).collect())
+    }
+
+    /// Length of the axis in distances of levels.
+    fn distances(&self) -> f64 {
+        (self.names.len() as f64 - 1.0 + 2.0 * BESIDE).max(1.0)
+    }
+}
+
+/// Names of levels on an axis, and their unit: one that all numbers have stands in the label of the axis.
+fn named(labels: &[String]) -> (Vec<String>, String) {
+    let parts: Vec<(Option<f64>, &str)> = labels.iter().map(|label| split(label)).collect();
+    let unit = parts.first().map_or("", |(_, unit)| *unit);
+    if !parts.iter().all(|(number, other)| number.is_some() && *other == unit) {
+        return (labels.to_vec(), String::new());
+    }
+    (labels.iter().map(|label| plain(label.split_whitespace().next().unwrap_or_default())).collect(), unit.to_owned())
+}
+
+/// A number as it is printed: `2.5e-14` becomes 2.5·10⁻¹⁴.
+fn plain(number: &str) -> String {
+    let power = |(digits, power): (&str, &str)| Some((digits.to_owned(), power.parse::<i32>().ok()?));
+    match number.split_once(['e', 'E']).and_then(power) {
+        Some((digits, power)) if digits == "1" => format!("10{}", raised(power)),
+        Some((digits, power)) => number::with_minus(&format!("{digits}\u{b7}10{}", raised(power))),
+        None => number::with_minus(number),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use plateau_study::effects::Factor;
+
+    use super::*;
+    use crate::study::reading::Reading;
+
+    fn factor(name: &str, kind: FactorKind, labels: &[&str]) -> AnalysedFactor {
+        let labels = labels.iter().map(|label| (*label).to_owned()).collect();
+        AnalysedFactor { factor: Factor { name: name.into(), kind }, labels, reading: Reading::of([], false) }
+    }
+
+    #[test]
+    fn levels_stand_in_ascending_order_with_their_unit_beside() {
+        let load = factor("load", FactorKind::Levels(vec![20.0, 5.0, 10.0]), &["20 N", "5 N", "10 N"]);
+        let axis = FactorAxis::new(&load, (0..3).map(Setting::Level));
+        assert_eq!(axis.label(), "load, N");
+        let marks = axis.axis(600.0).marks.unwrap();
+        assert_eq!(marks, [(2.0, "20".to_owned()), (0.0, "5".to_owned()), (1.0, "10".to_owned())]);
+        assert_eq!(axis.settings(9), [1, 2, 0].map(Setting::Level));
+        assert_eq!(axis.name(Setting::Level(0)), "20 N");
+    }
+
+    #[test]
+    fn words_and_mixed_units_stand_as_they_are() {
+        let words = ["contact".to_owned(), "track".to_owned()];
+        assert_eq!(named(&words), (words.to_vec(), String::new()));
+        let mixed = ["50 um".to_owned(), "1 mm".to_owned()];
+        assert_eq!(named(&mixed), (mixed.to_vec(), String::new()));
+        assert_eq!(named(&["0.2".to_owned(), "-0.4".to_owned()]).0, ["0.2", "\u{2212}0.4"]);
+        assert_eq!(
+            ["2.5e-14", "1e6", "-3E2"].map(plain),
+            ["2.5\u{b7}10\u{207b}\u{b9}\u{2074}", "10\u{2076}", "\u{2212}3\u{b7}10\u{b2}"]
+        );
+    }
+
+    #[test]
+    fn names_that_have_no_room_are_shortened() {
+        let words =
+            factor("words", FactorKind::Categorical(vec![String::new(); 2]), &["a long name", "another long name"]);
+        let axis = FactorAxis::new(&words, (0..2).map(Setting::Level));
+        assert!(axis.axis(axis.room()).marks.unwrap().iter().all(|(_, name)| !name.contains('\u{2026}')));
+        let marks = axis.axis(300.0).marks.unwrap();
+        assert!(marks.iter().all(|(_, name)| text_width(name, TEXT) <= 300.0 / 1.9));
+    }
+
+    #[test]
+    fn ranges_reach_as_far_as_their_points() {
+        let load = factor("load", FactorKind::Range { low: 10.0, high: 20.0 }, &[]);
+        let axis = FactorAxis::new(&load, [-1.5, -1.0, 0.0, 1.0, 1.5].into_iter().map(Setting::Coded));
+        assert!(axis.is_continuous());
+        let [first, last] = [0, 1].map(|at| axis.place(axis.settings(2)[at]));
+        assert_eq!([first, last], [7.5, 22.5]);
+        assert!(*axis.range().start() < first && *axis.range().end() > last);
+    }
+}

@@ -1,0 +1,166 @@
+//! The mean of the response at the levels of each factor.
+
+use plateau_study::design::Setting;
+use plateau_study::effects::{Cell, Model};
+
+use super::{FactorAxis, ResponseFigures, Subject, range_of, responses};
+use crate::colour::{DATA, FAINT};
+use crate::figure::axes::Axis;
+use crate::figure::canvas::{LINE, TEXT};
+use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, page};
+use crate::figure::font::shortened;
+use crate::figure::page::{Content, KeyStyle, Mark};
+
+/// Height of a box, pixels.
+const HEIGHT: f64 = 620.0;
+/// Boxes beside each other, at most.
+const MOST_ACROSS: usize = 6;
+/// Room of the numbers and the label on the left, and of what is between two boxes, pixels.
+const LEFT: f64 = 210.0;
+const BETWEEN: f64 = 84.0;
+/// Values at which a line of predictions is calculated.
+const VALUES: usize = 41;
+/// Half the width of the end of an error bar, as a part of the axis.
+const CAP: f64 = 0.025;
+/// Whether one sees through the band of a predicted line.
+const OPACITY: f64 = 0.25;
+
+/// What is shown of a factor, in the unit of the response.
+struct Shown {
+    /// Places and values.
+    points: Vec<[f64; 2]>,
+    /// Places with the ends of their confidence intervals; empty without an error.
+    intervals: Vec<[f64; 3]>,
+    /// Whether it is a line of predictions, not means of runs.
+    predicted: bool,
+}
+
+/// Adds the figure.
+pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
+    let shown: Vec<Shown> = (0..subject.axes.len()).map(|factor| shown(subject, factor)).collect();
+    let mean = {
+        let (sum, count) =
+            responses(subject.effects).fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+        subject.unit.value(sum / count)
+    };
+    let values = shown.iter().flat_map(|shown| {
+        let ends = shown.intervals.iter().flat_map(|[_, low, high]| [*low, *high]);
+        shown.points.iter().map(|[_, value]| *value).chain(ends)
+    });
+    let y = Axis::linear(range_of(values.chain([mean])), shortened(&subject.label(), TEXT, HEIGHT));
+    let Layout { width, across, box_width } = Layout::of(subject.axes);
+    let chart = |(at, (axis, shown)): (usize, (&FactorAxis, &Shown))| Chart {
+        title: String::new(),
+        x: axis.axis(box_width),
+        y: if at % across == 0 { y.clone() } else { y.clone().shared() },
+        contents: contents(shown, axis, mean),
+    };
+    let charts = subject.axes.iter().zip(&shown).enumerate().map(chart).collect();
+    let has_intervals = shown.iter().any(|shown| !shown.intervals.is_empty());
+    let (any_predicted, all_predicted) =
+        (shown.iter().any(|shown| shown.predicted), shown.iter().all(|shown| shown.predicted));
+    let what = match (any_predicted, all_predicted) {
+        (_, true) => {
+            "Response against each factor as the model predicts it, with the others at the middle of their range"
+        }
+        (true, _) => {
+            "Mean response at the levels of each factor, and what the model predicts along ranges with the other factors in \
+             the middle"
+        }
+        _ => "Mean response at the levels of each factor",
+    };
+    let key = match (any_predicted, all_predicted) {
+        (_, true) => "predicted",
+        (true, _) => "mean of the runs at a level, or predicted",
+        _ => "mean of the runs at a level",
+    };
+    let interval = subject.confidence();
+    let uncertainty = if has_intervals {
+        format!("Bars and bands are intervals of {interval} confidence, from the error of the whole study.")
+    } else {
+        "There is no error, so there are no confidence intervals.".to_owned()
+    };
+    let meanings = [(FAINT, "mean of all runs".to_owned()), (DATA, key.to_owned())];
+    let mut meanings: Vec<Meaning> =
+        meanings.into_iter().map(|(colour, text)| Meaning { colour, style: KeyStyle::Line, text }).collect();
+    if has_intervals {
+        meanings[1].text.push_str(&format!(", {interval} confidence"));
+    }
+    let caption = format!("{what}. {uncertainty}");
+    let page = page(width, HEIGHT, across, charts, &meanings);
+    subject.add(figures, "main-effects", "Main effects on", caption, page);
+}
+
+/// Means at levels; along ranges with many values, or with squares, what the model predicts.
+fn shown(subject: &Subject, factor: usize) -> Shown {
+    let (axis, effects, unit) = (&subject.axes[factor], subject.effects, &subject.unit);
+    let cells = effects.level_means(factor);
+    let is_curved = effects.model == Model::Quadratic && axis.is_continuous();
+    let predicted = cells.is_empty() || is_curved;
+    let interval =
+        |x: f64, interval: Option<[f64; 2]>| interval.map(|ends| [x, unit.value(ends[0]), unit.value(ends[1])]);
+    let mut found: Vec<([f64; 2], Option<[f64; 3]>)> = if predicted {
+        let at = |setting: Setting| {
+            let prediction = effects.predict_at(&[(factor, setting)]).ok()?;
+            let x = axis.place(setting);
+            Some(([x, unit.value(prediction.value)], interval(x, prediction.interval)))
+        };
+        axis.settings(VALUES).into_iter().filter_map(at).collect()
+    } else {
+        let of = |cell: &Cell| {
+            let x = axis.place(cell.settings[0]);
+            ([x, unit.value(cell.mean)], interval(x, cell.interval))
+        };
+        cells.iter().map(of).collect()
+    };
+    found.sort_by(|one, other| one.0[0].total_cmp(&other.0[0]));
+    Shown {
+        points: found.iter().map(|(point, _)| *point).collect(),
+        intervals: found.iter().filter_map(|(_, interval)| *interval).collect(),
+        predicted,
+    }
+}
+
+fn contents(shown: &Shown, axis: &FactorAxis, mean: f64) -> Vec<Content> {
+    let range = axis.range();
+    let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, colour, width };
+    let mut contents = vec![line(vec![[*range.start(), mean], [*range.end(), mean]], FAINT, LINE)];
+    if shown.predicted {
+        if !shown.intervals.is_empty() {
+            contents.push(Content::Band { spans: shown.intervals.clone(), colour: DATA, opacity: OPACITY });
+        }
+        contents.push(line(shown.points.clone(), DATA, LINE + 2));
+        return contents;
+    }
+    let cap = CAP * (range.end() - range.start());
+    for [x, low, high] in &shown.intervals {
+        contents.push(line(vec![[*x, *low], [*x, *high]], DATA, LINE));
+        contents.extend([low, high].map(|end| line(vec![[x - cap, *end], [x + cap, *end]], DATA, LINE)));
+    }
+    contents.push(line(shown.points.clone(), DATA, LINE));
+    contents.push(Content::Marks { points: shown.points.clone(), colour: DATA, mark: Mark::Dot });
+    contents
+}
+
+/// How many boxes are beside each other on which page.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Layout {
+    width: f64,
+    across: usize,
+    /// About so wide is a box.
+    box_width: f64,
+}
+
+impl Layout {
+    /// One column where all boxes have room beside each other, else two with as many rows as are needed.
+    fn of(axes: &[FactorAxis]) -> Self {
+        let need = axes.iter().map(FactorAxis::room).fold(0.0, f64::max);
+        let room = |width: f64| width - 2.0 * MARGIN - LEFT;
+        let fitting = |width: f64| ((room(width) / (need + BETWEEN)) as usize).clamp(1, MOST_ACROSS);
+        let width = if fitting(COLUMN) >= axes.len() { COLUMN } else { TWO_COLUMNS };
+        // Rows are equally full.
+        let rows = axes.len().div_ceil(fitting(width)).max(1);
+        let across = axes.len().div_ceil(rows).max(1);
+        Self { width, across, box_width: room(width) / across as f64 - BETWEEN }
+    }
+}

@@ -1,0 +1,124 @@
+//! The figures of studies: what the factors do to each response.
+//!
+//! | figure | where |
+//! |---|---|
+//! | means at the levels of each factor | [`main_effects`] |
+//! | means at pairs of levels | [`interactions`] |
+//! | how far effects are beyond their error, sorted | [`pareto`] |
+//! | effects as if they were nothing but error | [`half_normal`] |
+//! | the response over two factors | [`response_surface`] |
+//!
+//! What they have in common: a factor as an axis in [`factor_axis`], names of files in [`names`].
+
+mod factor_axis;
+mod half_normal;
+mod interactions;
+mod main_effects;
+mod names;
+mod pareto;
+mod response_surface;
+
+use std::ops::RangeInclusive;
+
+use plateau_study::effects::Effects;
+
+use super::format::Figure;
+use super::page::Page;
+use crate::quantity::Unit;
+use crate::study::analysis::{AnalysedResponse, Analysis};
+use plateau_io::number;
+
+pub use factor_axis::FactorAxis;
+pub use names::file_names;
+
+/// The figures of one response.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ResponseFigures {
+    /// The figures.
+    pub figures: Vec<Figure>,
+    /// Which figures there are not, and why, in sentences.
+    pub left_out: Vec<String>,
+}
+
+/// The figures of every response that was analysed; none of the others.
+pub fn figures(analysis: &Analysis) -> Vec<ResponseFigures> {
+    let axes = axes(analysis);
+    let names = file_names(analysis.responses.iter().map(|response| response.name.as_str()));
+    let responses = analysis.responses.iter().zip(names).map(|(response, name)| {
+        let mut figures = ResponseFigures::default();
+        if let Ok(effects) = &response.effects {
+            let unit = unit(response, effects);
+            let subject = Subject { analysis, response, effects, unit, axes: &axes, name };
+            main_effects::add(&subject, &mut figures);
+            interactions::add(&subject, &mut figures);
+            pareto::add(&subject, &mut figures);
+            half_normal::add(&subject, &mut figures);
+            response_surface::add(&subject, &mut figures);
+        }
+        figures
+    });
+    responses.collect()
+}
+
+/// The factors of a study as axes.
+pub fn axes(analysis: &Analysis) -> Vec<FactorAxis<'_>> {
+    let axis = |(at, factor)| FactorAxis::new(factor, analysis.runs.iter().map(move |(settings, _)| settings[at]));
+    analysis.factors.iter().enumerate().map(axis).collect()
+}
+
+/// The unit in which a response is shown.
+pub fn unit(response: &AnalysedResponse, effects: &Effects) -> Unit {
+    Unit::readable(response.unit, responses(effects).map(f64::abs).fold(0.0, f64::max))
+}
+
+/// The responses of the runs that have one.
+fn responses(effects: &Effects) -> impl Iterator<Item = f64> {
+    effects.fitted.iter().map(|fitted| fitted.fitted + fitted.residual)
+}
+
+/// A response that figures are made of.
+struct Subject<'a> {
+    analysis: &'a Analysis,
+    response: &'a AnalysedResponse,
+    effects: &'a Effects,
+    unit: Unit,
+    /// The factors.
+    axes: &'a [FactorAxis<'a>],
+    /// What its files begin with.
+    name: String,
+}
+
+impl Subject<'_> {
+    /// What an axis of the response says.
+    fn label(&self) -> String {
+        self.unit.label(&self.response.name)
+    }
+
+    /// The confidence level in per cent.
+    fn confidence(&self) -> String {
+        format!("{} %", number::rounded(100.0 * self.effects.confidence, 4))
+    }
+
+    /// Adds a figure; `title` is what it shows of the response.
+    fn add(&self, figures: &mut ResponseFigures, figure: &str, title: &str, caption: String, page: Page) {
+        figures.figures.push(Figure {
+            name: format!("{}-{figure}", self.name),
+            title: format!("{title} {}", self.response.name),
+            caption,
+            page,
+        });
+    }
+}
+
+/// A range with a little room round values; any where there are none.
+fn range_of(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {
+    let (low, high) = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    let room = match high - low {
+        length if length > 0.0 => 0.07 * length,
+        0.0 => (0.1 * low.abs()).max(f64::MIN_POSITIVE.sqrt()),
+        _ => return 0.0..=1.0,
+    };
+    low - room..=high + room
+}

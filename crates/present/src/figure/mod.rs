@@ -1,0 +1,44 @@
+//! Figures, drawn by the program itself with a font of its own: they look alike on every machine.
+//!
+//! | what | where |
+//! |---|---|
+//! | a page and what is put on it: lines, areas, bitmaps, text | [`canvas`] |
+//! | the font | [`font`] |
+//! | a box with axes round it | [`axes`] |
+//! | where ticks are and what they say | [`ticks`] |
+//! | a map of heights, reduced to what a picture shows | [`raster`] |
+//! | a bitmap of few colours | [`picture`] |
+//! | the colour bar of a map | [`colour_bar`] |
+//! | curves with no more places than there is to see | [`simplify`] |
+//! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
+//! | charts beside and below each other | [`chart`] |
+//! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`] |
+//! | the fibre map of a pin beside its micrograph | [`fibre_map`] |
+//! | labels beside points | [`labels`] |
+//! | lines of equal value | [`contour`] |
+//! | the figures of runs | [`run`] |
+//! | the figures of studies | [`effects`] |
+//! | error against run time | [`accuracy`] |
+
+pub mod accuracy;
+mod axes;
+mod canvas;
+mod chart;
+mod colour_bar;
+mod contour;
+pub mod effects;
+pub mod fibre_map;
+mod font;
+mod format;
+mod histogram;
+mod labels;
+mod page;
+mod picture;
+mod raster;
+pub mod run;
+mod simplify;
+pub mod surface_description;
+mod ticks;
+
+pub use canvas::FigureError;
+pub use format::{Figure, Format};

@@ -1,0 +1,234 @@
+//! A page as plain data: what is plotted where, before any of it is drawn.
+
+use std::f64::consts::PI;
+
+use plotters::prelude::DrawingBackend;
+use plotters::style::RGBColor;
+
+use super::axes::{Axes, Frame};
+use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
+use super::colour_bar::ColourBar;
+use super::picture::Picture;
+use super::simplify::simplified;
+use crate::colour::GROUND;
+
+/// Pixels of a millimetre on paper: letters are of 6 points then.
+pub const PER_MILLIMETRE: f64 = 16.0;
+
+/// A page; lengths and places in pixels.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Page {
+    /// Width and height.
+    pub size: [f64; 2],
+    /// Texts beside the panels.
+    pub texts: Vec<Words>,
+    /// Explanations of colours.
+    pub keys: Vec<Key>,
+    /// Boxes with axes.
+    pub panels: Vec<Panel>,
+    /// Scales of the maps.
+    pub colour_bars: Vec<ColourBar>,
+}
+
+/// A text at a place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Words {
+    /// The text.
+    pub text: String,
+    /// Where.
+    pub place: Place,
+    /// How it stands there.
+    pub anchor: Anchor,
+    /// Height of its letters.
+    pub size: u32,
+}
+
+/// A sample of a colour; what it means is one of the page's texts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Key {
+    /// Where.
+    pub frame: Frame,
+    /// The colour.
+    pub colour: RGBColor,
+    /// How it is shown.
+    pub style: KeyStyle,
+}
+
+/// What a colour is the colour of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeyStyle {
+    /// A line.
+    Line,
+    /// An area.
+    Area,
+    /// A mark.
+    Mark(Mark),
+}
+
+/// A mark at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// A dot.
+    Dot,
+    /// A dot with a white rim, to be seen on a map.
+    Rimmed,
+    /// An upright cross with a white rim.
+    Cross,
+}
+
+/// A box with axes and what is in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Box and axes.
+    pub axes: Axes,
+    /// What is in it, from below.
+    pub contents: Vec<Content>,
+}
+
+/// What a panel shows; values in the units of its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// A line through points.
+    Line {
+        /// The points.
+        points: Vec<[f64; 2]>,
+        /// Its colour.
+        colour: RGBColor,
+        /// Its width, pixels.
+        width: u32,
+    },
+    /// What lies between two values.
+    Band {
+        /// x with the lower and the upper value there.
+        spans: Vec<[f64; 3]>,
+        /// Its colour.
+        colour: RGBColor,
+        /// Whether one sees through it.
+        opacity: f64,
+    },
+    /// Marks at points.
+    Marks {
+        /// The points.
+        points: Vec<[f64; 2]>,
+        /// Their colour.
+        colour: RGBColor,
+        /// What each looks like.
+        mark: Mark,
+    },
+    /// A map that fills the box.
+    Map(Picture),
+}
+
+impl Page {
+    /// Width and height in whole pixels.
+    pub fn pixels(&self) -> (u32, u32) {
+        let [width, height] = self.size.map(|length| length.round() as u32);
+        (width, height)
+    }
+
+    /// The bitmaps of the page, which lie below all else.
+    pub fn pictures(&self) -> Vec<(Frame, Picture)> {
+        let maps = self.panels.iter().flat_map(|panel| {
+            panel.contents.iter().filter_map(|content| match content {
+                Content::Map(picture) => Some((panel.axes.frame, picture.clone())),
+                _ => None,
+            })
+        });
+        maps.chain(self.colour_bars.iter().map(|bar| (bar.frame, bar.strip()))).collect()
+    }
+
+    /// Draws all but the bitmaps.
+    pub fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        self.panels.iter().try_for_each(|panel| panel.draw(canvas))?;
+        self.colour_bars.iter().try_for_each(|bar| bar.draw_scale(canvas))?;
+        self.keys.iter().try_for_each(|key| key.draw(canvas))?;
+        self.texts.iter().try_for_each(|words| canvas.text(&words.text, words.place, words.anchor, words.size))
+    }
+
+    /// Adds a text.
+    pub fn write(&mut self, text: impl Into<String>, place: Place, anchor: Anchor, size: u32) {
+        self.texts.push(Words { text: text.into(), place, anchor, size });
+    }
+}
+
+impl Key {
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        let middle = 0.5 * (self.frame.y[0] + self.frame.y[1]);
+        match self.style {
+            KeyStyle::Line => {
+                canvas.line(&[(self.frame.x[0], middle), (self.frame.x[1], middle)], self.colour, LINE + 2)
+            }
+            KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
+            KeyStyle::Mark(mark) => mark.draw(canvas, (0.5 * (self.frame.x[0] + self.frame.x[1]), middle), self.colour),
+        }
+    }
+}
+
+impl Panel {
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
+        for content in &self.contents {
+            match content {
+                Content::Line { points, colour, width } => {
+                    let places: Vec<Place> = points.iter().map(|[x, y]| self.axes.place_within(*x, *y)).collect();
+                    match simplified(&places)[..] {
+                        [place] => canvas.area(&around(place), *colour)?,
+                        ref places => canvas.line(places, *colour, *width)?,
+                    }
+                }
+                Content::Band { spans, colour, opacity } => {
+                    let lower = spans.iter().map(|[x, low, _]| self.axes.place_within(*x, *low));
+                    let upper = spans.iter().rev().map(|[x, _, high]| self.axes.place_within(*x, *high));
+                    canvas.tint(&lower.chain(upper).collect::<Vec<_>>(), *colour, *opacity)?;
+                }
+                Content::Marks { points, colour, mark } => {
+                    let places = points.iter().map(|[x, y]| self.axes.place_within(*x, *y));
+                    places.into_iter().try_for_each(|place| mark.draw(canvas, place, *colour))?;
+                }
+                Content::Map(_) => {}
+            }
+        }
+        self.axes.draw(canvas)
+    }
+}
+
+impl Mark {
+    /// Radius of dots and half the length of crosses, pixels.
+    const RADIUS: f64 = 11.0;
+    /// Width of the white rim, pixels.
+    const RIM: f64 = 4.0;
+
+    fn draw<B: DrawingBackend>(self, canvas: &Canvas<B>, (x, y): Place, colour: RGBColor) -> Result<(), FigureError> {
+        let disc = |radius: f64, colour| {
+            let corner = |part: i32| {
+                let (sine, cosine) = (f64::from(part) * PI / 12.0).sin_cos();
+                (x + radius * cosine, y + radius * sine)
+            };
+            canvas.area(&(0..24).map(corner).collect::<Vec<_>>(), colour)
+        };
+        let cross = |long: f64, half: f64, colour| {
+            let bar = |wide: f64, high: f64| Frame { x: [x - wide, x + wide], y: [y - high, y + high] };
+            canvas.area(&bar(long, half).corners(), colour)?;
+            canvas.area(&bar(half, long).corners(), colour)
+        };
+        match self {
+            Self::Dot => disc(Self::RADIUS, colour),
+            Self::Rimmed => {
+                disc(Self::RADIUS + Self::RIM, GROUND)?;
+                disc(Self::RADIUS, colour)
+            }
+            Self::Cross => {
+                cross(2.0 * Self::RADIUS + Self::RIM, 5.0 + Self::RIM, GROUND)?;
+                cross(2.0 * Self::RADIUS, 5.0, colour)
+            }
+        }
+    }
+}
+
+/// The corners of a dot: a line through one place only would not be seen.
+fn around((x, y): Place) -> [Place; 4] {
+    let side = [-8.0, 8.0];
+    Frame { x: side.map(|side| x + side), y: side.map(|side| y + side) }.corners()
+}
+
+/// The letters of a text, in lines of their own.
+pub const LINE_OF_TEXT: f64 = 1.35 * TEXT as f64;

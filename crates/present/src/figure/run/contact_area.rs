@@ -1,0 +1,63 @@
+//! Contact area against time (paper Fig. 14): the mean over a revolution, and how far single steps are from it.
+
+use plateau_io::run_file::ReadError;
+
+use super::spans::{band, means};
+use super::{Figures, Subject};
+use crate::colour::paler;
+use crate::figure::axes::Axis;
+use crate::figure::canvas::LINE;
+use crate::figure::chart::{COLUMN, Chart, Meaning, colour, line_width, page, up_from_zero};
+use crate::figure::page::Content;
+use crate::quantity::{Unit, title};
+
+/// Colour of a line through single steps, as a part of the run's colour.
+const PALE: f64 = 0.5;
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
+    let having = figures.with_series("contact-area", subjects, &["contact_area", "contact_area_mean"]);
+    let mut runs = Vec::new();
+    for (number, subject) in having {
+        let values = |name| Ok(subject.run.values(name)?.unwrap_or_default());
+        runs.push((number, subject, values("contact_area")?, values("contact_area_mean")?));
+    }
+    if runs.is_empty() {
+        return Ok(());
+    }
+    let largest = runs.iter().flat_map(|(_, _, single, mean)| single.iter().chain(mean)).copied().fold(0.0, f64::max);
+    let area = Unit::for_size("m2", largest);
+    let end = runs.iter().filter_map(|(_, subject, ..)| subject.run.time().last()).copied().fold(0.0, f64::max);
+    let time = Unit::for_size("s", end);
+    let mut steps = Vec::new();
+    let mut lines = Vec::new();
+    let mut meanings = Vec::new();
+    for (number, subject, single, mean) in &runs {
+        let times: Vec<f64> = subject.run.time().iter().map(|seconds| time.value(*seconds)).collect();
+        let single: Vec<f64> = single.iter().map(|value| area.value(*value)).collect();
+        steps.push(band(&times, &single, colour(*number)).unwrap_or_else(|| Content::Line {
+            points: means(&times, &single),
+            colour: paler(colour(*number), PALE),
+            width: LINE,
+        }));
+        let mean: Vec<f64> = mean.iter().map(|value| area.value(*value)).collect();
+        let points = means(&times, &mean);
+        lines.push(Content::Line { points, colour: colour(*number), width: line_width(*number, subjects.len()) });
+        meanings.push(Meaning::of_run(*number, &subject.label));
+    }
+    let chart = Chart {
+        title: String::new(),
+        x: Axis::linear(0.0..=time.value(end), time.label("time")),
+        y: Axis::linear(up_from_zero(area.value(largest)), area.label(title("contact_area"))),
+        contents: steps.into_iter().chain(lines).collect(),
+    };
+    figures.add(
+        "contact-area",
+        "Contact area",
+        "Contact area against time: the line is the mean over the last revolution, the band reaches from the least to the \
+         greatest of the samples of single steps. Where there are more samples than the figure can tell apart, the line is \
+         their mean; where there are few, a paler line goes through those of single steps instead of the band.",
+        page(COLUMN, 760.0, 1, vec![chart], &meanings),
+    );
+    Ok(())
+}

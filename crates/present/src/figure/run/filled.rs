@@ -1,0 +1,63 @@
+//! How far the lowlands of the disc are filled, and how much of disc and pin is plateau, against time.
+
+use plateau_io::run_file::ReadError;
+
+use super::spans::{band, means_between_ends};
+use super::{Figures, Subject};
+use crate::figure::axes::Axis;
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
+use crate::figure::page::Content;
+use crate::quantity::{Unit, title};
+
+const NAME: &str = "filled";
+const SERIES: [&str; 4] = ["filled_fraction", "disc_secondary", "pin_secondary", "pin_primary"];
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
+    let end = subjects.iter().filter_map(|subject| subject.run.time().last()).copied().fold(0.0, f64::max);
+    let time = Unit::for_size("s", end);
+    let mut charts = Vec::new();
+    let mut shown = vec![false; subjects.len()];
+    for series in SERIES {
+        let (mut bands, mut lines) = (Vec::new(), Vec::new());
+        let mut largest = 0.0_f64;
+        for (number, subject) in figures.with_series(NAME, subjects, &[series]) {
+            shown[number] = true;
+            let values = subject.run.values(series)?.unwrap_or_default();
+            let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
+            let values: Vec<f64> = values.iter().map(|value| Unit::PERCENT.value(*value)).collect();
+            largest = values.iter().copied().fold(largest, f64::max);
+            bands.extend(band(&times, &values, colour(number)));
+            let width = line_width(number, subjects.len());
+            lines.push(Content::Line { points: means_between_ends(&times, &values), colour: colour(number), width });
+        }
+        if lines.is_empty() {
+            continue;
+        }
+        let y = if series == "filled_fraction" { "part of the volume" } else { "part of the area" };
+        charts.push(Chart {
+            title: title(series).to_owned(),
+            x: Axis::linear(0.0..=time.value(end), time.label("time")),
+            y: Axis::linear(up_from_zero(largest), Unit::PERCENT.label(y)),
+            contents: bands.into_iter().chain(lines).collect(),
+        });
+    }
+    if charts.is_empty() {
+        return Ok(());
+    }
+    let meanings: Vec<Meaning> = subjects
+        .iter()
+        .enumerate()
+        .filter(|(number, _)| shown[*number])
+        .map(|(number, subject)| Meaning::of_run(number, &subject.label))
+        .collect();
+    figures.add(
+        NAME,
+        "Filling and coverage",
+        "Filled part of the initial volume below the highest point of the disc, and parts of the area of disc and pin that \
+         are plateaus, against time. A cell is secondary as soon as any debris lies on it. Where \
+         there are more samples than the figure can tell apart, the line is their mean and the band their extent.",
+        page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
+    );
+    Ok(())
+}

@@ -1,0 +1,181 @@
+//! How the heights of disc and pin are distributed before and after, with the Abbott-Firestone curve.
+
+use std::ops::RangeInclusive;
+
+use plateau_core::observe::Map;
+use plateau_core::surface::describe::MaterialCurve;
+use plateau_io::run_file::ReadError;
+
+use super::bodies::having;
+use super::moments::{ends, heights};
+use super::{Figures, Subject};
+use crate::figure::axes::Axis;
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
+use crate::figure::histogram::Histogram;
+use crate::figure::page::Content;
+use crate::quantity::{MapLook, RobustRange};
+
+const NAME: &str = "heights";
+/// Classes of the distribution.
+const CLASSES: usize = 80;
+/// Part of the cells that is shown at least where parts are on a scale of equal ratios, %.
+const LEAST_SHOWN: f64 = 0.01;
+/// Distributions whose maxima differ more than this many times are shown on such a scale.
+const MOST_LINEAR: f64 = 6.0;
+/// Points of the Abbott-Firestone curve.
+const CURVE: usize = 200;
+
+/// The heights of a body at one moment, as far as they are drawn; µm.
+struct Distribution {
+    run: usize,
+    first: bool,
+    histogram: Histogram,
+    /// Height that 0, 0.5, …, 100 % of the cells reach.
+    curve: Vec<f64>,
+}
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
+    let mut charts = Vec::new();
+    let mut shown = vec![false; subjects.len()];
+    for map in [Map::DiscHeight, Map::PinHeight] {
+        let having = having(figures, NAME, subjects, map);
+        let runs: Vec<(usize, &Subject)> = subjects
+            .iter()
+            .enumerate()
+            .filter(|(_, subject)| having.iter().any(|one| std::ptr::eq(*one, *subject)))
+            .collect();
+        if runs.is_empty() {
+            continue;
+        }
+        runs.iter().for_each(|(run, _)| shown[*run] = true);
+        charts.extend(body_charts(MapLook::of(map), &runs, subjects.len())?);
+    }
+    if charts.is_empty() {
+        return Ok(());
+    }
+    let runs = subjects
+        .iter()
+        .enumerate()
+        .filter(|(run, _)| shown[*run])
+        .map(|(run, subject)| Meaning::of_run(run, &subject.label));
+    let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
+    figures.add(
+        NAME,
+        "Height distributions",
+        "Left the distribution of the heights, right the Abbott-Firestone curve, at the last recorded moment and, paler, at \
+         the first. Heights are the model's z; the pin's are counted from their mean and positive away from the disc, so that \
+         its peaks are below. Every cell counts alike.",
+        page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
+    );
+    Ok(())
+}
+
+/// Heights of a body in the unit that they are shown in.
+fn scaled(subject: &Subject, look: &MapLook, index: usize) -> Result<Vec<f64>, ReadError> {
+    let (mut heights, _) = heights(subject.run, look.map, index)?;
+    heights.iter_mut().for_each(|height| *height = look.unit.value(*height));
+    Ok(heights)
+}
+
+/// The distribution of a body and its Abbott-Firestone curve.
+fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Result<[Chart; 2], ReadError> {
+    let mut range = RobustRange::default();
+    for (_, subject) in runs {
+        for index in ends(subject.run) {
+            range.add(scaled(subject, look, index)?.into_iter());
+        }
+    }
+    let range = wider(&range.between(0.001, 0.999));
+    let mut distributions = Vec::new();
+    for (run, subject) in runs {
+        let moments = ends(subject.run);
+        for index in &moments {
+            let mut heights = scaled(subject, look, *index)?;
+            let histogram = Histogram::of(&heights, 0.0, range.clone(), CLASSES);
+            // The material ratio counts from the peaks.
+            heights.iter_mut().for_each(|height| *height *= look.peaks());
+            let curve = MaterialCurve::of(&heights, 0.0);
+            distributions.push(Distribution {
+                run: *run,
+                first: *index == 0 && moments.len() > 1,
+                histogram,
+                curve: (0..=CURVE).map(|part| look.peaks() * curve.height(part as f64 / CURVE as f64)).collect(),
+            });
+        }
+    }
+    let body = look.body();
+    let y = Axis::linear(range, look.unit.label(&format!("{body}, {}", look.what)));
+    let line = |distribution: &Distribution, points| Content::Line {
+        points,
+        colour: colour_at(distribution.run, distribution.first),
+        width: line_width(distribution.run, count),
+    };
+    let largest = |one: &Distribution| one.histogram.fractions.iter().copied().fold(1e-6, f64::max);
+    let narrowest = distributions.iter().map(largest).fold(0.0, f64::max);
+    let widest = distributions.iter().map(largest).fold(narrowest, f64::min);
+    // Beside a narrow distribution nothing would be seen of a wide one.
+    let x = if narrowest > MOST_LINEAR * widest {
+        Axis::logarithmic(LEAST_SHOWN..=130.0 * narrowest, "cells per class, %")
+    } else {
+        Axis::linear(0.0..=105.0 * narrowest, "cells per class, %")
+    };
+    Ok([
+        Chart {
+            title: format!("{body}, distribution"),
+            x,
+            y: y.clone(),
+            contents: distributions
+                .iter()
+                .flat_map(|one| outlines(&one.histogram).into_iter().map(|points| line(one, points)))
+                .collect(),
+        },
+        Chart {
+            title: format!("{body}, Abbott-Firestone curve"),
+            x: Axis::linear(0.0..=100.0, "material ratio, %"),
+            y: y.shared(),
+            contents: distributions.iter().map(|one| line(one, ratio_curve(&one.curve))).collect(),
+        },
+    ])
+}
+
+/// A range with a margin.
+fn wider(range: &RangeInclusive<f64>) -> RangeInclusive<f64> {
+    let margin = 0.05 * (range.end() - range.start());
+    range.start() - margin..=range.end() + margin
+}
+
+/// Per cent of the cells that are in a class against the height in its middle: a line for all classes between two empty
+/// ones, those included.
+fn outlines(histogram: &Histogram) -> Vec<Vec<[f64; 2]>> {
+    let (begin, end) = (*histogram.range.start(), *histogram.range.end());
+    let fractions = &histogram.fractions;
+    let class = (end - begin) / fractions.len() as f64;
+    let filled = |number: usize| fractions.get(number).is_some_and(|fraction| *fraction > 0.0);
+    let shown = |number: usize| filled(number) || filled(number + 1) || (number > 0 && filled(number - 1));
+    let numbers: Vec<usize> = (0..fractions.len()).collect();
+    let runs = numbers.chunk_by(|one, next| shown(*one) == shown(*next)).filter(|run| shown(run[0]));
+    let point = |number: &usize| [100.0 * fractions[*number], begin + (*number as f64 + 0.5) * class];
+    runs.map(|run| run.iter().map(point).collect()).collect()
+}
+
+/// Height against the per cent of the cells that reach it.
+fn ratio_curve(curve: &[f64]) -> Vec<[f64; 2]> {
+    let last = curve.len().saturating_sub(1).max(1) as f64;
+    curve.iter().enumerate().map(|(part, height)| [100.0 * part as f64 / last, *height]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_ends_where_there_are_no_heights() {
+        let fractions = vec![0.0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.0, 0.25];
+        let outlines = outlines(&Histogram { range: 0.0..=8.0, fractions, outside: 0.0 });
+        // By hand: classes are 1 wide.
+        let expected: [&[[f64; 2]]; 2] =
+            [&[[0.0, 1.5], [50.0, 2.5], [25.0, 3.5], [0.0, 4.5]], &[[0.0, 6.5], [25.0, 7.5]]];
+        assert_eq!(outlines, expected);
+    }
+}

@@ -1,0 +1,165 @@
+//! A page of maps: bodies below each other, moments or runs beside each other, with the colour bars they share.
+
+use plateau_core::model::mesh::Mesh;
+use plotters::style::RGBColor;
+
+use super::shape::{Shape, Window};
+use crate::figure::axes::{Axes, Axis, Frame};
+use crate::figure::canvas::{Anchor, TEXT, TITLE};
+use crate::figure::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};
+use crate::figure::colour_bar::ColourBar;
+use crate::figure::font::shortened;
+use crate::figure::page::{Content, LINE_OF_TEXT, Page, Panel};
+
+/// Maps beside each other, at most.
+pub const MOST_ACROSS: usize = 3;
+/// Room on the right for a colour bar with numbers and label, pixels.
+const BAR_ROOM: f64 = 250.0;
+/// Width of a colour bar, and its distance from the maps.
+const BAR: f64 = 40.0;
+const BESIDE: f64 = 36.0;
+/// Length of a colour bar, pixels.
+const SHORTEST_BAR: f64 = 260.0;
+const LONGEST_BAR: f64 = 900.0;
+/// Height of a box, at least.
+const LEAST_HEIGHT: f64 = 64.0;
+/// Distance of maps beside each other, and of windows of one map below each other.
+const BETWEEN: f64 = 40.0;
+const BELOW: f64 = 14.0;
+
+/// A map of one body at one moment.
+#[derive(Debug, Clone)]
+pub struct MapSection<'a> {
+    /// What it is, in a few words.
+    pub title: String,
+    /// What else is to know of it, on a line of its own; may be empty.
+    pub remark: String,
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// How the body is shown.
+    pub shape: Shape,
+    /// Number of the colour of every cell, column by column.
+    pub cells: Vec<u8>,
+}
+
+/// Maps that share a colour scale, in rows; a place may be empty.
+#[derive(Debug, Clone, Default)]
+pub struct MapGroup<'a> {
+    /// The rows, from the top.
+    pub rows: Vec<Vec<Option<MapSection<'a>>>>,
+    /// The colours; the last one is that of what is no cell.
+    pub palette: Vec<RGBColor>,
+    /// The scale of the colours, if they are those of a range.
+    pub scale: Option<Axis>,
+}
+
+/// The maps of a few runs beside each other.
+#[derive(Debug, Clone, Default)]
+pub struct MapBlock<'a> {
+    /// What the runs are called.
+    pub names: Vec<String>,
+    /// Their maps.
+    pub groups: Vec<MapGroup<'a>>,
+}
+
+/// The page with these maps, below an explanation of colours.
+pub fn page(meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
+    let mut page = Page { size: [TWO_COLUMNS, 0.0], ..Page::default() };
+    let scaled = blocks.iter().flat_map(|block| &block.groups).any(|group| group.scale.is_some());
+    let width = TWO_COLUMNS - MARGIN - if scaled { BAR_ROOM } else { MARGIN };
+    // What colours mean stands below the name of the one run, but above the names of several.
+    let mut top = MARGIN;
+    let several = blocks.len() > 1 || blocks.iter().any(|block| block.names.len() > 1);
+    if several {
+        top = legend(&mut page, meanings, top);
+    }
+    for block in blocks {
+        let across = block.names.len().max(1);
+        let each = width / across as f64;
+        for (column, name) in block.names.iter().enumerate() {
+            let place = (MARGIN + column as f64 * each, top);
+            page.write(shortened(name, TITLE, each - BETWEEN), place, Anchor::BelowRight, TITLE);
+        }
+        top += 1.5 * f64::from(TITLE);
+        if !several {
+            top = legend(&mut page, meanings, top);
+        }
+        top = block.groups.iter().fold(top, |top, group| group.place(&mut page, top, width));
+        top += MARGIN;
+    }
+    page.size[1] = top.ceil();
+    page
+}
+
+impl MapGroup<'_> {
+    /// Puts the maps on the page, this far from its top and so wide; gives the place below.
+    fn place(&self, page: &mut Page, begin: f64, width: f64) -> f64 {
+        let (mut top, mut last_box) = (begin, begin);
+        for row in &self.rows {
+            let each = width / row.len().max(1) as f64;
+            let mut lowest = top;
+            for (column, section) in row.iter().enumerate() {
+                let Some(section) = section else { continue };
+                let origin = [MARGIN + column as f64 * each, top];
+                let (box_end, end) = section.place(page, origin, each - BETWEEN, &self.palette);
+                (lowest, last_box) = (lowest.max(end), last_box.max(box_end));
+            }
+            top = lowest;
+        }
+        if let Some(axis) = &self.scale {
+            let left = MARGIN + width + BESIDE - BETWEEN;
+            // Room for the points at its ends.
+            let titles =
+                self.rows.iter().flatten().flatten().map(|section| if section.remark.is_empty() { 1.0 } else { 2.0 });
+            let first = begin + titles.fold(1.0, f64::max) * LINE_OF_TEXT + 36.0;
+            let end = (last_box - 28.0).clamp(first + SHORTEST_BAR, first + LONGEST_BAR);
+            let frame = Frame { x: [left, left + BAR], y: [first, end].map(f64::round) };
+            page.colour_bars.push(ColourBar { frame, axis: axis.clone() });
+            top = top.max(end + 40.0);
+        }
+        top + 12.0
+    }
+}
+
+impl MapSection<'_> {
+    /// Puts the map on the page with its upper left corner there; gives where its last box and where its text ends.
+    fn place(&self, page: &mut Page, [left, top]: [f64; 2], width: f64, palette: &[RGBColor]) -> (f64, f64) {
+        let columns = self.cells.len() / self.mesh.rows();
+        let y_range = self.shape.y_range(self.mesh);
+        let y = Axis::linear(y_range.clone(), self.shape.y_label());
+        let windows = self.shape.windows(self.mesh, columns);
+        let proportion = |window: &Window| (y_range.end() - y_range.start()) / (window.x.end() - window.x.start());
+        let height = |window: &Window, inner: f64| (inner * proportion(window)).clamp(LEAST_HEIGHT, inner).round();
+        // A higher box has more numbers, which may be longer.
+        let room = windows.iter().map(|window| y.room_beside(height(window, width))).fold(0.0, f64::max);
+        let begin = left + room;
+        let inner = (width - room).floor();
+        let mut y_top = top;
+        for text in [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty()) {
+            page.write(shortened(text, TEXT, inner), (begin, y_top), Anchor::BelowRight, TEXT);
+            y_top += LINE_OF_TEXT;
+        }
+        y_top = (y_top + 8.0).round();
+        let first = y_top;
+        let last = windows.len() - 1;
+        let mut bottom = y_top;
+        for (number, window) in windows.into_iter().enumerate() {
+            let height = height(&window, inner);
+            // A body that is taller than wide stays in proportion.
+            let wide = inner.min(inner / proportion(&window)).max(LEAST_HEIGHT).round();
+            let frame = Frame { x: [begin.round(), begin.round() + wide], y: [y_top, y_top + height] };
+            let label = if number == last { self.shape.x_label() } else { String::new() };
+            let x = Axis::linear(window.x.clone(), label);
+            let y = Axis { label: String::new(), ..y.clone() };
+            let picture =
+                self.shape.picture(self.mesh, &window, &self.cells, palette, [wide as usize, height as usize]);
+            let below = x.room_below();
+            page.panels.push(Panel { axes: Axes { frame, x, y }, contents: vec![Content::Map(picture)] });
+            bottom = y_top + height;
+            y_top = bottom + below + BELOW;
+        }
+        let beside = left + 1.1 * f64::from(TEXT);
+        page.write(self.shape.y_label(), (beside, 0.5 * (first + bottom)), Anchor::Upward, TEXT);
+        (bottom, y_top)
+    }
+}

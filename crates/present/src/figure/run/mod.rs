@@ -1,0 +1,147 @@
+//! The figures of runs: for one run, or for several side by side with common scales.
+//!
+//! [`figures`] reads what is plotted and gives it as plain data; a [`Figure`] draws itself.
+//!
+//! | figure | where |
+//! |---|---|
+//! | heights of disc and pin | [`topography`] |
+//! | status of their cells | [`status`] |
+//! | contact pressure on the pin | [`pressure`] |
+//! | contact area against time | [`contact_area`] |
+//! | filling and coverage against time | [`filled`] |
+//! | how large plateaus are | [`plateau_sizes`] |
+//! | where the debris is | [`debris`] |
+//! | distribution of heights, Abbott-Firestone curve | [`heights`] |
+//!
+//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
+//! shown in [`moments`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
+
+mod bodies;
+mod contact_area;
+mod debris;
+mod filled;
+mod heights;
+mod map_page;
+mod moments;
+mod plateau_sizes;
+mod pressure;
+mod shape;
+mod spans;
+mod status;
+mod topography;
+
+use std::fmt;
+use std::path::PathBuf;
+
+use plateau_io::run_file::{ReadError, RunFile};
+
+use super::format::Figure;
+use super::page::Page;
+use crate::label::labels;
+use shape::Shape;
+
+/// More runs make no legible figure, and have no colours of their own.
+pub const MOST_RUNS: usize = crate::colour::RUNS.len();
+
+/// How figures are to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Options {
+    /// The ring as a ring, instead of unrolled.
+    pub polar: bool,
+}
+
+impl Options {
+    /// How the disc is shown.
+    fn disc_shape(&self) -> Shape {
+        if self.polar { Shape::Polar } else { Shape::Unrolled }
+    }
+}
+
+/// The figures that there are of runs, and why others are not.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Figures {
+    /// The figures.
+    pub figures: Vec<Figure>,
+    /// What was left out, and why.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// What a run did not record, and the figures that do without it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// The run file.
+    pub path: PathBuf,
+    /// What it does not have, such as "no map pressure".
+    pub missing: String,
+    /// Names of the figures.
+    pub figures: Vec<&'static str>,
+}
+
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} has {}: left out of {}", self.path.display(), self.missing, self.figures.join(", "))
+    }
+}
+
+/// A run with what it is called in figures.
+struct Subject<'a> {
+    run: &'a RunFile,
+    label: String,
+}
+
+/// The figures of runs. What a run did not record is left out.
+///
+/// # Errors
+/// [`ReadError`] when a file turns out to be damaged.
+pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError> {
+    let labels = labels(runs);
+    let subjects: Vec<Subject> = runs.iter().zip(labels).map(|(run, label)| Subject { run, label }).collect();
+    let mut figures = Figures::default();
+    topography::add(&subjects, options, &mut figures)?;
+    status::add(&subjects, options, &mut figures)?;
+    pressure::add(&subjects, &mut figures)?;
+    contact_area::add(&subjects, &mut figures)?;
+    filled::add(&subjects, &mut figures)?;
+    plateau_sizes::add(&subjects, &mut figures)?;
+    debris::add(&subjects, &mut figures)?;
+    heights::add(&subjects, &mut figures)?;
+    Ok(figures)
+}
+
+impl Figures {
+    fn add(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, page: Page) {
+        self.figures.push(Figure { name: name.into(), title: title.into(), caption: caption.into(), page });
+    }
+
+    /// Notes that a figure, or what it would show of a run, is left out.
+    fn leave_out(&mut self, figure: &'static str, subject: &Subject, missing: &str) {
+        let path = subject.run.path();
+        let same = self.left_out.iter_mut().find(|note| note.path == path && note.missing == missing);
+        match same {
+            Some(note) if note.figures.contains(&figure) => {}
+            Some(note) => note.figures.push(figure),
+            None => {
+                self.left_out.push(LeftOut { path: path.into(), missing: missing.into(), figures: vec![figure] });
+            }
+        }
+    }
+
+    /// The runs that have all these series and at least one sample; of the others it is noted that they are left out.
+    fn with_series<'a>(
+        &mut self,
+        what: &'static str,
+        subjects: &'a [Subject<'a>],
+        series: &[&str],
+    ) -> Vec<(usize, &'a Subject<'a>)> {
+        let mut having = Vec::new();
+        for (number, subject) in subjects.iter().enumerate() {
+            let has = |name: &&&str| subject.run.series().iter().any(|series| series.name == **name);
+            match series.iter().find(|name| !has(name)) {
+                Some(name) => self.leave_out(what, subject, &format!("no series {name}")),
+                None if subject.run.time().is_empty() => self.leave_out(what, subject, "no samples"),
+                None => having.push((number, subject)),
+            }
+        }
+        having
+    }
+}

@@ -1,0 +1,132 @@
+//! How large plateaus are: how many there are of at least an area, at the first and the last moment.
+
+use plateau_core::model::material::Status;
+use plateau_core::observe::Map;
+use plateau_core::observe::plateau_size::plateau_areas;
+use plateau_io::run_file::ReadError;
+
+use super::bodies::{any_of, having};
+use super::moments::{ends, statuses};
+use super::{Figures, Subject};
+use crate::figure::axes::Axis;
+use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
+use crate::figure::page::Content;
+use crate::quantity::Unit;
+
+const NAME: &str = "plateau-sizes";
+/// Count to which the axis reaches at least: ticks within a factor of two would stand at parts of a plateau.
+const LEAST_COUNT: usize = 10;
+
+/// A kind of plateau: what it is called, the map that tells, and the statuses that belong to it.
+type Kind = (&'static str, Map, &'static [Status]);
+
+const KINDS: [Kind; 3] = [
+    ("pin, primary and secondary", Map::PinStatus, &[Status::Primary, Status::Secondary]),
+    ("pin, secondary", Map::PinStatus, &[Status::Secondary]),
+    ("disc, secondary", Map::DiscStatus, &[Status::Secondary]),
+];
+
+/// The plateaus of a run at one moment.
+struct Sizes {
+    run: usize,
+    first: bool,
+    /// Areas, m², the largest first.
+    areas: Vec<f64>,
+}
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
+    let lists = [Map::PinStatus, Map::DiscStatus].map(|map| (map, having(figures, NAME, subjects, map)));
+    let mut kinds = Vec::new();
+    for (title, map, members) in KINDS {
+        let mut sizes = Vec::new();
+        for (run, subject) in subjects.iter().enumerate() {
+            let has = |(other, list): &(Map, Vec<&Subject>)| {
+                *other == map && list.iter().any(|one| std::ptr::eq(*one, subject))
+            };
+            if !lists.iter().any(has) {
+                continue;
+            }
+            let moments = ends(subject.run);
+            for index in &moments {
+                let cells = statuses(subject.run, map, *index)?;
+                let in_plateau: Vec<bool> =
+                    cells.iter().map(|status| members.iter().any(|member| *member as u8 == *status)).collect();
+                let areas = plateau_areas(subject.run.mesh(), &in_plateau);
+                sizes.push(Sizes { run, first: *index == 0 && moments.len() > 1, areas });
+            }
+        }
+        if sizes.iter().any(|sizes| !sizes.areas.is_empty()) {
+            kinds.push((title, sizes));
+        }
+    }
+    if kinds.is_empty() {
+        for subject in any_of(subjects, lists.each_ref().map(|(_, list)| &list[..])) {
+            figures.leave_out(NAME, subject, "no plateaus");
+        }
+        return Ok(());
+    }
+    let all = || kinds.iter().flat_map(|(_, sizes)| sizes);
+    let largest = all().filter_map(|sizes| sizes.areas.first()).copied().fold(0.0, f64::max);
+    let least = all().filter_map(|sizes| sizes.areas.last()).copied().fold(largest, f64::min);
+    let most = all().map(|sizes| sizes.areas.len()).max().unwrap_or(1);
+    let unit = Unit::for_size("m2", largest);
+    let range = [0.7 * least * unit.per_si, 1.5 * largest * unit.per_si];
+    let floor = 0.7;
+    let chart = |(number, (title, sizes)): (usize, &(&str, Vec<Sizes>))| {
+        let line = |sizes: &Sizes| Content::Line {
+            points: survival(&sizes.areas, unit.per_si, range[0], floor),
+            colour: colour_at(sizes.run, sizes.first),
+            width: line_width(sizes.run, subjects.len()),
+        };
+        let y = Axis::logarithmic(floor..=1.6 * most.max(LEAST_COUNT) as f64, "plateaus at least that large");
+        Chart {
+            title: (*title).to_owned(),
+            x: Axis::logarithmic(range[0]..=range[1], unit.label("area")),
+            y: if number == 0 { y } else { y.shared() },
+            contents: sizes.iter().filter(|sizes| !sizes.areas.is_empty()).map(line).collect(),
+        }
+    };
+    let charts: Vec<Chart> = kinds.iter().enumerate().map(chart).collect();
+    let across = charts.len();
+    let width = if across == 1 { COLUMN } else { TWO_COLUMNS };
+    let runs = subjects
+        .iter()
+        .enumerate()
+        .filter(|(run, _)| all().any(|sizes| sizes.run == *run))
+        .map(|(run, subject)| Meaning::of_run(run, &subject.label));
+    let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
+    figures.add(
+        NAME,
+        "Plateau sizes",
+        "Number of plateaus that are at least so large, at the last recorded moment and, paler, at the first. A plateau is \
+         made of cells that share edges; the disc closes round the ring.",
+        page(width, 640.0, across, charts, &meanings),
+    );
+    Ok(())
+}
+
+/// Steps of the number of areas that are at least so large, from the begin of the axis to its floor.
+fn survival(areas: &[f64], per_si: f64, begin: f64, floor: f64) -> Vec<[f64; 2]> {
+    let mut points = vec![[begin, areas.len() as f64]];
+    for (left, area) in areas.iter().enumerate().rev() {
+        let (x, above) = (area * per_si, left as f64);
+        if let Some([_, count]) = points.last().copied() {
+            points.extend([[x, count], [x, above.max(floor)]]);
+        }
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curve_steps_down_at_every_plateau() {
+        // By hand: three plateaus of 1, 1 and 5.
+        let points = survival(&[5.0, 1.0, 1.0], 1.0, 0.5, 0.7);
+        let expected = [[0.5, 3.0], [1.0, 3.0], [1.0, 2.0], [1.0, 2.0], [1.0, 1.0], [5.0, 1.0], [5.0, 0.7]];
+        assert_eq!(points, expected);
+    }
+}

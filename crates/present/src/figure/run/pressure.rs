@@ -1,0 +1,100 @@
+//! Contact pressure on the pin (paper Fig. 13).
+
+use plateau_core::observe::Map;
+use plateau_io::run_file::ReadError;
+
+use super::bodies::{Painted, having, rows};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
+use super::moments::{floats, moment};
+use super::shape::Shape;
+use super::{Figures, Subject};
+use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
+use crate::figure::axes::{Axis, Scale};
+use crate::figure::chart::Meaning;
+use crate::figure::page::KeyStyle;
+use crate::quantity::{BEYOND, MapLook, RobustRange, Unit};
+use plateau_io::number;
+
+const NAME: &str = "pressure";
+/// Pressures that differ more than this many times are shown on a scale of equal ratios.
+const MOST_LINEAR: f64 = 100.0;
+/// Number of the colour of cells without contact.
+const NO_CONTACT: u8 = COLOURS as u8;
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
+    let mut shown = Vec::new();
+    for subject in having(figures, NAME, subjects, Map::Pressure) {
+        // Before the first step nothing is pressed.
+        if moments(subject).is_empty() {
+            figures.leave_out(NAME, subject, "no map pressure after the start");
+        } else {
+            shown.push(subject);
+        }
+    }
+    if shown.is_empty() {
+        return Ok(());
+    }
+    let (scale, unit) = scale(&shown)?;
+    let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
+    let mut blocks = Vec::new();
+    for together in shown.chunks(MOST_ACROSS) {
+        let rows = rows(together, Shape::Unrolled, false, moments, |subject, index| {
+            let pressures = floats(subject.run, Map::Pressure, index)?;
+            let look = MapLook::of(Map::Pressure);
+            let colour = |pressure: &f64| match *pressure {
+                pressure if look.is_coloured(pressure) => colour_index(scale.part(unit.value(pressure))),
+                _ => NO_CONTACT,
+            };
+            let largest = number::rounded(unit.value(pressures.iter().copied().fold(0.0, f64::max)), 3);
+            let title = format!("{}, {}", look.body(), moment(subject.run, index));
+            let remark = format!("at most {}", unit.with_symbol(&largest));
+            let cells: Vec<u8> = pressures.iter().map(colour).collect();
+            Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
+        })?;
+        blocks.push(MapBlock {
+            names: together.iter().map(|subject| subject.label.clone()).collect(),
+            groups: vec![MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) }],
+        });
+    }
+    let none = Meaning { colour: APART, style: KeyStyle::Area, text: "no contact".to_owned() };
+    figures.add(
+        NAME,
+        "Contact pressure on the pin",
+        "Contact pressure on the pin at the first recorded moment after the start and at the last. The colours span 99 % of \
+         the pressures of cells in contact.",
+        page(&[none], &blocks),
+    );
+    Ok(())
+}
+
+/// The first moment after the start and the last one.
+fn moments(subject: &Subject) -> Vec<usize> {
+    let times = subject.run.map_time();
+    let Some(first) = times.iter().position(|time| *time > 0.0) else { return Vec::new() };
+    let last = times.len() - 1;
+    if first == last { vec![last] } else { vec![first, last] }
+}
+
+/// The scale that all maps share, and the unit that it is in.
+fn scale(subjects: &[&Subject]) -> Result<(Axis, Unit), ReadError> {
+    let look = MapLook::of(Map::Pressure);
+    let mut range = RobustRange::default();
+    for subject in subjects {
+        for index in moments(subject) {
+            let pressures = floats(subject.run, Map::Pressure, index)?;
+            range.add(
+                pressures.into_iter().filter(|pressure| look.is_coloured(*pressure)).collect::<Vec<_>>().into_iter(),
+            );
+        }
+    }
+    let (low, high) = (range.quantile(BEYOND).unwrap_or(1.0), range.quantile(1.0 - BEYOND).unwrap_or(1.0));
+    let unit = Unit::for_size("Pa", high);
+    let label = unit.label(look.what);
+    let scale = if high > MOST_LINEAR * low { Scale::Logarithmic } else { Scale::Linear };
+    let range = match scale {
+        Scale::Logarithmic => unit.value(low)..=unit.value(high),
+        Scale::Linear => 0.0..=unit.value(high),
+    };
+    Ok((Axis { scale, ..Axis::linear(range, label) }, unit))
+}

@@ -1,0 +1,75 @@
+//! Heights of disc and pin at the first and the last moment (paper Figs. 5, 7, 8, 9 and 11).
+
+use plateau_core::observe::Map;
+use plateau_io::run_file::ReadError;
+
+use super::bodies::{Painted, any_of, having, rows};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
+use super::moments::{ends, heights, moment};
+use super::shape::Shape;
+use super::{Figures, Options, Subject};
+use crate::colour::{GROUND, colour_index, colour_map};
+use crate::figure::axes::Axis;
+use crate::quantity::{BEYOND, MapLook, RobustRange};
+use plateau_io::number;
+
+const NAME: &str = "topography";
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Result<(), ReadError> {
+    let bodies = [(Map::DiscHeight, options.disc_shape()), (Map::PinHeight, Shape::Unrolled)];
+    let having = bodies.map(|(map, _)| having(figures, NAME, subjects, map));
+    let shown = any_of(subjects, having.each_ref().map(|list| &list[..]));
+    if shown.is_empty() {
+        return Ok(());
+    }
+    let scales = [scale(&having[0], bodies[0].0)?, scale(&having[1], bodies[1].0)?];
+    let palette: Vec<_> = colour_map().into_iter().chain([GROUND]).collect();
+    let mut blocks = Vec::new();
+    for together in shown.chunks(MOST_ACROSS) {
+        let names = together.iter().map(|subject| subject.label.clone()).collect();
+        let mut groups = Vec::new();
+        for ((map, shape), scale) in bodies.into_iter().zip(&scales) {
+            let wide = map.on_disc() && shape == Shape::Unrolled;
+            let moments = |subject: &Subject| ends(subject.run);
+            let rows = rows(together, shape, wide, moments, |subject, index| painted(subject, map, index, scale))?;
+            if rows.iter().flatten().any(Option::is_some) {
+                groups.push(MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) });
+            }
+        }
+        blocks.push(MapBlock { names, groups });
+    }
+    figures.add(
+        NAME,
+        "Topography of disc and pin",
+        "Heights of disc and pin, the model's z, at the first and the last recorded moment. The pin's are counted from their \
+         mean and positive away from the disc: its peaks have the lowest. The colours span 99 % of all heights of the body.",
+        page(&[], &blocks),
+    );
+    Ok(())
+}
+
+/// The scale that all maps of a body share.
+fn scale(subjects: &[&Subject], map: Map) -> Result<Axis, ReadError> {
+    let look = MapLook::of(map);
+    let mut range = RobustRange::default();
+    for subject in subjects {
+        for index in ends(subject.run) {
+            let (heights, _) = heights(subject.run, map, index)?;
+            range.add(heights.iter().map(|height| look.unit.value(*height)));
+        }
+    }
+    Ok(Axis::linear(range.between(BEYOND, 1.0 - BEYOND), look.unit.label(look.what)))
+}
+
+fn painted(subject: &Subject, map: Map, index: usize, scale: &Axis) -> Result<Option<Painted>, ReadError> {
+    let look = MapLook::of(map);
+    let (heights, zero) = heights(subject.run, map, index)?;
+    let colour = |height: &f64| colour_index(scale.part(look.unit.value(*height)));
+    let zero = look.unit.with_symbol(&number::rounded(look.unit.value(zero), 4));
+    Ok((!heights.is_empty()).then(|| Painted {
+        title: format!("{}, {}", look.body(), moment(subject.run, index)),
+        remark: if look.about_mean { format!("about its mean, z = {zero}") } else { String::new() },
+        cells: heights.iter().map(colour).collect(),
+    }))
+}

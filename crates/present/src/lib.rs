@@ -1,0 +1,26 @@
+//! What runs, studies and surfaces look like: nothing here reads arguments or talks to a terminal.
+//!
+//! | what | where |
+//! |---|---|
+//! | figures as PNG, SVG and PDF | [`figure`] |
+//! | HTML pages | [`report`] |
+//! | a run that goes on, as lines and as a page of text | [`watch`] |
+//! | what a study shows | [`study`] |
+//! | tables as text and as CSV | [`table`], [`csv_table`] |
+//! | what is shown: titles, units, signs, colour maps | [`quantity`], [`colour`] |
+//! | numbers as people read them | [`plateau_io::number`] |
+//! | what runs are called | [`label`] |
+
+// The tables of files are for those who read the source: they name what is private, too.
+#![allow(rustdoc::private_intra_doc_links)]
+
+mod colour;
+pub mod csv_table;
+mod deflate;
+pub mod figure;
+pub mod label;
+mod quantity;
+pub mod report;
+pub mod study;
+pub mod table;
+pub mod watch;

@@ -1,0 +1,229 @@
+//! What is shown, each described once: its title, unit, sign and colours. Figures, pages and the terminal ask here.
+//!
+//! Heights are the model's z wherever a run is shown: the disc's grow toward the pin, the pin's away from the disc, so that
+//! its peaks point down. As the pin wears by far more than it is rough, its heights are counted from their mean. (`plateau
+//! surface` describes a surface by itself: there peaks are positive on both bodies, as in ISO 25178-2.)
+
+mod range;
+mod unit;
+
+use plateau_core::model::material::Status;
+use plateau_core::observe::Map;
+use plateau_io::run_file::Series;
+use plotters::style::RGBColor;
+
+use crate::colour::STATUSES;
+
+pub use range::{BEYOND, RobustRange};
+pub use unit::Unit;
+
+/// A series as it is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SeriesLook {
+    /// Name in run files.
+    pub name: &'static str,
+    /// What it is, in a few words.
+    pub title: &'static str,
+    /// The unit in which numbers of it are given.
+    pub unit: Unit,
+}
+
+/// The series that pages, figures or the terminal name, in the order in which they are told.
+static SERIES: [SeriesLook; 18] = [
+    series("sliding_distance", "sliding distance", Unit::METRE),
+    series("contact_area", "contact area", Unit::MM2),
+    series("contact_area_mean", "contact area, mean of the last revolution", Unit::MM2),
+    series("contact_ratio", "contact area over the area of the pin", Unit::PERCENT),
+    series("mean_pressure", "mean contact pressure", Unit::MEGAPASCAL),
+    series("max_pressure", "largest contact pressure", Unit::MEGAPASCAL),
+    series("filled_fraction", "disc filled", Unit::PERCENT),
+    series("disc_secondary", "disc covered by secondary plateaus", Unit::PERCENT),
+    series("pin_secondary", "pin covered by secondary plateaus", Unit::PERCENT),
+    series("pin_primary", "pin covered by primary plateaus", Unit::PERCENT),
+    series("pin_none", "pin without plateaus", Unit::PERCENT),
+    series("worn_pin", "volume worn off plateaus of the pin", Unit::MM3),
+    series("worn_resin", "volume worn off the resin", Unit::MM3),
+    series("worn_disc", "volume worn off the disc", Unit::MM3),
+    series("emitted", "emitted debris", Unit::MM3),
+    series("deposited_pin", "debris deposited on the pin", Unit::MM3),
+    series("deposited_disc", "debris deposited on the disc", Unit::MM3),
+    series("pool", "debris in the pool", Unit::MM3),
+];
+
+const fn series(name: &'static str, title: &'static str, unit: Unit) -> SeriesLook {
+    SeriesLook { name, title, unit }
+}
+
+impl SeriesLook {
+    /// How a series of that name is shown; by its name where it has no title.
+    pub fn of(name: &'static str) -> Self {
+        Self::find(name).cloned().unwrap_or(series(name, name, Unit::NUMBER))
+    }
+
+    fn find(name: &str) -> Option<&'static Self> {
+        SERIES.iter().find(|series| series.name == name)
+    }
+
+    /// A value, SI, with so many decimals and its unit.
+    pub fn text(&self, value: f64, decimals: usize) -> String {
+        self.unit.with_symbol(&format!("{:.decimals$}", self.unit.value(value)))
+    }
+}
+
+/// What a series is called in a few words; by its name where it has no others.
+pub fn title(name: &'static str) -> &'static str {
+    SeriesLook::of(name).title
+}
+
+/// The unit in which a series of a run file is given.
+pub fn unit(series: &Series) -> Unit {
+    SeriesLook::find(&series.name).map_or_else(|| Unit::usual(&series.unit), |look| look.unit.clone())
+}
+
+/// A map as it is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapLook {
+    /// The map.
+    pub map: Map,
+    /// What it is, with the body and the sign.
+    pub title: &'static str,
+    /// What its values are, in a word.
+    pub what: &'static str,
+    /// The unit in which they are given.
+    pub unit: Unit,
+    /// How they are coloured.
+    pub colours: Colours,
+    /// Whether they are counted from their mean.
+    pub about_mean: bool,
+    /// The map of the surface above the one that this one shows: wherever there is no debris the two are alike.
+    pub above: Option<Map>,
+}
+
+/// How a map is coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Colours {
+    /// By the colour map, from nearly the least to nearly the greatest value.
+    Span,
+    /// By the colour map from zero on; what is not above zero has none of its colours.
+    FromZero,
+    /// By what the cells are ([`STATUS_LOOKS`]).
+    Statuses,
+}
+
+static MAPS: [MapLook; 7] = [
+    height(Map::DiscHeight, "Disc: height, positive toward the pin", None),
+    height(Map::DiscSubstrate, "Disc: height below the debris", Some(Map::DiscHeight)),
+    status(Map::DiscStatus, "Disc: status"),
+    height(Map::PinHeight, "Pin: height, positive away from the disc", None),
+    height(Map::PinSubstrate, "Pin: height below the debris, positive away from the disc", Some(Map::PinHeight)),
+    status(Map::PinStatus, "Pin: status"),
+    MapLook {
+        map: Map::Pressure,
+        title: "Pin: contact pressure",
+        what: "pressure",
+        unit: Unit::MEGAPASCAL,
+        colours: Colours::FromZero,
+        about_mean: false,
+        above: None,
+    },
+];
+
+const fn height(map: Map, title: &'static str, above: Option<Map>) -> MapLook {
+    let about_mean = matches!(map, Map::PinHeight | Map::PinSubstrate);
+    MapLook { map, title, what: "height", unit: Unit::MICROMETRE, colours: Colours::Span, about_mean, above }
+}
+
+const fn status(map: Map, title: &'static str) -> MapLook {
+    MapLook {
+        map,
+        title,
+        what: "status",
+        unit: Unit::NUMBER,
+        colours: Colours::Statuses,
+        about_mean: false,
+        above: None,
+    }
+}
+
+impl MapLook {
+    /// How a map is shown.
+    pub fn of(map: Map) -> &'static Self {
+        // Every map has a place; a test says so.
+        MAPS.iter().find(|look| look.map == map).unwrap_or(&MAPS[0])
+    }
+
+    /// The body that the map covers.
+    pub fn body(&self) -> &'static str {
+        if self.map.on_disc() { "disc" } else { "pin" }
+    }
+
+    /// The sign of a peak: material is below the disc's surface and above the pin's.
+    pub fn peaks(&self) -> f64 {
+        if self.map.on_disc() { 1.0 } else { -1.0 }
+    }
+
+    /// What the values of a moment are counted from.
+    pub fn zero(&self, values: &[f64]) -> f64 {
+        if self.about_mean { mean(values) } else { 0.0 }
+    }
+
+    /// Whether a value has one of the colours of the colour map.
+    pub fn is_coloured(&self, value: f64) -> bool {
+        self.colours != Colours::FromZero || value > 0.0
+    }
+
+    /// What the first and the last colour stand for, of such values as are coloured; zeros without values.
+    pub fn ends(&self, values: &mut RobustRange) -> [f64; 2] {
+        let mut end = |part: f64| values.quantile(part).unwrap_or(0.0);
+        let low = if self.colours == Colours::FromZero { 0.0 } else { end(BEYOND) };
+        [low, end(1.0 - BEYOND)]
+    }
+}
+
+/// Mean of the values that are numbers; 0 without any.
+fn mean(values: &[f64]) -> f64 {
+    let numbers = values.iter().filter(|value| value.is_finite());
+    numbers.clone().sum::<f64>() / numbers.count().max(1) as f64
+}
+
+/// A status as it is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StatusLook {
+    /// The status.
+    pub status: Status,
+    /// What it is called.
+    pub name: &'static str,
+    /// What such cells are made of.
+    pub made_of: &'static str,
+    /// Its colour.
+    pub colour: RGBColor,
+}
+
+/// The statuses, by their numbers.
+pub const STATUS_LOOKS: [StatusLook; 3] = [
+    StatusLook { status: Status::None, name: "none", made_of: "resin", colour: STATUSES[0] },
+    StatusLook { status: Status::Primary, name: "primary plateau", made_of: "fibre, or coating", colour: STATUSES[1] },
+    StatusLook {
+        status: Status::Secondary,
+        name: "secondary plateau",
+        made_of: "compacted debris",
+        colour: STATUSES[2],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_map_and_status_has_its_own_look() {
+        assert!(Map::ALL.into_iter().all(|map| MapLook::of(map).map == map));
+        assert!(STATUS_LOOKS.iter().enumerate().all(|(code, look)| look.status as usize == code));
+    }
+
+    #[test]
+    fn series_are_those_of_run_files() {
+        let known: Vec<&str> = plateau_core::observe::QUANTITIES.iter().map(|quantity| quantity.name).collect();
+        assert!(SERIES.iter().all(|look| known.contains(&look.name)));
+    }
+}

@@ -1,0 +1,43 @@
+//! Self-contained HTML pages: about one run or several (`plateau report`), about a study (`plateau sweep effects`).
+//!
+//! A page is made of a template and of parts that are written here; scripts on the page draw what is to be played with
+//! from one JSON document in it, so it needs no network and nothing beside it.
+//!
+//! | what | where |
+//! |---|---|
+//! | what all pages have in common: the template with its parts filled in | [`layout`], [`section`], [`template`] |
+//! | the page about runs | [`mod@page`] |
+//! | the page about a study | [`effects`] |
+//! | text as HTML, tables | [`html`] |
+//! | a series with its last and largest value, thinned | [`recorded`], [`thin`] |
+//! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
+//! | scenes, and in which keys they differ | [`scene`] |
+//! | where the run files come from | [`provenance`] |
+//! | the JSON document of the page | [`document`] |
+//! | maps for the page, no larger than allowed | [`maps`], [`reduction`], [`coarsen`] |
+//! | numbers as few bytes, bytes as text | [`quantise`], [`pack`] |
+//! | figures made by the program | [`picture`] |
+
+mod coarsen;
+mod comparison;
+mod document;
+mod effects;
+mod html;
+mod layout;
+mod maps;
+mod outcome;
+mod pack;
+mod page;
+mod picture;
+mod provenance;
+mod quantise;
+mod recorded;
+mod reduction;
+mod scene;
+mod section;
+mod template;
+mod thin;
+
+pub use effects::{StudyPage, page as effects_page};
+pub use page::page;
+pub use picture::{Picture, Pictures};
