@@ -4,9 +4,9 @@ use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::{Claim, ClaimError};
+use plateau_io::process::writer_of;
 use plateau_io::run_file::{Damage, Header, RunFile, RunWriter, State, verify};
 use plateau_io::temporary::Temporary;
-use plateau_io::writer::writer_of;
 
 use crate::arguments::RunArguments;
 use crate::failure::Failure;

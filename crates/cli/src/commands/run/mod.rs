@@ -13,7 +13,8 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
 use plateau_io::plausibility::{self, Recorded};
-use plateau_io::run_file::{End, RunFile, RunWriter, Synced, WriterReport, check_place, report_file_size_limit};
+use plateau_io::process::report_file_size_limit;
+use plateau_io::run_file::{End, RunFile, RunWriter, Synced, WriterReport, check_place};
 use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
