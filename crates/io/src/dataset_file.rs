@@ -13,8 +13,9 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use thiserror::Error;
 
+use crate::hdf5_file::writing::{write_number, write_text};
 use crate::run_file::dimension::{Dimensions, EMPTY_FILE};
-use crate::run_file::layout::{CONVENTIONS, write_number, write_text};
+use crate::run_file::layout::CONVENTIONS;
 use crate::temporary::Temporary;
 use crate::timestamp::iso_8601;
 

@@ -15,13 +15,11 @@
 //! | who may write a run file and its checkpoints | [`claim`] |
 //! | regular files, and nothing else | [`regular`] |
 //! | files that appear when they are complete | [`temporary`] |
-//! | processes, told from later ones | [`process`] |
-//! | who has a file open for writing | [`writer`] |
+//! | processes: told from later ones, or by the file that they write | [`process`] |
 
 pub mod checkpoint;
 pub mod claim;
 pub mod dataset_file;
-mod digest;
 pub mod export;
 mod hdf5_file;
 pub mod number;
@@ -36,4 +34,3 @@ pub mod surface;
 pub mod temporary;
 mod timestamp;
 pub mod units;
-pub mod writer;

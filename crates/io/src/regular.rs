@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
+use sha2::{Digest, Sha256};
+
 /// Opens a regular file for reading.
 ///
 /// # Errors
@@ -39,4 +41,14 @@ pub fn read_to_string(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     open(path)?.read_to_string(&mut text)?;
     Ok(text)
+}
+
+/// SHA-256 of a file's content, 64 hexadecimal digits.
+///
+/// # Errors
+/// What the system says when the file cannot be read.
+pub(crate) fn sha256(path: &Path) -> io::Result<String> {
+    let mut hasher = Sha256::new();
+    io::copy(&mut open(path)?, &mut hasher)?;
+    Ok(format!("{:x}", hasher.finalize()))
 }

@@ -8,7 +8,7 @@ pub mod pattern;
 
 use std::fmt;
 
-use expression::Scale;
+use expression::{Powers, Scale};
 use thiserror::Error;
 
 /// The kinds of quantity that scenes ask for.
@@ -31,11 +31,6 @@ pub enum Dimension {
     /// m².
     Area,
 }
-
-/// Powers of length, mass, time and plane angle.
-///
-/// The angle counts as a dimension of its own, for only so does "14 Hz" differ from "14 rad/s".
-type Powers = [i32; 4];
 
 /// What a unit of these powers measures.
 const MEANINGS: &[(Powers, &str)] = &[

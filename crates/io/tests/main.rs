@@ -11,6 +11,7 @@ mod micrograph;
 mod plausibility;
 mod read_run_file;
 mod run_file;
+mod run_file_processes;
 mod sdf;
 mod sdf_dialects;
 mod surfaces;

@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 
 use hdf5::types::VarLenUnicode;
 use ndarray::{Array2, Array3};
-use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::Mesh;
-use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
+use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
@@ -21,7 +20,6 @@ const PIN_COLUMNS: usize = 6;
 
 /// Flat on flat, all fibre.
 fn scene() -> Scene {
-    let material = Material { youngs_modulus: 1e9, poisson_ratio: 0.27, specific_wear_rate: 5e-14 };
     let flat = HeightRecipe { source: HeightSource::Flat, mirror: false, preparation: Preparation::default() };
     Scene {
         title: "test".to_owned(),
@@ -30,27 +28,7 @@ fn scene() -> Scene {
         load_tolerance: 1e-9,
         parameters: Parameters {
             mesh: Mesh::new(ROWS, DISC_COLUMNS, PIN_COLUMNS, 20e-3, 24e-3).unwrap(),
-            normal_force: 47.0,
-            angular_velocity: 90.0,
-            foundation_height: 5e-5,
-            materials: Materials {
-                disc_primary: material,
-                disc_secondary: material,
-                pin_primary: material,
-                pin_secondary: material,
-                pin_resin: material,
-                wear_height: 5e-6,
-            },
-            plateaus: PlateauRules {
-                captured_fraction: 0.06,
-                captured_resin_fraction: None,
-                pad_share: 0.5,
-                debris: DebrisRule::Contact,
-                formation: true,
-                destruction: true,
-            },
-            time_acceleration: 1.0,
-            integrator: Integrator::Explicit,
+            ..Parameters::paper()
         },
         adaptive: None,
         duration: 1.0,

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::Claim;
+use plateau_io::process::writer_of;
 use plateau_io::run_file::{Damage, Header, RunFile, RunWriter, State, verify};
 use plateau_io::temporary::Temporary;
-use plateau_io::writer::writer_of;
 
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};

@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
+use plateau_io::process::writer_of;
 use plateau_io::run_file::{self, Repair, RepairError, RunFile};
 use plateau_io::units::{self, Dimension};
-use plateau_io::writer::writer_of;
 
 use crate::arguments::RepairArguments;
 use crate::failure::Failure;

@@ -1,6 +1,6 @@
 //! `plateau run`: simulate a scene and write its run file.
 
-use plateau_io::run_file::report_file_size_limit;
+use plateau_io::process::report_file_size_limit;
 use plateau_run::{Job, RunOptions, StartMode};
 
 use super::load_scene;

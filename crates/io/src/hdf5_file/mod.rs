@@ -1,9 +1,11 @@
-//! HDF5 files that somebody else made, or that were damaged since: opened only if the library comes back from them.
+//! HDF5 files that somebody else made, or that were damaged since: opened only if the library comes back from them. And how
+//! such files are written (`writing.rs`).
 
 mod blocks;
 mod elsewhere;
 mod global_heap;
 mod memory;
+pub(crate) mod writing;
 
 use std::fs::{self, File};
 use std::io;

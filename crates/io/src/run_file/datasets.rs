@@ -5,9 +5,9 @@ use ndarray::{ArrayView2, s};
 use plateau_core::observe::{Map, MapValues, Quantity, Sample, Snapshot, quantities};
 
 use super::digest::{self, Digests};
+use super::error::not_anew;
 use super::layout::{MAP_TIME, TIME, map_path, series_path};
 use super::status::StoredStatus;
-use super::store::not_anew;
 use super::{Earlier, Header, ReadError, RunFile, RunFileError};
 
 /// The datasets that grow, and the digests of what they hold.

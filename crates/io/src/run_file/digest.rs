@@ -12,7 +12,7 @@ use hdf5::types::{TypeDescriptor, VarLenArray, VarLenUnicode};
 use hdf5::{Attribute, File, IndexType, IterationOrder, Location, LocationType, ObjectReference1, ReferencedObject};
 use sha2::{Digest, Sha256};
 
-use super::layout::write_text;
+use crate::hdf5_file::writing::write_text;
 
 /// Attribute of a dataset.
 pub(super) const DIGEST: &str = "sha256";

@@ -1,6 +1,6 @@
-//! What can go wrong with a run file.
+//! What can go wrong with a run file, when it is written and when it is read.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -115,4 +115,76 @@ impl RunFileError {
     pub(super) fn not_made(path: PathBuf, reason: String) -> Self {
         if path.exists() { Self::Anew { path, reason } } else { Self::SetUp { path, reason } }
     }
+}
+
+/// Makes an HDF5 error one of this run file.
+pub(super) fn failed(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
+    move |error| RunFileError::Write { path: path.into(), reason: hdf5_reason(&error) }
+}
+
+/// Makes an HDF5 error one of a file that was to take the place of this one.
+pub(super) fn not_anew(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
+    move |error| RunFileError::Anew { path: path.into(), reason: hdf5_reason(&error) }
+}
+
+/// The part of an HDF5 message that a user can act on: what the system said, where it is in there.
+pub(super) fn hdf5_reason(error: &hdf5::Error) -> String {
+    let message = error.to_string();
+    let system = message.split_once("error message = '").and_then(|(_, rest)| rest.split_once('\''));
+    system.map_or(message.as_str(), |(system, _)| system).to_owned()
+}
+
+/// Why a run file cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ReadError {
+    /// The system does not give the file.
+    #[error("cannot read {}: {reason}", path.display())]
+    System {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        reason: String,
+    },
+    /// It is no HDF5 file.
+    #[error("{} is no HDF5 file, expected a run file of plateau, which `plateau run` writes", path.display())]
+    NotHdf5 {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It is an HDF5 file that no run wrote.
+    #[error("{} is no run file of plateau: it has no {missing}", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// What every run file has.
+        missing: String,
+    },
+    /// It was written by a later program.
+    #[error(
+        "{} has format_version {found}, expected at most {expected}; read it with the program that wrote it", path.display()
+    )]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: i64,
+        /// The version of this program.
+        expected: i32,
+    },
+    /// Some of it is in other files.
+    #[error("{} is no run file of plateau: {reason}; such a file is read only when all of it is in it", path.display())]
+    Elsewhere {
+        /// The file.
+        path: PathBuf,
+        /// What is where.
+        reason: String,
+    },
+    /// A part of it is missing, cut off or changed.
+    #[error("{} is damaged: {reason}; if it is being written or copied try again, else run its scene again", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
 }

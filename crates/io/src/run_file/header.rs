@@ -1,7 +1,8 @@
-//! What a run file says about its run before the first step.
+//! What a run file says about its run: before the first step, and how it ended.
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::Base;
@@ -10,7 +11,7 @@ use plateau_core::observe::extra::Extra;
 use serde::{Deserialize, Serialize};
 
 use super::RunFileError;
-use crate::digest::sha256;
+use crate::regular::sha256;
 
 /// What is fixed before the first step of a run: its mesh, the maps it records, and where it comes from.
 #[derive(Debug, Clone)]
@@ -86,5 +87,38 @@ impl InputFile {
             }
         }
         Ok(files)
+    }
+}
+
+/// What a run file holds of a run that goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Earlier {
+    /// Samples.
+    pub samples: usize,
+    /// Moments of which there are maps.
+    pub snapshots: usize,
+    /// Wall time of the run so far.
+    pub wall_time: Duration,
+}
+
+/// How a run ended: the `state` of its run file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum End {
+    /// All steps are done.
+    Finished,
+    /// The user stopped the run; what was done is written.
+    Interrupted,
+    /// The run failed; the message goes to the attribute `error`.
+    Failed(String),
+}
+
+impl End {
+    /// Value of the attribute `state`.
+    pub(super) fn state(&self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Interrupted => "interrupted",
+            Self::Failed(_) => "failed",
+        }
     }
 }

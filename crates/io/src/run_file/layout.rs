@@ -1,19 +1,19 @@
 //! Groups, datasets and attributes of a run file before the first step.
 
-use std::str::FromStr;
 use std::time::SystemTime;
 
 use hdf5::plist::file_create::LinkCreationOrder;
-use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Datatype, Extent, File, H5Type, Location, SimpleExtents};
+use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
 use ndarray::s;
 use plateau_core::model::mesh::Mesh;
+use plateau_core::observe::extra::Extra;
 use plateau_core::observe::{Map, quantities};
 
 use super::Header;
 use super::digest::{self, DIGEST};
 use super::dimension::{DIMENSION_LIST, Dimensions};
 use super::status::StoredStatus;
+use crate::hdf5_file::writing::{write_number, write_text};
 use crate::timestamp::iso_8601;
 
 /// `format_version` of the files written here.
@@ -128,22 +128,6 @@ fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Re
     write_text(file, "instruction_set", &header.instruction_set)?;
     write_text(file, "start_time", &iso_8601(start))?;
     write_text(file, "state", "running")
-}
-
-/// Sets a text attribute, new or not.
-pub(crate) fn write_text(location: &Location, name: &str, text: &str) -> hdf5::Result<()> {
-    // HDF5 ends a text at a null character; there is no other way to store one.
-    let text = VarLenUnicode::from_str(&text.replace('\0', "\u{fffd}"))
-        .map_err(|error| hdf5::Error::from(error.to_string()))?;
-    match location.attr(name) {
-        Ok(attribute) => attribute.write_scalar(&text),
-        Err(_) => location.new_attr::<VarLenUnicode>().create(name)?.write_scalar(&text),
-    }
-}
-
-/// Adds an attribute that is one number.
-pub(crate) fn write_number<T: H5Type>(location: &Location, name: &str, number: T) -> hdf5::Result<()> {
-    location.new_attr::<T>().create(name)?.write_scalar(&number)
 }
 
 /// The datasets of a file while they are made.
@@ -317,4 +301,31 @@ impl<'a> Layout<'a> {
 fn write_flags(dataset: &Dataset) -> hdf5::Result<()> {
     dataset.new_attr_builder().with_data(&StoredStatus::FLAG_VALUES).create("flag_values")?;
     write_text(dataset, "flag_meanings", StoredStatus::FLAG_MEANINGS)
+}
+
+/// Bytes of names, attributes and pages that are not full, at most, unless texts are long.
+const STRUCTURE: u64 = 128 * 1024;
+/// Bytes that the library needs to find a chunk, with what deflate adds to data that it cannot shorten.
+const PER_CHUNK: u64 = 64;
+/// Bytes of the digest of a map.
+const PER_MAP: u64 = 128;
+
+/// Bytes of a run file with so many samples and moments with maps, at most: what they take when nothing can be compressed.
+/// Heights and series of a worn pair take about four fifths of that, statuses hardly anything.
+pub fn size_estimate(mesh: &Mesh, maps: &[Map], extras: &[&Extra], samples: u64, moments: u64) -> u64 {
+    let float = size_of::<f64>() as u64;
+    let chunk = series_chunk(samples) as u64;
+    let chunks = samples.div_ceil(chunk);
+    // The times are one more.
+    let series =
+        (quantities(extras).count() as u64 + 1).saturating_mul(chunks).saturating_mul(chunk * float + PER_CHUNK);
+    let map = |map: &Map| {
+        let cells = if map.on_disc() { mesh.disc_cells() } else { mesh.pin_cells() } as u64;
+        // Chunks of maps are large: what they need comes on top as a thousandth part.
+        let bytes = if map.is_status() { cells } else { cells * float };
+        bytes + bytes / 1000 + PER_CHUNK + PER_MAP
+    };
+    let coordinates = (mesh.rows() + mesh.disc_columns() + mesh.pin_columns()) as u64 * float + mesh.pin_cells() as u64;
+    let maps = maps.iter().map(map).sum::<u64>().saturating_mul(moments);
+    STRUCTURE.saturating_add(coordinates).saturating_add(series).saturating_add(maps)
 }

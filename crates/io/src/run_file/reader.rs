@@ -9,8 +9,8 @@ use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{EXTRAS, Map, MapValues, quantities};
 
+use super::error::ReadError;
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
-use super::read_error::ReadError;
 use crate::hdf5_file::{self, OpenError};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};

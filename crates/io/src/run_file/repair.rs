@@ -9,9 +9,10 @@ use plateau_core::observe::quantities;
 use thiserror::Error;
 
 use super::dimension::EMPTY_FILE;
+use super::error::not_anew;
 use super::place::{Place, resolve};
 use super::seal::Seal;
-use super::store::{not_anew, set_up};
+use super::store::set_up;
 use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
 use crate::claim::{Claim, ClaimError};
 use crate::hdf5_file;

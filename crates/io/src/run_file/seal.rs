@@ -9,11 +9,12 @@ use hdf5::File;
 
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
-use super::layout::{TIME, TIME_OF_SERIES, lay_out, write_number, write_text};
+use super::error::{failed, not_anew};
+use super::layout::{TIME, TIME_OF_SERIES, lay_out};
 use super::place::Place;
-use super::store::{failed, not_anew, open};
 use super::{End, Header, RunFileError};
 use crate::hdf5_file;
+use crate::hdf5_file::writing::{open_for_writing, write_number, write_text};
 use crate::timestamp::iso_8601;
 
 /// More bytes than the attributes of the end take but for the digests of maps, and for one of these.
@@ -45,13 +46,13 @@ impl Seal<'_> {
         }
         self.check_room(path).map_err(|error| RunFileError::Write { path: path.into(), reason: error.to_string() })?;
         // A file that readers follow takes no new attributes, so it is opened once more without them.
-        open(path).and_then(|file| self.write(file)).map_err(failed(path))
+        open_for_writing(path).and_then(|file| self.write(file)).map_err(failed(path))
     }
 
     /// Makes the file of a run that has ended, at `place`, of the one that was written while it went on.
     pub(super) fn make(&self, path: &Path, place: &Place) -> hdf5::Result<()> {
         let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
-        let new = open(place.temporary())?;
+        let new = open_for_writing(place.temporary())?;
         lay_out(&new, self.header, self.start_time, Some(&old))?;
         self.write(new)
     }

@@ -5,21 +5,17 @@ use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
-use hdf5::file::{File, FileBuilder};
+use hdf5::File;
 use plateau_core::observe::{Sample, Snapshot};
 
 use super::datasets::Datasets;
 use super::dimension::EMPTY_FILE;
+use super::error::{failed, hdf5_reason, not_anew};
 use super::layout;
 use super::place::Place;
 use super::seal::Seal;
 use super::{Earlier, End, Header, RunFile, RunFileError};
-
-/// Chunk cache of a dataset: slots, bytes, and 1 for "a chunk that is full goes first".
-///
-/// Nothing is read back, so it need hold no more than the chunk of a series that is being filled; a chunk of a map is written
-/// at once. Every dataset has one that grows to its size.
-const CHUNK_CACHE: (usize, usize, f64) = (31, 16 * 1024, 1.0);
+use crate::hdf5_file::writing::open_for_writing;
 
 /// A run file while it is written. Only one thread uses it.
 pub(super) struct Store {
@@ -48,7 +44,7 @@ impl Store {
         let (started, start_time) = (Instant::now(), SystemTime::now());
         let place = Place::prepare(path, overwrite, EMPTY_FILE)?;
         let set_up = set_up(&place, header, start_time);
-        let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), reason(&error)))?;
+        let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), hdf5_reason(&error)))?;
         let identity = identity(place.temporary());
         let path = place.publish()?;
         Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets })
@@ -133,7 +129,7 @@ impl Store {
 
 /// Makes a file at a place, complete but for samples and maps, which readers can follow.
 pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime) -> hdf5::Result<(File, Datasets)> {
-    let file = open(place.temporary())?;
+    let file = open_for_writing(place.temporary())?;
     layout::lay_out(&file, header, start, None)?;
     file.start_swmr()?;
     let datasets = Datasets::open(&file, header)?;
@@ -141,34 +137,6 @@ pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime) -> hdf5:
     Ok((file, datasets))
 }
 
-/// Opens a file for writing, in the format that readers can follow.
-///
-/// Without locks, since many network file systems have none. They would protect nothing: HDF5 gives them up when
-/// readers are let in, and marks the file itself as being written.
-pub(super) fn open(path: &Path) -> hdf5::Result<File> {
-    let (slots, bytes, preemption) = CHUNK_CACHE;
-    FileBuilder::new()
-        .with_fapl(|list| list.libver_v110().file_locking(false).chunk_cache(slots, bytes, preemption))
-        .open_rw(path)
-}
-
 fn identity(path: &Path) -> Option<(u64, u64)> {
     fs::metadata(path).ok().map(|metadata| (metadata.dev(), metadata.ino()))
-}
-
-/// Makes an HDF5 error one of this run file.
-pub(super) fn failed(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
-    move |error| RunFileError::Write { path: path.into(), reason: reason(&error) }
-}
-
-/// Makes an HDF5 error one of a file that was to take the place of this one.
-pub(super) fn not_anew(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
-    move |error| RunFileError::Anew { path: path.into(), reason: reason(&error) }
-}
-
-/// The part of an HDF5 message that a user can act on: what the system said, where it is in there.
-fn reason(error: &hdf5::Error) -> String {
-    let message = error.to_string();
-    let system = message.split_once("error message = '").and_then(|(_, rest)| rest.split_once('\''));
-    system.map_or(message.as_str(), |(system, _)| system).to_owned()
 }

@@ -1,9 +1,10 @@
-//! What is wrong with a scene, and where.
+//! What is wrong with a scene, or deserves attention, and where.
 
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use serde::{Serialize, Serializer};
 use thiserror::Error;
 
 /// Where a value was given.
@@ -90,4 +91,31 @@ impl From<Problem> for SceneError {
     fn from(problem: Problem) -> Self {
         Self { problems: vec![problem] }
     }
+}
+
+/// One thing that a scene can hardly mean: where, which key, what was found, which bound it misses, what to do.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Warning {
+    /// Where the key was given.
+    #[serde(serialize_with = "as_text")]
+    pub place: Origin,
+    /// Full path of the key.
+    pub key: String,
+    /// What was found, with its number.
+    pub found: String,
+    /// The bound that it misses, with its number.
+    pub bound: String,
+    /// What to do.
+    pub advice: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { place, key, found, bound, advice } = self;
+        write!(f, "{place}: {key}: {found}, {bound}; {advice}")
+    }
+}
+
+fn as_text<S: Serializer>(place: &Origin, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(place)
 }

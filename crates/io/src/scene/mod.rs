@@ -3,7 +3,7 @@
 //! ```text
 //! scene file, scenes it extends, --set   layers     one list of keys, each with its place in a text
 //!                                        settings   each key checked by the schema, SI units, defaults
-//!                                        build      what keys say together: mesh, steps, memory -> recipe::Scene
+//!                                        build      what keys say together: mesh, steps, memory -> recipe::Scene (surfaces: those of disc and pin)
 //!                                        resolved   the whole scene as TOML again
 //! ```
 
@@ -18,16 +18,15 @@ pub mod recipe;
 mod resolved;
 pub mod schema;
 mod settings;
-mod warning;
+mod surfaces;
 
 use std::path::Path;
 
 pub use difference::{Difference, differences, values};
-pub use error::{Origin, Problem, SceneError};
+pub use error::{Origin, Problem, SceneError, Warning};
 pub use memory::memory_estimate;
 use recipe::Scene;
 use settings::Settings;
-pub use warning::Warning;
 
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)
 /// and checks everything that can be checked without reading surfaces.

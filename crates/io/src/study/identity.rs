@@ -8,7 +8,7 @@ use std::sync::Mutex;
 
 use sha2::{Digest, Sha256};
 
-use crate::digest::sha256;
+use crate::regular::sha256;
 use crate::scene::recipe::{BaseSource, HeightSource, Scene};
 use crate::scene::schema::{self, Role};
 

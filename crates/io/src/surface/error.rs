@@ -12,8 +12,8 @@ use super::hdf5::Hdf5Error;
 use super::image::ImageError;
 use super::instrument::Instrument;
 use super::npy::NpyError;
+use super::options::Disagreement;
 use super::sdf::SdfError;
-use super::stated::Disagreement;
 use super::text::TextError;
 use super::x3p::X3pError;
 

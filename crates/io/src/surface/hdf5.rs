@@ -9,7 +9,7 @@ use plateau_core::model::state::Base;
 use plateau_core::surface::Patch;
 use thiserror::Error;
 
-use super::limits::MOST_POINTS;
+use super::options::MOST_POINTS;
 use crate::hdf5_file::{self, OpenError, text_attribute};
 
 /// Why an HDF5 file gives no surface.

@@ -1,5 +1,6 @@
 //! From the recipes of a scene to the surfaces before the first step.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use plateau_core::model::mesh::Mesh;
@@ -9,10 +10,11 @@ use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction};
 
 use super::error::{FileError, SurfaceError};
-use super::format::{Format, detect};
-use super::inputs::Inputs;
-use super::measured::{ReadOptions, read};
+use super::format::Format;
+use super::measured::{detect, read};
+use super::options::ReadOptions;
 use super::{hdf5, image};
+use crate::regular::sha256;
 use crate::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene};
 
 /// The surfaces of a scene, ready for the first step.
@@ -260,4 +262,17 @@ fn spread(heights: &[f64]) -> String {
         if skewness.is_nan() { String::new() } else { format!(", skewness {skewness:.3}, kurtosis {kurtosis:.3}") };
     let rms = Length(root_mean_square_height);
     format!("heights from {} to {}, rms {rms}{shape}", Length(lowest), Length(highest))
+}
+
+/// Every surface file with its SHA-256 in hexadecimal digits, each file once.
+#[derive(Debug, Default)]
+struct Inputs(Vec<(PathBuf, String)>);
+
+impl Inputs {
+    fn add(&mut self, path: &Path) -> io::Result<()> {
+        if !self.0.iter().any(|(known, _)| known == path) {
+            self.0.push((path.to_owned(), sha256(path)?));
+        }
+        Ok(())
+    }
 }

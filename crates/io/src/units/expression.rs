@@ -4,7 +4,10 @@ use std::f64::consts::{PI, TAU};
 use std::iter::Peekable;
 use std::str::Chars;
 
-use super::Powers;
+/// Powers of length, mass, time and plane angle.
+///
+/// The angle counts as a dimension of its own, for only so does "14 Hz" differ from "14 rad/s".
+pub(super) type Powers = [i32; 4];
 
 /// A unit in terms of SI: 10^tens · times / over of the SI unit with these powers.
 ///

@@ -48,8 +48,8 @@ mod prediction;
 mod pure_error;
 mod regressors;
 mod residual;
+mod response_surface;
 mod result;
-mod surface;
 mod terms;
 
 pub use analysis::{Options, analyse};
@@ -61,8 +61,8 @@ pub use misfit::{Better, Misfit};
 pub use model::Model;
 pub use no_squares::{NoSquares, no_squares};
 pub use observation::Observation;
+pub use response_surface::{Nature, Polynomial, Stationary, Surface};
 pub use result::{
     Effects, ErrorSource, Estimate, Fitted, HalfNormal, LeftOut, Prediction, Residual, ResidualParts, Squares, Term,
     Test, Uncertainty,
 };
-pub use surface::{Nature, Polynomial, Stationary, Surface};

@@ -11,7 +11,7 @@ use plateau_core::surface::micrograph::Picture;
 use raster::{Colour, Raster, Samples};
 
 use super::format::Format;
-use super::measured::ReadOptions;
+use super::options::ReadOptions;
 
 /// Heights of an image, m, column by column.
 #[derive(Debug)]

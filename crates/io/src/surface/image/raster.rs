@@ -6,8 +6,8 @@ use png::{BitDepth, ColorType, Transformations};
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::ImageError;
-use crate::surface::limits::{MOST_POINTS, inflated};
+use super::error::ImageError;
+use crate::surface::options::{MOST_POINTS, inflated};
 
 /// Pixels line by line, the first line at the top.
 #[derive(Debug, PartialEq)]

@@ -3,7 +3,6 @@
 mod error;
 mod header;
 mod number;
-mod preamble;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Cursor, Read, Write};
@@ -13,11 +12,11 @@ use plateau_core::surface::Patch;
 use zip::ZipArchive;
 
 pub use error::NpyError;
+pub(crate) use header::preamble;
 use header::{HEAD, Header};
 use number::Number;
-pub(crate) use preamble::preamble;
 
-use super::limits::inflated;
+use super::options::inflated;
 
 /// An array as heights, column by column.
 #[derive(Debug)]

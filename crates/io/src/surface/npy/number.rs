@@ -1,6 +1,6 @@
 //! The numbers that an array can hold.
 
-use super::NpyError;
+use super::error::NpyError;
 
 /// A type of number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

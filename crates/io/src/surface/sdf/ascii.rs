@@ -6,12 +6,10 @@ use std::io::BufRead;
 
 use plateau_core::surface::Patch;
 
-use super::Surface;
 use super::error::{Position, SdfError};
-use super::header::{Header, RawHeader};
-use super::kind::{Dialect, Encoding, SdfKind};
+use super::header::{Header, RawHeader, Surface};
+use super::kind::{Dialect, Encoding, SdfKind, without_margin};
 use super::lexer::Lexer;
-use crate::surface::format::without_margin;
 
 /// Most fields of a header; the standard has 12.
 const MOST_FIELDS: usize = 100;

@@ -2,9 +2,8 @@
 
 use std::io::{BufRead, ErrorKind, Read};
 
-use super::Surface;
 use super::error::{Position, SdfError};
-use super::header::{Header, RawHeader};
+use super::header::{Header, RawHeader, Surface};
 use super::kind::{Dialect, Encoding, SdfKind};
 
 /// Bytes before the counts: magic 8, ManufacID 10, CreateDate 12, ModDate 12.

@@ -7,6 +7,15 @@ use super::kind::Dialect;
 use super::number::DataType;
 use crate::surface::profiles::Profiles;
 
+/// What an SDF file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// The heights.
+    pub patch: Patch,
+    /// What is odd about the file though its heights could be read.
+    pub warnings: Vec<String>,
+}
+
 /// The numbers of a header as they stand in the file, with where they stand.
 pub(super) struct RawHeader {
     pub(super) points: (i64, Position),

@@ -85,3 +85,8 @@ impl fmt::Display for SdfKind {
         write!(f, "{} {encoding}", self.dialect)
     }
 }
+
+/// Text without a byte order mark and leading blanks.
+pub(in crate::surface) fn without_margin(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start()
+}

@@ -15,21 +15,12 @@ mod number;
 mod write;
 
 pub use error::{Position, SdfError};
+pub use header::Surface;
+pub(super) use kind::without_margin;
 pub use kind::{Dialect, Encoding, SdfKind};
 pub(super) use write::{check, most_points, write};
 
 use std::io::BufRead;
-
-use plateau_core::surface::Patch;
-
-/// What an SDF file holds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
-    /// The heights.
-    pub patch: Patch,
-    /// What is odd about the file though its heights could be read.
-    pub warnings: Vec<String>,
-}
 
 /// Reads an SDF file of `length` bytes, from its start. Memory beyond the heights is a few profiles.
 ///

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::surface::stated::Disagreement;
+use crate::surface::options::Disagreement;
 
 /// Why a text file gives no surface. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -17,8 +17,7 @@ pub use error::TextError;
 use header::{Header, Names};
 use list::Points;
 
-use super::measured::ReadOptions;
-use super::stated::{agreed, agreed_pitch};
+use super::options::{ReadOptions, agreed, agreed_pitch};
 
 /// A matrix of three columns and more lines than this is more likely a list of points off a grid.
 const THREE_COLUMNS: usize = 100;

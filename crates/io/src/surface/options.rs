@@ -1,7 +1,21 @@
-//! What both a file and a scene may state: they must not contradict each other.
+//! What a scene says of a surface file, where the file may say it, too, and how much any file may make the program allocate.
 
 use plateau_core::surface::Length;
 use thiserror::Error;
+
+/// What a user says of a file that the file itself does not.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Dataset in an HDF5 file, or array in an .npz archive.
+    pub dataset: Option<String>,
+    /// What the number 1 stands for, m; for text that does not state its unit, for NumPy arrays in another unit than m
+    /// and for images of decimal heights.
+    pub unit: Option<f64>,
+    /// Distance of neighbouring points along x and y, m; for files that do not state it.
+    pub pitch: Option<[f64; 2]>,
+    /// Heights of black and white of an image, m.
+    pub height_range: Option<[f64; 2]>,
+}
 
 /// What file and scene state is the same if it differs by no more than this fraction: headers have few digits.
 const SAME: f64 = 0.01;
@@ -36,4 +50,15 @@ pub(super) fn agreed_pitch(file: Option<[f64; 2]>, scene: Option<[f64; 2]>) -> R
         agreed("pitch", file.map(|pitch| pitch[axis]), scene.map(|pitch| pitch[axis]))?;
     }
     Ok(scene.or(file))
+}
+
+/// Points of the largest grid that is read (2 GiB of heights): a shape can promise more than any memory holds.
+pub(super) const MOST_POINTS: usize = 1 << 28;
+
+/// Bytes that deflate makes of one at most (RFC 1951: 258 bytes of two bits, and a little).
+pub(super) const MOST_INFLATED: usize = 1032;
+
+/// What a file of so many bytes can hold at most when it is deflated.
+pub(super) fn inflated(bytes: usize) -> usize {
+    bytes.saturating_mul(MOST_INFLATED)
 }

@@ -1,0 +1,117 @@
+//! Claims of processes that live, that have ended, and that meet.
+
+use std::process::Command;
+use std::sync::Barrier;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::*;
+
+/// A lock that a process left which was killed.
+fn leave(lock: &Path) -> Owner {
+    let mut child = Command::new("true").spawn().unwrap();
+    let mut owner = Owner::this();
+    owner.writer = serde_json::from_value(serde_json::json!({
+        "host": owner.writer.host, "process": child.id(), "started": 1, "boot": "before", "numbers": "", "user": 0,
+    }))
+    .unwrap();
+    child.wait().unwrap();
+    fs::write(lock, serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+    owner
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_claim_is_one_process_s_until_it_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let claim = Claim::of(&path).unwrap();
+    assert_eq!(names(folder.path()), ["run.h5.lock"]);
+    for refused in [Claim::of(&path).map(drop), Claim::check(&path)] {
+        let message = refused.unwrap_err().to_string();
+        assert!(message.contains(&format!("being written by process {}, since 20", std::process::id())), "{message}");
+    }
+    assert_eq!(names(folder.path()), ["run.h5.lock"]);
+    drop(claim);
+    Claim::check(&path).unwrap();
+    drop(Claim::of(&path).unwrap());
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
+fn a_link_is_claimed_where_it_points_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let [real, link] = ["run.h5", "link.h5"].map(|name| folder.path().join(name));
+    fs::write(&real, "").unwrap();
+    std::os::unix::fs::symlink(&real, &link).unwrap();
+    let _claim = Claim::of(&link).unwrap();
+    assert!(matches!(Claim::of(&real), Err(ClaimError::Here { .. })));
+}
+
+#[test]
+fn of_many_that_find_a_lock_left_over_one_has_it_at_a_time() {
+    const MANY: usize = 8;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let (holders, taken, start) = (AtomicUsize::new(0), AtomicUsize::new(0), Barrier::new(MANY));
+    for round in 0..100 {
+        let left = leave(&lock_of(&path));
+        // In some rounds one was killed that was about to take it over.
+        if round % 3 == 0 {
+            leave(&right_to(&lock_of(&path), &left.number));
+        }
+        thread::scope(|scope| {
+            for _ in 0..MANY {
+                scope.spawn(|| {
+                    start.wait();
+                    let Ok(claim) = Claim::of(&path) else { return };
+                    assert_eq!(holders.fetch_add(1, Ordering::SeqCst), 0, "round {round}");
+                    taken.fetch_add(1, Ordering::SeqCst);
+                    thread::yield_now();
+                    holders.fetch_sub(1, Ordering::SeqCst);
+                    drop(claim);
+                });
+            }
+        });
+        assert!(taken.swap(0, Ordering::SeqCst) > 0, "round {round}: nobody got it");
+        assert_eq!(names(folder.path()), [""; 0], "round {round}");
+    }
+}
+
+#[test]
+fn who_may_live_elsewhere_is_named_with_the_file_to_remove() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let mut owner = leave(&lock_of(&path));
+    owner.writer.host = "node17".into();
+    let text = serde_json::to_string(&owner).unwrap() + "\n";
+    fs::write(lock_of(&path), &text).unwrap();
+    let message = Claim::of(&path).unwrap_err().to_string();
+    assert!(message.contains("on the machine node17"), "{message}");
+    assert!(message.ends_with(&format!("remove {}", lock_of(&path).display())), "{message}");
+    assert_eq!(fs::read_to_string(lock_of(&path)).unwrap(), text);
+}
+
+#[test]
+fn what_is_no_lock_is_named_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let lock = lock_of(&path);
+    for content in [b"notes".as_slice(), b"{}\n", b"\xff\xfe", &[b'a'; 5000], b"{\"plateau_lock\":1,"] {
+        fs::write(&lock, content).unwrap();
+        let refused = Claim::of(&path).unwrap_err();
+        assert!(matches!(refused, ClaimError::Foreign { .. }), "{refused}");
+        assert_eq!(fs::read(&lock).unwrap(), content);
+    }
+    fs::remove_file(&lock).unwrap();
+    assert!(Command::new("mkfifo").arg(&lock).status().unwrap().success());
+    assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })));
+    fs::remove_file(&lock).unwrap();
+    fs::create_dir(&lock).unwrap();
+    assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })));
+}

@@ -1,0 +1,102 @@
+//! Journals of several processes, torn ones, and ones that are made smaller.
+
+use super::*;
+use crate::study::record::Series;
+
+fn record(identity: &str, finished: bool) -> Record {
+    let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
+    let outcome =
+        if finished { Outcome::Finished { steps: 2, series } } else { Outcome::Failed { error: "no".into() } };
+    let (host, end_time) = ("h".into(), "now".into());
+    Record { identity: identity.into(), run: 1, outcome, wall_time: 0.5, host, end_time }
+}
+
+fn identities(folder: &Path) -> Vec<(String, bool)> {
+    let journal = Journal::read(folder).unwrap();
+    let entries = journal.entries.iter();
+    entries
+        .map(|(identity, entry)| {
+            let record = entry.record().unwrap();
+            assert_eq!(record.identity, *identity);
+            (record.identity, matches!(record.outcome, Outcome::Finished { .. }))
+        })
+        .collect()
+}
+
+#[test]
+fn records_come_back_and_a_torn_line_is_passed_over() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut shard = Shard::create(folder.path(), "h").unwrap();
+    shard.append(&record("a", true)).unwrap();
+    shard.append(&record("b", false)).unwrap();
+    let path = shard.path.clone();
+    shard.close().unwrap();
+    let bytes = fs::read(path.with_extension(COMPLETE)).unwrap();
+    let whole = bytes.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+    for length in 0..=bytes.len() {
+        fs::write(path.with_extension(COMPLETE), &bytes[..length]).unwrap();
+        let expected = usize::from(length >= whole) + usize::from(length == bytes.len());
+        assert_eq!(identities(folder.path()).len(), expected, "cut at {length}");
+    }
+    // Any changed bit is found.
+    for at in (0..whole).step_by(7) {
+        let mut changed = bytes.clone();
+        changed[at] ^= 1;
+        fs::write(path.with_extension(COMPLETE), &changed).unwrap();
+        assert!(!identities(folder.path()).contains(&("a".into(), true)), "bit of byte {at}");
+    }
+}
+
+#[test]
+fn what_finished_counts_more_than_what_failed() {
+    let folder = tempfile::tempdir().unwrap();
+    for finished in [false, true, false] {
+        let mut shard = Shard::create(folder.path(), "h").unwrap();
+        shard.append(&record("a", finished)).unwrap();
+        shard.close().unwrap();
+    }
+    assert_eq!(identities(folder.path()), [("a".to_owned(), true)]);
+}
+
+#[test]
+fn merging_keeps_every_record_in_few_files() {
+    let folder = tempfile::tempdir().unwrap();
+    for number in 0..30 {
+        let mut shard = Shard::create(folder.path(), "h").unwrap();
+        shard.append(&record(&format!("{number:02}"), true)).unwrap();
+        shard.close().unwrap();
+        merge(folder.path(), "h").unwrap();
+        assert!(shards(folder.path()).unwrap().len() <= FEW);
+    }
+    assert_eq!(identities(folder.path()).len(), 30);
+}
+
+#[test]
+fn a_writer_taken_for_dead_loses_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut shard = Shard::create(folder.path(), "h").unwrap();
+    shard.append(&record("a", true)).unwrap();
+    // As if another machine had given this process's number to nobody.
+    fs::rename(&shard.path, shard.path.with_extension(COMPLETE)).unwrap();
+    shard.append(&record("b", true)).unwrap();
+    shard.append(&record("c", true)).unwrap();
+    shard.close().unwrap();
+    assert_eq!(identities(folder.path()).len(), 3);
+}
+
+#[test]
+fn shards_of_processes_that_are_gone_are_merged() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut living = Shard::create(folder.path(), "h").unwrap();
+    living.append(&record("living", true)).unwrap();
+    for number in 0..12 {
+        let name = format!("h_{}_{number:x}-0.{OPEN}", u32::MAX - number);
+        fs::write(folder.path().join(name), line(&record(&format!("dead {number}"), true)).unwrap()).unwrap();
+        let name = format!("elsewhere_{}_{number:x}-0.{OPEN}", u32::MAX - number);
+        fs::write(folder.path().join(name), line(&record(&format!("far {number}"), true)).unwrap()).unwrap();
+    }
+    merge(folder.path(), "h").unwrap();
+    // One for the dead; who is elsewhere may be alive.
+    assert_eq!(shards(folder.path()).unwrap().len(), 1 + 1 + 12);
+    assert_eq!(identities(folder.path()).len(), 25);
+}
