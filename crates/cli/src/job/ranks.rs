@@ -110,17 +110,17 @@ impl Job {
         if self.ranks() == 1 {
             return Hand::new(pieces, most_failures).share(jobs, work).map_err(Failure::run);
         }
-        let desk = self.session.desk();
+        let queue = self.session.work_queue();
         if !self.leads() {
             let mut went = Went::Well;
-            while let Some(piece) = desk.ask(went as u64) {
+            while let Some(piece) = queue.ask(went as u64) {
                 went = work(piece);
                 if went == Went::Stopped {
                     break;
                 }
             }
             if went == Went::Stopped {
-                desk.ask(went as u64);
+                queue.ask(went as u64);
             }
             return Ok(());
         }
@@ -129,7 +129,7 @@ impl Job {
             let own = scope.spawn(|| hand.work(work));
             let mut others = self.ranks() - 1;
             while others > 0 || !own.is_finished() {
-                let Some((rank, word)) = desk.request() else {
+                let Some((rank, word)) = queue.request() else {
                     thread::sleep(PAUSE);
                     continue;
                 };
@@ -138,7 +138,7 @@ impl Job {
                 // Who stopped wants no more.
                 let piece = if went == Some(Went::Stopped) { None } else { hand.next() };
                 others -= usize::from(piece.is_none());
-                desk.answer(rank, piece);
+                queue.answer(rank, piece);
             }
         });
         Ok(())
