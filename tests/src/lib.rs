@@ -6,4 +6,5 @@ pub mod figure;
 pub mod patience;
 pub mod program;
 pub mod run_file;
+#[path = "../../crates/core/tests/scenes.rs"]
 pub mod scenes;

@@ -251,7 +251,7 @@ fn pressures_that_were_not_kept_are_not_reported() {
             let execution = Execution { workers, ..Execution::default() };
             let mut pair = [scene.start(execution), scene.start(execution)];
             pair[0].pass_to(149).expect("steps");
-            // A crew that answered with an error gives no other answers: asked of one that is dropped.
+            // Threads that answered with an error give no other answers: asked of ones that are dropped.
             let mut passed = scene.start(execution);
             passed.pass_to(20).expect("steps");
             assert_eq!(passed.snapshot(&[Map::DiscHeight]).map(drop), Ok(()));

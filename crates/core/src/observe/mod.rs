@@ -69,9 +69,9 @@ pub struct Sample {
     pub balance_residual: f64,
     /// Acceleration that the run chose itself, if it does so.
     pub acceleration: Option<ChosenAcceleration>,
-    /// Roughness of disc and pin, if it was asked for ([`crate::simulation::Simulation::roughness`]).
+    /// Roughness of disc and pin, if it was asked for.
     pub roughness: Option<BothRoughness>,
-    /// Spread of the pressures, if it was asked for ([`crate::simulation::Simulation::pressure_spread`]).
+    /// Spread of the pressures, if it was asked for.
     pub pressure_spread: Option<PressureSpread>,
 }
 

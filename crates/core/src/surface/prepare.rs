@@ -1,8 +1,7 @@
 //! The preparation chain of a surface.
 
-use super::fill::{Fill, fill};
 use super::level::{Level, level, mean, rms};
-use super::outliers::remove_outliers;
+use super::missing::{Fill, fill, remove_outliers};
 use super::preparation_error::PreparationError;
 use super::resample::resample;
 use super::{Body, Length, Patch};

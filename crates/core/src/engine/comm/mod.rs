@@ -4,8 +4,8 @@
 pub mod mpi;
 #[cfg(feature = "mpi")]
 mod mpi_job;
-pub mod single;
-pub mod threads;
+pub(crate) mod single;
+pub(crate) mod threads;
 #[cfg(feature = "mpi")]
 mod work_queue;
 
