@@ -6,6 +6,7 @@ pub mod figure;
 pub mod patience;
 pub mod program;
 pub mod run_file;
+#[path = "../../crates/core/tests/scenes.rs"]
 pub mod scenes;
 pub mod table;
 pub mod vector;

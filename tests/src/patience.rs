@@ -1,13 +1,8 @@
-//! How long tests take: how often they try something, and when they give up what hangs.
+//! When tests give up what hangs.
 
 use std::panic::resume_unwind;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
-
-/// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
-pub fn few_or_all<T>(few: T, all: T) -> T {
-    if std::env::var_os("PLATEAU_LONG").is_some() { all } else { few }
-}
 
 /// Does something on a thread of its own and gives what it gives.
 ///

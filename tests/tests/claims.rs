@@ -8,10 +8,10 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
 use plateau_tests::scenes::Stream;
+use plateau_tests::scenes::few_or_all;
 
 /// A run of about a second with many samples and checkpoints.
 fn racer(directory: &WorkingDirectory, file: &str, more: &str) -> Command {

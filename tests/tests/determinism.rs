@@ -10,8 +10,9 @@ use plateau_core::observe::{Map, Sample};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::{scene as scene_file, surface};
 use plateau_tests::divergence::{differences, first_divergence};
-use plateau_tests::patience::{few_or_all, within};
+use plateau_tests::patience::within;
 use plateau_tests::program::scene;
+use plateau_tests::scenes::few_or_all;
 use plateau_tests::scenes::{random_surfaces, wear_only};
 
 /// Numbers of workers: fewer and more than cores, even and odd.
@@ -252,7 +253,7 @@ fn pressures_that_were_not_kept_are_not_reported() {
             let execution = Execution { workers, ..Execution::default() };
             let mut pair = [scene.start(execution), scene.start(execution)];
             pair[0].pass_to(149).expect("steps");
-            // A crew that answered with an error gives no other answers: asked of one that is dropped.
+            // Threads that answered with an error give no other answers: asked of ones that are dropped.
             let mut passed = scene.start(execution);
             passed.pass_to(20).expect("steps");
             assert_eq!(passed.snapshot(&[Map::DiscHeight]).map(drop), Ok(()));

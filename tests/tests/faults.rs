@@ -10,9 +10,9 @@ use std::path::Path;
 use std::process::Command;
 
 use plateau_tests::fault::{Fault, count, strike};
-use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{WorkingDirectory, run, scene};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
+use plateau_tests::scenes::few_or_all;
 
 /// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {

@@ -1,11 +1,10 @@
-//! The end-to-end tests: the program as its users call it, and the physics against closed forms and vectors. One program, for every one that is linked takes time.
+//! The end-to-end tests: the program as its users call it, and the physics of scenes that come from files. One program, for every one that is linked takes time.
 
 mod accuracy_command;
 mod adaptive;
 mod bad_input;
 mod checkpoint;
 mod claims;
-mod closed_forms;
 mod commands;
 mod determinism;
 mod documentation;
@@ -16,10 +15,8 @@ mod guide;
 mod help;
 mod integrity;
 mod killed;
-mod laws;
 mod metrology;
 mod million;
-mod model;
 mod not_finite;
 mod plausible;
 mod plot_command;

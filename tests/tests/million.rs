@@ -7,7 +7,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::DebrisRule;
 use plateau_core::simulation::Simulation;
 use plateau_io::{scene, surface};
-use plateau_tests::patience::few_or_all;
+use plateau_tests::scenes::few_or_all;
 
 /// Σ A (heights − others).
 fn volume_between(mesh: &Mesh, heights: &[f64], others: &[f64]) -> f64 {

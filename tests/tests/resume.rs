@@ -8,10 +8,10 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::Stream;
+use plateau_tests::scenes::few_or_all;
 
 /// A run of some seconds with many samples, some maps and a checkpoint every few hundredths of a second.
 fn arguments(file: &str, more: &[&str]) -> Vec<String> {

@@ -9,35 +9,35 @@
 //! | h_m | m | height that resin loses when it touches | [`material`](model::material) |
 //! | F_N, ω, h, m | N, rad/s, m, 1 | load, rotational speed, foundation height, time acceleration | [`parameters`](model::parameters) |
 //! | z_d, b_d, z_p, b_p | m | surface and substrate height of disc and pin | [`state`](model::state) |
-//! | k = E*/h | Pa/m | stiffness per area of a pair | [`pair`](engine::pair) |
-//! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | [`contact`](engine::contact) |
-//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | [`debris`](engine::debris), [`plateau`](engine::plateau) |
+//! | k = E*/h | Pa/m | stiffness per area of a pair | `engine::pair` |
+//! | δ, u, p | m, m, Pa | displacement of the pin, overlap, pressure p = k u | `engine::contact` |
+//! | M, s, η, β | m³, m, 1, 1 | debris pool, its share per open cell, captured fraction, pad share | `engine::debris`, `engine::plateau` |
 //!
 //! # One step
-//! | model | equation | where |
-//! |---|---|---|
-//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pair::Coefficients`](engine::pair::Coefficients) |
-//! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`contact::Contact::balance`](engine::contact::Contact::balance) |
-//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`pair::Coefficients`](engine::pair::Coefficients), [`wear`](engine::wear) |
-//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | `kernel::deposit` |
-//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`plateau`](engine::plateau) |
-//! | 4P formation | d = min(γ, s), s = M/S | [`debris::Debris::prepare`](engine::debris::Debris::prepare), [`plateau`](engine::plateau) |
-//! | 4P balance | M ← M + η worn + returned − deposited | [`debris::Debris::settle`](engine::debris::Debris::settle) |
-//! | 4.6 advance | t += m Δt | [`simulation::Simulation::advance_to`] |
-//! | 5 report | | [`simulation::Simulation::sample`], [`simulation::Simulation::snapshot`], [`simulation::Simulation::sample_with`] |
+//! | model | equation | as it is read | in the engine |
+//! |---|---|---|---|
+//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pairs`](model::step::pairs) | `pair::Coefficients` |
+//! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`balance`](model::step::balance) | `contact::Contact::balance` |
+//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`](model::step::wear) | `pair::Coefficients`, `wear` |
+//! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | [`deposit_locally`](model::step::deposit_locally) | `kernel::deposit` |
+//! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`destroy`](model::step::destroy) | `plateau` |
+//! | 4P formation | d = min(γ, s), s = M/S | [`form`](model::step::form) | `debris::Debris::prepare`, `plateau` |
+//! | 4P balance | M ← M + η worn + returned − deposited | [`advance`](model::step::advance) | `debris::Debris::settle` |
+//! | 4.6 advance | t += m Δt | [`advance`](model::step::advance) | `worker` |
 //!
-//! [`model::step`] is all of it as it is read, cell by cell. The engine takes the same steps: `worker` takes the rules in turn,
+//! [`Simulation`](simulation::Simulation) takes the steps and reports (5). [`model::step`] is all of it as it is read, cell by
+//! cell. The [`engine`] takes the same steps: `worker` takes the rules in turn,
 //! those of eight cells are `kernel::worn` (4.2) and `kernel::cells` (4P), that of a cell with local debris `kernel::deposit` (4L).
 //!
 //! # How a step is carried out
 //! - One pass over the pin a step. In the next step the disc column under pin column j lies under column j + 1, so the
 //!   pass that updates the cells also reads the gaps of the next step, against a bracket around the displacement that is
-//!   expected ([`forecast`](engine::forecast)): sums over the pairs that surely touch, and a list of the few of which it is not sure. The
-//!   load is piecewise linear, so that this is enough to solve the balance exactly ([`contact`](engine::contact)).
-//! - Eight cells of one strip at a time ([`strips`](engine::strips)), the same source for every instruction set ([`kernel`](engine::kernel)).
+//!   expected (`forecast`): sums over the pairs that surely touch, and a list of the few of which it is not sure. The
+//!   load is piecewise linear, so that this is enough to solve the balance exactly (`contact`).
+//! - Eight cells of one strip at a time (`strips`, `pin_strips`), the same source for every instruction set ([`kernel`](engine::kernel)).
 //! - Between two steps the complete state can be taken out and put into another simulation ([`checkpoint`](simulation::checkpoint)).
-//! - Sums are integers, so they do not depend on the order of the cells ([`exact`](engine::exact), [`sums`](engine::sums)).
-//! - The ring is divided into sectors ([`sector`](engine::sector)) that belong to workers: threads or processes that tell each other those
+//! - Sums are integers, so they do not depend on the order of the cells (`quantum`, `exact`, `sums`).
+//! - The ring is divided into sectors (`sector`) that belong to workers: threads or processes that tell each other those
 //!   sums and hand on the pin columns that cross from sector to sector ([`comm`](engine::comm)).
 //!
 //! # Range of validity

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use crate::model::material::{Material, Materials};
 use crate::model::mesh::Mesh;
 use crate::model::parameters::{Integrator, Parameters, PlateauRules};
-use crate::model::state::{Base, InitialSurfaces};
-use crate::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation, RawHeights, Texture};
+use crate::model::state::InitialSurfaces;
+use crate::surface::{Body, FibreSynthesis, HeightSynthesis, Preparation, RawHeights, Texture, set_back_resin};
 
 impl Parameters {
     /// The paper's baseline with local debris, m = 1: `data/scenes/cermet.toml` but for its time acceleration.
@@ -54,8 +54,7 @@ impl InitialSurfaces {
         let fibres = FibreSynthesis { seed: 2, fibre_fraction: 0.3, fibre_length: 400e-6, fibre_width: 100e-6 };
         let pin_base = fibres.base(mesh)?;
         let mut pin_height = heights(3, 0.5e-6, 100e-6, None).field(Body::Pin, mesh)?;
-        let resin = pin_height.iter_mut().zip(&pin_base).filter(|(_, base)| **base == Base::None);
-        resin.for_each(|(height, _)| *height += 8e-6);
+        set_back_resin(&mut pin_height, &pin_base, 8e-6);
         Ok(Self {
             disc_height: cut.apply(RawHeights::OnMesh(disc), false, Body::Disc, mesh)?.heights,
             pin_height,

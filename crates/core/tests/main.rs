@@ -1,8 +1,12 @@
 //! What the crate promises, from outside. One program, for every one that is linked takes time.
 
+mod closed_forms;
 mod description;
 mod extremes;
+mod laws;
+mod model;
 mod preparation;
+mod scenes;
 mod synthesis;
 mod synthesis_bits;
 mod synthesis_moments;

@@ -6,9 +6,9 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::patience::few_or_all;
 use plateau_tests::program::{WorkingDirectory, kill, wait_until};
 use plateau_tests::scenes::Stream;
+use plateau_tests::scenes::few_or_all;
 
 use super::{directory, records, results, study, sweep};
 

@@ -102,7 +102,7 @@ impl Choice {
     }
 
     /// Goes back to m = 1, whose error is 0.
-    pub fn give_up(&mut self) {
+    pub(crate) fn give_up(&mut self) {
         *self = Self::within(self.tolerance, 1.0, self.window, self.revolution);
     }
 

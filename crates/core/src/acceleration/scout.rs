@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::acceleration::choice::{Adaptive, Choice, RATIO};
 use crate::acceleration::smoothness::Smoothness;
-use crate::simulation::checkpoint::Checkpoint;
+use crate::engine::checkpoint::Checkpoint;
 use crate::simulation::{Simulation, SimulationError};
 
 /// A simulation of the same surfaces as a run, with [`RATIO`] times its acceleration.

@@ -53,7 +53,7 @@ impl Smoothness {
     }
 
     /// Whether a disc of these heights (m, column by column) is too smooth.
-    pub fn forbids(&self, parameters: &Parameters, disc_height: &[f64]) -> bool {
+    pub(crate) fn forbids(&self, parameters: &Parameters, disc_height: &[f64]) -> bool {
         root_mean_square_along_tracks(&parameters.mesh, disc_height) < ROUGH_ENOUGH * self.recession
     }
 }

@@ -6,40 +6,11 @@
 //! the reading tells where to read next.
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use crate::engine::exact::{Weights, float};
 use crate::engine::kernel::{Bracket, NearPair};
 use crate::engine::sums::{PairSums, RowWeights, Sums};
-
-/// Why no displacement carries the load.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ContactError {
-    /// Heights or stiffness left the range of floating-point numbers.
-    #[error(
-        "the load balance has no finite solution (displacement {displacement:e} m carries {load:e} N of \
-         {normal_force:e} N): heights, stiffness or load are out of the range of floating-point numbers"
-    )]
-    NotFinite {
-        /// δ reached, m.
-        displacement: f64,
-        /// Σ k A u there, N.
-        load: f64,
-        /// F_N, N.
-        normal_force: f64,
-    },
-    /// The overlap that carries the load is less than the rounding of the heights.
-    #[error(
-        "nothing carries the load of {normal_force:e} N: at gaps of {displacement:e} m the overlap that would is lost in \
-         rounding; check the unit and the scale of the heights"
-    )]
-    NotCarried {
-        /// δ reached, m.
-        displacement: f64,
-        /// F_N, N.
-        normal_force: f64,
-    },
-}
+use crate::model::ContactError;
 
 /// What a reading says about the balance.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,13 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4L and 4P).
 
 use crate::engine::contact::Contact;
-use crate::engine::exact::{Quantum, float};
+use crate::engine::exact::float;
 use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::pair::Coefficients;
 use crate::engine::parts::Needs;
+use crate::engine::quantum::Quantum;
+use crate::engine::running_sum::RunningSum;
 use crate::engine::strips::strips;
-use crate::engine::sum::RunningSum;
 use crate::engine::sums::{RowWeights, Sums};
 use crate::model::parameters::{DebrisRule, Parameters};
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,26 @@
-//! Contact area over the steps: mean over the last revolution and integral over time (model section 5).
+//! What the steps so far were like; contact area over them: mean over the last revolution and integral over time (model
+//! section 5).
 
-use crate::engine::sum::RunningSum;
 use serde::{Deserialize, Serialize};
+
+use crate::engine::running_sum::RunningSum;
+
+/// What the steps so far were like.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Course {
+    /// Steps done.
+    pub steps: u64,
+    /// t, s.
+    pub time: f64,
+    /// Contact area of the last step, m².
+    pub contact_area: f64,
+    /// Σ contact area · m Δt since t = 0, m² s.
+    pub contact_area_integral: f64,
+    /// Largest load residual of any step.
+    pub largest_load_residual: f64,
+    /// Passes over the pin beyond one a step: each is a bracket that missed the displacement.
+    pub extra_readings: u64,
+}
 
 /// What a sample needs to know of the steps before its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -4,33 +4,39 @@
 //!
 //! | module | what it is |
 //! |---|---|
-//! | [`lanes`] | what the kernels ask of a processor |
-//! | [`exact`], [`sums`], [`sum`] | sums as integers, so that the order of cells does not show; sums over time that do not drift |
-//! | [`strips`], [`sector`] | heights as the kernels read them; the ring in sectors and bands |
+//! | `lanes` | what the kernels ask of a processor |
+//! | `quantum`, `exact`, `sums`, `running_sum` | sums as integers, so that the order of cells does not show; sums over time that do not drift |
+//! | `strips`, `pin_strips`, `sector` | heights as the kernels read them; the ring in sectors and bands |
 //! | [`parts`] | which parts of the model a scene needs |
-//! | [`pair`], [`wear`], [`plateau`], [`debris`] | the rules, one for each file |
-//! | [`contact`], [`forecast`] | the displacement, and where it is expected next |
+//! | `pair`, `wear`, `plateau`, `debris` | the rules, one for each file |
+//! | `contact`, `forecast` | the displacement, and where it is expected next |
 //! | [`kernel`] | the loops over cells |
-//! | [`history`], [`filling`] | what is added up over steps and cells to be reported |
+//! | `history`, `filling` | what is added up over steps and cells to be reported |
+//! | `execution`, `checkpoint`, `error` | how the steps are taken, what is kept to go on later, and why it cannot go on |
 //! | [`comm`] | what workers tell each other: one, threads, or ranks of an MPI job |
-//! | `worker`, `crew` | the step that all workers take together, and the threads that take it |
+//! | `worker`, `worker_threads` | the step that all workers take together, and the threads that take it |
 
+pub mod checkpoint;
 pub mod comm;
-pub mod contact;
-pub(crate) mod crew;
-pub mod debris;
-pub mod exact;
-pub mod filling;
-pub mod forecast;
-pub mod history;
+pub(crate) mod contact;
+pub(crate) mod debris;
+pub(crate) mod error;
+pub(crate) mod exact;
+pub(crate) mod execution;
+pub(crate) mod filling;
+pub(crate) mod forecast;
+pub(crate) mod history;
 pub mod kernel;
-pub mod lanes;
-pub mod pair;
+pub(crate) mod lanes;
+pub(crate) mod pair;
 pub mod parts;
-pub mod plateau;
-pub mod sector;
-pub mod strips;
-pub mod sum;
-pub mod sums;
-pub mod wear;
+pub(crate) mod pin_strips;
+pub(crate) mod plateau;
+pub(crate) mod quantum;
+pub(crate) mod running_sum;
+pub(crate) mod sector;
+pub(crate) mod strips;
+pub(crate) mod sums;
+pub(crate) mod wear;
 pub(crate) mod worker;
+pub(crate) mod worker_threads;

@@ -1,7 +1,7 @@
 //! The contact of the first step, known before there is a simulation (model 4.1).
 //!
 //! Cell by cell and in plain sums, for those who want to know what load and surfaces lead to. A simulation balances every
-//! step by itself ([`contact`](crate::engine::contact)), to the last bit the same on any number of workers.
+//! step by itself, to the last bit the same on any number of workers.
 
 use crate::model::material::Status;
 use crate::model::parameters::Parameters;
@@ -78,34 +78,10 @@ mod tests {
     use super::*;
     use crate::model::mesh::Mesh;
     use crate::model::parameters::PlateauRules;
-    use crate::simulation::Simulation;
 
     fn parameters(normal_force: f64) -> Parameters {
         let mesh = Mesh::new(7, 60, 11, 20e-3, 21e-3).unwrap();
         Parameters { mesh, normal_force, plateaus: PlateauRules::pool(0.5), ..Parameters::paper() }
-    }
-
-    #[test]
-    fn it_is_that_of_the_first_step_of_a_simulation() {
-        for normal_force in [1e-3, 1.0, 1e4] {
-            let parameters = parameters(normal_force);
-            let mesh = &parameters.mesh;
-            // Heights of no pattern, from 0 to 3 µm on the disc; the pin starts on other columns than it ends on.
-            let heights =
-                |cells: usize, prime: usize| (0..cells).map(|cell| (cell * prime % 1009) as f64 * 3e-9).collect();
-            let surfaces = InitialSurfaces {
-                disc_height: heights(mesh.disc_cells(), 7919),
-                pin_height: heights(mesh.pin_cells(), 104_729),
-                pin_base: (0..mesh.pin_cells()).map(|cell| [Base::None, Base::Primary][cell * 31 % 3 % 2]).collect(),
-            };
-            let first = FirstContact::of(&parameters, &surfaces).unwrap();
-            let mut simulation = Simulation::new(parameters, surfaces).unwrap();
-            simulation.advance().unwrap();
-            let sample = simulation.sample().unwrap();
-            assert!((first.displacement - sample.displacement).abs() < 1e-9 * 3e-6, "{first:?}, {sample:?}");
-            assert!((first.contact_area / sample.contact_area - 1.0).abs() < 1e-12);
-            assert!((first.mean_pressure / sample.mean_pressure - 1.0).abs() < 1e-8);
-        }
     }
 
     #[test]

@@ -152,7 +152,7 @@ impl Mesh {
     }
 
     /// Area of one column (all rows), m².
-    pub fn column_area(&self) -> f64 {
+    pub(crate) fn column_area(&self) -> f64 {
         self.area.iter().sum()
     }
 

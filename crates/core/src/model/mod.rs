@@ -1,6 +1,6 @@
 //! The model as it is read: state (section 2) and one step (section 4), on plain arrays, cell by cell, in the order of the text.
 //!
-//! Nothing here is fast, and nothing is done twice for speed: [`step`] is what the engine ([`crate::simulation`]) is held
+//! Nothing here is fast, and nothing is done twice for speed: [`step`] is what the engine is held
 //! against, step by step. `plateau run --engine plain` drives it in place of the engine.
 //!
 //! | model | rule | function |
@@ -22,6 +22,8 @@ pub mod state;
 pub mod step;
 
 use std::ops::Add;
+
+use thiserror::Error;
 
 use crate::model::parameters::{DebrisRule, Parameters};
 use crate::model::state::{Disc, InitialSurfaces, Pin};
@@ -58,6 +60,35 @@ impl State {
             steps: 0,
         }
     }
+}
+
+/// Why no displacement carries the load.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ContactError {
+    /// Heights or stiffness left the range of floating-point numbers.
+    #[error(
+        "the load balance has no finite solution (displacement {displacement:e} m carries {load:e} N of \
+         {normal_force:e} N): heights, stiffness or load are out of the range of floating-point numbers"
+    )]
+    NotFinite {
+        /// δ reached, m.
+        displacement: f64,
+        /// Σ k A u there, N.
+        load: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
+    /// The overlap that carries the load is less than the rounding of the heights.
+    #[error(
+        "nothing carries the load of {normal_force:e} N: at gaps of {displacement:e} m the overlap that would is lost in \
+         rounding; check the unit and the scale of the heights"
+    )]
+    NotCarried {
+        /// δ reached, m.
+        displacement: f64,
+        /// F_N, N.
+        normal_force: f64,
+    },
 }
 
 /// What a step found and did.

@@ -3,8 +3,7 @@
 //! Fields are column by column: the pin cell in row i and column j is number j · rows + i, and its neighbour in the sliding
 //! direction is number (j + 1) · rows + i.
 
-use super::{State, Step, Volumes};
-use crate::engine::contact::ContactError;
+use super::{ContactError, State, Step, Volumes};
 use crate::model::material::Status;
 use crate::model::parameters::{DebrisRule, Integrator, Parameters};
 use crate::model::state::disc_status;

@@ -72,7 +72,7 @@ fn height_parameters(mesh: &Mesh, heights: &[f64]) -> [f64; 4] {
 }
 
 /// √(Σ A (z − z̄_i)² / Σ A) of the disc's cells, m, heights being measured from the mean z̄_i of their own track (row).
-pub fn root_mean_square_along_tracks(mesh: &Mesh, heights: &[f64]) -> f64 {
+pub(crate) fn root_mean_square_along_tracks(mesh: &Mesh, heights: &[f64]) -> f64 {
     let columns = heights.len() / mesh.rows();
     let sum_of_tracks = |add: &dyn Fn(usize, f64) -> f64| {
         let mut sums = vec![0.0; mesh.rows()];

@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
+use crate::engine::checkpoint::{Checkpoint, Memory};
 use crate::engine::debris::{Account, Totals};
-use crate::engine::history::History;
-use crate::engine::sum::RunningSum;
+use crate::engine::error::SimulationError;
+use crate::engine::execution::Engine;
+use crate::engine::history::{Course, History};
+use crate::engine::running_sum::RunningSum;
 use crate::model::clock::Clock;
 use crate::model::material::Status;
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 use crate::model::{State, Step, Volumes, step};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
-use crate::simulation::checkpoint::{Checkpoint, Memory};
-use crate::simulation::course::Course;
-use crate::simulation::error::SimulationError;
-use crate::simulation::execution::Engine;
 
 /// A simulation that takes [`step::advance`] for every step.
 #[derive(Debug)]

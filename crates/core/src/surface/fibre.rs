@@ -140,13 +140,6 @@ impl FibreSynthesis {
     }
 }
 
-/// Area fraction of the pin that is fibre.
-pub fn fibre_fraction(base: &[Base], mesh: &Mesh) -> f64 {
-    let fibre: f64 =
-        base.iter().zip(mesh.area().iter().cycle()).filter(|(base, _)| **base == Base::Primary).map(|(_, a)| a).sum();
-    fibre / mesh.pin_area()
-}
-
 /// All points within `radius` of a straight segment.
 struct Capsule {
     centre: (f64, f64),
@@ -192,6 +185,7 @@ fn span(centre: f64, reach: f64, cell: f64, count: usize) -> Range<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::fibre_fraction;
 
     /// Square cells of 10 µm at the mean radius, pin of 4 mm by 2 mm.
     fn mesh() -> Mesh {

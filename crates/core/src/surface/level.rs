@@ -1,6 +1,18 @@
 //! Levelling: the mean, the least-squares plane or the least-squares surface of second order is taken out.
 
-use super::prepare::Level;
+/// What is taken out of a surface before anything else.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Level {
+    /// Nothing.
+    None,
+    /// The mean height.
+    Mean,
+    /// The least-squares plane; of heights that cover the whole ring only the mean and the radial slope.
+    Plane,
+    /// The least-squares surface of second order; of heights that cover the whole ring only the mean, the radial slope
+    /// and the radial curvature.
+    Quadratic,
+}
 
 /// Takes the form out of the heights of a grid, in place. Missing points (NaN) take no part and stay missing.
 ///

@@ -1,15 +1,15 @@
 //! Surfaces: measured patches and their preparation, synthetic heights, fibre maps, micrographs, and the parameters that
 //! describe them.
 
+mod base;
 mod body;
 pub mod describe;
 mod fft;
 mod fibre;
-mod fill;
 mod length;
 mod level;
 pub mod micrograph;
-mod outliers;
+mod missing;
 mod patch;
 mod preparation_error;
 mod prepare;
@@ -17,11 +17,13 @@ pub(crate) mod random;
 mod resample;
 mod synthesis;
 
+pub use base::{fibre_fraction, set_back_resin};
 pub use body::Body;
-pub use fibre::{FibreError, FibreSynthesis, fibre_fraction};
-pub use fill::Fill;
+pub use fibre::{FibreError, FibreSynthesis};
 pub use length::Length;
-pub use level::level;
+pub use level::{Level, level};
+pub use missing::Fill;
 pub use patch::Patch;
-pub use prepare::{Level, Preparation, PreparationError, Prepared, RawHeights};
+pub use preparation_error::PreparationError;
+pub use prepare::{Preparation, Prepared, RawHeights};
 pub use synthesis::{HeightSynthesis, SynthesisError, Texture};

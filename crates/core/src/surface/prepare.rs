@@ -1,26 +1,11 @@
 //! The preparation chain of a surface.
 
-use super::fill::{Fill, fill};
-use super::level::{level, mean, rms};
-use super::outliers::remove_outliers;
-pub use super::preparation_error::PreparationError;
+use super::level::{Level, level, mean, rms};
+use super::missing::{Fill, fill, remove_outliers};
+use super::preparation_error::PreparationError;
 use super::resample::resample;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
-
-/// What is taken out of a surface before anything else.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Level {
-    /// Nothing.
-    None,
-    /// The mean height.
-    Mean,
-    /// The least-squares plane; of heights that cover the whole ring only the mean and the radial slope.
-    Plane,
-    /// The least-squares surface of second order; of heights that cover the whole ring only the mean, the radial slope
-    /// and the radial curvature.
-    Quadratic,
-}
 
 /// The preparation chain; a step that is absent is not done. Applied in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq)]

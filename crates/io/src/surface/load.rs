@@ -7,7 +7,9 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::surface::describe::HeightParameters;
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
-use plateau_core::surface::{Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction};
+use plateau_core::surface::{
+    Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction, set_back_resin,
+};
 
 use super::error::{FileError, SurfaceError};
 use super::format::Format;
@@ -46,8 +48,7 @@ pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     let (mut pin_height, pin_cut) = loader.heights(&scene.pin_surface, Body::Pin)?;
     let pin_base = loader.base(&scene.pin_base, scene.pin_base_mirror)?;
     if scene.resin_recess != 0.0 {
-        let resin = pin_height.iter_mut().zip(&pin_base).filter(|(_, base)| **base == Base::None);
-        resin.for_each(|(height, _)| *height += scene.resin_recess);
+        set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
         loader.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
     }
     let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };

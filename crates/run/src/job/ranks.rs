@@ -108,17 +108,17 @@ impl Job {
         if self.ranks() == 1 {
             return Ok(WorkQueue::new(pieces, most_failures).share(jobs, work)?);
         }
-        let desk = self.session.desk();
+        let requests = self.session.work_requests();
         if !self.leads() {
             let mut end = PieceEnd::Done;
-            while let Some(piece) = desk.ask(end as u64) {
+            while let Some(piece) = requests.ask(end as u64) {
                 end = work(piece);
                 if end == PieceEnd::Stopped {
                     break;
                 }
             }
             if end == PieceEnd::Stopped {
-                desk.ask(end as u64);
+                requests.ask(end as u64);
             }
             return Ok(());
         }
@@ -127,7 +127,7 @@ impl Job {
             let own = scope.spawn(|| queue.work(work));
             let mut others = self.ranks() - 1;
             while others > 0 || !own.is_finished() {
-                let Some((rank, word)) = desk.request() else {
+                let Some((rank, word)) = requests.request() else {
                     thread::sleep(PAUSE);
                     continue;
                 };
@@ -137,7 +137,7 @@ impl Job {
                 // Who stopped wants no more.
                 let piece = if end == PieceEnd::Stopped { None } else { queue.next() };
                 others -= usize::from(piece.is_none());
-                desk.answer(rank, piece);
+                requests.answer(rank, piece);
             }
         });
         Ok(())

@@ -1,11 +1,13 @@
 //! What the workers of one simulation tell each other.
 
 #[cfg(feature = "mpi")]
-pub mod desk;
-#[cfg(feature = "mpi")]
 pub mod mpi;
-pub mod single;
-pub mod threads;
+#[cfg(feature = "mpi")]
+mod mpi_job;
+pub(crate) mod single;
+pub(crate) mod threads;
+#[cfg(feature = "mpi")]
+mod work_requests;
 
 use thiserror::Error;
 
@@ -23,7 +25,7 @@ pub enum CommError {
     /// MPI.
     #[cfg(feature = "mpi")]
     #[error(transparent)]
-    Mpi(#[from] mpi::MpiError),
+    Mpi(#[from] mpi_job::MpiError),
 }
 
 /// How a worker reaches the others.

@@ -4,27 +4,17 @@
 //! Errors inside the MPI library end the whole job by themselves, as the MPI standard has it (`MPI_ERRORS_ARE_FATAL`,
 //! MPI 3.1, section 8.3).
 
-use std::cell::Cell;
-use std::fmt;
 use std::rc::Rc;
 use std::thread;
 use std::time::Duration;
 
 use ::mpi::datatype::PartitionMut;
-use ::mpi::environment::{Threading, Universe};
-use ::mpi::topology::SimpleCommunicator;
 use ::mpi::traits::{Communicator as _, CommunicatorCollectives, Destination, Equivalence, Source};
 use ::mpi::{Count, Rank, Tag};
 
-use super::desk::Desk;
+use super::mpi_job::{Job, LARGEST_TAG, MpiError};
+use super::work_requests::WorkRequests;
 use super::{CommError, Communicator};
-
-/// Largest tag that every MPI library takes (MPI 3.1, section 8.1.2).
-const LARGEST_TAG: usize = 32_767;
-
-/// Bytes for halo messages on their way. As all ranks meet in every step, these are the messages of two steps at most.
-/// The system gives memory only for the part that is used.
-const SEND_BUFFER: usize = 64 << 20;
 
 /// Words beyond which a message of `all_gather` goes in a second round every time: rare long messages must not make
 /// the many short ones slow.
@@ -33,44 +23,6 @@ const LONGEST_SLOT: usize = 1024;
 /// How long a rank that failed waits for rank 0 to report the same and end all: what fails is mostly the same on all ranks,
 /// and rank 0 may have a file to close.
 const HEAD_START: Duration = Duration::from_secs(5);
-
-/// Why ranks cannot talk to each other.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum MpiError {
-    /// MPI can be started once in the life of a process.
-    #[error("MPI was started before in this process")]
-    StartedBefore,
-    /// The library serves programs of one thread only.
-    #[error("this MPI library gives thread support {found:?}, at least Funneled is needed: use one built with threads")]
-    Threads {
-        /// What the library gives.
-        found: Threading,
-    },
-    /// The number of a boundary is no valid tag.
-    #[error("the ring has a sector {boundary}, MPI tells at most {LARGEST_TAG} apart: use fewer ranks or columns")]
-    Boundary {
-        /// The sector.
-        boundary: usize,
-    },
-    /// A message is too long for the counts of MPI, which have 32 bits.
-    #[error("a message of {words} words, MPI takes at most {}: use a smaller mesh", Count::MAX)]
-    Length {
-        /// Its length.
-        words: usize,
-    },
-    /// A halo message is shorter than it must be.
-    #[error("rank {from} sent {found} words for the boundary of sector {boundary}, expected {expected}")]
-    Halo {
-        /// The sender.
-        from: usize,
-        /// The sector.
-        boundary: usize,
-        /// Words that came.
-        found: usize,
-        /// Words of a halo column.
-        expected: usize,
-    },
-}
 
 /// This process as one rank of an MPI job, from the start to the end of MPI.
 ///
@@ -89,19 +41,13 @@ impl Session {
     /// [`MpiError::StartedBefore`] the second time, [`MpiError::Threads`] when no program with threads may use the
     /// library.
     pub fn start() -> Result<Self, CommError> {
-        let (mut universe, threading) =
-            ::mpi::initialize_with_threading(Threading::Funneled).ok_or(MpiError::StartedBefore)?;
-        if threading < Threading::Funneled {
-            return Err(MpiError::Threads { found: threading }.into());
-        }
-        universe.set_buffer_size(SEND_BUFFER);
-        Ok(Self { job: Rc::new(Job { finished: Cell::new(false), world: universe.world(), _universe: universe }) })
+        Ok(Self { job: Rc::new(Job::start()?) })
     }
 
     /// A way to talk to the other ranks. MPI ends when the session and all of them are gone.
     #[must_use]
     pub fn communicator(&self) -> Mpi {
-        let world = &self.job.world;
+        let world = &self.job.world();
         Mpi {
             rank: world.rank().unsigned_abs() as usize,
             size: world.size().unsigned_abs() as usize,
@@ -112,53 +58,25 @@ impl Session {
         }
     }
 
-    /// This rank's end of the desk where pieces of independent work are handed out.
+    /// This rank's end of the queue of pieces of independent work.
     #[must_use]
-    pub fn desk(&self) -> Desk {
-        Desk::new(Rc::clone(&self.job))
+    pub fn work_requests(&self) -> WorkRequests {
+        WorkRequests::new(Rc::clone(&self.job))
     }
 
     /// Ends this rank's part in good order. Waits for the other ranks to do the same.
     pub fn finish(self) {
-        self.job.finished.set(true);
+        self.job.finish();
     }
 
     /// Ends all ranks with this exit status after `report` said why. Rank 0 reports at once; another rank does so only
     /// if the job still runs after some seconds: rank 0 has then not failed in the same way.
     pub fn fail(self, status: u8, report: impl FnOnce()) -> ! {
-        if self.job.world.rank() != 0 {
+        if self.job.world().rank() != 0 {
             thread::sleep(HEAD_START);
         }
         report();
-        self.job.world.abort(status.into())
-    }
-}
-
-/// What ends with MPI.
-pub(super) struct Job {
-    finished: Cell<bool>,
-    world: SimpleCommunicator,
-    /// Ends MPI when it is dropped, and waits for the other ranks then.
-    _universe: Universe,
-}
-
-impl Job {
-    pub(super) fn world(&self) -> &SimpleCommunicator {
-        &self.world
-    }
-}
-
-impl Drop for Job {
-    fn drop(&mut self) {
-        if !self.finished.get() || thread::panicking() {
-            self.world.abort(1);
-        }
-    }
-}
-
-impl fmt::Debug for Job {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Job").field("rank", &self.world.rank()).field("size", &self.world.size()).finish()
+        self.job.world().abort(status.into())
     }
 }
 
@@ -189,13 +107,13 @@ impl Communicator for Mpi {
     /// A buffered send: MPI copies the message and delivers it whenever the receiver is ready.
     fn send_halo(&mut self, boundary: usize, to: usize, words: &[u64]) -> Result<(), CommError> {
         count(words.len())?;
-        self.job.world.process_at_rank(to as Rank).buffered_send_with_tag(words, tag(boundary)?);
+        self.job.world().process_at_rank(to as Rank).buffered_send_with_tag(words, tag(boundary)?);
         Ok(())
     }
 
     fn receive_halo(&mut self, boundary: usize, from: usize, words: &mut [u64]) -> Result<(), CommError> {
         let expected = words.len();
-        let status = self.job.world.process_at_rank(from as Rank).receive_into_with_tag(words, tag(boundary)?);
+        let status = self.job.world().process_at_rank(from as Rank).receive_into_with_tag(words, tag(boundary)?);
         let found = status.count(u64::equivalent_datatype()).unsigned_abs() as usize;
         if found != expected {
             return Err(MpiError::Halo { from, boundary, found, expected }.into());
@@ -235,7 +153,7 @@ impl Mpi {
         self.outgoing.extend(words.iter().take(self.slot));
         self.outgoing.resize(stride, 0);
         self.incoming.resize(stride * self.size, 0);
-        self.job.world.all_gather_into(&self.outgoing[..], &mut self.incoming[..]);
+        self.job.world().all_gather_into(&self.outgoing[..], &mut self.incoming[..]);
         stride
     }
 
@@ -253,7 +171,7 @@ impl Mpi {
             counts.iter().scan(0, |next, count| Some(std::mem::replace(next, *next + count))).collect();
         self.incoming.resize(total, 0);
         let mut parts = PartitionMut::new(&mut self.incoming[..], counts, starts);
-        self.job.world.all_gather_varcount_into(words, &mut parts);
+        self.job.world().all_gather_varcount_into(words, &mut parts);
         let mut rest = &self.incoming[..];
         for (rank, &length) in lengths.iter().enumerate() {
             let (part, after) = rest.split_at(length);

@@ -7,7 +7,8 @@ use super::rules::{Conditions, Rules};
 use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::pair::Pair;
 use crate::engine::parts::Needs;
-use crate::engine::strips::{DiscSector, PinStrips};
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::strips::DiscSector;
 use crate::model::material::Status;
 
 /// A pair of cells at the start of a step; heights in m.

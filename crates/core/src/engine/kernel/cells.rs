@@ -9,8 +9,9 @@ use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use super::worn::{Cells, Worn, wear};
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
+use crate::engine::pin_strips::{PinStrip, PinStrips};
 use crate::engine::plateau;
-use crate::engine::strips::{DiscSector, PinStrip, PinStrips};
+use crate::engine::strips::DiscSector;
 
 /// Columns of a strip with something out of the ordinary after which it is not looked for any more.
 pub(super) const MOST_UNUSUAL: usize = 12;

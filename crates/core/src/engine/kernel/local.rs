@@ -17,7 +17,8 @@ use super::rules::{Conditions, Rules, StripRules};
 use super::worn::{Cells, wear};
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::parts::Needs;
-use crate::engine::strips::{DiscSector, PinStrips};
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::strips::DiscSector;
 
 /// The sweep that does what a scene needs and nothing else; chosen once per run.
 pub(super) fn sweep_locally(needs: Needs) -> Sweep {

@@ -19,13 +19,12 @@ mod rules;
 mod sweep;
 mod worn;
 
-pub use ahead::{WearColumn, wear_column};
-pub use cells::Sweep;
-pub use edge::Edge;
+pub(crate) use ahead::{WearColumn, wear_column};
+pub(crate) use cells::Sweep;
+pub(crate) use edge::Edge;
 pub use instructions::InstructionSet;
-
-pub use moved::{Moved, SeldomEvent};
-pub use read::{Read, Span, read};
-pub use reading::{Bracket, NearPair, Reading, told_apart};
-pub use rules::{Conditions, Rules};
-pub use sweep::sweep;
+pub(crate) use moved::Moved;
+pub(crate) use read::{Read, Span, read};
+pub(crate) use reading::{Bracket, NearPair, Reading, told_apart};
+pub(crate) use rules::{Conditions, Rules};
+pub(crate) use sweep::sweep;

@@ -5,7 +5,8 @@ use super::pairs::Pairs;
 use super::reading::{Bracket, BracketLanes, Reading, StripReading};
 use crate::engine::lanes::{Lanes, Mask};
 use crate::engine::parts::Needs;
-use crate::engine::strips::{DiscSector, PinStrips};
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::strips::DiscSector;
 
 /// Columns of pairs: the pin's from `first` on lie over the sector's from `over` on.
 #[derive(Debug, Clone, Copy)]

@@ -1,9 +1,10 @@
 //! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
 
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
-use crate::engine::exact::{Quantum, RowIntegers};
+use crate::engine::exact::RowIntegers;
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::pair::Pair;
+use crate::engine::quantum::Quantum;
 use serde::{Deserialize, Serialize};
 
 /// Displacements between which the next load balance is expected.

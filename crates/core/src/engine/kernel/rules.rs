@@ -3,9 +3,9 @@
 use super::edge::Edge;
 use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
-use crate::engine::exact::Quantum;
 use crate::engine::lanes::{Chunk, Integers, Lanes};
 use crate::engine::pair::Coefficients;
+use crate::engine::quantum::Quantum;
 use crate::model::parameters::Parameters;
 
 /// What stays the same in every step.

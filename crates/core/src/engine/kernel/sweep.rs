@@ -20,7 +20,8 @@ use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
 use crate::engine::lanes::Lanes;
 use crate::engine::parts::Needs;
-use crate::engine::strips::{DiscSector, PinStrips};
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::strips::DiscSector;
 
 /// The sweep that does what a scene needs and nothing else; chosen once per run.
 pub fn sweep(needs: Needs) -> Sweep {

@@ -2,13 +2,14 @@
 
 use super::Worker;
 use crate::engine::comm::Communicator;
-use crate::engine::contact::{ContactError, Verdict};
-use crate::engine::exact::Quantum;
+use crate::engine::contact::Verdict;
+use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, Span};
 use crate::engine::pair::Pair;
+use crate::engine::quantum::Quantum;
 use crate::engine::sector::Segment;
+use crate::model::ContactError;
 use crate::model::state::pin_status;
-use crate::simulation::error::SimulationError;
 
 /// Readings of one step; Newton's method needs few, this bound only keeps rounding from going round in circles.
 const MOST_READINGS: u32 = 200;

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::Worker;
+use crate::engine::checkpoint::{Checkpoint, EngineMemory, Memory};
 use crate::engine::comm::Communicator;
+use crate::engine::error::SimulationError;
+use crate::engine::execution::Engine;
 use crate::engine::kernel::Rules;
 use crate::model::parameters::Parameters;
-use crate::simulation::checkpoint::{Checkpoint, EngineMemory, Memory};
-use crate::simulation::error::SimulationError;
-use crate::simulation::execution::Engine;
 
 impl<C: Communicator> Worker<C> {
     /// What all workers know alike.

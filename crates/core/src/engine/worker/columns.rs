@@ -6,12 +6,13 @@ use super::Worker;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
-use crate::engine::exact::Quantum;
+use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, Conditions, Edge, Span};
 use crate::engine::lanes::LANES;
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::quantum::Quantum;
 use crate::engine::sector::{Partition, Segment};
-use crate::engine::strips::{PinStrips, strips};
-use crate::simulation::error::SimulationError;
+use crate::engine::strips::strips;
 
 /// Columns that are swept before the first of a segment is handed on: that one, and the one whose status goes with it.
 const FIRST_COLUMNS: usize = 2;

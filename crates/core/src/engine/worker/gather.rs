@@ -2,8 +2,8 @@
 
 use super::Worker;
 use crate::engine::comm::Communicator;
+use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, NearPair, Reading};
-use crate::simulation::error::SimulationError;
 
 impl<C: Communicator> Worker<C> {
     /// The sums over all workers after a sweep that read the next step against a bracket.

@@ -4,9 +4,9 @@
 use super::Worker;
 use super::columns::conditions;
 use crate::engine::comm::Communicator;
+use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, Edge, Span};
 use crate::engine::sector::Segment;
-use crate::simulation::error::SimulationError;
 
 impl<C: Communicator> Worker<C> {
     /// Sweeps segments that follow each other, all of them the worker's own.

@@ -16,24 +16,24 @@ use std::sync::Arc;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
-use crate::engine::exact::Quantum;
+use crate::engine::error::SimulationError;
+use crate::engine::execution::Execution;
 use crate::engine::filling::Filling;
 use crate::engine::forecast::Forecast;
-use crate::engine::history::History;
+use crate::engine::history::{Course, History};
 use crate::engine::kernel::{
     Bracket, Edge, InstructionSet, Moved, Read, Reading, Rules, Sweep, WearColumn, read, sweep, wear_column,
 };
 use crate::engine::pair::Coefficients;
 use crate::engine::parts::Needs;
+use crate::engine::pin_strips::PinStrips;
+use crate::engine::quantum::Quantum;
 use crate::engine::sector::Partition;
-use crate::engine::strips::{DiscSector, PinStrips, strips};
+use crate::engine::strips::{DiscSector, strips};
 use crate::engine::sums::{RowWeights, Sums};
 use crate::model::clock::Clock;
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
-use crate::simulation::course::Course;
-use crate::simulation::error::SimulationError;
-use crate::simulation::execution::Execution;
 
 pub(crate) use columns::halo_words;
 

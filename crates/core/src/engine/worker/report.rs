@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use super::Worker;
 use crate::engine::comm::Communicator;
+use crate::engine::error::SimulationError;
 use crate::engine::exact::{self, RingSum};
 use crate::engine::strips::DiscSector;
 use crate::model::material::Status;
 use crate::model::state::{disc_status, pin_status};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
-use crate::simulation::error::SimulationError;
 
 impl<C: Communicator> Worker<C> {
     /// The reported quantities after the last step.

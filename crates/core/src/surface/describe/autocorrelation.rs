@@ -6,7 +6,7 @@ use super::Grid;
 use super::correlate::{Lags, correlate};
 
 /// s: value to which the autocorrelation decays.
-pub const CORRELATION_THRESHOLD: f64 = 0.2;
+const CORRELATION_THRESHOLD: f64 = 0.2;
 
 /// Spatial parameters, from the autocorrelation for lags up to half the grid's extent in either direction.
 ///

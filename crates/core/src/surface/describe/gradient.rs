@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Grid;
-use super::blocks::added;
+use super::grid::added;
 
 /// Hybrid parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,6 @@
 //! Height parameters (ISO 25178-2:2021, 4.2).
 
-use super::blocks::sums;
+use super::grid::sums;
 
 /// Moments and extremes of the heights above their mean: every measured point counts alike.
 #[derive(Debug, Clone, Copy, PartialEq)]

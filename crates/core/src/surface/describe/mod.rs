@@ -4,8 +4,6 @@
 //! `docs/surfaces-describe.md` has every definition with its formula and standard.
 
 mod autocorrelation;
-mod blocks;
-mod core_height;
 mod correlate;
 mod gradient;
 mod grid;
@@ -13,17 +11,14 @@ mod heights;
 mod material_curve;
 mod parameter;
 mod profile;
-mod volume;
 
-pub use autocorrelation::{Autocorrelation, CORRELATION_THRESHOLD};
-pub use core_height::CoreHeight;
+pub use autocorrelation::Autocorrelation;
 pub use gradient::Gradient;
 pub use grid::Grid;
 pub use heights::HeightParameters;
-pub use material_curve::MaterialCurve;
+pub use material_curve::{CoreHeight, MaterialCurve, Volumes};
 pub use parameter::{Group, PARAMETERS, Parameter, Unit};
 pub use profile::{Direction, ProfileParameters};
-pub use volume::Volumes;
 
 /// Classes of the Abbott-Firestone curve that a [`Description`] keeps: 0, 0.1, …, 100 %.
 const CURVE_CLASSES: usize = 1000;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Grid;
-use super::blocks::added;
+use super::grid::added;
 
 /// Direction of profiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

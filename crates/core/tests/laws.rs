@@ -1,13 +1,13 @@
 //! Laws of the model over random small scenes.
 
+use crate::scenes::few_or_all;
+use crate::scenes::{primary_stiffness, random_surfaces, wear_only};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_tests::patience::few_or_all;
-use plateau_tests::scenes::{primary_stiffness, random_surfaces, wear_only};
 use proptest::option;
 use proptest::prelude::*;
 

@@ -5,8 +5,8 @@
 
 use std::f64::consts::PI;
 
+use crate::scenes::{Stream, WEAR_RATE, all_primary, primary_stiffness, wear_only};
 use plateau_core::model::parameters::{Integrator, Parameters};
-use plateau_tests::scenes::{Stream, WEAR_RATE, all_primary, primary_stiffness, wear_only};
 
 /// Relative rounding of a sum over a few thousand cells, and of the load balance at tolerance 1e-12.
 const ROUNDING: f64 = 4e-12;

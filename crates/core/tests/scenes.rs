@@ -5,6 +5,11 @@ use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, Platea
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::simulation::Simulation;
 
+/// How much of a test that repeats itself is done: `few` as it goes without saying, `all` with `PLATEAU_LONG=1`.
+pub fn few_or_all<T>(few: T, all: T) -> T {
+    if std::env::var_os("PLATEAU_LONG").is_some() { all } else { few }
+}
+
 /// κ of the pin's plateaus in the paper, 1/Pa.
 pub const WEAR_RATE: f64 = 5e-14;
 

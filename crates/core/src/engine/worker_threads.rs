@@ -7,13 +7,13 @@ use std::thread::JoinHandle;
 
 use crossbeam::channel::{Receiver, Sender, unbounded};
 
+use crate::engine::checkpoint::{Checkpoint, Memory};
 use crate::engine::comm::threads::Alarm;
 use crate::engine::comm::{CommError, Communicator};
+use crate::engine::error::SimulationError;
+use crate::engine::history::Course;
 use crate::engine::worker::Worker;
 use crate::observe::{Map, Sample, Snapshot};
-use crate::simulation::checkpoint::{Checkpoint, Memory};
-use crate::simulation::course::Course;
-use crate::simulation::error::SimulationError;
 
 /// What all workers are to do together.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ enum Answer {
 
 /// Long-lived threads with a worker each.
 #[derive(Debug)]
-pub(crate) struct Crew {
+pub(crate) struct WorkerThreads {
     orders: Vec<Sender<Order>>,
     answers: Receiver<Result<Answer, SimulationError>>,
     threads: Vec<JoinHandle<()>>,
@@ -52,7 +52,7 @@ pub(crate) struct Crew {
     failure: Option<SimulationError>,
 }
 
-impl Crew {
+impl WorkerThreads {
     /// Starts a thread for each worker; with `pin` each stays on a core of its own as far as there are enough.
     ///
     /// # Errors
@@ -64,7 +64,7 @@ impl Crew {
         let cores = if pin { core_affinity::get_core_ids().unwrap_or_default() } else { Vec::new() };
         let (answer, answers) = unbounded();
         let (orders, threads) = (Vec::new(), Vec::new());
-        let mut crew = Self { orders, answers, threads, course: Course::default(), failure: None };
+        let mut started = Self { orders, answers, threads, course: Course::default(), failure: None };
         for (rank, (worker, alarm)) in workers.into_iter().enumerate() {
             let (order, orders) = unbounded();
             let answer = (rank == 0).then(|| answer.clone());
@@ -75,10 +75,10 @@ impl Crew {
                 }
                 work(rank, worker, &alarm, &orders, answer.as_ref());
             })?;
-            crew.orders.push(order);
-            crew.threads.push(thread);
+            started.orders.push(order);
+            started.threads.push(thread);
         }
-        Ok(crew)
+        Ok(started)
     }
 
     /// Has all workers follow an order; once they could not, the reason is all there is to be had.
@@ -149,7 +149,7 @@ impl Crew {
     }
 }
 
-impl Drop for Crew {
+impl Drop for WorkerThreads {
     fn drop(&mut self) {
         // A worker without orders ends.
         self.orders.clear();

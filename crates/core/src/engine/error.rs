@@ -2,10 +2,10 @@
 
 use thiserror::Error;
 
-use super::checkpoint::WrongMesh;
-use super::execution::Engine;
+use crate::engine::checkpoint::WrongMesh;
 use crate::engine::comm::CommError;
-use crate::engine::contact::ContactError;
+use crate::engine::execution::Engine;
+use crate::model::ContactError;
 
 /// Why a simulation cannot start or go on.
 #[derive(Debug, Clone, PartialEq, Error)]

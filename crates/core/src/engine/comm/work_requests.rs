@@ -1,5 +1,5 @@
-//! A desk at rank 0 that hands out pieces of independent work to the ranks of an MPI job (feature `mpi`): who is done asks
-//! for the next piece, so quick ranks get more of them.
+//! A queue at rank 0 of pieces of independent work for the ranks of an MPI job (feature `mpi`): who is done asks for the
+//! next piece, so quick ranks get more of them.
 
 use std::rc::Rc;
 
@@ -7,20 +7,20 @@ use ::mpi::topology::Communicator as _;
 use ::mpi::traits::{Destination, Source};
 use ::mpi::{Rank, Tag};
 
-use super::mpi::Job;
+use super::mpi_job::Job;
 
 /// Tag of requests to rank 0, and of its answers.
 const TAG: Tag = 0;
 /// The answer when there is nothing more to do.
 const NOTHING: u64 = u64::MAX;
 
-/// One end of the desk: rank 0 answers, the others ask.
+/// One end of the queue: rank 0 answers, the others ask.
 #[derive(Debug)]
-pub struct Desk {
+pub struct WorkRequests {
     job: Rc<Job>,
 }
 
-impl Desk {
+impl WorkRequests {
     pub(super) fn new(job: Rc<Job>) -> Self {
         Self { job }
     }
@@ -42,9 +42,9 @@ impl Desk {
 
     /// On another rank: tells rank 0 a word and waits for the next piece; none when there are no more.
     pub fn ask(&self, word: u64) -> Option<usize> {
-        let desk = self.job.world().process_at_rank(0);
-        desk.send_with_tag(&word, TAG);
-        let (answer, _) = desk.receive_with_tag::<u64>(TAG);
+        let first = self.job.world().process_at_rank(0);
+        first.send_with_tag(&word, TAG);
+        let (answer, _) = first.receive_with_tag::<u64>(TAG);
         (answer != NOTHING).then_some(answer as usize)
     }
 }

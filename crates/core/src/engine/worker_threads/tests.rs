@@ -1,4 +1,4 @@
-//! What a crew does when one of its workers panics.
+//! What worker threads do when one of them panics.
 
 use std::sync::Arc;
 use std::sync::mpsc::channel;
@@ -6,17 +6,17 @@ use std::time::Duration;
 
 use super::*;
 use crate::engine::comm::threads::Threads;
+use crate::engine::execution::Execution;
 use crate::engine::kernel::InstructionSet;
+use crate::engine::pin_strips::PinStrips;
 use crate::engine::sector::Partition;
-use crate::engine::strips::PinStrips;
 use crate::model::mesh::Mesh;
 use crate::model::parameters::{Parameters, PlateauRules};
 use crate::model::state::{Base, InitialSurfaces};
-use crate::simulation::Execution;
 
 const WORKERS: usize = 3;
 
-/// No crew takes nearly as long to take its steps or to end; one that does hangs.
+/// No threads take nearly as long to take their steps or to end; those that do hang.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// When a worker panics: around one of its calls to the others, counted from 0.
@@ -71,8 +71,8 @@ impl Communicator for Faulty {
     }
 }
 
-/// A crew whose worker `rank` has this fault, and what its workers share until they end.
-fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
+/// Threads whose worker `rank` has this fault, and what its workers share until they end.
+fn start(rank: usize, fault: Option<Fault>) -> (WorkerThreads, Arc<()>) {
     let mesh = Mesh::new(3, 40, 11, 20e-3, 20.15e-3).unwrap();
     let parameters = Parameters { mesh, normal_force: 1.0, plateaus: PlateauRules::pool(0.5), ..Parameters::paper() };
     let (mesh, parameters) = (parameters.mesh.clone(), Arc::new(parameters));
@@ -93,7 +93,7 @@ fn crew(rank: usize, fault: Option<Fault>) -> (Crew, Arc<()>) {
     let threads =
         Threads::connect(WORKERS, partition.sectors() * partition.bands(), PinStrips::crossing_words(mesh.rows()));
     let workers = threads.into_iter().map(worker).collect();
-    (Crew::start(workers, false).unwrap(), alive)
+    (WorkerThreads::start(workers, false).unwrap(), alive)
 }
 
 /// Does something that must not hang.
@@ -104,12 +104,12 @@ fn within_patience<T: Send + 'static>(what: &str, work: impl FnOnce() -> T + Sen
 }
 
 #[test]
-fn a_crew_without_a_fault_takes_its_steps_and_ends() {
-    let alive = within_patience("a crew", || {
-        let (mut crew, alive) = crew(0, None);
-        crew.advance_to(40, true).unwrap();
-        assert_eq!((crew.course().steps, crew.sample().unwrap().step), (40, 40));
-        drop(crew);
+fn threads_without_a_fault_take_their_steps_and_end() {
+    let alive = within_patience("the threads", || {
+        let (mut threads, alive) = start(0, None);
+        threads.advance_to(40, true).unwrap();
+        assert_eq!((threads.course().steps, threads.sample().unwrap().step), (40, 40));
+        drop(threads);
         Arc::strong_count(&alive)
     });
     assert_eq!(alive, 1, "a thread goes on");
@@ -123,17 +123,21 @@ fn a_panic_in_one_worker_ends_all_with_its_name() {
             for before in [true, false] {
                 let what = format!("worker {rank} panics at call {call}, {}", if before { "before" } else { "after" });
                 let (failures, alive) = within_patience(&what, move || {
-                    let (mut crew, alive) = crew(rank, Some(Fault { call, before }));
+                    let (mut threads, alive) = start(rank, Some(Fault { call, before }));
                     // Where it panics after its last message of an order, the others notice with the next order.
                     let mut orders = (1..200).map(|step| {
-                        crew.advance_to(step, true)?;
-                        crew.sample()?;
-                        crew.snapshot(&Map::ALL).map(drop)
+                        threads.advance_to(step, true)?;
+                        threads.sample()?;
+                        threads.snapshot(&Map::ALL).map(drop)
                     });
                     let first = orders.find_map(Result::err);
-                    let failures =
-                        [first, crew.advance_to(1000, true).err(), crew.sample().err(), crew.snapshot(&Map::ALL).err()];
-                    drop(crew);
+                    let failures = [
+                        first,
+                        threads.advance_to(1000, true).err(),
+                        threads.sample().err(),
+                        threads.snapshot(&Map::ALL).err(),
+                    ];
+                    drop(threads);
                     (failures, Arc::strong_count(&alive))
                 });
                 let message = "out of paper".into();

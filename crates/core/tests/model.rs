@@ -1,12 +1,15 @@
-//! The engine takes the steps of the plain model, in hundreds or thousands of random small scenes with every option.
+//! The engine takes the steps of the plain model, in hundreds or thousands of random small scenes with every option; its first contact is
+//! the one that is told before.
 
+use crate::scenes::few_or_all;
+use crate::scenes::{random_scene, random_surfaces};
 use plateau_core::engine::kernel::InstructionSet;
-use plateau_core::model::parameters::{DebrisRule, Parameters};
-use plateau_core::model::state::{Disc, Pin};
+use plateau_core::model::first_contact::FirstContact;
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
+use plateau_core::model::state::{Base, Disc, InitialSurfaces, Pin};
 use plateau_core::observe::Sample;
 use plateau_core::simulation::{Engine, Execution, Simulation};
-use plateau_tests::patience::few_or_all;
-use plateau_tests::scenes::{random_scene, random_surfaces};
 
 /// Accepted deviation of heights, m.
 const HEIGHT: f64 = 1e-12;
@@ -138,4 +141,27 @@ fn the_engine_agrees_with_the_plain_model_with_one_pool() {
 #[test]
 fn the_engine_agrees_with_the_plain_model_with_a_pool_for_each_track() {
     agrees(DebrisRule::Track);
+}
+
+#[test]
+fn the_first_contact_is_that_of_the_first_step() {
+    for normal_force in [1e-3, 1.0, 1e4] {
+        let mesh = Mesh::new(7, 60, 11, 20e-3, 21e-3).unwrap();
+        let parameters = Parameters { mesh, normal_force, plateaus: PlateauRules::pool(0.5), ..Parameters::paper() };
+        let mesh = &parameters.mesh;
+        // Heights of no pattern, from 0 to 3 µm on the disc; the pin starts on other columns than it ends on.
+        let heights = |cells: usize, prime: usize| (0..cells).map(|cell| (cell * prime % 1009) as f64 * 3e-9).collect();
+        let surfaces = InitialSurfaces {
+            disc_height: heights(mesh.disc_cells(), 7919),
+            pin_height: heights(mesh.pin_cells(), 104_729),
+            pin_base: (0..mesh.pin_cells()).map(|cell| [Base::None, Base::Primary][cell * 31 % 3 % 2]).collect(),
+        };
+        let first = FirstContact::of(&parameters, &surfaces).unwrap();
+        let mut simulation = Simulation::new(parameters, surfaces).unwrap();
+        simulation.advance().unwrap();
+        let sample = simulation.sample().unwrap();
+        assert!((first.displacement - sample.displacement).abs() < 1e-9 * 3e-6, "{first:?}, {sample:?}");
+        assert!((first.contact_area / sample.contact_area - 1.0).abs() < 1e-12);
+        assert!((first.mean_pressure / sample.mean_pressure - 1.0).abs() < 1e-8);
+    }
 }

@@ -5,14 +5,13 @@ use thiserror::Error;
 
 use crate::engine::contact::Contact;
 use crate::engine::debris::Account;
-use crate::engine::exact::Quantum;
+use crate::engine::execution::Engine;
 use crate::engine::forecast::Forecast;
-use crate::engine::history::History;
+use crate::engine::history::{Course, History};
 use crate::engine::kernel::Bracket;
+use crate::engine::quantum::Quantum;
 use crate::model::clock::Clock;
 use crate::model::mesh::Mesh;
-use crate::simulation::course::Course;
-use crate::simulation::execution::Engine;
 
 /// The complete state of a simulation between two steps.
 ///

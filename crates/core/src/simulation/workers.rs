@@ -1,0 +1,129 @@
+//! Who takes the steps of a simulation.
+
+use std::sync::Arc;
+
+use super::plain::Plain;
+use crate::engine::checkpoint::{Checkpoint, Memory};
+#[cfg(feature = "mpi")]
+use crate::engine::comm::mpi::Mpi;
+use crate::engine::comm::single::Single;
+use crate::engine::comm::threads::Threads;
+use crate::engine::error::SimulationError;
+use crate::engine::execution::{Engine, Execution};
+use crate::engine::history::Course;
+use crate::engine::parts::Needs;
+use crate::engine::sector::Partition;
+use crate::engine::worker::{Worker, halo_words};
+use crate::engine::worker_threads::WorkerThreads;
+use crate::model::parameters::Parameters;
+use crate::model::state::InitialSurfaces;
+use crate::observe::{Map, Sample, Snapshot};
+
+/// Who takes the steps.
+#[derive(Debug)]
+pub(super) enum Workers {
+    /// This thread.
+    One(Box<Worker<Single>>),
+    /// Threads of their own.
+    Threads(WorkerThreads),
+    /// This thread and, each for itself, the other ranks of an MPI job.
+    #[cfg(feature = "mpi")]
+    Rank(Box<Worker<Mpi>>),
+    /// This thread, with the plain model.
+    Plain(Box<Plain>),
+}
+
+/// Gives the same call to whoever takes the steps.
+macro_rules! call {
+    ($workers:expr, $worker:ident => $call:expr) => {
+        match $workers {
+            Self::One($worker) => $call,
+            Self::Threads($worker) => $call,
+            #[cfg(feature = "mpi")]
+            Self::Rank($worker) => $call,
+            Self::Plain($worker) => $call,
+        }
+    };
+}
+
+impl Workers {
+    /// Those of a simulation at t = 0, over a disc turned by `turned` columns.
+    pub fn start(
+        parameters: &Arc<Parameters>,
+        surfaces: InitialSurfaces,
+        execution: Execution,
+        turned: u64,
+    ) -> Result<Self, SimulationError> {
+        if execution.engine == Engine::Plain {
+            return Ok(Self::Plain(Box::new(Plain::new(parameters.clone(), surfaces, turned))));
+        }
+        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
+        if execution.workers == 1 {
+            let worker = Worker::new(parameters.clone(), &surfaces, partition, execution, turned, Single);
+            return Ok(Self::One(Box::new(worker)));
+        }
+        let halo_words = halo_words(parameters.mesh.rows(), Needs::of(parameters).local);
+        let boundaries = if partition.groups() > 1 { partition.sectors() * partition.bands() } else { 0 };
+        let worker = |end: Threads| {
+            let alarm = end.alarm();
+            (Worker::new(parameters.clone(), &surfaces, partition.clone(), execution, turned, end), alarm)
+        };
+        let workers = Threads::connect(execution.workers, boundaries, halo_words).into_iter().map(worker).collect();
+        let refused =
+            |error: std::io::Error| SimulationError::Threads { workers: execution.workers, message: error.to_string() };
+        WorkerThreads::start(workers, execution.pin).map(Self::Threads).map_err(refused)
+    }
+
+    /// This rank of an MPI job.
+    #[cfg(feature = "mpi")]
+    pub fn on_ranks(
+        parameters: &Arc<Parameters>,
+        surfaces: &InitialSurfaces,
+        execution: Execution,
+        communicator: Mpi,
+    ) -> Self {
+        let partition = Arc::new(Partition::new(&parameters.mesh, execution.workers, execution.bands));
+        Self::Rank(Box::new(Worker::new(parameters.clone(), surfaces, partition, execution, 0, communicator)))
+    }
+
+    /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
+    pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
+        call!(self, worker => worker.advance_to(step, watched))
+    }
+
+    /// Has the coming steps stand for `acceleration` revolutions each (model 4.6).
+    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
+        call!(self, worker => worker.accelerate(acceleration))
+    }
+
+    /// What is kept beside the surfaces.
+    pub fn memory(&mut self) -> Result<Memory, SimulationError> {
+        match self {
+            Self::One(worker) => Ok(worker.memory()),
+            Self::Threads(threads) => threads.memory(),
+            #[cfg(feature = "mpi")]
+            Self::Rank(worker) => Ok(worker.memory()),
+            Self::Plain(plain) => Ok(plain.memory()),
+        }
+    }
+
+    /// Takes over the state of a simulation of the same parameters and surfaces.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
+        call!(self, worker => worker.restore(checkpoint))
+    }
+
+    /// The reported quantities after the last step.
+    pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        call!(self, worker => worker.sample())
+    }
+
+    /// The maps asked for, as they are now.
+    pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        call!(self, worker => worker.snapshot(maps))
+    }
+
+    /// What the steps so far were like.
+    pub fn course(&self) -> Course {
+        call!(self, worker => worker.course())
+    }
+}
