@@ -31,7 +31,7 @@ pub enum RunError {
 pub enum InputError {
     /// The surfaces cannot be read or made.
     #[error(transparent)]
-    Surface(#[from] SurfaceError),
+    Surface(Box<SurfaceError>),
     /// Surfaces and parameters make no simulation.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
@@ -40,7 +40,7 @@ pub enum InputError {
     RunFile(RunFileError),
     /// Another process writes it.
     #[error(transparent)]
-    Claim(ClaimError),
+    Claim(Box<ClaimError>),
     /// Something else has the name of a checkpoint.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -137,7 +137,7 @@ pub enum RunFailure {
     Read(#[from] ReadError),
     /// There is no space for the lock of the run file.
     #[error(transparent)]
-    Claim(ClaimError),
+    Claim(Box<ClaimError>),
     /// The processes of a job could not talk to each other.
     #[error(transparent)]
     Comm(#[from] CommError),
@@ -187,6 +187,12 @@ impl std::fmt::Display for Progress {
     }
 }
 
+impl From<SurfaceError> for InputError {
+    fn from(error: SurfaceError) -> Self {
+        Self::Surface(Box::new(error))
+    }
+}
+
 impl From<SimulationError> for RunError {
     fn from(error: SimulationError) -> Self {
         Self::Failed(error.into())
@@ -202,6 +208,7 @@ impl From<CommError> for RunError {
 impl From<ClaimError> for RunError {
     /// A full disk is nothing that another name would mend.
     fn from(error: ClaimError) -> Self {
+        let error = Box::new(error);
         if error.lacks_space() { RunFailure::Claim(error).into() } else { InputError::Claim(error).into() }
     }
 }

@@ -73,7 +73,7 @@ impl Prepared {
             Claim::check(&path)?;
         }
         stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
-        let loaded = surface::load(&scene).map_err(InputError::Surface)?;
+        let loaded = surface::load(&scene).map_err(InputError::from)?;
         // Large surfaces take long enough to be told to stop meanwhile.
         stop_if_asked(observer, job)?;
         refuse_to_replace_inputs(&path, &scene, &loaded)?;

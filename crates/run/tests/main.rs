@@ -1,7 +1,7 @@
 //! A run as another program has it: observed, stopped, gone on with, refused.
 
 use std::fmt::Display;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use plateau_core::observe::Sample;
 use plateau_core::simulation::{Execution, SimulationError};
@@ -46,7 +46,7 @@ fn job() -> Job {
     Job::start().unwrap()
 }
 
-fn contact_areas(file: &PathBuf) -> Vec<f64> {
+fn contact_areas(file: &Path) -> Vec<f64> {
     RunFile::open(file).unwrap().values("contact_area").unwrap().unwrap()
 }
 
