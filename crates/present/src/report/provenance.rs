@@ -1,8 +1,11 @@
-//! Where a run file comes from, and the scene that it was made of.
+//! Where run files come from, the scenes that they were made of, and in which keys those differ.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use plateau_io::run_file::RunFile;
 
 use super::html;
+use super::outcome::UNKNOWN;
 
 /// A folded part of the page about one run.
 pub fn fold(label: &str, run: &RunFile) -> String {
@@ -48,9 +51,38 @@ fn inputs(json: &str) -> String {
     lines.map_or_else(|| json.to_owned(), |lines| lines.join("\n"))
 }
 
+/// A row for every key that does not have the same value in all scenes: the key, and its value in each.
+pub fn differences(scenes: &[&toml::Table]) -> Vec<Vec<String>> {
+    let scenes: Vec<_> = scenes.iter().map(|scene| keys(scene)).collect();
+    let all: BTreeSet<_> = scenes.iter().flat_map(BTreeMap::keys).collect();
+    let differs = |key: &String| scenes.iter().any(|scene| scene.get(key) != scenes[0].get(key));
+    let row = |key: &String| {
+        let values = scenes.iter().map(|scene| scene.get(key).cloned().unwrap_or_else(|| UNKNOWN.into()));
+        std::iter::once(key.clone()).chain(values).collect()
+    };
+    all.into_iter().filter(|key| differs(key)).map(row).collect()
+}
+
+/// Values by the paths of their keys, such as `disc.surface.synthetic.seed`.
+fn keys(scene: &toml::Table) -> BTreeMap<String, String> {
+    let mut found = BTreeMap::new();
+    let mut open: Vec<(String, &toml::Table)> = vec![(String::new(), scene)];
+    while let Some((path, table)) = open.pop() {
+        for (key, value) in table {
+            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            match value {
+                toml::Value::Table(table) => open.push((path, table)),
+                toml::Value::String(text) => drop(found.insert(path, text.clone())),
+                value => drop(found.insert(path, value.to_string())),
+            }
+        }
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
-    use super::inputs;
+    use super::*;
 
     #[test]
     fn files_are_listed_with_their_digests() {
@@ -58,5 +90,16 @@ mod tests {
         assert_eq!(inputs(json), "a.toml  SHA-256 12\nb.sdf  SHA-256 34");
         assert_eq!(inputs("[1]"), "[1]");
         assert_eq!(inputs("{"), "{");
+    }
+
+    #[test]
+    fn keys_that_differ_are_found_at_any_depth() {
+        let parse = |text: &str| text.parse::<toml::Table>().unwrap();
+        let one = parse("title = 'a'\n[disc.surface]\nsynthetic = { seed = 1, patch = '8 mm' }\nmirror = false");
+        let other = parse("title = 'a'\n[disc.surface]\nsynthetic = { seed = 2 }\nmirror = false");
+        let expected = [["disc.surface.synthetic.patch", "8 mm", "–"], ["disc.surface.synthetic.seed", "1", "2"]];
+        assert_eq!(differences(&[&one, &other]), expected);
+        assert!(differences(&[&one, &one]).is_empty());
+        assert!(differences(&[]).is_empty());
     }
 }
