@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::maps::{PageMap, maps};
 use super::pack;
 use super::picture::Picture;
-use super::recorded::Recorded;
 use super::reduction::Reduction;
+use super::series::Recorded;
 use crate::colour::viridis;
 use crate::quantity::{STATUS_LOOKS, StatusLook, Unit};
 

@@ -1,8 +1,6 @@
-//! What all pages have in common: template, look and scripts, and what is filled in.
+//! What all pages have in common: template, look and scripts, sections, and what is filled in.
 
 use super::html;
-use super::section::Section;
-use super::template::fill;
 
 const TEMPLATE: &str = include_str!("assets/page.html");
 const STYLE: &str = include_str!("assets/style.css");
@@ -50,5 +48,77 @@ impl Layout<'_> {
                 ("script", &[SCRIPT, self.script].concat()),
             ],
         )
+    }
+}
+
+/// A part of the page under a heading of its own; left out where its body is empty.
+pub struct Section {
+    id: String,
+    heading: String,
+    body: String,
+}
+
+impl Section {
+    /// A section with its HTML; the heading is plain text.
+    pub fn new(id: impl Into<String>, heading: impl Into<String>, body: impl Into<String>) -> Self {
+        Self { id: id.into(), heading: heading.into(), body: body.into() }
+    }
+
+    /// Whether there is nothing to show.
+    pub fn is_empty(&self) -> bool {
+        self.body.is_empty()
+    }
+
+    /// A link to it.
+    pub fn link(&self) -> String {
+        format!("<a href=\"#{}\">{}</a>\n", self.id, html::escape(&self.heading))
+    }
+
+    /// The section itself.
+    pub fn html(&self) -> String {
+        let Self { id, heading, body } = self;
+        let heading = html::escape(heading);
+        format!(
+            "<section id=\"{id}\" aria-labelledby=\"{id}-heading\">\n<h2 id=\"{id}-heading\">{heading}</h2>\n\
+             {body}</section>\n"
+        )
+    }
+}
+
+/// The template with every mark replaced by the part of its name; parts themselves are not searched for marks.
+///
+/// A mark without a part stays as it is.
+pub fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+    let mut text = String::with_capacity(template.len() + parts.iter().map(|(_, part)| part.len()).sum::<usize>());
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        text.push_str(before);
+        let found = after.split_once("}}").and_then(|(mark, behind)| {
+            let part = parts.iter().find(|(name, _)| *name == mark.trim());
+            part.map(|(_, part)| (*part, behind))
+        });
+        rest = match found {
+            Some((part, behind)) => {
+                text.push_str(part);
+                behind
+            }
+            None => {
+                text.push_str("{{");
+                after
+            }
+        };
+    }
+    text.push_str(rest);
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_filled_in_once() {
+        let parts = [("title", "a {{body}} }}"), ("body", "text")];
+        assert_eq!(fill("<{{title}}|{{ body }}>{{other}}{{", &parts), "<a {{body}} }}|text>{{other}}{{");
     }
 }

@@ -4,9 +4,8 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::{ReadError, RunFile};
 use serde::Serialize;
 
-use super::coarsen::{Blocks, Coarse};
-use super::quantise::{self, Fineness, Quantised};
-use super::reduction::Reduction;
+use super::pack::{self, Fineness, Quantised};
+use super::reduction::{Blocks, Coarse, Reduction};
 use crate::quantity::{MapLook, RobustRange, Unit};
 use plateau_io::number;
 
@@ -122,7 +121,7 @@ impl Recorded {
         }
         let surface = |map: Map| MapLook::of(map).above.unwrap_or(map);
         let alike = |other: &&Self| surface(other.map) == surface(self.map);
-        let range = quantise::range(all.iter().filter(alike).flat_map(|other| &other.values));
+        let range = pack::range(all.iter().filter(alike).flat_map(|other| &other.values));
         let fineness = if self.values.len() <= FINE_VALUES { Fineness::Word } else { Fineness::Byte };
         Quantised::within(range, &self.values, fineness)
     }

@@ -5,20 +5,18 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what all pages have in common: the template with its parts filled in | [`layout`], [`section`], [`template`] |
+//! | what all pages have in common: the template with its parts filled in | [`layout`] |
 //! | the page about runs | [`mod@page`] |
 //! | the page about a study | [`effects`] |
 //! | text as HTML, tables | [`html`] |
-//! | a series with its last and largest value, thinned | [`recorded`], [`thin`] |
+//! | a series with its last and largest value, thinned | [`series`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
-//! | scenes, and in which keys they differ | [`scene`] |
-//! | where the run files come from | [`provenance`] |
+//! | where the run files come from, in which keys their scenes differ | [`provenance`] |
 //! | the JSON document of the page | [`document`] |
-//! | maps for the page, no larger than allowed | [`maps`], [`reduction`], [`coarsen`] |
-//! | numbers as few bytes, bytes as text | [`quantise`], [`pack`] |
+//! | maps for the page, no larger than allowed | [`maps`], [`reduction`] |
+//! | numbers as few bytes, bytes as text | [`pack`] |
 //! | figures made by the program | [`picture`] |
 
-mod coarsen;
 mod comparison;
 mod document;
 mod effects;
@@ -30,13 +28,8 @@ mod pack;
 mod page;
 mod picture;
 mod provenance;
-mod quantise;
-mod recorded;
 mod reduction;
-mod scene;
-mod section;
-mod template;
-mod thin;
+mod series;
 
 pub use effects::{StudyPage, page as effects_page};
 pub use page::page;

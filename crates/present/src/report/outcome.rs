@@ -6,7 +6,7 @@ use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::run_file::{RunFile, State};
 
 use super::html::capital;
-use super::recorded::Recorded;
+use super::series::Recorded;
 use crate::quantity::{SeriesLook, Unit};
 use plateau_io::number;
 

@@ -5,12 +5,11 @@ use plateau_io::run_file::{ReadError, RunFile, State};
 
 use super::document::Document;
 use super::html;
-use super::layout::{AROUND, Layout};
+use super::layout::{AROUND, Layout, Section};
 use super::outcome::{self, Measure, UNKNOWN, readable};
 use super::picture::Pictures;
-use super::recorded::{MOST_POINTS, Recorded, recorded};
-use super::section::Section;
-use super::{comparison, provenance, scene};
+use super::series::{MOST_POINTS, Recorded, recorded};
+use super::{comparison, provenance};
 use crate::label::labels;
 use plateau_io::number;
 
@@ -142,7 +141,7 @@ impl Parts<'_> {
             return String::new();
         }
         let scenes: Vec<_> = self.runs.iter().map(RunFile::scene).collect();
-        let differences = scene::differences(&scenes);
+        let differences = provenance::differences(&scenes);
         let numbers = html::table(
             "Numbers, with differences from the first run",
             &self.heads("At the end, and how far from the first run"),

@@ -3,15 +3,11 @@
 //! | what | where |
 //! |---|---|
 //! | what the results tell of the factors | [`analysis`] |
-//! | which effects cannot be told from each other | [`aliases`] |
 //! | the unit in which a factor is read | [`reading`] |
 //! | which model is fitted, and what it misses | [`model`] |
-//! | how well a model fits, in a line | [`quality`] |
-//! | which runs repeat another one | [`repeated`] |
+//! | how well a model fits, what cannot be told apart, what repeats | [`words`] |
 
-pub mod aliases;
 pub mod analysis;
 pub mod model;
-pub mod quality;
 pub mod reading;
-pub mod repeated;
+pub mod words;

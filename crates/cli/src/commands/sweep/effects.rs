@@ -5,8 +5,7 @@ use std::path::Path;
 use plateau_present::figure::Format;
 use plateau_present::study::analysis::{AnalysedResponse, Analysis};
 use plateau_present::study::model::{lack_of_fit, name};
-use plateau_present::study::quality::quality;
-use plateau_present::study::repeated;
+use plateau_present::study::words::{quality, repeats_in_words};
 use plateau_study::effects::{self, Effects, Term};
 use serde::Serialize;
 
@@ -54,8 +53,7 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
         return print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"));
     }
     let repeats = Some(collected.repeats()).filter(|repeats| *repeats > 0);
-    let mut text =
-        repeats.map_or_else(String::new, |repeats| repeated::sentence(repeats, collected.runs.len()) + "\n\n");
+    let mut text = repeats.map_or_else(String::new, |repeats| repeats_in_words(repeats, collected.runs.len()) + "\n\n");
     text.extend(analysis.responses.iter().map(|response| text_of(response) + "\n"));
     text.push_str(&table(&study.title, &told(&folder, &files)));
     print(&text)

@@ -2,7 +2,7 @@
 
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
-use plateau_present::study::{aliases, repeated};
+use plateau_present::study::words::{alias_lines, repeats_in_words};
 use plateau_run::execution::cores;
 use serde::Serialize;
 
@@ -135,7 +135,7 @@ impl Report {
         ];
         if let Some(repeats) = self.repeats.filter(|repeats| *repeats > 0) {
             let different = number::grouped((self.runs - repeats) as u64);
-            rows.push(("different runs", format!("{different}; {}", repeated::sentence(repeats, self.runs))));
+            rows.push(("different runs", format!("{different}; {}", repeats_in_words(repeats, self.runs))));
         }
         if let Some(Ended { finished, failed }) = self.ended {
             let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
@@ -159,7 +159,7 @@ impl Report {
             .map(|factor| (factor.name.clone(), format!("{}  ({})", factor.values, factor.keys.join(", "))))
             .collect();
         text.push_str(&format!("\n{}", table("Factors", &factors)));
-        if let Some(lines) = aliases::lines(plan) {
+        if let Some(lines) = alias_lines(plan) {
             text.push_str(&format!("\n{}", list("Effects that cannot be told from each other", &lines)));
         }
         let names: Vec<&str> = ["run"]

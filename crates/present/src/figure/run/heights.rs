@@ -6,7 +6,7 @@ use plateau_core::observe::Map;
 use plateau_core::surface::describe::MaterialCurve;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::having;
+use super::map_page::having;
 use super::moments::{ends, heights};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;

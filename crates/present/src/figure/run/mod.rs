@@ -13,10 +13,9 @@
 //! | where the debris is | [`debris`] |
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
-//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`shape`] and [`bodies`], the moments that are
+//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`] and [`shape`], the moments that are
 //! shown in [`moments`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
 
-mod bodies;
 mod contact_area;
 mod debris;
 mod filled;

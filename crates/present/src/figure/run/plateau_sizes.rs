@@ -5,7 +5,7 @@ use plateau_core::observe::Map;
 use plateau_core::observe::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::{any_of, having};
+use super::map_page::{any_of, having};
 use super::moments::{ends, statuses};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;

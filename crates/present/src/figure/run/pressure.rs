@@ -3,8 +3,7 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::{Painted, having, rows};
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
 use super::moments::{floats, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};

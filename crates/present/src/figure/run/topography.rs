@@ -3,8 +3,7 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::bodies::{Painted, any_of, having, rows};
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
 use super::moments::{ends, heights, moment};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};

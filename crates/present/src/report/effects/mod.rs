@@ -14,12 +14,11 @@ use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
 
 use super::html;
-use super::layout::Layout;
+use super::layout::{Layout, Section};
 use super::picture::Pictures;
-use super::section::Section;
 use crate::figure::effects::axes;
 use crate::study::analysis::Analysis;
-use crate::study::repeated;
+use crate::study::words::repeats_in_words;
 use parallel::Parallel;
 use plateau_io::number;
 
@@ -79,7 +78,7 @@ fn notices(of: &StudyPage) -> Vec<String> {
             number::count(runs, "run")
         )
     });
-    left_out.into_iter().chain((repeats > 0).then(|| repeated::sentence(repeats, runs))).collect()
+    left_out.into_iter().chain((repeats > 0).then(|| repeats_in_words(repeats, runs))).collect()
 }
 
 fn contents(of: &StudyPage) -> Vec<String> {

@@ -9,7 +9,7 @@ use crate::report::html::{self, capital};
 use crate::report::picture::{Picture, Pictures};
 use crate::study::analysis::AnalysedResponse;
 use crate::study::model::lack_of_fit;
-use crate::study::quality::quality;
+use crate::study::words::quality;
 use plateau_io::number;
 
 /// Digits of numbers.

@@ -2,7 +2,7 @@
 
 use super::StudyPage;
 use crate::report::html;
-use crate::study::aliases;
+use crate::study::words::alias_lines;
 use plateau_io::number;
 
 /// The section about the study.
@@ -36,7 +36,7 @@ pub fn html(of: &StudyPage) -> String {
     let heads = ["Factor", "Set to", "Keys"].map(str::to_owned);
     let factors: Vec<Vec<String>> = study.factors.iter().map(factor).collect();
     let mut text = html::terms(&facts) + &html::table("Factors", &heads, &factors);
-    if let Some(lines) = aliases::lines(plan) {
+    if let Some(lines) = alias_lines(plan) {
         text.push_str("<h3>Effects that cannot be told from each other</h3>\n");
         text.push_str(&html::list(&lines));
     }
