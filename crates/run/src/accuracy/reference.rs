@@ -166,7 +166,8 @@ fn outcome(run: &RunFile, steps: u64, missing: &mut Vec<String>) -> Result<Outco
             missing.push(format!("the reference {shown} has no map of the {body}'s heights at its end: not compared"));
         }
     }
-    let wall_time = run.number("wall_time");
+    // A file that a run did not write may hold no number.
+    let wall_time = run.number("wall_time").filter(|time| time.is_finite());
     Ok(Outcome { steps, wall_time, history, end, heights })
 }
 
