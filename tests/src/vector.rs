@@ -10,7 +10,7 @@ use ndarray::ArrayView2;
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::model::step::advance;
 use plateau_core::model::{State, Volumes};
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 use plateau_io::surface;
 
 use crate::run_file::created;

@@ -41,8 +41,8 @@ fn check_autocorrelation(body: Body, mesh: &Mesh, along: f64, across: f64) {
     let lags = [(0, 0), (1, 0), (2, 0), (4, 0), (0, 1), (0, 2), (0, 4), (2, 2), (3, 1), (12, 0), (0, 12)];
     let mut means = [0.0; 11];
     for seed in 0..seeds {
-        let recipe = HeightSynthesis { texture: Texture::Correlation { along, across }, ..synthesis(seed, along) };
-        let field = recipe.field(body, mesh).unwrap();
+        let settings = HeightSynthesis { texture: Texture::Correlation { along, across }, ..synthesis(seed, along) };
+        let field = settings.field(body, mesh).unwrap();
         for (mean, lag) in means.iter_mut().zip(lags) {
             *mean += correlation(&field, mesh.rows(), lag, body == Body::Disc) / seeds as f64;
         }
@@ -129,8 +129,8 @@ fn a_patch_repeats_round_the_ring() {
     let mesh = ring(1200, 20, 10, 1.0);
     let (rows, repeat) = (20, 100);
     // 12.3 repeats are asked for; the nearest whole number is 12, so every 100 columns.
-    let recipe = HeightSynthesis { patch: Some(TAU / 12.3), ..synthesis(1, 0.03) };
-    let field = recipe.field(Body::Disc, &mesh).unwrap();
+    let settings = HeightSynthesis { patch: Some(TAU / 12.3), ..synthesis(1, 0.03) };
+    let field = settings.field(Body::Disc, &mesh).unwrap();
     let repeats = |period: usize| {
         let shifted = field[period * rows..].iter().chain(&field);
         // Rounding of a transform of 1200 points, some ε times its 10 stages.
@@ -139,8 +139,8 @@ fn a_patch_repeats_round_the_ring() {
     assert!(repeats(repeat));
     assert!(!repeats(repeat / 2) && !repeats(repeat / 5));
     // As long as the ring or longer: no repeat, the same field as without.
-    let whole = HeightSynthesis { patch: Some(100.0), ..recipe }.field(Body::Disc, &mesh).unwrap();
-    assert_eq!(whole, HeightSynthesis { patch: None, ..recipe }.field(Body::Disc, &mesh).unwrap());
+    let whole = HeightSynthesis { patch: Some(100.0), ..settings }.field(Body::Disc, &mesh).unwrap();
+    assert_eq!(whole, HeightSynthesis { patch: None, ..settings }.field(Body::Disc, &mesh).unwrap());
 }
 
 #[test]
@@ -170,22 +170,22 @@ fn equal_seeds_on_disc_and_pin_are_uncorrelated() {
 #[test]
 fn no_rms_height_gives_a_flat_surface() {
     let mesh = ring(30, 4, 3, 1.0);
-    let recipe = HeightSynthesis { rms_height: 0.0, ..synthesis(1, 0.1) };
-    assert_eq!(recipe.field(Body::Disc, &mesh).unwrap(), vec![0.0; 120]);
+    let settings = HeightSynthesis { rms_height: 0.0, ..synthesis(1, 0.1) };
+    assert_eq!(settings.field(Body::Disc, &mesh).unwrap(), vec![0.0; 120]);
 }
 
 #[test]
 fn refuses_what_is_no_field() {
     let mesh = ring(30, 1, 1, 1.0);
-    let field = |recipe: HeightSynthesis, body| recipe.field(body, &mesh).unwrap_err();
+    let field = |settings: HeightSynthesis, body| settings.field(body, &mesh).unwrap_err();
     for length in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(field(synthesis(1, length), Body::Disc), SynthesisError::CorrelationLength { .. }));
     }
     for across in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let recipe = HeightSynthesis { texture: Texture::Correlation { along: 0.1, across }, ..synthesis(1, 0.1) };
+        let settings = HeightSynthesis { texture: Texture::Correlation { along: 0.1, across }, ..synthesis(1, 0.1) };
         let key = "correlation_length_across";
         assert!(
-            matches!(field(recipe, Body::Disc), SynthesisError::CorrelationLength { key: found, .. } if found == key)
+            matches!(field(settings, Body::Disc), SynthesisError::CorrelationLength { key: found, .. } if found == key)
         );
     }
     let power_law = |hurst, roll_off, short_cutoff| {
@@ -201,21 +201,21 @@ fn refuses_what_is_no_field() {
     for short_cutoff in [0.0, 0.4, 2.1, f64::NAN] {
         assert!(matches!(power_law(0.8, 2.0, Some(short_cutoff)), SynthesisError::ShortCutoff { .. }));
     }
-    let recipe = HeightSynthesis { skewness: 1.0, kurtosis: 1.9, ..synthesis(1, 0.1) };
-    assert!(matches!(field(recipe, Body::Disc), SynthesisError::Kurtosis { .. }));
+    let settings = HeightSynthesis { skewness: 1.0, kurtosis: 1.9, ..synthesis(1, 0.1) };
+    assert!(matches!(field(settings, Body::Disc), SynthesisError::Kurtosis { .. }));
     for rms_height in [-1.0, f64::NAN, f64::INFINITY] {
-        let recipe = HeightSynthesis { rms_height, ..synthesis(1, 0.1) };
-        assert!(matches!(field(recipe, Body::Disc), SynthesisError::RmsHeight { .. }));
+        let settings = HeightSynthesis { rms_height, ..synthesis(1, 0.1) };
+        assert!(matches!(field(settings, Body::Disc), SynthesisError::RmsHeight { .. }));
     }
     for patch in [0.0, -1.0, f64::NAN, f64::INFINITY, 0.3] {
-        let recipe = HeightSynthesis { patch: Some(patch), ..synthesis(1, 0.1) };
-        assert!(matches!(field(recipe, Body::Disc), SynthesisError::Patch { .. }), "{patch}");
+        let settings = HeightSynthesis { patch: Some(patch), ..synthesis(1, 0.1) };
+        assert!(matches!(field(settings, Body::Disc), SynthesisError::Patch { .. }), "{patch}");
     }
     assert!(matches!(field(synthesis(1, 7.0), Body::Disc), SynthesisError::CorrelationTooLong { .. }));
-    let recipe = HeightSynthesis { patch: Some(1.0), ..synthesis(1, 0.1) };
-    assert_eq!(field(recipe, Body::Pin), SynthesisError::PatchOnPin);
+    let settings = HeightSynthesis { patch: Some(1.0), ..synthesis(1, 0.1) };
+    assert_eq!(field(settings, Body::Pin), SynthesisError::PatchOnPin);
     // One cell has only its mean; so has one row of a field that repeats more often than it varies.
     assert!(matches!(field(synthesis(1, 0.1), Body::Pin), SynthesisError::OnlyMean { .. }));
-    let recipe = HeightSynthesis { patch: Some(TAU / 10.0), ..synthesis(1, 6.0) };
-    assert!(matches!(field(recipe, Body::Disc), SynthesisError::OnlyMean { .. }));
+    let settings = HeightSynthesis { patch: Some(TAU / 10.0), ..synthesis(1, 6.0) };
+    assert!(matches!(field(settings, Body::Disc), SynthesisError::OnlyMean { .. }));
 }

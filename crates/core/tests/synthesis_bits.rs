@@ -22,7 +22,7 @@ fn the_bits_of_small_fields_are_known() {
     let plain = HeightSynthesis::gaussian(7, 3e-6, 0.2);
     let lay = Texture::Correlation { along: 0.5, across: 0.1 };
     let power_law = Texture::PowerLaw { hurst: 0.8, roll_off: 1.0, short_cutoff: Some(0.2) };
-    for (body, recipe, expected) in [
+    for (body, settings, expected) in [
         (Body::Disc, plain, "05aaaf736d28e9f31ce743f85b887fc6298a59c6f47e969ee062d6eea9d94228"),
         (Body::Pin, plain, "8cde53f8589b81e597271c16e2ef596fc594125a574e0bbcd8a2eb98e48c7588"),
         (
@@ -56,7 +56,7 @@ fn the_bits_of_small_fields_are_known() {
             "0965d21fb7a3c164fb983db078a36e29bce2a1a74a2fe97aa5c3287649719377",
         ),
     ] {
-        let found = digest(&recipe.field(body, &mesh).unwrap());
-        assert_eq!(found, expected, "{body:?} {recipe:?}");
+        let found = digest(&settings.field(body, &mesh).unwrap());
+        assert_eq!(found, expected, "{body:?} {settings:?}");
     }
 }

@@ -104,7 +104,7 @@ fn moments_and_autocorrelation_of_20_seeds() {
         SHAPES.iter().map(|shape| (Body::Disc, shape)).chain(SHAPES[..3].iter().map(|shape| (Body::Pin, shape)))
     {
         let (s, k) = (shape.skewness, shape.kurtosis);
-        let recipe = HeightSynthesis { skewness: s, kurtosis: k, ..HeightSynthesis::gaussian(0, 1.0, length) };
+        let settings = HeightSynthesis { skewness: s, kurtosis: k, ..HeightSynthesis::gaussian(0, 1.0, length) };
         let count = (body.columns(&mesh) * rows) as f64;
         let linear = shape.mean(|z, x| z * x).powi(2);
         let patches = count / (PI * cells * cells / linear);
@@ -112,7 +112,7 @@ fn moments_and_autocorrelation_of_20_seeds() {
         let lags: Vec<(usize, usize)> = (1..=12).map(|lag| (lag, 0)).chain((1..=12).map(|lag| (0, lag))).collect();
         let (mut skewness, mut kurtosis, mut correlations) = (0.0, 0.0, vec![0.0; lags.len()]);
         for seed in 0..SEEDS {
-            let field = HeightSynthesis { seed, ..recipe }.field(body, &mesh).unwrap();
+            let field = HeightSynthesis { seed, ..settings }.field(body, &mesh).unwrap();
             assert!(moment(&field, 1).abs() < count * f64::EPSILON);
             assert!((moment(&field, 2) - 1.0).abs() < count * f64::EPSILON);
             skewness += moment(&field, 3) / SEEDS as f64;
@@ -185,8 +185,8 @@ fn autocorrelation_of_power_laws() {
         let lags = [(1, 0), (2, 0), (4, 0), (8, 0), (16, 0), (0, 1), (0, 2), (0, 5), (0, 10), (3, 4), (6, 8)];
         let mut means = [0.0; 11];
         for seed in 0..SEEDS {
-            let recipe = HeightSynthesis { texture, ..HeightSynthesis::gaussian(seed, 1.0, 1.0) };
-            let field = recipe.field(body, &mesh).unwrap();
+            let settings = HeightSynthesis { texture, ..HeightSynthesis::gaussian(seed, 1.0, 1.0) };
+            let field = settings.field(body, &mesh).unwrap();
             for (mean, lag) in means.iter_mut().zip(lags) {
                 *mean += correlation(&field, rows, lag, body == Body::Disc) / SEEDS as f64;
             }
@@ -210,8 +210,8 @@ fn a_power_law_with_moments_keeps_its_autocorrelation() {
     let lags = [(1, 0), (3, 0), (8, 0), (0, 2), (0, 6)];
     let mut means = [0.0; 5];
     for seed in 0..SEEDS {
-        let recipe = HeightSynthesis { texture, skewness, kurtosis, ..HeightSynthesis::gaussian(seed, 1.0, 1.0) };
-        let field = recipe.field(Body::Disc, &mesh).unwrap();
+        let settings = HeightSynthesis { texture, skewness, kurtosis, ..HeightSynthesis::gaussian(seed, 1.0, 1.0) };
+        let field = settings.field(Body::Disc, &mesh).unwrap();
         for (mean, lag) in means.iter_mut().zip(lags) {
             *mean += correlation(&field, mesh.rows(), lag, true) / SEEDS as f64;
         }
@@ -227,13 +227,13 @@ fn a_power_law_with_moments_keeps_its_autocorrelation() {
 #[test]
 fn a_patch_with_moments_repeats_round_the_ring() {
     let mesh = ring(1200, 20, 10);
-    let recipe = HeightSynthesis {
+    let settings = HeightSynthesis {
         skewness: -1.0,
         kurtosis: 5.0,
         patch: Some(TAU / 12.0),
         ..HeightSynthesis::gaussian(1, 1.0, 0.03)
     };
-    let field = recipe.field(Body::Disc, &mesh).unwrap();
+    let field = settings.field(Body::Disc, &mesh).unwrap();
     let repeats = |period: usize| {
         let shifted = field[period * 20..].iter().chain(&field);
         // Rounding of a transform of 1200 points, some ε times its stages, steepened by the tail of the distribution.

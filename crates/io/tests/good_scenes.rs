@@ -10,8 +10,8 @@ use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
-use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene, Workers};
 use plateau_io::scene::{self, memory_estimate};
+use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::ReadOptions;
 
 fn good(name: &str) -> PathBuf {
@@ -67,10 +67,10 @@ fn the_example_of_the_format_gives_its_values() {
     let preparation =
         Preparation { level: Level::Plane, pixel: Some(50e-6), cutoff: Some(3e-6), repeat: true, ..NO_PREPARATION };
     let source = HeightSource::File { path: input("cermet.sdf"), options: ReadOptions::default() };
-    assert_eq!(scene.disc_surface, HeightRecipe { source, mirror: false, preparation });
+    assert_eq!(scene.disc_surface, HeightSettings { source, mirror: false, preparation });
     let synthesis = HeightSynthesis::gaussian(3, 0.5e-6, 100e-6);
     let source = HeightSource::Synthetic(synthesis);
-    assert_eq!(scene.pin_surface, HeightRecipe { source, mirror: false, preparation: NO_PREPARATION });
+    assert_eq!(scene.pin_surface, HeightSettings { source, mirror: false, preparation: NO_PREPARATION });
     assert_eq!(scene.resin_recess, 8e-6);
     let fibres = FibreSynthesis { seed: 2, fibre_fraction: 0.3, fibre_length: 400e-6, fibre_width: 100e-6 };
     assert_eq!(scene.pin_base, BaseSource::Synthetic(fibres));
@@ -99,7 +99,7 @@ fn what_is_absent_gets_the_default_of_the_format() {
     assert_eq!((parameters.time_acceleration, parameters.integrator), (1.0, Integrator::Explicit));
     assert_eq!(parameters.materials.pin_secondary, parameters.materials.pin_primary);
     assert_eq!(parameters.materials.pin_secondary.specific_wear_rate, 5e-14);
-    let flat = HeightRecipe { source: HeightSource::Flat, mirror: false, preparation: NO_PREPARATION };
+    let flat = HeightSettings { source: HeightSource::Flat, mirror: false, preparation: NO_PREPARATION };
     assert_eq!((&scene.disc_surface, &scene.pin_surface), (&flat, &flat));
     assert_eq!((scene.resin_recess, scene.pin_base_mirror), (0.0, false));
     assert_eq!(scene.pin_base, BaseSource::Uniform(Base::Primary));
@@ -152,7 +152,7 @@ fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() 
     // Files are relative to the scene that names them.
     assert_eq!(
         scene.disc_surface,
-        HeightRecipe {
+        HeightSettings {
             source: HeightSource::File { path: input("parts/../surfaces/cermet.sdf"), options: ReadOptions::default() },
             mirror: true,
             preparation: Preparation { level: Level::Mean, fill: Some(Fill::Level), repeat: true, ..NO_PREPARATION },

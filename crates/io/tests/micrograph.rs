@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::{Fibres, Micrograph, Threshold};
 use plateau_io::scene;
-use plateau_io::scene::recipe::{BaseSource, Scene};
+use plateau_io::scene::{BaseSource, Scene};
 use plateau_io::surface::{Loaded, load, micrograph};
 use png::{BitDepth, ColorType};
 
@@ -83,7 +83,7 @@ fn at(loaded: &Loaded, column: usize, row: usize) -> bool {
 #[test]
 fn the_keys_of_a_scene_say_how() {
     let (_folder, scene) = grey("pixel = \"20 um\"");
-    let BaseSource::Image { recipe, .. } = scene.pin_base else { panic!("{:?}", scene.pin_base) };
+    let BaseSource::Image { micrograph, .. } = scene.pin_base else { panic!("{:?}", scene.pin_base) };
     let plain = Micrograph {
         pixel: 2e-5,
         quarters: 0,
@@ -92,14 +92,14 @@ fn the_keys_of_a_scene_say_how() {
         fibres: Fibres::Bright,
         despeckle: None,
     };
-    assert_eq!(recipe, plain);
+    assert_eq!(micrograph, plain);
     for key in ["rotate = \"0 deg\"", "threshold = \"otsu\"", "fibres = \"bright\""] {
         assert!(scene.resolved.contains(key), "{}", scene.resolved);
     }
     let keys = "pixel = \"20 um\"\nthreshold = 0.5\nsmooth = \"15 um\"\ndespeckle = \"2000 um^2\"\nrotate = \"270 deg\"\n\
                 fibres = \"dark\"\nmirror = true";
     let (folder, scene) = grey(keys);
-    let BaseSource::Image { recipe, .. } = scene.pin_base else { panic!("{:?}", scene.pin_base) };
+    let BaseSource::Image { micrograph, .. } = scene.pin_base else { panic!("{:?}", scene.pin_base) };
     let full = Micrograph {
         quarters: 3,
         smooth: Some(15e-6),
@@ -108,7 +108,7 @@ fn the_keys_of_a_scene_say_how() {
         despeckle: Some(2000e-12),
         ..plain
     };
-    assert_eq!(recipe, full);
+    assert_eq!(micrograph, full);
     // What is resolved reads back as the same.
     let again = folder.path().join("again.toml");
     fs::write(&again, &scene.resolved).unwrap();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::observe::Sample;
 use plateau_io::plausibility::{Recorded, of_scene, of_surfaces};
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 use plateau_io::scene::{self, Warning};
 use plateau_io::study::{Study, plan::Plan};
 use plateau_io::surface;

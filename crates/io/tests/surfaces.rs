@@ -1,4 +1,4 @@
-//! The surfaces of a scene, from recipes and files.
+//! The surfaces of a scene, from settings and files.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -11,7 +11,7 @@ use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::Base;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
-use plateau_io::scene::recipe::{BaseSource, HeightRecipe, HeightSource, OutputRecipe, Scene, Workers};
+use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, OutputSettings, Scene, Workers};
 use plateau_io::surface::{Loaded, ReadOptions, load};
 
 const ROWS: usize = 4;
@@ -20,7 +20,7 @@ const PIN_COLUMNS: usize = 6;
 
 /// Flat on flat, all fibre.
 fn scene() -> Scene {
-    let flat = HeightRecipe { source: HeightSource::Flat, mirror: false, preparation: Preparation::default() };
+    let flat = HeightSettings { source: HeightSource::Flat, mirror: false, preparation: Preparation::default() };
     Scene {
         title: "test".to_owned(),
         path: PathBuf::from("test.toml"),
@@ -38,7 +38,7 @@ fn scene() -> Scene {
         pin_base: BaseSource::Uniform(Base::Primary),
         pin_base_mirror: false,
         workers: Workers::Count(1),
-        output: OutputRecipe {
+        output: OutputSettings {
             extras: Vec::new(),
             checkpoint_every: 60.0,
             file: PathBuf::from("test.h5"),
@@ -291,7 +291,7 @@ fn a_measured_patch_on_disc_and_pin() {
         scale: 300.0,
         ..Preparation::default()
     };
-    scene.disc_surface = HeightRecipe { source: file(&afm(), None), mirror: false, preparation };
+    scene.disc_surface = HeightSettings { source: file(&afm(), None), mirror: false, preparation };
     scene.pin_surface = scene.disc_surface.clone();
     let Loaded { surfaces, inputs, report, .. } = load(&scene).unwrap();
     // The heights are levelled, so their mean is 0 and the cut at 10 nm becomes a highest height of 3 um.

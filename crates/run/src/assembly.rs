@@ -6,7 +6,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::schedule::Schedule;
 use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_io::scene::recipe::{OutputRecipe, Scene};
+use plateau_io::scene::{OutputSettings, Scene};
 
 use crate::error::{InputError, RunError};
 use crate::job::Job;
@@ -22,7 +22,7 @@ pub struct Assembly {
     idle: Option<Idle>,
     /// When samples and maps are due, as far as is known now; may be another one before the first step.
     pub(crate) schedule: Schedule,
-    pub(crate) output: OutputRecipe,
+    pub(crate) output: OutputSettings,
 }
 
 impl Assembly {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::{Engine, Execution, Simulation, SimulationError};
-use plateau_io::scene::recipe::{Scene, Workers};
+use plateau_io::scene::{Scene, Workers};
 
 use crate::observer::Observer;
 use crate::options::ExecutionOptions;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plateau_io::run_file::{Header, InputFile};
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 
 use crate::assembly::Assembly;
 use crate::error::InputError;

@@ -8,8 +8,8 @@ use plateau_io::claim::Claim;
 use plateau_io::number;
 use plateau_io::plausibility::{self, Recorded};
 use plateau_io::run_file::{End, Header, RunFile, RunWriter, Synced, WriterReport, check_place};
+use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
-use plateau_io::scene::recipe::Scene;
 use plateau_io::surface::{self, Loaded};
 
 use crate::assembly::Assembly;

@@ -6,8 +6,8 @@ use plateau_core::observe::Sample;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
 use plateau_io::run_file::WriterReport;
+use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
-use plateau_io::scene::recipe::Scene;
 use serde::Serialize;
 
 use crate::machine;

@@ -6,7 +6,7 @@ use std::path::Path;
 use plateau_core::observe::Sample;
 use plateau_core::simulation::{Execution, SimulationError};
 use plateau_io::run_file::RunFile;
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 use plateau_io::{scene, surface};
 use plateau_run::{Assembly, InputError, Job, Observer, Progress, RunError, RunOptions, Sink, StartMode, run};
 

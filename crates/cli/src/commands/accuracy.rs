@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use plateau_io::dataset_file::now;
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded};
 use plateau_present::figure::{Figure, Format, accuracy as drawing};
 use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Report, Row, Wish, read_reference, search};

@@ -13,7 +13,7 @@ use plateau_io::checkpoint;
 use plateau_io::claim::lock_of;
 use plateau_io::plausibility;
 use plateau_io::run_file::{resolve, size_estimate};
-use plateau_io::scene::{Warning, memory_estimate, recipe::Scene};
+use plateau_io::scene::{Scene, Warning, memory_estimate};
 use plateau_io::surface::{self, Loaded};
 use plateau_run::execution::{decide, time_per_step};
 use plateau_run::{idle_warning, stiffness_warning};

@@ -17,7 +17,7 @@ mod verify;
 mod watch;
 
 use plateau_io::plausibility;
-use plateau_io::scene::{self, recipe::Scene};
+use plateau_io::scene::{self, Scene};
 
 use crate::arguments::{Arguments, Command, SceneArguments};
 use crate::failure::Failure;

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::record::{Outcome, REVOLUTIONS, Series};
 use plateau_io::surface;

@@ -279,12 +279,12 @@ mod tests {
             assert!(matches!(fibres(1, fraction).base(&mesh), Err(FibreError::Fraction { .. })));
         }
         for (fibre_length, fibre_width) in [(1e-4, 0.0), (1e-4, f64::NAN), (1e-4, -1e-5)] {
-            let recipe = FibreSynthesis { fibre_length, fibre_width, ..fibres(1, 0.3) };
-            assert!(matches!(recipe.base(&mesh), Err(FibreError::Width { .. })));
+            let settings = FibreSynthesis { fibre_length, fibre_width, ..fibres(1, 0.3) };
+            assert!(matches!(settings.base(&mesh), Err(FibreError::Width { .. })));
         }
         for fibre_length in [0.5e-4, f64::NAN, f64::INFINITY] {
-            let recipe = FibreSynthesis { fibre_length, ..fibres(1, 0.3) };
-            assert!(matches!(recipe.base(&mesh), Err(FibreError::ShorterThanWide { .. })));
+            let settings = FibreSynthesis { fibre_length, ..fibres(1, 0.3) };
+            assert!(matches!(settings.base(&mesh), Err(FibreError::ShorterThanWide { .. })));
         }
         let dust = FibreSynthesis { fibre_length: 1e-12, fibre_width: 1e-12, ..fibres(1, 0.3) };
         assert!(matches!(dust.base(&mesh), Err(FibreError::TooMany { .. })));

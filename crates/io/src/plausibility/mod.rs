@@ -20,7 +20,7 @@ pub use surfaces::of_surfaces;
 
 use plateau_core::model::material::Materials;
 
-use crate::scene::recipe::Scene;
+use crate::scene::Scene;
 use crate::scene::{Origin, Warning};
 
 /// The part of the modulus of a plateau that the mean pressure cannot reach in earnest: beyond it nothing is elastic, and

@@ -6,8 +6,8 @@ use plateau_core::observe::Sample;
 
 use super::words::number;
 use super::{Finding, Rule, apply, softest_plateau, too_much_overlap, too_much_pressure};
+use crate::scene::Scene;
 use crate::scene::Warning;
-use crate::scene::recipe::Scene;
 
 /// How far a filled fraction may leave 0 to 1: a disc that wears opens a little before the first debris fills it.
 const SLACK: f64 = 1e-3;

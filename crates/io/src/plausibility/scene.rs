@@ -7,7 +7,7 @@ use plateau_core::surface::{HeightSynthesis, Length, Texture};
 use super::words::{number, pressure};
 use super::{Finding, Rule, apply, softest_plateau, too_much_pressure};
 use crate::scene::Warning;
-use crate::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene};
+use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
 
 /// Young's moduli of what brakes are made of, soft rubber and diamond included, Pa.
 const MODULI: std::ops::RangeInclusive<f64> = 1e3..=1e12;
@@ -92,8 +92,8 @@ fn modulus(material: &Material) -> Option<Finding> {
 }
 
 /// What is synthetic about the heights, if they are.
-fn synthesis(recipe: &HeightRecipe) -> Option<&HeightSynthesis> {
-    match &recipe.source {
+fn synthesis(heights: &HeightSettings) -> Option<&HeightSynthesis> {
+    match &heights.source {
         HeightSource::Synthetic(synthesis) => Some(synthesis),
         HeightSource::File { .. } | HeightSource::Flat => None,
     }
@@ -101,21 +101,21 @@ fn synthesis(recipe: &HeightRecipe) -> Option<&HeightSynthesis> {
 
 /// One length for both directions may be as short as the shorter side of a cell allows; one of its own for the sliding
 /// direction only as short as the cell along it.
-fn correlation_length(scene: &Scene, recipe: &HeightRecipe, body: &str) -> Option<Finding> {
+fn correlation_length(scene: &Scene, heights: &HeightSettings, body: &str) -> Option<Finding> {
     let mesh = &scene.parameters.mesh;
     let across = format!("{body}.surface.synthetic.correlation_length_across");
     let cell = if scene.places.contains_key(&across) { mesh.column_width() } else { shorter_side(mesh) };
-    too_few_cells(lengths(recipe)?[0], cell)
+    too_few_cells(lengths(heights)?[0], cell)
 }
 
-fn correlation_length_across(scene: &Scene, recipe: &HeightRecipe) -> Option<Finding> {
-    too_few_cells(lengths(recipe)?[1], scene.parameters.mesh.row_height())
+fn correlation_length_across(scene: &Scene, heights: &HeightSettings) -> Option<Finding> {
+    too_few_cells(lengths(heights)?[1], scene.parameters.mesh.row_height())
 }
 
 /// The correlation lengths along and across the sliding direction, m. A power law has none; where it begins is checked as
 /// heights are made.
-fn lengths(recipe: &HeightRecipe) -> Option<[f64; 2]> {
-    match synthesis(recipe)?.texture {
+fn lengths(heights: &HeightSettings) -> Option<[f64; 2]> {
+    match synthesis(heights)?.texture {
         Texture::Correlation { along, across } => Some([along, across]),
         Texture::PowerLaw { .. } => None,
     }

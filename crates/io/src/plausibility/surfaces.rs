@@ -6,7 +6,7 @@ use plateau_core::surface::Length;
 use super::words::number;
 use super::{Finding, Rule, apply, softest_plateau, too_much_overlap, too_much_pressure};
 use crate::scene::Warning;
-use crate::scene::recipe::{HeightRecipe, HeightSource, Scene};
+use crate::scene::{HeightSettings, HeightSource, Scene};
 use crate::surface::Loaded;
 
 /// Fraction of the points that a cutoff takes off peaks alone: from here on it is in the valleys.
@@ -40,10 +40,10 @@ const RULES: &[Rule<Beginning>] = &[
 pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Warning> {
     let parameters = &scene.parameters;
     // Where heights are flat nothing can be cut, and whoever tries a flat disc in a scene cannot take its cutoff away.
-    let cutoff = |recipe: &HeightRecipe, cut: Option<f64>| match recipe.source {
+    let cutoff = |heights: &HeightSettings, cut: Option<f64>| match heights.source {
         HeightSource::Flat => None,
         HeightSource::File { .. } | HeightSource::Synthetic(_) => {
-            Some(Cutoff { height: recipe.preparation.cutoff?, cut: cut? })
+            Some(Cutoff { height: heights.preparation.cutoff?, cut: cut? })
         }
     };
     let beginning = Beginning {

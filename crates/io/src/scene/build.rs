@@ -10,9 +10,9 @@ use plateau_core::observe::extra::Extra;
 use plateau_core::observe::requested;
 use plateau_core::observe::schedule::SampleEvery;
 
+use super::contents::{OutputSettings, Scene, Workers};
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
-use super::recipe::{OutputRecipe, Scene, Workers};
 use super::schema::{choices, join};
 use super::settings::Settings;
 use super::surfaces::{base, heights};
@@ -200,7 +200,7 @@ fn plateaus(settings: &Settings) -> Result<PlateauRules, Problem> {
     })
 }
 
-fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Result<OutputRecipe, Problem> {
+fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Result<OutputSettings, Problem> {
     let sample_every = match settings.optional_number("output.sample_every")? {
         Some(time) => SampleEvery::Time(time),
         None => SampleEvery::Steps(settings.integer("output.sample_every_steps")?),
@@ -216,7 +216,7 @@ fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Res
     let extras = extras(settings)?;
     let checkpoint_every = settings.number("output.checkpoint_every")?;
     let maps_at = map_times(settings, end, warnings);
-    Ok(OutputRecipe { file, sample_every, maps_at, maps, extras, checkpoint_every })
+    Ok(OutputSettings { file, sample_every, maps_at, maps, extras, checkpoint_every })
 }
 
 /// The series on request whose switches are on.

@@ -6,7 +6,7 @@ use std::path::Path;
 use plateau_core::observe::Map;
 use plateau_core::observe::extra::Extra;
 
-use super::recipe::Scene;
+use super::Scene;
 
 /// Copies of a map that exist at once: one on its way to the writer, one that it writes; and of a field that a series is
 /// measured of, that of one worker and that of all.

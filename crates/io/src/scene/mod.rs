@@ -3,18 +3,18 @@
 //! ```text
 //! scene file, scenes it extends, --set   layers     one list of keys, each with its place in a text
 //!                                        settings   each key checked by the schema, SI units, defaults
-//!                                        build      what keys say together: mesh, steps, memory -> recipe::Scene (surfaces: those of disc and pin)
+//!                                        build      what keys say together: mesh, steps, memory -> Scene (surfaces: those of disc and pin)
 //!                                        resolved   the whole scene as TOML again
 //! ```
 
 mod build;
+mod contents;
 mod difference;
 mod document;
 mod error;
 mod interpret;
 mod layers;
 mod memory;
-pub mod recipe;
 mod resolved;
 pub mod schema;
 mod settings;
@@ -22,10 +22,10 @@ mod surfaces;
 
 use std::path::Path;
 
+pub use contents::{BaseSource, HeightSettings, HeightSource, OutputSettings, Scene, Workers};
 pub use difference::{Difference, differences, values};
 pub use error::{Origin, Problem, SceneError, Warning};
 pub use memory::memory_estimate;
-use recipe::Scene;
 use settings::Settings;
 
 /// Reads the scene at `path`, lays it over the scenes it extends, applies the arguments of `--set` (`key.path=value`)

@@ -1,19 +1,19 @@
-//! From checked keys to the recipes of the initial surfaces.
+//! From checked keys to the settings of the initial surfaces.
 
 use std::path::PathBuf;
 
 use plateau_core::surface::micrograph::{Micrograph, Threshold};
 use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation, Texture};
 
+use super::contents::{BaseSource, HeightSettings, HeightSource};
 use super::error::Problem;
 use super::interpret::Setting;
-use super::recipe::{BaseSource, HeightRecipe, HeightSource};
 use super::schema::choices;
 use super::settings::Settings;
 use crate::surface::ReadOptions;
 
 /// Heights of disc or pin, and how they are prepared.
-pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightRecipe, Problem> {
+pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightSettings, Problem> {
     let surface = |name: &str| format!("{body}.surface.{name}");
     let prepare = |name: &str| format!("{body}.prepare.{name}");
     let source = if let Some((path, dataset)) = file(settings, &format!("{body}.surface")) {
@@ -32,10 +32,10 @@ pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightRecipe, P
         repeat: settings.bool(&prepare("repeat"))?,
         scale: settings.number(&prepare("scale"))?,
     };
-    Ok(HeightRecipe { source, mirror: settings.bool(&surface("mirror"))?, preparation })
+    Ok(HeightSettings { source, mirror: settings.bool(&surface("mirror"))?, preparation })
 }
 
-/// The recipe of synthetic heights in this inline table.
+/// The settings of synthetic heights in this inline table.
 fn synthesis(settings: &Settings, table: &str) -> Result<HeightSynthesis, Problem> {
     let path = |name: &str| format!("{table}.{name}");
     let texture = match settings.optional_number(&path("correlation_length"))? {
@@ -68,7 +68,7 @@ pub(super) fn base(settings: &Settings) -> Result<BaseSource, Problem> {
         return Ok(BaseSource::File { path, dataset });
     }
     if let Ok(path) = settings.text("pin.base.image") {
-        return Ok(BaseSource::Image { path: path.into(), recipe: micrograph(settings)? });
+        return Ok(BaseSource::Image { path: path.into(), micrograph: micrograph(settings)? });
     }
     if settings.get("pin.base.uniform").is_some() {
         return Ok(BaseSource::Uniform(settings.choice("pin.base.uniform", &choices::UNIFORM)?));

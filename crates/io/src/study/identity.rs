@@ -9,8 +9,8 @@ use std::sync::Mutex;
 use sha2::{Digest, Sha256};
 
 use crate::regular::sha256;
-use crate::scene::recipe::{BaseSource, HeightSource, Scene};
 use crate::scene::schema::{self, Role};
+use crate::scene::{BaseSource, HeightSource, Scene};
 
 /// Digests of files, each read once.
 #[derive(Debug, Default)]

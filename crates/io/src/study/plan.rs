@@ -8,7 +8,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::factor::Level;
 use super::{DesignSource, Order, Study, StudyError};
-use crate::scene::{self, Origin, Problem, SceneError, recipe::Scene};
+use crate::scene::{self, Origin, Problem, Scene, SceneError};
 
 /// The runs of a study.
 #[derive(Debug, Clone, PartialEq)]

@@ -35,7 +35,7 @@ pub enum SurfaceError {
     Synthesis {
         /// Table of the scene.
         key: &'static str,
-        /// What is wrong with the recipe.
+        /// What is wrong with the settings.
         reason: SynthesisError,
     },
     /// A synthetic fibre map cannot be made.
@@ -43,7 +43,7 @@ pub enum SurfaceError {
     Fibre {
         /// Table of the scene.
         key: &'static str,
-        /// What is wrong with the recipe.
+        /// What is wrong with the settings.
         reason: FibreError,
     },
     /// Heights cannot be prepared.

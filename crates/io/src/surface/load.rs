@@ -1,4 +1,4 @@
-//! From the recipes of a scene to the surfaces before the first step.
+//! From the settings of a scene to the surfaces before the first step.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use super::measured::{detect, read};
 use super::options::ReadOptions;
 use super::{hdf5, image};
 use crate::regular::sha256;
-use crate::scene::recipe::{BaseSource, HeightRecipe, HeightSource, Scene};
+use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
 
 /// The surfaces of a scene, ready for the first step.
 #[derive(Debug, Clone)]
@@ -88,9 +88,9 @@ fn source_name(source: &HeightSource) -> String {
 
 impl Loader<'_> {
     /// Heights of a body, and the fraction of its points that a cutoff cut.
-    fn heights(&mut self, recipe: &HeightRecipe, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
+    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
         let (surface, prepare) = (surface_key(body), prepare_key(body));
-        let (raw, negate) = match &recipe.source {
+        let (raw, negate) = match &settings.source {
             HeightSource::Flat => {
                 self.report.push(format!("{surface}: flat"));
                 (RawHeights::OnMesh(vec![0.0; body.columns(self.mesh) * self.mesh.rows()]), false)
@@ -103,15 +103,15 @@ impl Loader<'_> {
                 (RawHeights::OnMesh(heights), false)
             }
             HeightSource::File { path, options } => {
-                let pixel = recipe.preparation.pixel;
+                let pixel = settings.preparation.pixel;
                 let (raw, instrument) = self
                     .file_heights(path, options, body, pixel)
                     .map_err(|reason| SurfaceError::File { key: surface, path: path.clone(), reason })?;
                 (raw, instrument && body == Body::Pin)
             }
         };
-        let prepared = recipe.preparation.apply(raw, recipe.mirror, body, self.mesh).map_err(|reason| {
-            SurfaceError::Preparation { key: prepare, source_name: source_name(&recipe.source), reason }
+        let prepared = settings.preparation.apply(raw, settings.mirror, body, self.mesh).map_err(|reason| {
+            SurfaceError::Preparation { key: prepare, source_name: source_name(&settings.source), reason }
         })?;
         self.report.extend(prepared.report.iter().map(|step| format!("{prepare}: {step}")));
         let mut heights = prepared.heights;
@@ -173,8 +173,8 @@ impl Loader<'_> {
             BaseSource::File { path, dataset } => self
                 .file_base(path, dataset.as_deref())
                 .map_err(|reason| SurfaceError::File { key, path: path.clone(), reason })?,
-            BaseSource::Image { path, recipe } => {
-                let map = self.fibre_map(path, recipe).map_err(|reason| SurfaceError::File {
+            BaseSource::Image { path, micrograph } => {
+                let map = self.fibre_map(path, micrograph).map_err(|reason| SurfaceError::File {
                     key,
                     path: path.clone(),
                     reason,
@@ -192,10 +192,10 @@ impl Loader<'_> {
         Ok(base)
     }
 
-    fn fibre_map(&mut self, path: &Path, recipe: &Micrograph) -> Result<FibreMap, FileError> {
-        let (map, picture) = fibre_map(path, recipe, self.mesh)?;
+    fn fibre_map(&mut self, path: &Path, micrograph: &Micrograph) -> Result<FibreMap, FileError> {
+        let (map, picture) = fibre_map(path, micrograph, self.mesh)?;
         self.inputs.add(path)?;
-        let pixel = Length(recipe.pixel);
+        let pixel = Length(micrograph.pixel);
         self.report.push(format!("pin.base: {}, {picture}, {pixel} a pixel", path.display()));
         Ok(map)
     }
@@ -218,20 +218,20 @@ impl Loader<'_> {
 /// # Errors
 /// [`SurfaceError`] as for [`load`].
 pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
-    let BaseSource::Image { path, recipe } = &scene.pin_base else { return Ok(None) };
-    let map = fibre_map(path, recipe, &scene.parameters.mesh);
+    let BaseSource::Image { path, micrograph } = &scene.pin_base else { return Ok(None) };
+    let map = fibre_map(path, micrograph, &scene.parameters.mesh);
     let (map, _) = map.map_err(|reason| SurfaceError::File { key: "pin.base", path: path.clone(), reason })?;
-    Ok(Some((map, recipe.pixel)))
+    Ok(Some((map, micrograph.pixel)))
 }
 
 /// Makes the fibre map of an image file; says what the image is besides.
-fn fibre_map(path: &Path, recipe: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
+fn fibre_map(path: &Path, micrograph: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
     let format = detect(path)?;
     if !matches!(format, Format::Png | Format::Tiff) {
         return Err(FileError::NotAnImage(format));
     }
     let (grey, picture) = image::grey(&std::fs::read(path)?, format)?;
-    Ok((recipe.fibre_map(grey, mesh)?, picture))
+    Ok((micrograph.fibre_map(grey, mesh)?, picture))
 }
 
 /// What synthetic heights were asked for, in words.

@@ -2,7 +2,7 @@
 
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::parameters::{Integrator, Parameters};
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 use plateau_io::scene::schema::choices;
 
 use super::coarsening::Coarsening;

@@ -7,7 +7,7 @@ use plateau_core::model::parameters::Integrator;
 use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{InputFile, ReadError, RunFile, State};
 use plateau_io::scene::schema::{self, Role};
-use plateau_io::scene::{Difference, differences, recipe::Scene};
+use plateau_io::scene::{Difference, Scene, differences};
 
 use super::comparison::{End, Heights, Outcome};
 use super::error::ReferenceError;

@@ -11,7 +11,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_io::scene::recipe::{OutputRecipe, Scene};
+use plateau_io::scene::{OutputSettings, Scene};
 
 use super::coarsening::Coarsening;
 use super::comparison::{End, Heights, Outcome};
@@ -151,7 +151,7 @@ impl<'a> Runs<'a> {
     /// The scene with other numerics, of which heights at the end and samples at the ends of windows are wanted.
     fn assembly(&self, numerics: &Numerics, duration: f64, windows: &Windows) -> Result<Assembly, RunError> {
         let parameters = self.parameters(numerics);
-        let output = OutputRecipe {
+        let output = OutputSettings {
             file: PathBuf::new(),
             sample_every: SampleEvery::Time(windows.width),
             maps_at: Vec::new(),

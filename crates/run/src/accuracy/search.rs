@@ -6,7 +6,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::simulation::Execution;
 use plateau_io::dataset_file::now;
 use plateau_io::number;
-use plateau_io::scene::recipe::Scene;
+use plateau_io::scene::Scene;
 
 use super::comparison::{Comparison, HistoryError, Outcome};
 use super::error::{AccuracyError, PlanError, Unfinished, enough};

@@ -16,7 +16,7 @@ pub enum SynthesisError {
     /// The correlation length is no length.
     #[error("{key} is {found} m, expected more than 0 and finite")]
     CorrelationLength {
-        /// Key of the recipe.
+        /// Key of the setting.
         key: &'static str,
         /// What was asked for.
         found: f64,
@@ -28,7 +28,7 @@ pub enum SynthesisError {
         Length(*found), Length(*longest)
     )]
     CorrelationTooLong {
-        /// Key of the recipe.
+        /// Key of the setting.
         key: &'static str,
         /// What was asked for, m.
         found: f64,
@@ -115,7 +115,7 @@ pub enum SynthesisError {
         columns: usize,
         /// Rows of the field.
         rows: usize,
-        /// Key of the recipe's length.
+        /// Key of the length.
         key: &'static str,
         /// That length, m.
         length: f64,

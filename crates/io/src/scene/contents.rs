@@ -32,9 +32,9 @@ pub struct Scene {
     /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
     pub duration: f64,
     /// Disc heights.
-    pub disc_surface: HeightRecipe,
+    pub disc_surface: HeightSettings,
     /// Pin heights.
-    pub pin_surface: HeightRecipe,
+    pub pin_surface: HeightSettings,
     /// Added to the pin's height on cells without fibre, m.
     pub resin_recess: f64,
     /// Fibre map of the pin.
@@ -44,7 +44,7 @@ pub struct Scene {
     /// Threads.
     pub workers: Workers,
     /// What is written, where and when.
-    pub output: OutputRecipe,
+    pub output: OutputSettings,
     /// Seeds of the scene as (key path, seed), for the run file's provenance.
     pub seeds: Vec<(String, u64)>,
     /// The whole resolved scene as TOML: `extends` and `--set` applied, defaults filled in.
@@ -60,7 +60,7 @@ pub struct Scene {
 impl Scene {
     /// When samples and maps are due.
     pub fn schedule(&self) -> Schedule {
-        let OutputRecipe { sample_every, maps_at, .. } = &self.output;
+        let OutputSettings { sample_every, maps_at, .. } = &self.output;
         Schedule::new(self.parameters.clock(), self.end(), *sample_every, maps_at)
     }
 
@@ -79,7 +79,7 @@ impl Scene {
 
 /// Heights and how they are prepared.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HeightRecipe {
+pub struct HeightSettings {
     /// Where the heights come from.
     pub source: HeightSource,
     /// View from the front: x is mirrored.
@@ -119,7 +119,7 @@ pub enum BaseSource {
         /// The file.
         path: PathBuf,
         /// How it becomes a fibre map.
-        recipe: Micrograph,
+        micrograph: Micrograph,
     },
     /// Random capsules.
     Synthetic(FibreSynthesis),
@@ -138,7 +138,7 @@ pub enum Workers {
 
 /// What is written, where and when.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OutputRecipe {
+pub struct OutputSettings {
     /// Run file, relative to the working directory.
     pub file: PathBuf,
     /// When samples are taken.
