@@ -53,6 +53,21 @@ class RunFile(unittest.TestCase):
         subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)
         self.script("check_run_file.py", "--maps", "pressure")
 
+    def test_events_are_a_group_with_a_dimension_of_its_own(self):
+        subprocess.run(command("stops.toml", self.path), check=True, capture_output=True, timeout=300)
+        with h5py.File(self.path) as file:
+            # Stops of 425 revolutions a minute for 3 s on a mean radius of 20.5 mm.
+            distance = 425 / 60 * 3 * 2 * np.pi * 20.5e-3
+            np.testing.assert_allclose(file["event/distance"][1:], distance, rtol=1e-12)
+            worn = sum(file[f"series/worn_{part}"][-1] for part in ("pin", "resin", "disc"))
+            np.testing.assert_allclose(file["event/worn"][:].sum(), worn, rtol=1e-12)
+        for engine in ("h5netcdf", "netcdf4"):
+            with xarray.open_datatree(self.path, engine=engine) as tree:
+                event = tree["event"]
+                self.assertEqual((dict(event.sizes)["event"], list(event.event.values)), (6, [1, 2, 3, 4, 5, 6]))
+                self.assertEqual([float(value) for value in event.start[1:3]], [14, 22])
+                self.assertEqual(event.initial_speed.attrs["units"], "rad s-1")
+
     def test_roughness_is_that_of_the_maps(self):
         changes = ["output.roughness=true", 'operation.duration="1 s"']
         subprocess.run(command("quick.toml", self.path, *changes), check=True, capture_output=True, timeout=300)

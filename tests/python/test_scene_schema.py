@@ -118,6 +118,7 @@ def good_value(path, key):
             return {"pitch": '"2 um"', "time_acceleration": "2.5", "workers": "1", "threshold": "0.5"}[path.split(".")[-1]]
         case {"type": "array"}:
             lists = {"maps": '["pressure", "pin_status"]', "maps_at": '["0 s", "2 min"]', "height_range": '["2 um", "2 um"]'}
+            lists["points"] = '[["0 s", "4 N", "9 rpm"], ["1 min", "0 N", "0 rpm"]]'
             return lists[path.split(".")[-1]]
         case {"type": "boolean"}:
             return "true"

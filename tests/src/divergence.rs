@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use plateau_core::observe::{self, EXTRAS, Map, QUANTITIES, Sample};
+use plateau_core::observe::{self, EXTRAS, Map, QUANTITIES, Sample, schedule};
 use plateau_core::simulation::Simulation;
 
 /// Steps between two comparisons; where one fails, the steps before it are taken once more, one by one.
@@ -101,7 +101,8 @@ impl Moment {
     fn reach(simulation: &mut Simulation, step: u64) -> Result<Self, String> {
         let mut told = || {
             simulation.advance_to(step)?;
-            Ok((simulation.sample_with(EXTRAS)?, simulation.snapshot(&Map::ALL)?))
+            let end = schedule::Moment { time: simulation.time(), ..schedule::Moment::default() };
+            Ok((simulation.sample_at(&end, EXTRAS)?, simulation.snapshot(&Map::ALL)?))
         };
         let (sample, snapshot) =
             told().map_err(|error: plateau_core::simulation::SimulationError| error.to_string())?;

@@ -16,7 +16,7 @@ use plateau_io::surface;
 use crate::run_file::created;
 
 /// What is recorded of a step: name and value.
-type Record = [(&'static str, f64); 6];
+type Record = Vec<(&'static str, f64)>;
 
 /// Takes a scene's steps one by one and writes `init.h5` and `expected.h5` into a folder.
 ///
@@ -33,8 +33,9 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
     for step in 1..=scene.steps {
         let done = advance(parameters, &mut state)?;
         let areas = || mesh.area().iter().cycle();
-        let record: Record = [
-            ("time", parameters.clock().time_at(step)),
+        let operation = parameters.operation_of(step, &parameters.clock());
+        let mut record: Record = vec![
+            ("time", operation.end),
             ("displacement", done.displacement),
             (
                 "contact_area",
@@ -44,6 +45,9 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
             ("max_pressure", done.pressure.iter().copied().fold(0.0, f64::max)),
             ("pool", state.pools.iter().sum()),
         ];
+        if parameters.cycle.is_some() {
+            record.push(("normal_force", operation.load));
+        }
         records.push(record);
         moved = moved + done.moved;
         pressure = done.pressure;

@@ -198,6 +198,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "debris pool",
         "one debris pool per track",
         "exponential wear",
+        "load and speed that change",
         "time acceleration",
         "several workers",
         "map disc_height",
@@ -227,6 +228,7 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "plateaus.captured_fraction=0.06",
         "numerics.integrator=exponential",
         "numerics.workers=2",
+        "operation.cycle.points=[[\"0 s\", \"5 N\", \"850 rpm\"], [\"60 s\", \"9 N\", \"850 rpm\"]]",
     ];
     let switches: Vec<String> = on_request().map(|(name, _)| format!("output.{name}=true")).collect();
     let most = most.into_iter().chain(switches.iter().map(String::as_str));

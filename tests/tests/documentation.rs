@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
 use plateau_io::units::Dimension;
@@ -94,6 +95,7 @@ fn kind(key: &Key) -> String {
         Kind::Text => "text".into(),
         Kind::InputFile => "path".into(),
         Kind::Times => format!("list of times{example}"),
+        Kind::Rows => format!("rows{example}"),
         Kind::Maps => format!("list of {}", Map::ALL.map(|map| format!("`\"{}\"`", map.name())).join(", ")),
     }
 }
@@ -122,7 +124,9 @@ fn need(key: &Key) -> String {
         Need::OneOf => {
             let group = key.group().expect("a group of the key");
             let names: Vec<_> = group.members.iter().map(|(name, _)| format!("`{name}`")).collect();
-            format!("{} {}", if group.required { "one of" } else { "at most one of" }, names.join(", "))
+            let count = if group.required { "one of" } else { "at most one of" };
+            let unless = group.unless.map(|table| format!(", unless there is `[{table}]`")).unwrap_or_default();
+            format!("{count} {}{unless}", names.join(", "))
         }
         Need::Default(value) => format!("`{value}`"),
         Need::SameAs(table) => format!("as in `[{table}]`"),
@@ -131,6 +135,7 @@ fn need(key: &Key) -> String {
             let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
             format!("required; `{default}` with `{key} = \"{}\"`", choose.value)
         }
+        Need::RequiredWithout(table) => format!("required without `[{table}]`"),
         Need::Optional => "–".into(),
     }
 }
@@ -223,6 +228,15 @@ fn series(quantities: &[Quantity]) -> String {
         let _ = writeln!(table, "| `{}` | {} | {} |", quantity.name, quantity.unit, quantity.long_name);
     }
     table
+}
+
+#[test]
+fn what_is_reported_of_events_is_documented() {
+    let mut table = String::from("| dataset | unit | meaning |\n|---|---|---|\n");
+    for quantity in EVENT_QUANTITIES {
+        let _ = writeln!(table, "| `event/{}` | {} | {} |", quantity.name, quantity.unit, quantity.long_name);
+    }
+    expect_table("run-file.md", "events", &table);
 }
 
 #[test]

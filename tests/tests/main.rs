@@ -6,6 +6,7 @@ mod bad_input;
 mod checkpoint;
 mod claims;
 mod commands;
+mod cycle;
 mod determinism;
 mod documentation;
 mod elsewhere;

@@ -18,6 +18,7 @@ impl Parameters {
                 .unwrap_or_else(|error| unreachable!("the paper's mesh is valid: {error}")),
             normal_force: 47.0,
             angular_velocity: 850.0 * TAU / 60.0,
+            cycle: None,
             foundation_height: 50e-6,
             materials: Materials {
                 disc_primary: disc,

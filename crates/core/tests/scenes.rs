@@ -1,5 +1,8 @@
 //! Small simulations whose outcome is known, and random ones whose outcome must obey the model's laws.
 
+use std::sync::Arc;
+
+use plateau_core::model::cycle::{Cycle, Interpolation, Node};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
@@ -98,5 +101,23 @@ pub fn random_scene(seed: u64, debris: DebrisRule) -> Parameters {
         // The explicit rule is unstable there, so that the rounding of either engine grows.
         parameters.integrator = Integrator::Exponential;
     }
+    if between(0.0, 1.0) < 0.4 {
+        parameters.cycle = random_cycle(&parameters, &mut between);
+    }
     parameters
+}
+
+/// Ramps, jumps, lifted pauses and stops about the load and speed of a scene, in intervals of some steps, played again and
+/// again.
+fn random_cycle(parameters: &Parameters, between: &mut impl FnMut(f64, f64) -> f64) -> Option<Arc<Cycle>> {
+    let (mut nodes, mut time) = (Vec::new(), 0.0);
+    let mut value = |largest: f64| (between(-0.5, 1.0) * largest).max(0.0);
+    for _ in 0..8 {
+        let node = |time, force, speed| Node::new(time, force, speed);
+        nodes.push(node(time, value(2.0 * parameters.normal_force), value(2.0 * parameters.angular_velocity)));
+        // Sometimes two rows have one time.
+        time += value(10.0 * parameters.step_time());
+    }
+    let interpolation = if value(1.0) < 0.6 { Interpolation::Linear } else { Interpolation::Hold };
+    Cycle::new(&nodes, interpolation, 10_000).ok().filter(|cycle| cycle.constant().is_none()).map(Arc::new)
 }

@@ -4,7 +4,7 @@
 //! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
 //!
 //! ```text
-//! magic    16 bytes: "plateau state 2\n"
+//! magic    16 bytes: "plateau state 3\n"
 //! length   8 bytes: of what follows but for the digest, the least first
 //! content  the state, in the encoding of the crate postcard 1
 //! digest   32 bytes: SHA-256 of the content
@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::acceleration::scout::ScoutCheckpoint;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Sample;
+use plateau_core::observe::event::EventProgress;
 use plateau_core::simulation::checkpoint::Checkpoint;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -27,7 +28,7 @@ use crate::regular;
 use crate::temporary::Temporary;
 
 /// How every checkpoint begins.
-const MAGIC: &[u8; 16] = b"plateau state 2\n";
+const MAGIC: &[u8; 16] = b"plateau state 3\n";
 /// How those of every version do.
 const OWN: &[u8] = b"plateau state ";
 /// Bytes of what is not of every cell, at most: scene, sums, and what is known of a revolution.
@@ -54,10 +55,21 @@ pub struct RunState {
     pub wall_time: f64,
     /// Whether all steps are done.
     pub finished: bool,
+    /// What takes the steps.
+    pub simulation: SimulationState,
+}
+
+/// The state of what takes the steps of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SimulationState {
     /// The simulation.
     pub run: Checkpoint,
     /// What goes before it, where the run chooses its acceleration.
     pub scout: Option<ScoutCheckpoint>,
+    /// Physical time until which all that was due is reported, s.
+    pub reached: f64,
+    /// The events of the cycle.
+    pub events: EventProgress,
 }
 
 /// Why there is no checkpoint to go on from.
@@ -92,7 +104,9 @@ pub enum CheckpointError {
 pub fn size_estimate(mesh: &Mesh, chooses_acceleration: bool) -> u64 {
     let cells = (mesh.disc_cells() + mesh.pin_cells()) as u64;
     let states = if chooses_acceleration { 2 } else { 1 };
-    BESIDES + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
+    // In a pause of a cycle the pressures are kept, too.
+    let pressures = (mesh.pin_cells() * size_of::<f64>()) as u64;
+    BESIDES + pressures + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
 }
 
 /// Where the checkpoints of a run file are: the last, and the one before.

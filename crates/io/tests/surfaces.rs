@@ -30,6 +30,7 @@ fn scene() -> Scene {
             mesh: Mesh::new(ROWS, DISC_COLUMNS, PIN_COLUMNS, 20e-3, 24e-3).unwrap(),
             ..Parameters::paper()
         },
+        cycle: None,
         adaptive: None,
         duration: 1.0,
         disc_surface: flat.clone(),

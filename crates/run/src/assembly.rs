@@ -1,11 +1,15 @@
 //! What is simulated, put together: the simulation of a scene, the scout that goes before it, and when what is reported.
 
-use plateau_core::acceleration::scout::{Idle, Scout, ScoutCheckpoint};
+use std::sync::Arc;
+
+use plateau_core::acceleration::scout::{Idle, Scout};
+use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::model::state::InitialSurfaces;
+use plateau_core::observe::event::{EventLog, EventRecord};
 use plateau_core::observe::schedule::Schedule;
-use plateau_core::simulation::checkpoint::Checkpoint;
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_io::checkpoint::SimulationState;
 use plateau_io::scene::{OutputSettings, Scene};
 
 use crate::error::{InputError, RunError};
@@ -23,6 +27,12 @@ pub struct Assembly {
     /// When samples and maps are due, as far as is known now; may be another one before the first step.
     pub(crate) schedule: Schedule,
     pub(crate) output: OutputSettings,
+    pub(crate) cycle: Option<Arc<Cycle>>,
+    /// What happened in the events of the cycle.
+    pub(crate) events: EventLog,
+    /// Physical time until which all that was due is reported, s: of a cycle it may lie in a pause, beyond the last step or
+    /// before its end.
+    pub(crate) reached: f64,
 }
 
 impl Assembly {
@@ -64,12 +74,16 @@ impl Assembly {
             scout = Some(Scout::new(simulation(surfaces.clone())?, adaptive, scene.duration)?);
         }
         let idle = scout.as_ref().and_then(Scout::idle);
+        let (cycle, schedule) = (scene.cycle.as_ref().map(|operation| operation.cycle.clone()), scene.schedule());
         Ok(Self {
             simulation: simulation(surfaces)?,
             scout: scout.filter(|_| idle.is_none()),
             idle,
-            schedule: scene.schedule(),
+            events: EventLog::new(&scene.parameters, cycle.as_deref(), scene.duration, schedule.last()),
+            schedule,
             output: scene.output.clone(),
+            cycle,
+            reached: 0.0,
         })
     }
 
@@ -83,21 +97,33 @@ impl Assembly {
         self.idle.or_else(|| self.scout.as_ref().and_then(Scout::idle))
     }
 
+    /// What is reported of the events of the cycle that have ended.
+    pub fn events(&self) -> &[EventRecord] {
+        &self.events.progress().records
+    }
+
     /// The complete state between two steps. All processes of a job take it together.
     ///
     /// # Errors
     /// [`SimulationError`] when a worker failed.
-    pub fn checkpoint(&mut self) -> Result<(Checkpoint, Option<ScoutCheckpoint>), SimulationError> {
-        let run = self.simulation.checkpoint()?;
-        Ok((run, self.scout.as_mut().map(Scout::checkpoint).transpose()?))
+    pub fn checkpoint(&mut self) -> Result<SimulationState, SimulationError> {
+        Ok(SimulationState {
+            run: self.simulation.checkpoint()?,
+            scout: self.scout.as_mut().map(Scout::checkpoint).transpose()?,
+            reached: self.reached,
+            events: self.events.progress().clone(),
+        })
     }
 
     /// Goes on from a state of a run of the same scene, instead of from the start.
     ///
     /// # Errors
     /// When the state is of another run.
-    pub fn restore(&mut self, run: &Checkpoint, scout: Option<&ScoutCheckpoint>) -> Result<(), SimulationError> {
+    pub fn restore(&mut self, state: &SimulationState) -> Result<(), SimulationError> {
+        let SimulationState { run, scout, reached, events } = state;
         self.simulation.restore(run)?;
+        self.reached = *reached;
+        self.events.restore(events.clone());
         if let (Some(own), Some(scout)) = (&mut self.scout, scout) {
             own.restore(scout)?;
         }

@@ -90,7 +90,7 @@ impl Checkpointer {
         observer: &mut dyn Observer,
     ) -> Result<(), SimulationError> {
         self.last = Instant::now();
-        let (run, scout) = assembly.checkpoint()?;
+        let simulation = assembly.checkpoint()?;
         let Some(synced) = synced else { return Ok(()) };
         let RunIdentity { program, scene, inputs, .. } = self.identity.clone();
         let state = RunState {
@@ -102,8 +102,7 @@ impl Checkpointer {
             snapshots: self.sent[1],
             wall_time: self.earlier + self.start.elapsed().as_secs_f64(),
             finished,
-            run,
-            scout,
+            simulation,
         };
         self.wait(observer);
         let run_file = self.run_file.clone();

@@ -48,7 +48,7 @@ fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: b
         let what = format_args!("it was begun by {}, this is {}", state.program, identity.program);
         return Err(refusal(run_file, what));
     }
-    let engine = state.run.engine();
+    let engine = state.simulation.run.engine();
     if engine != identity.engine {
         let what = format_args!("it was begun with --engine {engine}, this is {}", identity.engine);
         return Err(refusal(run_file, what));
@@ -117,7 +117,7 @@ pub fn writer(
         match RunWriter::resume(path, header, earlier) {
             Ok(writer) => return Ok((writer, place)),
             Err(error @ RunFileError::Earlier { .. }) => {
-                let step = state.run.steps();
+                let step = state.simulation.run.steps();
                 observer.warning(&format_args!("{error}; the checkpoint of step {step} is passed over"));
                 refusals.push(error.to_string());
             }

@@ -102,8 +102,8 @@ impl Prepared {
     ) -> Result<Option<RunSummary>, RunError> {
         let Self { mut scene, path, mut assembly, header, identity } = self;
         if let Some(state) = &state {
-            assembly.restore(&state.run, state.scout.as_ref())?;
-            let (steps, time) = (state.run.steps(), number::short(state.run.time()));
+            assembly.restore(&state.simulation)?;
+            let (steps, time) = (state.simulation.run.steps(), number::short(state.simulation.reached));
             observer.note(&format_args!("goes on from step {steps}, t = {time} s"));
         }
         let checkpointer = Checkpointer::new(&path, identity, scene.output.checkpoint_every, state.as_ref());
@@ -121,7 +121,7 @@ impl Prepared {
             checkpointer.write(&mut assembly, true, None, observer)?;
             return Ok(None);
         };
-        let report = close(result, writer, assembly.simulation.steps_done(), &path)?;
+        let report = close(result, writer, &assembly, &path)?;
         checkpointer.write(&mut assembly, true, Some(Synced::already()), observer)?;
         checkpointer.wait(observer);
         let contact_area = RunFile::open(&path).and_then(|run| run.last_contact_area()).map_err(RunFailure::Read)?;
@@ -143,7 +143,7 @@ impl Prepared {
 fn close(
     result: Result<(), Interruption>,
     writer: RunWriter,
-    steps: u64,
+    assembly: &Assembly,
     path: &Path,
 ) -> Result<WriterReport, RunError> {
     let end = match &result {
@@ -151,8 +151,9 @@ fn close(
         Err(Interruption::Stopped(_)) => End::Interrupted,
         Err(Interruption::Failed(failure)) => End::Failed(failure.to_string()),
     };
-    match (result, writer.finish(&end)) {
+    match (result, writer.finish(&end, assembly.events())) {
         (Err(Interruption::Stopped(signal)), Ok(report)) => {
+            let steps = assembly.simulation.steps_done();
             let progress = Progress::Saved { steps, file: path.to_owned(), samples: report.samples };
             Err(Stopped { signal, progress }.into())
         }

@@ -60,7 +60,7 @@ impl Request<'_> {
         };
         let there = if resumes { self.look()? } else { None };
         let finished = self.is_finished(states.first(), there.as_ref())?;
-        let steps: Vec<u64> = states.iter().map(|state| state.run.steps()).collect();
+        let steps: Vec<u64> = states.iter().map(|state| state.simulation.run.steps()).collect();
         job.compare(&format!("{finished} {steps:?}"))?;
         if finished {
             if job.leads() {
@@ -122,9 +122,9 @@ impl Request<'_> {
 
     /// Whether a finished run that is to go on to a time has come to just that.
     fn has_come_to_end(&self, state: &RunState) -> Result<bool, InputError> {
-        let time = state.run.time();
+        let time = state.simulation.reached;
         // The last step may go beyond the time that is asked for.
-        let step = time / state.run.steps().max(1) as f64;
+        let step = time / state.simulation.run.steps().max(1) as f64;
         if time > self.end + 1.5 * step {
             return Err(InputError::Passed { path: self.path.to_owned(), time });
         }

@@ -3,6 +3,8 @@
 use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::scout::Scout;
+use plateau_core::observe::operation::{CYCLE, ROAD};
+use plateau_core::observe::schedule::Moment;
 use plateau_core::observe::{ACCELERATION, Sample, Snapshot};
 use plateau_core::simulation::{Simulation, SimulationError};
 
@@ -56,33 +58,46 @@ impl Assembly {
     pub fn run_to_end<S: Sink>(&mut self, sink: &mut S) -> Result<(), S::Error> {
         let has_maps = !self.output.maps.is_empty();
         let mut steps_per_look = 1;
-        if self.simulation.steps_done() == 0 && has_maps && self.schedule.has_maps(0) {
+        if self.simulation.steps_done() == 0 && has_maps && self.schedule.begins_with_maps() {
             sink.snapshot(self.simulation.snapshot(&self.output.maps)?)?;
         }
-        while self.simulation.steps_done() < self.schedule.last() {
-            let done = self.simulation.steps_done();
+        while let Some(moment) = self.schedule.next(self.simulation.steps_done(), self.reached) {
             let comparison = self.scout.as_ref().and_then(Scout::comparison);
-            let event = self.schedule.next_event(done).min(comparison.unwrap_or(u64::MAX));
-            let sampled = self.schedule.next_sample(done) == event;
-            let mapped = has_maps && self.schedule.has_maps(event);
+            let noted = self.events.next(self.simulation.steps_done());
+            let event = moment.step.min(comparison.unwrap_or(u64::MAX)).min(noted.unwrap_or(u64::MAX));
+            let is_due = event == moment.step;
+            let (sampled, mapped) = (is_due && moment.sample, is_due && moment.maps && has_maps);
+            let is_watched = sampled || mapped || noted == Some(event);
+            if self.simulation.steps_done() == event {
+                // A long pause may have many samples.
+                steps_per_look = sink.look(&self.simulation, steps_per_look)?;
+            }
             while self.simulation.steps_done() < event {
                 let start = Instant::now();
                 match self.simulation.steps_done().saturating_add(steps_per_look) {
                     before if before < event => self.simulation.pass_to(before)?,
-                    _ if sampled || mapped => self.simulation.advance_to(event)?,
+                    _ if is_watched => self.simulation.advance_to(event)?,
                     _ => self.simulation.pass_to(event)?,
                 }
                 steps_per_look = sink.look(&self.simulation, adapted(steps_per_look, start.elapsed()))?;
                 if self.simulation.steps_done() < event {
+                    self.reached = self.simulation.time();
                     sink.rest(self)?;
                 }
             }
+            if is_due && moment.pause.is_some() {
+                self.simulation.keep_contact()?;
+            }
+            if noted == Some(event) {
+                self.events.note(&self.simulation.sample()?);
+            }
             if sampled {
-                sink.sample(self.sample()?)?;
+                sink.sample(self.sample(&moment)?)?;
             }
             if mapped {
-                sink.snapshot(self.simulation.snapshot(&self.output.maps)?)?;
+                sink.snapshot(self.simulation.snapshot_at(&moment, &self.output.maps)?)?;
             }
+            self.reached = if is_due { moment.time } else { self.simulation.time() };
             if comparison == Some(event) && event < self.schedule.last() {
                 self.choose_acceleration(sink, steps_per_look)?;
             }
@@ -91,9 +106,14 @@ impl Assembly {
         Ok(self.simulation.check_heights()?)
     }
 
-    /// What is reported of the step just done.
-    fn sample(&mut self) -> Result<Sample, SimulationError> {
-        let mut sample = self.simulation.sample_with(&self.output.extras)?;
+    /// What is reported of the step just done, or of a pause before or after its end.
+    fn sample(&mut self, moment: &Moment) -> Result<Sample, SimulationError> {
+        let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
+        if let Some(cycle) = &self.cycle {
+            let angle = self.simulation.parameters().step_angle();
+            sample.add(CYCLE.quantities, cycle.operation_at(moment.step, angle, moment.time, moment.pause));
+            sample.add(ROAD.quantities, [cycle.road_distance_at(moment.time)]);
+        }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
             sample.add(ACCELERATION.quantities, [choice.acceleration(), choice.error()]);
         }

@@ -19,6 +19,7 @@ use plateau_run::execution::{decide, time_per_step};
 use plateau_run::{idle_warning, stiffness_warning};
 use serde::Serialize;
 
+use super::check_cycle::CycleReport;
 use super::load_scene;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
@@ -81,6 +82,9 @@ struct Check {
     nominal_pressure: f64,
     steps: u64,
     step_time: f64,
+    /// Of a scene with a cycle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cycle: Option<CycleReport>,
     revolutions: f64,
     samples: u64,
     maps: usize,
@@ -206,6 +210,7 @@ impl Check {
             nominal_pressure: parameters.normal_force / mesh.pin_area(),
             steps: scene.steps,
             step_time: parameters.step_time(),
+            cycle: CycleReport::of(scene),
             revolutions: scene.steps as f64 / mesh.disc_columns() as f64,
             samples: schedule.samples(),
             maps,
@@ -231,7 +236,7 @@ impl Check {
             number::short(self.stiffness_number),
             if self.warns_of_stiffness { " (large, see the warning)" } else { "" }
         );
-        let rows = [
+        let mut rows = vec![
             (
                 "mesh",
                 format!(
@@ -245,16 +250,22 @@ impl Check {
                     micrometres(self.cell_width)
                 ),
             ),
-            ("nominal pressure", format!("{} MPa", number::short(self.nominal_pressure * 1e-6))),
+            (
+                if self.cycle.is_some() { "largest nominal pressure" } else { "nominal pressure" },
+                format!("{} MPa", number::short(self.nominal_pressure * 1e-6)),
+            ),
             (
                 "steps",
                 format!(
-                    "{}{} of {} s: {} revolutions, {} s",
+                    "{}{} of {} s{}: {} revolutions, {} s",
                     if self.largest_acceleration.is_some() { "without acceleration " } else { "" },
                     number::grouped(self.steps),
                     number::short(self.step_time),
+                    if self.cycle.is_some() { " in the mean" } else { "" },
                     number::short(self.revolutions),
-                    number::short(self.step_time * self.steps as f64)
+                    number::short(
+                        self.cycle.as_ref().map_or(self.step_time * self.steps as f64, CycleReport::duration)
+                    )
                 ),
             ),
             ("output", format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps)),
@@ -281,6 +292,10 @@ impl Check {
                 },
             ),
         ];
+        if let Some(cycle) = &self.cycle {
+            // Behind the steps.
+            rows.splice(3..3, cycle.rows());
+        }
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
         // Writing to a String cannot fail.
         let _ = write!(

@@ -44,10 +44,20 @@ impl Job<'_> {
             path.with_file_name(format!("{stem}-{name}-{index:04}.csv"))
         };
         let maps = if with_maps { self.maps(name) } else { Vec::new() };
+        let events = self.run.events().map_err(Failure::input)?.first().map_or(0, |(_, values)| values.len());
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let of_events = path.with_file_name(format!("{stem}-events.csv"));
         self.check(path)?;
         maps.iter().try_for_each(|map| self.check(&map.path))?;
+        if events > 0 {
+            self.check(&of_events)?;
+        }
         output::fill(path, self.force, |file| csv::write_series(self.run, file))?;
         self.note(path, self.series());
+        if events > 0 {
+            output::fill(&of_events, self.force, |file| csv::write_events(self.run, file))?;
+            self.note(&of_events, number::count(events, "event"));
+        }
         for map in &maps {
             output::fill(&map.path, self.force, |file| csv::write_maps(self.run, map.body, map.index, file))?;
             self.note(&map.path, map.content(self.run));

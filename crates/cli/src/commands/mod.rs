@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod check;
+mod check_cycle;
 mod completions;
 mod export;
 mod man;

@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use plateau_core::observe::event::{EVENT_QUANTITIES, EventQuantity};
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::Scene;
@@ -61,14 +62,20 @@ fn finish(
     let mut assembly = Assembly::new(&scene, surfaces, Execution { workers, ..Execution::default() })?;
     let mut recorder = Recorder::new(study, &scene, watcher, under_way);
     if let Some(state) = recorder.under_way.find(&recorder.names()) {
-        assembly.restore(&state.run, state.scout.as_ref())?;
-        watcher.goes_on(state.run.steps());
-        (recorder.columns, recorder.told) = (state.columns, state.run.steps());
+        assembly.restore(&state.simulation)?;
+        let steps = state.simulation.run.steps();
+        watcher.goes_on(steps);
+        (recorder.columns, recorder.told) = (state.columns, steps);
     }
     assembly.run_to_end(&mut recorder)?;
     let steps = assembly.simulation.steps_done();
     recorder.watcher.steps(steps - recorder.told);
-    Ok(Outcome::Finished { steps, series: recorder.series().pack() })
+    let events = (!assembly.events().is_empty()).then(|| {
+        let column = |quantity: &EventQuantity| assembly.events().iter().map(quantity.value).collect();
+        let names = EVENT_QUANTITIES.iter().map(|quantity| quantity.name.to_owned()).collect();
+        Series::new(names, EVENT_QUANTITIES.iter().map(column).collect()).pack()
+    });
+    Ok(Outcome::Finished { steps, series: recorder.series().pack(), events })
 }
 
 /// Why a run did not finish.

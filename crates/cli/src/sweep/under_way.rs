@@ -4,10 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use plateau_core::acceleration::scout::ScoutCheckpoint;
 use plateau_core::simulation::SimulationError;
-use plateau_core::simulation::checkpoint::Checkpoint;
-use plateau_io::checkpoint;
+use plateau_io::checkpoint::{self, SimulationState};
 use plateau_io::claim::Claim;
 use plateau_io::temporary::Temporary;
 use plateau_run::Assembly;
@@ -18,10 +16,8 @@ use crate::message;
 /// The state of one run between two steps.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct State {
-    /// The simulation.
-    pub run: Checkpoint,
-    /// What goes before it, where it chooses its acceleration.
-    pub scout: Option<ScoutCheckpoint>,
+    /// What takes the steps.
+    pub simulation: SimulationState,
     /// The series so far, time first.
     pub columns: Vec<Vec<f64>>,
     /// Their names.
@@ -77,8 +73,7 @@ impl UnderWay {
         names: Vec<String>,
     ) -> Result<(), SimulationError> {
         self.last = Instant::now();
-        let (run, scout) = assembly.checkpoint()?;
-        let state = State { run, scout, columns: columns.to_vec(), names };
+        let state = State { simulation: assembly.checkpoint()?, columns: columns.to_vec(), names };
         if self.claims()
             && let Err(error) = checkpoint::keep(&self.path, &state)
         {

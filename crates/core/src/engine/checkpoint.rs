@@ -12,6 +12,7 @@ use crate::engine::kernel::Bracket;
 use crate::engine::quantum::Quantum;
 use crate::model::clock::Clock;
 use crate::model::mesh::Mesh;
+use crate::observe::Sample;
 
 /// The complete state of a simulation between two steps.
 ///
@@ -28,8 +29,18 @@ pub struct Checkpoint {
     pub pin_height: Vec<f64>,
     /// b_p, m.
     pub pin_substrate: Vec<f64>,
+    /// What the last step showed, where it may be reported once more: in a pause.
+    pub(crate) contact: Option<LastContact>,
     /// What all workers know alike.
     pub(crate) memory: Memory,
+}
+
+/// What the last step showed, kept while the pin rests.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LastContact {
+    pub sample: Sample,
+    /// p of every pin cell, Pa, column by column.
+    pub pressure: Vec<f64>,
 }
 
 /// What all workers know alike.

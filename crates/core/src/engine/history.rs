@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::engine::running_sum::RunningSum;
+use crate::model::operation::StepOperation;
 
 /// What the steps so far were like.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -41,15 +42,24 @@ impl History {
         Self { revolution: Vec::new(), oldest: 0, steps_per_revolution, integral: RunningSum::default() }
     }
 
-    /// Adds a step of physical duration `step_time` (s).
-    pub fn record(&mut self, contact_area: f64, step_time: f64) {
+    /// Adds a step.
+    pub fn record(&mut self, contact_area: f64, operation: &StepOperation) {
+        if operation.standing_before > 0.0 {
+            self.integral.add(self.newest() * operation.standing_before);
+        }
         if self.revolution.len() < self.steps_per_revolution {
             self.revolution.push(contact_area);
         } else {
             self.revolution[self.oldest] = contact_area;
             self.oldest = (self.oldest + 1) % self.steps_per_revolution;
         }
-        self.integral.add(contact_area * step_time);
+        self.integral.add(contact_area * operation.loaded);
+    }
+
+    /// Contact area of the last step, m²; 0 before the first.
+    fn newest(&self) -> f64 {
+        let newest = if self.oldest == 0 { self.revolution.last() } else { self.revolution.get(self.oldest - 1) };
+        newest.copied().unwrap_or(0.0)
     }
 
     /// Mean over the last simulated revolution, m²; over all steps so far before the first is done.
@@ -74,10 +84,12 @@ mod tests {
         let mut history = History::new(4);
         let mut means = Vec::new();
         for area in [1.0, 3.0, 5.0, 7.0, 9.0, 11.0] {
-            history.record(area, 0.5);
+            let standing_before = if area == 9.0 { 2.0 } else { 0.0 };
+            history.record(area, &StepOperation { end: 0.0, load: 1.0, standing_before, loaded: 0.5 });
             means.push(history.revolution_mean());
         }
         assert_eq!(means, [1.0, 2.0, 3.0, 4.0, 6.0, 8.0]);
-        assert_eq!(history.integral(), 18.0);
+        // Half of the sum, and 2 s of the contact of the step before the fifth.
+        assert_eq!(history.integral(), 18.0 + 14.0);
     }
 }

@@ -107,6 +107,12 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
             "integrator = \"explicit\"",
         ),
         part(
+            "load and speed that change",
+            parameters.cycle.is_some(),
+            "operation.cycle",
+            "no operation.cycle, or one that never changes",
+        ),
+        part(
             ACCELERATION,
             parameters.time_acceleration > 1.0,
             "time_acceleration above 1: an approximation, compare with 1",

@@ -14,9 +14,11 @@
 //! | 4.6 | all of these, once | [`step::advance`] |
 
 pub mod clock;
+pub mod cycle;
 pub mod first_contact;
 pub mod material;
 pub mod mesh;
+pub mod operation;
 pub mod parameters;
 pub mod state;
 pub mod step;
@@ -41,6 +43,8 @@ pub struct State {
     pub pools: Vec<f64>,
     /// n: steps done.
     pub steps: u64,
+    /// Columns by which the disc was turned before the first step: 0 but to see whether that changes anything.
+    pub turned: u64,
 }
 
 impl State {
@@ -58,6 +62,7 @@ impl State {
             pin: Pin { substrate: pin_height.clone(), height: pin_height, base: pin_base },
             pools: vec![0.0; pools],
             steps: 0,
+            turned: 0,
         }
     }
 }
@@ -94,6 +99,8 @@ pub enum ContactError {
 /// What a step found and did.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
+    /// F_N, or F̄_n of a cycle, N.
+    pub load: f64,
     /// δ, m.
     pub displacement: f64,
     /// p of every pin cell, Pa; 0 where it does not touch.

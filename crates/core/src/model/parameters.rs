@@ -1,6 +1,9 @@
 //! Everything a simulation is told before its first step, apart from the initial surfaces (model section 3).
 
+use std::sync::Arc;
+
 use crate::model::clock::Clock;
+use crate::model::cycle::Cycle;
 use crate::model::material::Materials;
 use crate::model::mesh::Mesh;
 
@@ -68,10 +71,12 @@ impl PlateauRules {
 pub struct Parameters {
     /// Ring mesh.
     pub mesh: Mesh,
-    /// F_N, N.
+    /// F_N, N; where there is a cycle, that takes its place.
     pub normal_force: f64,
-    /// ω, rad/s.
+    /// ω, rad/s; where there is a cycle, that takes its place.
     pub angular_velocity: f64,
+    /// Load and speed that change with time (model 9).
+    pub cycle: Option<Arc<Cycle>>,
     /// h, m: height of the elastic foundation.
     pub foundation_height: f64,
     /// Properties by (body, status).
@@ -95,9 +100,12 @@ impl Parameters {
         Clock::new(self.step_time())
     }
 
-    /// Steps of a run of `duration` (s) whose acceleration never changes: at least one.
+    /// Steps of a run of `duration` (s) whose acceleration never changes: at least one, but for a cycle that turns less far.
     pub fn steps_of(&self, duration: f64) -> u64 {
-        self.clock().steps_until(duration).max(1)
+        match &self.cycle {
+            Some(cycle) => cycle.steps_done(duration, self.step_angle()),
+            None => self.clock().steps_until(duration).max(1),
+        }
     }
 
     /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2

@@ -46,11 +46,13 @@ pub struct Loss {
 /// [`ContactError`] when no displacement carries the load.
 pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, ContactError> {
     let pairs = pairs(parameters, state);
-    let displacement = balance(parameters.normal_force, &pairs)?;
+    let load = parameters.load_of(state.steps + 1);
+    let displacement = balance(load, &pairs)?;
     let overlaps = pairs.iter().map(|pair| (displacement - pair.gap).max(0.0));
     let losses: Vec<Loss> =
         overlaps.clone().enumerate().map(|(pin, overlap)| wear(parameters, state, pin, &pairs[pin], overlap)).collect();
     let step = Step {
+        load,
         displacement,
         pressure: overlaps.clone().zip(&pairs).map(|(overlap, pair)| pair.stiffness * overlap).collect(),
         contact: overlaps.map(|overlap| overlap > 0.0).collect(),
@@ -66,11 +68,11 @@ pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, Conta
 /// Model 1 and 2: each pin cell with the disc cell that the coming step turns under it, and their statuses.
 pub fn pairs(parameters: &Parameters, state: &State) -> Vec<Pair> {
     let Parameters { mesh, materials, foundation_height, .. } = parameters;
-    let State { disc, pin, steps, .. } = state;
+    let State { disc, pin, steps, turned, .. } = state;
     let statuses: Vec<Status> = pin.statuses().collect();
     let pair = |cell: usize| {
         let (column, row) = (cell / mesh.rows(), cell % mesh.rows());
-        let below = mesh.column(mesh.disc_column(column, *steps)).start + row;
+        let below = mesh.column(mesh.disc_column(column, turned + steps)).start + row;
         let (pin_status, disc_status) = (statuses[cell], disc_status(disc.height[below], disc.substrate[below]));
         Pair {
             row,

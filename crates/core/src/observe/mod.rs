@@ -5,12 +5,16 @@
 //! | `sample.rs` | what every run reports: the fields of a sample, with names and units |
 //! | `extra.rs` | what it takes to be a series that not every run has |
 //! | `roughness.rs`, `pressure_spread.rs` | such series, on request |
+//! | `operation.rs` | such series of runs with a cycle |
+//! | `event.rs` | what is reported of each event of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
 //! | `window_mean.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
 
+pub mod event;
 pub mod extra;
 pub mod map;
+pub mod operation;
 pub mod plateau_size;
 pub mod pressure_spread;
 pub mod roughness;
@@ -24,7 +28,8 @@ pub use self::sample::{QUANTITIES, Quantity, Sample};
 
 /// The table of series that not every run has, in the order of a run file. Scenes (`output.NAME`), run files, exports,
 /// figures and documents follow from its entries.
-pub const EXTRAS: &[&Extra] = &[&roughness::EXTRA, &pressure_spread::EXTRA, &ACCELERATION];
+pub const EXTRAS: &[&Extra] =
+    &[&roughness::EXTRA, &pressure_spread::EXTRA, &ACCELERATION, &operation::CYCLE, &operation::ROAD];
 
 /// The acceleration at the end of a step, in a run that chooses it.
 pub const ACCELERATION: Extra = Extra {

@@ -59,7 +59,7 @@ pub struct Sample {
     /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
     pub balance_residual: f64,
     /// Quantities that not every run has, by their names; none in a checkpoint.
-    #[serde(with = "former_extras")]
+    #[serde(skip)]
     pub extras: Vec<(&'static str, f64)>,
 }
 
@@ -67,22 +67,6 @@ impl Sample {
     /// Adds the values of quantities that not every run has.
     pub fn add(&mut self, quantities: &'static [Quantity], values: impl IntoIterator<Item = f64>) {
         self.extras.extend(quantities.iter().map(|quantity| quantity.name).zip(values));
-    }
-}
-
-/// What a checkpoint has in place of the extras of its last sample, which nobody reads: room for three series, as it was
-/// when these were fields.
-mod former_extras {
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    type Former = (Option<[f64; 2]>, Option<[f64; 8]>, Option<[f64; 2]>);
-
-    pub fn serialize<S: Serializer>(_: &[(&'static str, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-        Former::default().serialize(serializer)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(&'static str, f64)>, D::Error> {
-        Former::deserialize(deserializer).map(|_| Vec::new())
     }
 }
 

@@ -1,6 +1,10 @@
 //! When samples and maps are taken (docs/run-file.md).
 
+use std::sync::Arc;
+
 use crate::model::clock::Clock;
+use crate::model::cycle::{Cycle, Kind};
+use crate::model::parameters::Parameters;
 
 /// When samples are taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,52 +24,75 @@ pub enum End {
     Steps(u64),
 }
 
-/// The steps after which a sample or maps are due.
+/// A moment at which a sample or maps are due.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Moment {
+    /// The step whose surfaces are meant.
+    pub step: u64,
+    /// t, s: the end of that step, or a time within a pause before or after it.
+    pub time: f64,
+    /// The kind of that pause.
+    pub pause: Option<Kind>,
+    /// Whether a sample is due.
+    pub sample: bool,
+    /// Whether maps are due.
+    pub maps: bool,
+}
+
+/// The moments at which samples or maps are due.
 #[derive(Debug, Clone)]
 pub struct Schedule {
     clock: Clock,
+    /// The cycle and the angle of a step, rad.
+    cycle: Option<(Arc<Cycle>, f64)>,
     sample_every: SampleEvery,
-    maps_at: Vec<f64>,
     end: End,
     /// The last step.
     last: u64,
-    /// Steps after which maps are due, ascending; the last step is always among them.
-    map_steps: Vec<u64>,
+    maps_at: Vec<f64>,
+    /// When maps are due, in the order of time; the end of the run is always among them.
+    map_moments: Vec<(u64, f64)>,
 }
 
 impl Schedule {
-    /// Plans samples and the maps of the physical times `maps_at` (s) until `end`; times beyond it fall on the last step.
-    pub fn new(clock: Clock, end: End, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
-        let mut schedule = Self { clock, sample_every, maps_at: maps_at.to_vec(), end, last: 0, map_steps: Vec::new() };
-        schedule.plan(clock);
+    /// Plans samples and the maps of the physical times `maps_at` (s) until `end`; times beyond it fall on the end.
+    pub fn new(parameters: &Parameters, end: End, sample_every: SampleEvery, maps_at: &[f64]) -> Self {
+        let cycle = parameters.cycle.clone().map(|cycle| (cycle, parameters.step_angle()));
+        let clock = parameters.clock();
+        let (maps_at, map_moments) = (maps_at.to_vec(), Vec::new());
+        let mut schedule = Self { clock, cycle, sample_every, end, last: 0, maps_at, map_moments };
+        schedule.plan();
         schedule
     }
 
     /// Plans anew what lies ahead where steps take `step_time` (s) after `step`.
     pub fn change(&mut self, step: u64, step_time: f64) {
-        self.plan(self.clock.changed(step, step_time));
+        self.clock = self.clock.changed(step, step_time);
+        self.plan();
     }
 
     /// Plans anew for a run that goes on and whose clock is this one.
     pub fn go_on(&mut self, clock: Clock) {
-        self.plan(clock);
-    }
-
-    fn plan(&mut self, clock: Clock) {
         self.clock = clock;
-        self.last = match self.end {
-            End::Steps(steps) => steps,
-            End::Time(time) => clock.steps_until(time).max(1),
-        };
-        self.map_steps = self.maps_at.iter().map(|time| clock.steps_until(*time).min(self.last)).collect();
-        self.map_steps.push(self.last);
-        self.map_steps.sort_unstable();
-        self.map_steps.dedup();
+        self.plan();
     }
 
-    /// Physical time at the end of the last step, s.
+    fn plan(&mut self) {
+        self.last = match (self.end, &self.cycle) {
+            (End::Steps(steps), _) => steps,
+            (End::Time(time), Some((cycle, step))) => cycle.steps_done(time, *step),
+            (End::Time(time), None) => self.clock.steps_until(time).max(1),
+        };
+        let end = self.end();
+        self.map_moments = self.maps_at.iter().map(|time| earlier(self.due(*time), end)).collect();
+        self.map_moments.push(end);
+        self.map_moments.sort_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        self.map_moments.dedup();
+    }
+
+    /// Physical time at the end of the run, s.
     pub fn end_time(&self) -> f64 {
-        self.clock.time_at(self.last)
+        self.end().1
     }
 
     /// The last step.
@@ -73,46 +100,179 @@ impl Schedule {
         self.last
     }
 
-    /// The first step after `step` with a sample: the first with t ≥ j · sample_every for a new j, or the last.
-    pub fn next_sample(&self, step: u64) -> u64 {
+    /// Whether maps are due before the first step.
+    pub fn begins_with_maps(&self) -> bool {
+        self.map_moments[0] == (0, 0.0)
+    }
+
+    /// The first moment after a time (s) that is the end of a step, or lies in a pause before or after its end; none after the last.
+    pub fn next(&self, step: u64, time: f64) -> Option<Moment> {
+        let now = (step, time);
+        let sample = self.next_sample(now)?;
+        let map = self.map_moments.iter().copied().find(|map| is_after(*map, now)).unwrap_or(sample);
+        let (step, time) = earlier(sample, map);
+        let is_due = |other| !is_after(other, (step, time));
+        let pause = self.pause_at(step, time);
+        Some(Moment { step, time, pause, sample: is_due(sample), maps: is_due(map) })
+    }
+
+    /// The first moment with a sample: the first with t ≥ j · sample_every for a new j, or the last.
+    fn next_sample(&self, now: (u64, f64)) -> Option<(u64, f64)> {
+        let end = self.end();
+        if !is_after(end, now) {
+            return None;
+        }
+        let (step, time) = now;
         let next = match self.sample_every {
-            SampleEvery::Steps(every) => (step / every + 1).saturating_mul(every),
-            SampleEvery::Time(every) if every <= self.clock.step_time() => step + 1,
+            // The end of a step that was sampled in a pause within it is still to come.
+            SampleEvery::Steps(every) if step % every == 0 && self.end_of(step) > time => (step, self.end_of(step)),
+            SampleEvery::Steps(every) => {
+                let next = (step / every + 1).saturating_mul(every).min(self.last);
+                (next, self.end_of(next))
+            }
+            SampleEvery::Time(every) if self.cycle.is_none() && every <= self.clock.step_time() => {
+                (step + 1, self.end_of(step + 1))
+            }
             SampleEvery::Time(every) => {
-                let mut multiple = (self.clock.time_at(step) / every).floor();
-                let mut next = self.clock.steps_until(multiple * every);
-                while next <= step {
+                let mut multiple = (time / every).floor();
+                let mut next = self.due(multiple * every);
+                while !is_after(next, now) {
                     multiple += 1.0;
-                    next = self.clock.steps_until(multiple * every);
+                    if multiple * every > end.1 {
+                        return Some(end);
+                    }
+                    next = self.due(multiple * every);
                 }
                 next
             }
         };
-        next.min(self.last)
+        // Steps may be over before the time is, in a pause.
+        Some(if is_after(next, now) { earlier(next, end) } else { end })
     }
 
-    /// Whether maps are due after `step`.
-    pub fn has_maps(&self, step: u64) -> bool {
-        self.map_steps.binary_search(&step).is_ok()
+    /// The step whose surfaces are those of a time (s), and its end, or that time if it lies in a pause.
+    fn due(&self, time: f64) -> (u64, f64) {
+        let Some((cycle, angle)) = &self.cycle else {
+            let step = self.clock.steps_until(time);
+            return (step, self.clock.time_at(step));
+        };
+        // What is left of the angle after the last step is left out; a pause after it has the surfaces of that step.
+        let step = cycle.steps_until(time, *angle).min(self.last);
+        let end = cycle.end_of(step, *angle);
+        if (time - end).abs() <= 1e-12 * time {
+            return (step, end);
+        }
+        if cycle.at(time).1 != Kind::Active {
+            return (step, time);
+        }
+        // A time at which a pause ends is due with the step after it.
+        let step = if end < time { (step + 1).min(self.last) } else { step };
+        (step, cycle.end_of(step, *angle))
     }
 
-    /// The first step after `step` with a sample or maps.
-    pub fn next_event(&self, step: u64) -> u64 {
-        let map = self.map_steps[self.map_steps.partition_point(|map| *map <= step).min(self.map_steps.len() - 1)];
-        self.next_sample(step).min(map.max(step + 1))
+    /// The pause that a time (s) of a moment lies in, if it is not the end of a step.
+    fn pause_at(&self, step: u64, time: f64) -> Option<Kind> {
+        let (cycle, angle) = self.cycle.as_ref()?;
+        if time == cycle.end_of(step, *angle) {
+            return None;
+        }
+        // The end of a run may be that of a pause.
+        [cycle.at(time).1, cycle.before(time)].into_iter().find(|kind| *kind != Kind::Active)
+    }
+
+    /// t at the end of a step, s.
+    fn end_of(&self, step: u64) -> f64 {
+        match &self.cycle {
+            Some((cycle, angle)) => cycle.end_of(step, *angle),
+            None => self.clock.time_at(step),
+        }
+    }
+
+    /// The last moment: the end of the last step, or the end of a run in a pause.
+    fn end(&self) -> (u64, f64) {
+        match (self.end, &self.cycle) {
+            (End::Time(time), Some((cycle, _)))
+                if time > self.end_of(self.last) && cycle.before(time) != Kind::Active =>
+            {
+                (self.last, time)
+            }
+            _ => (self.last, self.end_of(self.last)),
+        }
     }
 
     /// Number of samples of the whole run.
     pub fn samples(&self) -> u64 {
-        let per_sample = match self.sample_every {
-            SampleEvery::Steps(every) => every as f64,
-            SampleEvery::Time(every) => (every / self.clock.step_time()).max(1.0),
+        let samples = match self.sample_every {
+            SampleEvery::Steps(every) => self.last as f64 / every as f64,
+            SampleEvery::Time(every) if self.cycle.is_some() => self.end_time() / every,
+            SampleEvery::Time(every) => self.last as f64 / (every / self.clock.step_time()).max(1.0),
         };
-        (self.last as f64 / per_sample - 1e-9).ceil() as u64
+        (samples - 1e-9).ceil() as u64
     }
 
     /// Number of times at which maps are taken.
     pub fn maps(&self) -> usize {
-        self.map_steps.len()
+        self.map_moments.len()
+    }
+}
+
+/// Whether a moment, as step and time, is later than another.
+fn is_after(one: (u64, f64), other: (u64, f64)) -> bool {
+    one.0 > other.0 || (one.0 == other.0 && one.1 > other.1)
+}
+
+/// The earlier of two moments.
+fn earlier(one: (u64, f64), other: (u64, f64)) -> (u64, f64) {
+    if is_after(one, other) { other } else { one }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::cycle::{Interpolation, Node};
+    use crate::model::mesh::Mesh;
+    use std::f64::consts::PI;
+
+    /// 1 rad/s for 2 s, lifted for 2 s, 1 rad/s for 1.5 s, in steps of 1 rad.
+    fn schedule(end: f64, sample_every: SampleEvery, maps_at: &[f64]) -> Schedule {
+        let nodes = [(0.0, 1.0), (2.0, 1.0), (2.0, 0.0), (4.0, 0.0), (4.0, 1.0), (5.5, 1.0)];
+        let nodes = nodes.map(|(time, force)| Node::new(time, force, 1.0));
+        let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
+        let mesh = Mesh::new(1, 2, 1, 1.0, 2.0).unwrap();
+        let parameters =
+            Parameters { mesh, time_acceleration: 1.0 / PI, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
+        Schedule::new(&parameters, End::Time(end), sample_every, maps_at)
+    }
+
+    /// Every moment from the start to the end: its step and time, and what is due.
+    fn moments(schedule: &Schedule) -> Vec<(u64, f64, bool, bool)> {
+        let (mut moments, mut now) = (Vec::new(), (0, 0.0));
+        while let Some(moment) = schedule.next(now.0, now.1) {
+            assert_eq!(moment.pause.is_some(), moment.time > 2.0 && moment.time <= 4.0, "{moment:?}");
+            moments.push((moment.step, moment.time, moment.sample, moment.maps));
+            now = (moment.step, moment.time);
+            assert!(moments.len() < 100, "{moments:?}");
+        }
+        moments
+    }
+
+    #[test]
+    fn samples_in_a_pause_have_their_own_time() {
+        let every = SampleEvery::Time(0.75);
+        let times =
+            |end| moments(&schedule(end, every, &[])).iter().map(|moment| (moment.0, moment.1)).collect::<Vec<_>>();
+        let pause = [(1, 1.0), (2, 2.0), (2, 2.25), (2, 3.0), (2, 3.75)];
+        assert_eq!(times(5.5), [&pause[..], &[(3, 5.0)]].concat());
+        // A run that ends in the pause has a sample then.
+        assert_eq!(times(3.5), [&pause[..4], &[(2, 3.5)]].concat());
+        assert_eq!(times(4.0), [&pause[..], &[(2, 4.0)]].concat());
+    }
+
+    #[test]
+    fn maps_and_steps_are_due_in_order_of_time() {
+        let found = moments(&schedule(5.5, SampleEvery::Steps(2), &[0.0, 1.5, 2.5]));
+        assert_eq!(found, [(2, 2.0, true, true), (2, 2.5, false, true), (3, 5.0, true, true)]);
+        let found = moments(&schedule(3.5, SampleEvery::Steps(2), &[]));
+        assert_eq!(found, [(2, 2.0, true, false), (2, 3.5, true, true)]);
     }
 }

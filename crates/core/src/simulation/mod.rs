@@ -6,7 +6,7 @@ mod workers;
 
 use std::sync::Arc;
 
-use self::checkpoint::Checkpoint;
+use self::checkpoint::{Checkpoint, LastContact};
 use self::workers::Workers;
 pub use crate::engine::checkpoint;
 #[cfg(feature = "mpi")]
@@ -29,6 +29,7 @@ pub struct Simulation {
     pin_base: Vec<Base>,
     execution: Execution,
     workers: Workers,
+    contact: Option<LastContact>,
 }
 
 impl Simulation {
@@ -69,7 +70,7 @@ impl Simulation {
         execution.workers = execution.workers.clamp(1, most);
         let (parameters, pin_base) = (Arc::new(parameters), surfaces.pin_base.clone());
         let workers = Workers::start(&parameters, surfaces, execution, columns)?;
-        Ok(Self { parameters, pin_base, execution, workers })
+        Ok(Self { parameters, pin_base, execution, workers, contact: None })
     }
 
     /// The same as [`Simulation::new`] on the ranks of an MPI job, of which this process is one (feature `mpi`).
@@ -90,7 +91,7 @@ impl Simulation {
         let parameters = Arc::new(parameters);
         let execution = Execution { workers: communicator.size(), instructions, ..Execution::default() };
         let workers = Workers::on_ranks(&parameters, &surfaces, execution, communicator);
-        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, workers })
+        Ok(Self { parameters, pin_base: surfaces.pin_base, execution, workers, contact: None })
     }
 
     /// One step: see the table in [`crate`].
@@ -136,6 +137,7 @@ impl Simulation {
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
         checkpoint.check(&self.parameters.mesh)?;
         self.workers.restore(checkpoint)?;
+        self.contact = checkpoint.contact.clone();
         Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;
         Ok(())
     }

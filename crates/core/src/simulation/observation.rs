@@ -1,10 +1,12 @@
 //! What a simulation is like between two steps: samples, maps, surfaces, checkpoints.
 
 use super::Simulation;
-use crate::engine::checkpoint::Checkpoint;
+use crate::engine::checkpoint::{Checkpoint, LastContact};
 use crate::engine::error::SimulationError;
+use crate::model::cycle::Kind;
 use crate::model::state::{Disc, Pin};
 use crate::observe::extra::Extra;
+use crate::observe::schedule::Moment;
 use crate::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
 
 impl Simulation {
@@ -14,6 +16,9 @@ impl Simulation {
     /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] after [`Simulation::pass_to`],
     /// [`SimulationError::NotFinite`] when an amount is no number.
     pub fn sample(&mut self) -> Result<Sample, SimulationError> {
+        if let Some(contact) = self.last_contact() {
+            return Ok(contact.sample.clone());
+        }
         let sample = self.workers.sample()?;
         // A ratio may have nothing to be a ratio of.
         let amounts = || QUANTITIES.iter().filter(|quantity| quantity.unit != "1");
@@ -22,16 +27,48 @@ impl Simulation {
         Ok(sample)
     }
 
-    /// The same with series on request. Each takes about as long as the maps that it is measured of.
+    /// Keeps what the last step showed, which in a pause is reported again and again, and also by who goes on from a checkpoint
+    /// of the pause.
     ///
     /// # Errors
     /// As [`Simulation::sample`].
-    pub fn sample_with(&mut self, extras: &[&Extra]) -> Result<Sample, SimulationError> {
+    pub fn keep_contact(&mut self) -> Result<(), SimulationError> {
+        if self.last_contact().is_none() {
+            let [pressure] = self.fields([Map::Pressure])?;
+            self.contact = Some(LastContact { sample: self.sample()?, pressure });
+        }
+        Ok(())
+    }
+
+    /// What is kept, if it is of the last step.
+    fn last_contact(&self) -> Option<&LastContact> {
+        self.contact.as_ref().filter(|contact| contact.sample.step == self.steps_done())
+    }
+
+    /// The same at a moment that the last step belongs to, with series on request. Each of those takes about as long as the
+    /// maps that it is measured of.
+    ///
+    /// In a pause (model 9) without load nothing touches and there is no displacement; a pin that stands touches as in the
+    /// step.
+    ///
+    /// # Errors
+    /// As [`Simulation::sample`].
+    pub fn sample_at(&mut self, moment: &Moment, extras: &[&Extra]) -> Result<Sample, SimulationError> {
         let mut sample = self.sample()?;
+        if let (Some(cycle), Some(pause)) = (&self.parameters.cycle, moment.pause) {
+            let loaded = cycle.loaded_until(moment.time) - cycle.loaded_until(sample.time);
+            sample.contact_area_integral += sample.contact_area * loaded;
+            sample.sliding_distance = cycle.angle_at(moment.time) * self.parameters.mesh.mean_radius();
+            sample.time = moment.time;
+            if pause == Kind::Lifted {
+                (sample.displacement, sample.contact_area, sample.contact_ratio) = (f64::NAN, 0.0, 0.0);
+                (sample.mean_pressure, sample.max_pressure) = (0.0, 0.0);
+            }
+        }
         for extra in extras {
             let Some(request) = &extra.request else { continue };
-            let fields: Vec<Vec<f64>> =
-                self.snapshot(request.maps)?.maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
+            let maps = self.snapshot_at(moment, request.maps)?.maps;
+            let fields: Vec<Vec<f64>> = maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
             sample.add(extra.quantities, (request.measure)(&self.parameters, &fields));
         }
         Ok(sample)
@@ -43,11 +80,35 @@ impl Simulation {
     /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
     /// [`Simulation::pass_to`], [`SimulationError::NotFinite`] when a value is no number.
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
-        let snapshot = self.workers.snapshot(maps)?;
+        let snapshot = match self.last_contact().map(|contact| contact.pressure.clone()) {
+            Some(pressure) if maps.contains(&Map::Pressure) => {
+                let others: Vec<Map> = maps.iter().copied().filter(|map| *map != Map::Pressure).collect();
+                let mut snapshot = self.workers.snapshot(&others)?;
+                let place = maps.iter().take_while(|map| **map != Map::Pressure).count();
+                snapshot.maps.insert(place, (Map::Pressure, MapValues::Float(pressure)));
+                snapshot
+            }
+            _ => self.workers.snapshot(maps)?,
+        };
         for (map, values) in &snapshot.maps {
             if let MapValues::Float(values) = values {
                 let name = |place| format!("cell {place} of {}", map.name());
                 self.refuse_not_finite(values.iter().copied(), name)?;
+            }
+        }
+        Ok(snapshot)
+    }
+
+    /// The same at a moment that the last step belongs to: in a pause without load all pressures are 0.
+    ///
+    /// # Errors
+    /// As [`Simulation::snapshot`].
+    pub fn snapshot_at(&mut self, moment: &Moment, maps: &[Map]) -> Result<Snapshot, SimulationError> {
+        let mut snapshot = self.snapshot(maps)?;
+        snapshot.time = moment.time;
+        for (map, values) in &mut snapshot.maps {
+            if let (Map::Pressure, Some(Kind::Lifted), MapValues::Float(pressures)) = (*map, moment.pause, values) {
+                pressures.fill(0.0);
             }
         }
         Ok(snapshot)
@@ -104,7 +165,8 @@ impl Simulation {
             let name = |cell| format!("the {name} at (column {}, row {})", cell / rows, cell % rows);
             self.refuse_not_finite(values.iter().copied(), name)?;
         }
-        Ok(Checkpoint { disc_height, disc_substrate, pin_height, pin_substrate, memory })
+        let contact = self.last_contact().cloned();
+        Ok(Checkpoint { disc_height, disc_substrate, pin_height, pin_substrate, contact, memory })
     }
 
     /// Looks at all heights: one that is no number is followed by others, and shows in no series for a while.

@@ -26,8 +26,6 @@ pub(crate) struct Plain {
     history: History,
     course: Course,
     clock: Clock,
-    /// Columns by which the disc was turned before the first step.
-    turned: u64,
     /// V(0), m³.
     initial_volume: f64,
 }
@@ -36,7 +34,7 @@ impl Plain {
     /// t = 0, over a disc turned by `turned` columns.
     pub fn new(parameters: Arc<Parameters>, surfaces: InitialSurfaces, turned: u64) -> Self {
         let mut state = State::new(&parameters, surfaces);
-        state.steps = turned;
+        state.turned = turned;
         let mut plain = Self {
             last: None,
             totals: Totals::default(),
@@ -46,7 +44,6 @@ impl Plain {
             initial_volume: 0.0,
             state,
             parameters,
-            turned,
         };
         plain.initial_volume = plain.open_volume();
         plain
@@ -62,9 +59,10 @@ impl Plain {
             let cells = taken.contact.iter().zip(area);
             self.course.contact_area = cells.filter(|(touches, _)| **touches).map(|(_, area)| area).sum();
             self.course.largest_load_residual = self.course.largest_load_residual.max(self.load_residual(&taken));
-            self.history.record(self.course.contact_area, self.clock.step_time());
             self.course.steps += 1;
-            self.course.time = self.clock.time_at(self.course.steps);
+            let operation = self.parameters.operation_of(self.course.steps, &self.clock);
+            self.history.record(self.course.contact_area, &operation);
+            self.course.time = operation.end;
             add(&mut self.totals, &taken.moved);
             self.last = (watched && self.course.steps == step).then_some(taken);
         }
@@ -112,7 +110,7 @@ impl Plain {
         (disc.height, disc.substrate) = (checkpoint.disc_height.clone(), checkpoint.disc_substrate.clone());
         (pin.height, pin.substrate) = (checkpoint.pin_height.clone(), checkpoint.pin_substrate.clone());
         *pools = account.pools.iter().map(RunningSum::value).collect();
-        *steps = self.turned + course.steps;
+        *steps = course.steps;
         (self.course, self.clock, self.history, self.totals) = (course, clock, history, account.totals);
         self.last = None;
         Ok(())
@@ -169,7 +167,7 @@ impl Plain {
             contact_area,
             contact_area_mean: self.history.revolution_mean(),
             contact_area_integral: self.history.integral(),
-            sliding_distance: self.course.time * parameters.angular_velocity * mesh.mean_radius(),
+            sliding_distance: parameters.angle_turned(self.course.steps, self.course.time) * mesh.mean_radius(),
             contact_ratio: contact_area / mesh.pin_area(),
             mean_pressure: if contact_area > 0.0 { load / contact_area } else { 0.0 },
             max_pressure: pressures.iter().copied().fold(0.0, f64::max),
@@ -195,11 +193,11 @@ impl Plain {
         })
     }
 
-    /// |Σ p A − F_N| / F_N.
+    /// |Σ p A − F_N| / F_N of a step.
     fn load_residual(&self, step: &Step) -> f64 {
         let areas = self.parameters.mesh.area().iter().cycle();
         let load: f64 = step.pressure.iter().zip(areas).map(|(pressure, area)| pressure * area).sum();
-        (load / self.parameters.normal_force - 1.0).abs()
+        (load / step.load - 1.0).abs()
     }
 
     /// V = Σ A (z_ref − z_d)₊, m³.

@@ -34,6 +34,27 @@ pub fn write_series(run: &RunFile, out: impl Write) -> Result<(), ExportError> {
     table.finish()
 }
 
+/// Writes what is reported of the events of a cycle, one event a line.
+///
+/// # Errors
+/// [`ExportError`] when they cannot be read or the output takes no more.
+pub fn write_events(run: &RunFile, out: impl Write) -> Result<(), ExportError> {
+    let (mut table, events) = (Table::new(out), run.events()?);
+    table.text("event")?;
+    for (quantity, _) in &events {
+        table.text(&format!("{} ({})", quantity.name, quantity.unit))?;
+    }
+    table.end_line()?;
+    for event in 0..events.first().map_or(0, |(_, values)| values.len()) {
+        table.text(&(event + 1).to_string())?;
+        for (_, values) in &events {
+            table.number(values[event])?;
+        }
+        table.end_line()?;
+    }
+    table.finish()
+}
+
 /// Writes the maps of a body at the time of that index, one cell a line: time, angle and radius of its centre, and the
 /// value of every map that was recorded; for the pin its base too.
 ///

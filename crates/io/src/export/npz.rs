@@ -16,7 +16,7 @@ const SHORT: u64 = u32::MAX as u64 / 2;
 
 /// Writes coordinates, series and maps as arrays, and `title`, `state`, `scene` and `units` as texts.
 ///
-/// A series has the name of its dataset; a map the name that scenes have for it, such as `disc_height`, and the shape
+/// A series has the name of its dataset; a quantity of events begins with `event_`; a map the name that scenes have for it, such as `disc_height`, and the shape
 /// (map_time, columns, rows); the base of the pin is `pin_base`. `units` is a JSON object, name of the array → unit.
 ///
 /// # Errors
@@ -30,6 +30,9 @@ pub fn write(run: &RunFile, out: impl Write + Seek) -> Result<(), ExportError> {
         if let Some(values) = run.values(&series.name)? {
             archive.floats(&series.name, &series.unit, &values)?;
         }
+    }
+    for (quantity, values) in run.events()? {
+        archive.floats(&format!("event_{}", quantity.name), quantity.unit, &values)?;
     }
     archive.floats("radius", "m", mesh.radius())?;
     archive.floats("disc_angle", "rad", &angles(mesh.disc_columns()))?;

@@ -52,9 +52,10 @@ impl Dimensions {
         Ok(Self { file: file.clone(), text, users: BTreeMap::new() })
     }
 
-    /// Makes a dataset of the root group the scale of the dimension that has its name.
+    /// Makes the dataset with this path the scale of the dimension that has its name.
     pub(crate) fn make_scale(&mut self, dataset: &Dataset, name: &'static str) -> hdf5::Result<()> {
-        for (attribute, value) in [("CLASS", "DIMENSION_SCALE"), ("NAME", name)] {
+        let title = name.rsplit('/').next().unwrap_or(name);
+        for (attribute, value) in [("CLASS", "DIMENSION_SCALE"), ("NAME", title)] {
             let value = Text::from_ascii(value).map_err(|error| hdf5::Error::from(error.to_string()))?;
             dataset.new_attr_builder().empty_as(self.text.clone()).create(attribute)?.write_scalar(&value)?;
         }

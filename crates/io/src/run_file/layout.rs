@@ -6,7 +6,9 @@ use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
 use ndarray::s;
 use plateau_core::model::mesh::Mesh;
+use plateau_core::observe::event::{EVENT_QUANTITIES, EventRecord};
 use plateau_core::observe::extra::Extra;
+use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{Map, quantities};
 
 use super::Header;
@@ -51,6 +53,16 @@ pub(super) const MAP_TIME: &str = "map_time";
 /// Path of the base of the pin's cells.
 pub(super) const PIN_BASE: &str = "pin/base";
 
+/// The group of what is reported of each event of a cycle.
+const EVENT_GROUP: &str = "event";
+/// Path of the numbers of the events.
+pub(super) const EVENT: &str = "event/event";
+
+/// Path of a quantity of the events.
+pub(super) fn event_path(name: &str) -> String {
+    format!("{EVENT_GROUP}/{name}")
+}
+
 /// Path of a series.
 pub(super) fn series_path(name: &str) -> String {
     format!("series/{name}")
@@ -94,9 +106,11 @@ fn map_long_name(map: Map) -> &'static str {
 /// all that a `source` has, the file of the same run as it was while the run went on.
 ///
 /// No object of the file is open any more when this returns.
-pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: Option<&File>) -> hdf5::Result<()> {
+///
+/// The events of a cycle come with the source: they are written when a run has ended.
+pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: Option<Source>) -> hdf5::Result<()> {
     write_provenance(file, header, start)?;
-    let mut layout = Layout::new(file, header, source)?;
+    let mut layout = Layout::new(file, header, source.map(|source| source.file))?;
     layout.coordinates(!header.maps.is_empty())?;
     for quantity in quantities(&header.extras) {
         layout.series(quantity.name, quantity.unit, quantity.long_name)?;
@@ -105,7 +119,20 @@ pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: O
         layout.map(map)?;
     }
     layout.pin_base(header)?;
+    let has_events = header.extras.iter().any(|extra| **extra == CYCLE);
+    if let Some(source) = source.filter(|_| has_events) {
+        layout.events(source.events)?;
+    }
     layout.dimensions.finish()
+}
+
+/// What the file of a run that has ended is made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source<'a> {
+    /// The file as it was while the run went on.
+    pub file: &'a File,
+    /// What happened in the events of the cycle.
+    pub events: &'a [EventRecord],
 }
 
 fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
@@ -175,8 +202,7 @@ impl<'a> Layout<'a> {
             ("pin_angle", "rad", "angle of the cell centres on the pin, from its leading edge", &pin_angle),
         ] {
             let scale = self.scale(name, unit, long_name)?;
-            scale.write_raw(values)?;
-            write_text(&scale, DIGEST, &digest::of_floats(values))?;
+            fixed(&scale, values)?;
             // What cannot be written when a dataset is let go of is not told.
             self.file.flush()?;
         }
@@ -253,6 +279,25 @@ impl<'a> Layout<'a> {
         self.file.flush()
     }
 
+    /// One row for each event of the cycle.
+    fn events(&mut self, records: &[EventRecord]) -> hdf5::Result<()> {
+        self.file
+            .create_group_builder()
+            .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
+            .create(EVENT_GROUP)?;
+        let numbers: Vec<f64> = (1..=records.len()).map(|number| number as f64).collect();
+        let scale = self.scale(EVENT, "1", "number of the event")?;
+        fixed(&scale, &numbers)?;
+        for quantity in EVENT_QUANTITIES {
+            let values: Vec<f64> = records.iter().map(quantity.value).collect();
+            let dataset =
+                self.dataset(&event_path(quantity.name), &self.float, &[EVENT], quantity.unit, quantity.long_name)?;
+            fixed(&dataset, &values)?;
+            self.dimensions.attach(&dataset, &[EVENT])?;
+        }
+        self.file.flush()
+    }
+
     /// Makes a dataset; the two time dimensions are empty and can grow.
     fn dataset(
         &self,
@@ -295,6 +340,15 @@ impl<'a> Layout<'a> {
             dims => dims.to_vec(),
         }
     }
+}
+
+/// Writes values that never change, with their digest.
+fn fixed(dataset: &Dataset, values: &[f64]) -> hdf5::Result<()> {
+    if dataset.is_resizable() {
+        dataset.resize(values.len())?;
+    }
+    dataset.write_raw(values)?;
+    write_text(dataset, DIGEST, &digest::of_floats(values))
 }
 
 /// The CF way to say what a status means, for readers that do not show enumerations.

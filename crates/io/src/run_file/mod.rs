@@ -22,6 +22,7 @@ mod datasets;
 mod digest;
 pub(crate) mod dimension;
 mod error;
+mod events;
 mod header;
 pub(crate) mod layout;
 mod place;

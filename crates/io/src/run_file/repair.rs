@@ -112,7 +112,7 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     datasets.copy(&file, &old, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
     let digests = datasets.into_digests();
-    let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests };
+    let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests, events: &[] };
     let sealed = Place::prepare(path, true, EMPTY_FILE)?;
     let closed = file.close().and_then(|()| seal.make(place.temporary(), &sealed));
     closed.map_err(not_anew(path))?;

@@ -6,11 +6,12 @@ use std::path::Path;
 use std::time::{Duration, SystemTime};
 
 use hdf5::File;
+use plateau_core::observe::event::EventRecord;
 
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
 use super::error::{failed, not_anew};
-use super::layout::{TIME, TIME_OF_SERIES, lay_out};
+use super::layout::{Source, TIME, TIME_OF_SERIES, lay_out};
 use super::place::Place;
 use super::{End, Header, RunFileError};
 use crate::hdf5_file;
@@ -28,6 +29,7 @@ pub(super) struct Seal<'a> {
     pub(super) end_time: SystemTime,
     pub(super) wall_time: Duration,
     pub(super) digests: Digests,
+    pub(super) events: &'a [EventRecord],
 }
 
 impl Seal<'_> {
@@ -35,7 +37,7 @@ impl Seal<'_> {
     ///
     /// The file is made anew, series compressed and nothing left over, and takes the place of the old one when it is complete:
     /// killed at whatever moment, the program leaves a file that can be read. Where there is no room for a second file, it is
-    /// put on the file itself, if there is room for that.
+    /// put on the file itself, if there is room for that; such a file has no events.
     pub(super) fn put_on(&self, path: &Path) -> Result<(), RunFileError> {
         let anew = Place::prepare(path, true, EMPTY_FILE).and_then(|place| {
             self.make(path, &place).map_err(not_anew(path))?;
@@ -53,7 +55,8 @@ impl Seal<'_> {
     pub(super) fn make(&self, path: &Path, place: &Place) -> hdf5::Result<()> {
         let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
         let new = open_for_writing(place.temporary())?;
-        lay_out(&new, self.header, self.start_time, Some(&old))?;
+        let source = Source { file: &old, events: self.events };
+        lay_out(&new, self.header, self.start_time, Some(source))?;
         self.write(new)
     }
 

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use hdf5::Dataset;
+use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{Map, MapValues};
 
 use super::digest::{ATTRIBUTES_DIGEST, DIGEST, of_attributes, of_bytes, of_floats, texts};
-use super::layout::{MAP_TIME, PIN_BASE, TIME, map_path, series_path};
+use super::layout::{EVENT, MAP_TIME, PIN_BASE, TIME, event_path, map_path, series_path};
 use super::reader::reason;
 use super::{ReadError, RunFile, State};
 use crate::hdf5_file;
@@ -60,6 +61,12 @@ pub fn verify(path: &Path) -> Result<Verification, ReadError> {
     }
     for series in run.series() {
         check.series(&series.name);
+    }
+    for path in [EVENT.to_owned()].into_iter().chain(EVENT_QUANTITIES.iter().map(|quantity| event_path(quantity.name)))
+    {
+        if run.file.link_exists(&path) {
+            check.column(&path);
+        }
     }
     check.pin_base();
     for map in Map::ALL.into_iter().filter(|map| run.has_map(*map)) {

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use crossbeam::channel::{self, Receiver, Sender, TrySendError};
 use plateau_core::model::mesh::Mesh;
+use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
 use super::store::Store;
@@ -140,14 +141,15 @@ impl RunWriter {
         if sent { Ok(()) } else { Err(self.stop()) }
     }
 
-    /// Writes what is still in the queue, states how the run ended, and closes the file.
+    /// Writes what is still in the queue, states how the run ended and what happened in the events of its cycle, and closes the
+    /// file.
     ///
     /// # Errors
     /// The error of the writer if it has failed, now or before; `state` then still is `running`, as if the program had
     /// been killed.
-    pub fn finish(mut self, end: &End) -> Result<WriterReport, RunFileError> {
+    pub fn finish(mut self, end: &End, events: &[EventRecord]) -> Result<WriterReport, RunFileError> {
         let store = self.join()?;
-        let written = store.seal(end)?;
+        let written = store.seal(end, events)?;
         Ok(WriterReport {
             waited: self.waited,
             samples: written.samples,
@@ -199,7 +201,7 @@ impl Drop for RunWriter {
         if self.thread.is_some()
             && let Ok(store) = self.join()
         {
-            let _ = store.seal(&End::Failed("the program stopped before the run was done".into()));
+            let _ = store.seal(&End::Failed("the program stopped before the run was done".into()), &[]);
         }
     }
 }

@@ -10,29 +10,34 @@ use plateau_core::observe::extra::Extra;
 use plateau_core::observe::requested;
 use plateau_core::observe::schedule::SampleEvery;
 
-use super::contents::{OutputSettings, Scene, Workers};
+use super::contents::{OperationCycle, OutputSettings, Scene, Workers};
+use super::cycle::{operation, refuse_choice, short_events};
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
+use super::length::{Length, length};
 use super::schema::{choices, join};
 use super::settings::Settings;
 use super::surfaces::{base, heights};
 use super::{Warning, memory, resolved};
 
 /// A number, or a table with how the run chooses it.
-const ACCELERATION: &str = "numerics.time_acceleration";
-/// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
-const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
+pub(super) const ACCELERATION: &str = "numerics.time_acceleration";
 
 /// Makes the scene; `files` are the scene file and those it extends.
-pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
+pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
     let mut warnings = Vec::new();
     let adaptive = adaptive(&settings)?;
-    let (parameters, steps) = parameters_and_steps(&settings)?;
+    let (parameters, operation) = parameters(&settings)?;
+    let Length { steps, duration } = length(&settings, &parameters, operation.as_ref())?;
     warnings.extend(debris_by_default(&settings, path));
+    if let Some(operation) = &operation {
+        refuse_choice(&settings, &parameters, &operation.cycle, duration)?;
+        warnings.extend(short_events(&settings, &parameters, &operation.cycle, duration));
+    }
+    files.extend(operation.as_ref().and_then(|operation| operation.file.clone()));
     // From here on it is `debris`.
     settings.remove("plateaus.debris_pool");
-    let duration = settings.optional_number("operation.duration")?;
-    let end = parameters.clock().time_at(steps);
+    let end = if operation.is_some() { duration } else { parameters.clock().time_at(steps) };
     let output = output(&mut settings, end, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
@@ -54,8 +59,9 @@ pub(super) fn build(mut settings: Settings, files: Vec<PathBuf>, path: &Path) ->
         files,
         warnings,
         places: settings.places(),
+        cycle: operation,
         adaptive,
-        duration: duration.unwrap_or_else(|| parameters.clock().time_at(steps)),
+        duration,
         steps,
         load_tolerance: settings.number("contact.load_tolerance")?,
         parameters,
@@ -79,19 +85,31 @@ fn adaptive(settings: &Settings) -> Result<Option<Adaptive>, Problem> {
     Ok(Some(Adaptive { tolerance, largest: settings.number(&max)? }))
 }
 
-fn parameters_and_steps(settings: &Settings) -> Result<(Parameters, u64), Problem> {
+/// What a simulation is told, and the cycle, if there is one; one that never changes load and speed is operation as ever.
+fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>), Problem> {
     let mesh = mesh(settings)?;
-    let (speed_key, angular_velocity) = match settings.optional_number("operation.rotational_speed")? {
-        Some(speed) => ("operation.rotational_speed", speed),
-        None => {
-            let key = "operation.sliding_speed";
-            (key, settings.number(key)? / mesh.mean_radius())
-        }
+    let sliding_speed = settings.optional_number("operation.sliding_speed")?;
+    let speed_key = if sliding_speed.is_some() { "operation.sliding_speed" } else { "operation.rotational_speed" };
+    let speed = match sliding_speed {
+        Some(speed) => Some(speed / mesh.mean_radius()),
+        None => settings.optional_number(speed_key)?,
     };
+    let force = settings.optional_number("operation.normal_force")?;
+    let operation = operation(settings, &mesh, force, speed)?;
+    let (normal_force, angular_velocity) = match &operation {
+        // What is reckoned before the first step is on the safe side with the largest load, and right in the mean with the
+        // mean speed.
+        Some(OperationCycle { cycle, .. }) => cycle
+            .constant()
+            .unwrap_or_else(|| (cycle.largest_force(), cycle.angle_at(cycle.duration()) / cycle.active_time())),
+        None => (settings.number("operation.normal_force")?, speed.map_or_else(|| settings.number(speed_key), Ok)?),
+    };
+    let cycle = operation.as_ref().map(|operation| operation.cycle.clone());
     let parameters = Parameters {
         mesh,
-        normal_force: settings.number("operation.normal_force")?,
+        normal_force,
         angular_velocity,
+        cycle: cycle.filter(|cycle| cycle.constant().is_none()),
         foundation_height: settings.number("contact.foundation_height")?,
         materials: materials(settings)?,
         plateaus: plateaus(settings)?,
@@ -102,16 +120,7 @@ fn parameters_and_steps(settings: &Settings) -> Result<(Parameters, u64), Proble
         let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
     }
-    let (steps_key, steps) = match settings.optional_number("operation.duration")? {
-        Some(duration) => ("operation.duration", parameters.steps_of(duration)),
-        None => ("operation.steps", settings.integer("operation.steps")?),
-    };
-    if steps > MOST_STEPS {
-        let message =
-            format!("these are more than {MOST_STEPS} steps, which cannot be counted exactly; shorten the run");
-        return Err(Problem::new(&settings.origin(steps_key), steps_key, message));
-    }
-    Ok((parameters, steps))
+    Ok((parameters, operation))
 }
 
 fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
@@ -252,6 +261,6 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
 }
 
 /// A number to nine significant digits.
-fn rounded(number: f64) -> f64 {
+pub(super) fn rounded(number: f64) -> f64 {
     format!("{number:.8e}").parse().unwrap_or(number)
 }

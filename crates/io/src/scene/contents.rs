@@ -2,10 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use plateau_core::acceleration::Adaptive;
+use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
 use plateau_core::observe::extra::Extra;
+use plateau_core::observe::operation::{CYCLE, ROAD};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
 use plateau_core::observe::{ACCELERATION, Map};
 use plateau_core::surface::micrograph::Micrograph;
@@ -27,6 +30,8 @@ pub struct Scene {
     pub steps: u64,
     /// |Σ k A u − F_N| / F_N above which the run says that the load balance is inexact. It changes no step.
     pub load_tolerance: f64,
+    /// Load and speed over time, if they are given as a cycle.
+    pub cycle: Option<OperationCycle>,
     /// How the run chooses its acceleration, if it does.
     pub adaptive: Option<Adaptive>,
     /// Physical time that is to be simulated, s; the last step ends there, or up to one step later.
@@ -61,20 +66,36 @@ impl Scene {
     /// When samples and maps are due.
     pub fn schedule(&self) -> Schedule {
         let OutputSettings { sample_every, maps_at, .. } = &self.output;
-        Schedule::new(self.parameters.clock(), self.end(), *sample_every, maps_at)
+        Schedule::new(&self.parameters, self.end(), *sample_every, maps_at)
     }
 
     /// Series besides those that every run has, where the run chooses its acceleration or does not.
     pub fn extras(&self, chooses_acceleration: bool) -> Vec<&'static Extra> {
         let acceleration = chooses_acceleration.then_some(&ACCELERATION);
-        self.output.extras.iter().copied().chain(acceleration).collect()
+        let has_road = self.cycle.as_ref().is_some_and(|operation| operation.has_road);
+        let operation = [(self.cycle.is_some(), &CYCLE), (has_road, &ROAD)];
+        let operation = operation.into_iter().filter(|(is_there, _)| *is_there).map(|(_, extra)| extra);
+        self.output.extras.iter().copied().chain(acceleration).chain(operation).collect()
     }
 
     /// When the run is over.
     fn end(&self) -> End {
-        // The time of a step is rounded, so a number of steps is the better end where it does not change.
-        if self.adaptive.is_some() { End::Time(self.duration) } else { End::Steps(self.steps) }
+        // The time of a step is rounded, so a number of steps is the better end where it does not change; a cycle may end in
+        // a pause.
+        let is_timed = self.adaptive.is_some() || self.parameters.cycle.is_some();
+        if is_timed { End::Time(self.duration) } else { End::Steps(self.steps) }
     }
+}
+
+/// Operation as a cycle.
+#[derive(Debug, Clone)]
+pub struct OperationCycle {
+    /// Load and speed over time. Where they never change, the parameters of the scene have no cycle.
+    pub cycle: Arc<Cycle>,
+    /// Whether it says how fast the vehicle is.
+    pub has_road: bool,
+    /// The file of its rows, if they are not in the scene.
+    pub file: Option<PathBuf>,
 }
 
 /// Heights and how they are prepared.

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use plateau_core::observe::Map;
 
+use super::cycle;
 use super::document::{Entry, Value};
 use super::error::{Origin, Problem};
 use super::schema::{self, Kind, Range};
+use crate::cycle_table::CycleTable;
 use crate::units::{self, Dimension, UnitError};
 
 /// A checked value.
@@ -18,6 +20,7 @@ pub(super) enum Setting {
     Text(String),
     Numbers(Vec<f64>),
     Maps(Vec<Map>),
+    Rows(CycleTable),
 }
 
 /// Reads the value of the key `path`; input files named by no scene file are relative to the one at `scene`.
@@ -30,6 +33,7 @@ pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> 
             .collect::<Result<_, _>>()
             .map(Setting::Numbers),
         (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
+        (Kind::Rows, Value::Array(list)) if list.len() >= 2 => cycle::rows(list),
         (Kind::InputFile, Value::Text(text)) => {
             not_empty(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
         }
@@ -87,11 +91,12 @@ fn expectation(kind: Kind) -> String {
         Kind::Text => "a string".to_owned(),
         Kind::InputFile => "the path of a file as a string".to_owned(),
         Kind::Times => "a list of times such as [\"0 s\", \"500 s\"]".to_owned(),
+        Kind::Rows => "rows such as [[\"0 s\", \"47 N\", \"850 rpm\"], [\"3 s\", \"47 N\", \"0 rpm\"]]".to_owned(),
         Kind::Maps => format!("a list of {}", quoted(Map::ALL.iter().map(|map| map.name()))),
     }
 }
 
-fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, String> {
+pub(super) fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, String> {
     let number = match value {
         Value::Text(text) => units::parse(text, dimension).map_err(|error| error.to_string())?,
         Value::Integer(_) | Value::Float(_) => {

@@ -9,11 +9,13 @@
 
 mod build;
 mod contents;
+mod cycle;
 mod difference;
 mod document;
 mod error;
 mod interpret;
 mod layers;
+mod length;
 mod memory;
 mod resolved;
 pub mod schema;
@@ -22,7 +24,7 @@ mod surfaces;
 
 use std::path::Path;
 
-pub use contents::{BaseSource, HeightSettings, HeightSource, OutputSettings, Scene, Workers};
+pub use contents::{BaseSource, HeightSettings, HeightSource, OperationCycle, OutputSettings, Scene, Workers};
 pub use difference::{Difference, differences, values};
 pub use error::{Origin, Problem, SceneError, Warning};
 pub use memory::memory_estimate;

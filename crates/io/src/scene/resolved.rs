@@ -5,6 +5,7 @@ use plateau_core::observe::Map;
 use super::interpret::Setting;
 use super::schema::{self, Key, Kind};
 use super::settings::Settings;
+use crate::cycle_table::{CycleTable, Loads, Speeds};
 use crate::units::{self, Dimension};
 
 /// Writes a scene that reads back as the same settings, and needs neither the scenes it extended nor `--set`.
@@ -36,8 +37,27 @@ fn value(key: &Key, setting: &Setting) -> String {
             Kind::Lengths { unit, .. } => list(numbers, |length| units::format(*length, unit, Dimension::Length)),
             _ => list(numbers, |time| units::format(*time, "s", Dimension::Time)),
         },
+        Setting::Rows(table) => rows(table),
         Setting::Maps(maps) => list(maps, |map: &Map| map.name().to_owned()),
     }
+}
+
+/// Rows of a cycle, in SI units.
+fn rows(table: &CycleTable) -> String {
+    let load = |row: usize| match &table.loads {
+        Some(Loads::NominalPressure(pressures)) => units::format(pressures[row], "Pa", Dimension::Pressure),
+        Some(Loads::Force(forces)) => units::format(forces[row], "N", Dimension::Force),
+        None => String::new(),
+    };
+    let speed = |row: usize| match &table.speeds {
+        Some(Speeds::Sliding(speeds)) => units::format(speeds[row], "m/s", Dimension::Speed),
+        Some(Speeds::Rotational(speeds)) => units::format(speeds[row], "rpm", Dimension::RotationalSpeed),
+        None => String::new(),
+    };
+    let row = |row: usize| {
+        list(&[units::format(table.times[row], "s", Dimension::Time), load(row), speed(row)], String::clone)
+    };
+    format!("[{}]", (0..table.times.len()).map(row).collect::<Vec<_>>().join(", "))
 }
 
 fn list<T>(elements: &[T], text: impl Fn(&T) -> String) -> String {

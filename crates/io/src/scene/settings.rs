@@ -132,7 +132,9 @@ impl Settings {
                 }
                 Need::SameAs(table) => self.get(&schema::join(table, key.name)).cloned(),
                 Need::Computed(_) => self.computed(&path, entries, scene),
-                Need::Required | Need::RequiredUnless(..) | Need::OneOf | Need::Optional => None,
+                Need::Required | Need::RequiredUnless(..) | Need::RequiredWithout(_) | Need::OneOf | Need::Optional => {
+                    None
+                }
             };
             if let Some(setting) = setting {
                 self.insert(&path, setting, &Origin::Default);
@@ -214,12 +216,14 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
     for section in schema::sections() {
         let is_required = |key: &Key| match key.need {
             Need::RequiredUnless(choose, _) => !document::chooses(entries, choose),
+            Need::RequiredWithout(table) => !entries.contains_key(table),
             need => need == Need::Required,
         };
         let keys = schema::keys().iter().filter(|key| key.section == section && is_required(key));
         let keys = keys.filter(|key| !given(section, key.name) && applies(key, entries));
-        let groups = schema::GROUPS.iter().filter(|group| group.section == section && group.required);
-        let groups = groups.filter(|group| group.applies(|path| entries.contains_key(path)));
+        let is_there = |path: &str| entries.contains_key(path);
+        let groups = schema::GROUPS.iter().filter(|group| group.section == section);
+        let groups = groups.filter(|group| group.is_required(is_there) && group.applies(is_there));
         let groups = groups.filter(|group| !group.members.iter().any(|(name, _)| given(section, name)));
 
         let names: Vec<String> = keys

@@ -3,13 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
 use plateau_core::observe::{EXTRAS, quantities};
 use plateau_study::design::{Alpha, Fraction, Kind};
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 use super::document::{self, Document};
 use super::factor::{Factor, Level, Values};
-use super::response::{Question, Response};
+use super::record::EVENT;
+use super::response::{Question, Response, WhichEvent};
 use super::{DesignSource, Order, Replicates, Study, points_of_file};
 use crate::scene::{Origin, Problem, schema};
 use crate::units::{self, Dimension};
@@ -282,7 +284,10 @@ fn responses(tables: &[document::Response], place: &Place<'_>, problems: &mut Ve
         if responses.iter().any(|response| response.name == name) {
             problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
         }
-        let series = series_name(&table.dataset, "response.dataset", place, problems).unwrap_or_default();
+        let series = match &table.event {
+            Some(_) => event_name(&table.dataset, place, problems).unwrap_or_default(),
+            None => series_name(&table.dataset, "response.dataset", place, problems).unwrap_or_default(),
+        };
         match question(table, place) {
             Ok(question) => responses.push(Response { name, series, question }),
             Err(problem) => problems.push(problem),
@@ -301,6 +306,19 @@ fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, P
             Err(place.problem(text, key, format!("\"{}\" is before the run", text.get_ref())))
         }
     };
+    let refused = || {
+        let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
+                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"";
+        place.problem(&table.name, "response", message)
+    };
+    if let (Some(event), None, None, None) = (&table.event, &table.at, &table.mean, &table.reaches) {
+        return which_event(event.get_ref()).map(Question::Event).ok_or_else(|| {
+            place.problem(event, "response.event", "expected the number of an event, \"last\" or \"mean\"")
+        });
+    }
+    if table.event.is_some() {
+        return Err(refused());
+    }
     match (&table.at, &table.mean, &table.reaches) {
         (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
         (Some(at), None, None) => Ok(Question::At(time(at, "response.at")?)),
@@ -320,15 +338,33 @@ fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, P
             "response.reaches",
             format!("{}, expected more than 0 and less than 1", reaches.get_ref()),
         )),
-        _ => {
-            let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
-                           reaches = 0.9";
-            Err(place.problem(&table.name, "response", message))
-        }
+        _ => Err(refused()),
     }
 }
 
 /// `/series/pool` or `pool`.
+fn which_event(value: &Value) -> Option<WhichEvent> {
+    match value {
+        Value::Integer(number) => usize::try_from(*number).ok().filter(|number| *number > 0).map(WhichEvent::Number),
+        Value::String(word) if word == "last" => Some(WhichEvent::Last),
+        Value::String(word) if word == "mean" => Some(WhichEvent::Mean),
+        _ => None,
+    }
+}
+
+/// The dataset of a quantity of events.
+fn event_name(found: &Spanned<String>, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
+    let name = found.get_ref().trim_start_matches('/').trim_start_matches(EVENT);
+    if event_quantity(name).is_some() {
+        return Some(format!("{EVENT}{name}"));
+    }
+    let known: Vec<_> = EVENT_QUANTITIES.iter().map(|quantity| format!("/{EVENT}{}", quantity.name)).collect();
+    let message =
+        format!("\"{}\" is nothing that is reported of events; expected {}", found.get_ref(), known.join(", "));
+    problems.push(place.problem(found, "response.dataset", message));
+    None
+}
+
 fn series_name(found: &Spanned<String>, key: &str, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
     let name = found.get_ref().trim_start_matches("/series/");
     let known = || quantities(EXTRAS).map(|quantity| quantity.name);

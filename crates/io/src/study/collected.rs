@@ -12,13 +12,14 @@ use std::collections::BTreeSet;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
+use plateau_core::observe::event::event_quantity;
 use plateau_core::observe::{EXTRAS, quantities};
 use thiserror::Error;
 
 use super::identity::firsts;
 use super::journal::{Entry, Journal};
 use super::plan::{Plan, Run};
-use super::record::{Outcome, Series};
+use super::record::{EVENT, Outcome, Packed, Series};
 use crate::dataset_file::{Attribute, Content, Coordinate, DatasetFileError, Name, Rows, Values, Variable, write_rows};
 
 /// The results of the runs of a study, as far as there are any.
@@ -253,14 +254,23 @@ const TIME_OF_SAMPLE: &str = "sample_time";
 fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
     match entry.record()?.outcome {
         Outcome::Failed { .. } => Ok(None),
-        Outcome::Finished { series, .. } => {
-            series.unpack().map(Some).ok_or_else(|| CollectError::Read(ErrorKind::InvalidData.into()))
+        Outcome::Finished { series, events, .. } => {
+            let unpacked =
+                |packed: Packed| packed.unpack().ok_or_else(|| CollectError::Read(ErrorKind::InvalidData.into()));
+            let series = unpacked(series)?;
+            Ok(Some(match events {
+                Some(events) => series.with_events(unpacked(events)?),
+                None => series,
+            }))
         }
     }
 }
 
-/// SI unit of a series.
+/// SI unit of a series, or of a quantity of events.
 pub fn unit_of(series: &str) -> &'static str {
+    if let Some(name) = series.strip_prefix(EVENT) {
+        return event_quantity(name).map_or("1", |quantity| quantity.unit);
+    }
     quantities(EXTRAS).find(|quantity| quantity.name == series).map_or("1", |quantity| quantity.unit)
 }
 

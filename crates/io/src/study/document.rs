@@ -79,6 +79,7 @@ pub(super) struct Response {
     pub at: Option<Spanned<String>>,
     pub mean: Option<Spanned<Mean>>,
     pub reaches: Option<Spanned<f64>>,
+    pub event: Option<Spanned<Value>>,
 }
 
 /// Over what a mean is taken.

@@ -74,13 +74,14 @@ fn shows(key: &str) -> bool {
     !matches!(schema::role(key), Role::Nothing | Role::Maps | Role::MapTimes) && !schema::is_input(key)
 }
 
-/// The surface files of a scene, and what they are for.
+/// The files of a scene whose content shows in its results, and what they are for.
 fn files(scene: &Scene) -> impl Iterator<Item = (&'static str, &PathBuf)> {
     let base = match &scene.pin_base {
         BaseSource::File { path, .. } | BaseSource::Image { path, .. } => Some(path),
         BaseSource::Synthetic(_) | BaseSource::Uniform(_) => None,
     };
     let all = [
+        ("operation.cycle", scene.cycle.as_ref().and_then(|operation| operation.file.as_ref())),
         ("disc.surface", heights(&scene.disc_surface.source)),
         ("pin.surface", heights(&scene.pin_surface.source)),
         ("pin.base", base),

@@ -35,6 +35,9 @@ pub enum Outcome {
         steps: u64,
         /// The series.
         series: Packed,
+        /// What is reported of the events of its cycle, one value for each event.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        events: Option<Packed>,
     },
     /// It could not begin or go on.
     Failed {
@@ -51,12 +54,17 @@ pub const REVOLUTIONS: &str = "simulated_revolutions";
 pub struct Series {
     names: Vec<String>,
     columns: Vec<Vec<f64>>,
+    /// Quantities of the events of the run, by their names.
+    events: Vec<(String, Vec<f64>)>,
 }
+
+/// How the dataset of a quantity of events begins, as against that of a series.
+pub const EVENT: &str = "event/";
 
 impl Series {
     /// Columns and their names, `time` first.
     pub fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Self {
-        Self { names, columns }
+        Self { names, columns, events: Vec::new() }
     }
 
     /// Times of the samples, s.
@@ -68,6 +76,16 @@ impl Series {
     pub fn values(&self, name: &str) -> Option<&[f64]> {
         let column = self.names.iter().position(|known| known == name)?;
         self.columns.get(column).map(Vec::as_slice)
+    }
+
+    /// The same with what is reported of the events of the run: equally long columns of another length.
+    pub fn with_events(self, events: Self) -> Self {
+        Self { events: events.names.into_iter().zip(events.columns).collect(), ..self }
+    }
+
+    /// A quantity of the events, one value for each.
+    pub fn of_events(&self, name: &str) -> Option<&[f64]> {
+        self.events.iter().find(|(known, _)| known == name).map(|(_, values)| values.as_slice())
     }
 
     /// Names of the columns, `time` first.
@@ -109,7 +127,7 @@ impl Packed {
         }
         let value = |at: usize| f64::from_le_bytes(std::array::from_fn(|byte| shuffled[byte * count + at]));
         let column = |column: usize| (0..self.samples).map(|sample| value(column * self.samples + sample)).collect();
-        Some(Series { names: self.columns.clone(), columns: (0..self.columns.len()).map(column).collect() })
+        Some(Series::new(self.columns.clone(), (0..self.columns.len()).map(column).collect()))
     }
 }
 

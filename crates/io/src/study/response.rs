@@ -2,14 +2,14 @@
 
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 
-use super::record::{REVOLUTIONS, Series};
+use super::record::{EVENT, REVOLUTIONS, Series};
 
 /// A question to the series of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
     /// Its name.
     pub name: String,
-    /// The series that is asked, by its name in a run file.
+    /// The series that is asked, by its name in a run file; for a quantity of events with `event/` before it.
     pub series: String,
     /// What of it.
     pub question: Question,
@@ -26,15 +26,31 @@ pub enum Question {
     Mean(f64, f64),
     /// The mean over the last tenth of the run: see [`last_tenth`].
     MeanOfLastTenth,
+    /// The value of an event.
+    Event(WhichEvent),
     /// The time, s, at which the series first comes to this fraction of its last value; from above, to the last value over
     /// the fraction.
     Reaches(f64),
+}
+
+/// Which of the events of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WhichEvent {
+    /// The one with this number, from 1.
+    Number(usize),
+    /// The last.
+    Last,
+    /// All of them: the mean of those that have a value.
+    Mean,
 }
 
 impl Response {
     /// The answer of a run, in the unit of the series (s for [`Question::Reaches`]); none where the run does not reach the
     /// times that are asked for, or has no such series.
     pub fn of(&self, run: &Series) -> Option<f64> {
+        if let Question::Event(which) = self.question {
+            return of_event(run.of_events(self.series.strip_prefix(EVENT)?)?, which);
+        }
         let (time, values) = (run.time(), run.values(&self.series)?);
         match self.question {
             Question::End => values.last().copied(),
@@ -49,6 +65,7 @@ impl Response {
                 mean(time, values, from, to)
             }
             Question::Reaches(fraction) => reaches(time, values, fraction),
+            Question::Event(_) => None,
         }
     }
 
@@ -94,6 +111,19 @@ impl Response {
 /// Simulated revolutions at the samples; nothing where the run was recorded without them.
 fn revolutions(run: &Series) -> &[f64] {
     run.values(REVOLUTIONS).unwrap_or_default()
+}
+
+/// The value of an event; none where there is no such event, or it has no value.
+fn of_event(values: &[f64], which: WhichEvent) -> Option<f64> {
+    let value = match which {
+        WhichEvent::Number(number) => *values.get(number.checked_sub(1)?)?,
+        WhichEvent::Last => *values.last()?,
+        WhichEvent::Mean => {
+            let there = values.iter().filter(|value| value.is_finite());
+            there.clone().sum::<f64>() / there.count() as f64
+        }
+    };
+    value.is_finite().then_some(value)
 }
 
 /// Linear between samples; before the first one, that one; none after the last.
@@ -162,6 +192,19 @@ mod tests {
         assert_eq!(ask(Question::Reaches(0.5), &[6.0, 2.0, 2.0]), Some(1.5));
         assert_eq!(ask(Question::Reaches(0.5), &[-4.0, 0.0, -1.0]), Some(1.5));
         assert_eq!(ask(Question::End, &[]), None);
+    }
+
+    #[test]
+    fn events_are_asked_by_number_and_in_the_mean() {
+        let columns = vec![vec![3.0, f64::NAN, 5.0]];
+        let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
+        let ask = |which| {
+            let question = Question::Event(which);
+            Response { name: "w".into(), series: "event/worn".into(), question }.of(&run)
+        };
+        assert_eq!(ask(WhichEvent::Number(1)), Some(3.0));
+        assert_eq!([ask(WhichEvent::Number(2)), ask(WhichEvent::Number(4)), ask(WhichEvent::Number(0))], [None; 3]);
+        assert_eq!((ask(WhichEvent::Last), ask(WhichEvent::Mean)), (Some(5.0), Some(4.0)));
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub struct SeriesLook {
 }
 
 /// The series that pages, figures or the terminal name, in the order in which they are told.
-static SERIES: [SeriesLook; 18] = [
+static SERIES: [SeriesLook; 21] = [
     series("sliding_distance", "sliding distance", Unit::METRE),
     series("contact_area", "contact area", Unit::MM2),
     series("contact_area_mean", "contact area, mean of the last revolution", Unit::MM2),
@@ -48,6 +48,9 @@ static SERIES: [SeriesLook; 18] = [
     series("deposited_pin", "debris deposited on the pin", Unit::MM3),
     series("deposited_disc", "debris deposited on the disc", Unit::MM3),
     series("pool", "debris in the pool", Unit::MM3),
+    series("normal_force", "normal force", Unit::NEWTON),
+    series("rotational_speed", "rotational speed", Unit::RPM),
+    series("road_distance", "distance of the vehicle", Unit::METRE),
 ];
 
 const fn series(name: &'static str, title: &'static str, unit: Unit) -> SeriesLook {
@@ -223,7 +226,8 @@ mod tests {
 
     #[test]
     fn series_are_those_of_run_files() {
-        let known: Vec<&str> = plateau_core::observe::QUANTITIES.iter().map(|quantity| quantity.name).collect();
+        use plateau_core::observe::{EXTRAS, quantities};
+        let known: Vec<&str> = quantities(EXTRAS).map(|quantity| quantity.name).collect();
         assert!(SERIES.iter().all(|look| known.contains(&look.name)));
     }
 }

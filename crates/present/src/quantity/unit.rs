@@ -73,6 +73,10 @@ impl Unit {
     pub const MM3: Self = unit("mm³", 1e9);
     /// Megapascals.
     pub const MEGAPASCAL: Self = unit("MPa", 1e-6);
+    /// Newtons.
+    pub const NEWTON: Self = unit("N", 1.0);
+    /// Revolutions a minute, of an angular velocity.
+    pub const RPM: Self = unit("rpm", 60.0 / std::f64::consts::TAU);
     /// Points of a grid whose distance is not known.
     pub const POINTS: Self = unit("points", 1.0);
 

@@ -11,6 +11,7 @@
 //! | text as HTML, tables | [`html`] |
 //! | a series with its last and largest value, thinned | [`series`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
+//! | the events of a cycle | [`events`] |
 //! | where the run files come from, in which keys their scenes differ | [`provenance`] |
 //! | the JSON document of the page | [`document`] |
 //! | maps for the page, no larger than allowed | [`maps`], [`reduction`] |
@@ -20,6 +21,7 @@
 mod comparison;
 mod document;
 mod effects;
+mod events;
 mod html;
 mod layout;
 mod maps;

@@ -9,7 +9,7 @@ use super::layout::{AROUND, Layout, Section};
 use super::outcome::{self, Measure, UNKNOWN, readable};
 use super::picture::Pictures;
 use super::series::{MOST_POINTS, Recorded, recorded};
-use super::{comparison, provenance};
+use super::{comparison, events, provenance};
 use crate::label::labels;
 use plateau_io::number;
 
@@ -55,6 +55,7 @@ pub fn page(runs: &[RunFile], pictures: &Pictures, program: &str) -> Result<Stri
         ),
         Section::new("series", "Series", if has_samples { CHARTS } else { "" }),
         Section::new("maps", "Maps", if has_maps { MAPS } else { "" }),
+        Section::new("events", "Events", events::tables(runs, &labels)?),
         Section::new("residuals", "Residuals", if has_samples { parts.residuals() } else { String::new() }),
         Section::new("scenes", "Scenes and provenance", parts.provenance()),
         Section::new(

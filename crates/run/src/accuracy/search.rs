@@ -59,9 +59,14 @@ pub fn search(
     observer: &mut dyn Observer,
 ) -> Result<Found, AccuracyError> {
     let started = Instant::now();
+    let mut notes = Vec::new();
+    if scene.cycle.is_some() && wish.ladders.contains(&Ladder::Tolerance) {
+        wish.ladders.retain(|ladder| *ladder != Ladder::Tolerance);
+        notes.push("the ladder tolerance is left out: a run with a cycle does not choose its acceleration".to_owned());
+    }
     let runs = Runs::new(scene, surfaces, execution, &wish.ladders, observer)?;
     let read = wish.reference.take();
-    let mut search = Search { runs, wish, started, notes: Vec::new() };
+    let mut search = Search { runs, wish, started, notes };
     let plan = search.plan(read.as_ref())?;
     search.note_what_is_left_out(&plan, read.is_some());
     let windows = search.windows(&plan, read.as_ref());

@@ -18,7 +18,7 @@ impl<C: Communicator> Worker<C> {
     /// Finds the displacement that carries the load: nearly always the last sweep has read all that this needs. Returns a
     /// bound of the overlaps at it, m.
     pub(super) fn balance(&mut self) -> Result<f64, SimulationError> {
-        let (step, normal_force) = (self.course.steps + 1, self.parameters.normal_force);
+        let (step, normal_force) = (self.course.steps + 1, self.operation.load);
         let mut bracket = match self.bracket {
             Some(bracket) => bracket,
             None => self.read_around_first_contact()?,
@@ -56,7 +56,7 @@ impl<C: Communicator> Worker<C> {
     /// Reads the pairs at the displacement at which the first cell would carry the load alone: it is never below the
     /// solution.
     fn read_around_first_contact(&mut self) -> Result<Bracket, SimulationError> {
-        let normal_force = self.parameters.normal_force;
+        let normal_force = self.operation.load;
         let mut least = f64::INFINITY;
         self.for_each_pair(|row, _, gap, pair| {
             least = least.min(gap + normal_force / self.coefficients.stiffness[pair][row]);

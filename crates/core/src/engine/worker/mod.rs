@@ -32,6 +32,7 @@ use crate::engine::sector::Partition;
 use crate::engine::strips::{DiscSector, strips};
 use crate::engine::sums::{RowWeights, Sums};
 use crate::model::clock::Clock;
+use crate::model::operation::StepOperation;
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 
@@ -79,6 +80,8 @@ pub(crate) struct Worker<C> {
     pressure: Vec<f64>,
     course: Course,
     clock: Clock,
+    /// Load and time of the step that is being taken, or was taken last.
+    operation: StepOperation,
     /// Columns by which the disc was turned before the first step.
     turned: u64,
     /// The group of workers that shares the worker's sectors.
@@ -114,7 +117,8 @@ impl<C: Communicator> Worker<C> {
         let strips = strips(rows.len());
         let filling = Filling::new(mesh, rows.clone(), surfaces, sectors.iter().flatten());
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
-        let quantum = Quantum::of(parameters.normal_force / coefficients.least_plateau_stiffness(), mesh.pin_columns());
+        let quantum =
+            Quantum::of(parameters.largest_load() / coefficients.least_plateau_stiffness(), mesh.pin_columns());
         Self {
             instructions: execution.instructions,
             shortcut: execution.shortcut,
@@ -141,6 +145,7 @@ impl<C: Communicator> Worker<C> {
             pressure: Vec::new(),
             course: Course::default(),
             clock: parameters.clock(),
+            operation: parameters.operation_of(1, &parameters.clock()),
             turned,
             group,
             band,
@@ -179,6 +184,7 @@ impl<C: Communicator> Worker<C> {
     /// | 4L, 4P | debris balance | [`Debris::settle`] |
     /// | 4.6 | the disc turns by one column | |
     fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
+        self.operation = self.parameters.operation_of(self.course.steps + 1, &self.clock);
         let largest_overlap = self.balance()?;
         if watched {
             self.record_pressures();
@@ -190,9 +196,9 @@ impl<C: Communicator> Worker<C> {
         self.bracket = Some(bracket);
         self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
         self.course.contact_area = self.contact.area();
-        self.history.record(self.course.contact_area, self.clock.step_time());
+        self.history.record(self.course.contact_area, &self.operation);
         self.course.steps += 1;
-        self.course.time = self.clock.time_at(self.course.steps);
+        self.course.time = self.operation.end;
         Ok(())
     }
 

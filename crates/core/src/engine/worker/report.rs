@@ -35,7 +35,7 @@ impl<C: Communicator> Worker<C> {
             contact_area,
             contact_area_mean: self.history.revolution_mean(),
             contact_area_integral: self.history.integral(),
-            sliding_distance: self.course.time * parameters.angular_velocity * mesh.mean_radius(),
+            sliding_distance: parameters.angle_turned(self.course.steps, self.course.time) * mesh.mean_radius(),
             contact_ratio: contact_area / mesh.pin_area(),
             mean_pressure: if contact_area > 0.0 { self.contact.load() / contact_area } else { 0.0 },
             max_pressure: largest_pressure,

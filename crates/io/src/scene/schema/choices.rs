@@ -1,5 +1,6 @@
 //! The words of choices, and what each stands for.
 
+use plateau_core::model::cycle::Interpolation;
 use plateau_core::model::parameters::{DebrisRule, Integrator};
 use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::Fibres;
@@ -16,6 +17,9 @@ pub(crate) const DEBRIS_POOL: Choices<DebrisRule, 2> = [DEBRIS[1], DEBRIS[2]];
 /// `numerics.integrator`.
 pub const INTEGRATOR: Choices<Integrator, 2> =
     [("explicit", Integrator::Explicit), ("exponential", Integrator::Exponential)];
+/// `operation.cycle.interpolation`.
+pub(crate) const INTERPOLATION: Choices<Interpolation, 2> =
+    [("linear", Interpolation::Linear), ("hold", Interpolation::Hold)];
 /// `level` of a preparation.
 pub(crate) const LEVEL: Choices<Level, 4> =
     [("quadratic", Level::Quadratic), ("plane", Level::Plane), ("mean", Level::Mean), ("none", Level::None)];

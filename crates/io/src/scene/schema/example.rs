@@ -35,6 +35,7 @@ pub(super) fn of(key: &Key) -> Option<String> {
         Kind::Lengths { .. } => usual.map(|length| format!("[\"0 um\", \"{length}\"]")),
         Kind::LengthUnit => Some("\"um\"".to_owned()),
         Kind::Times => Some("[\"0 s\", \"500 s\"]".to_owned()),
+        Kind::Rows => Some("[[\"0 s\", \"47 N\", \"850 rpm\"], [\"3 s\", \"47 N\", \"0 rpm\"]]".to_owned()),
         Kind::Maps => Some("[\"disc_height\", \"pressure\"]".to_owned()),
         _ => None,
     }

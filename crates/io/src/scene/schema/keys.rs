@@ -5,8 +5,8 @@ use plateau_core::observe::EXTRAS;
 use super::choices::{self, words};
 use super::{Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
 use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
-use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Text, Times, True};
-use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, SameAs};
+use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
+use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] =
     &[("file", &["dataset", "unit", "pitch", "height_range"]), ("synthetic", &[]), ("flat", &[])];
@@ -17,21 +17,41 @@ const TEXTURES: &[(&str, &[&str])] = &[
     ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
 ];
 
+/// What brings load, speed and duration with it.
+const CYCLE: &str = "operation.cycle";
+
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
-    Group { section: "operation", members: &[("rotational_speed", &[]), ("sliding_speed", &[])], required: true },
-    Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true },
-    Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true },
-    Group { section: "disc.surface", members: TEXTURES, required: true },
+    Group {
+        section: "operation",
+        members: &[("rotational_speed", &[]), ("sliding_speed", &[])],
+        required: true,
+        unless: Some(CYCLE),
+    },
+    Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true, unless: Some(CYCLE) },
+    Group {
+        section: "operation",
+        members: &[("cycle.file", &[]), ("cycle.points", &[])],
+        required: true,
+        unless: None,
+    },
+    Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true, unless: None },
+    Group { section: "disc.surface", members: TEXTURES, required: true, unless: None },
     Group {
         section: "pin.base",
         members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
         required: true,
+        unless: None,
     },
-    Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true },
-    Group { section: "pin.surface", members: TEXTURES, required: true },
-    Group { section: "output", members: &[("sample_every", &[]), ("sample_every_steps", &[])], required: false },
-    Group { section: "plateaus", members: &[("debris", &[]), ("debris_pool", &[])], required: false },
+    Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
+    Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
+    Group {
+        section: "output",
+        members: &[("sample_every", &[]), ("sample_every_steps", &[])],
+        required: false,
+        unless: None,
+    },
+    Group { section: "plateaus", members: &[("debris", &[]), ("debris_pool", &[])], required: false, unless: None },
 ];
 
 const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };
@@ -79,13 +99,29 @@ pub(super) fn all() -> Vec<Key> {
 
     table.section = "operation";
     let force = Kind::Quantity { dimension: Force, unit: "N", range: Range::POSITIVE };
-    table.key("normal_force", force, Required, "force that presses the pin on the disc");
+    table.key("normal_force", force, RequiredWithout(CYCLE), "force that presses the pin on the disc");
     let rotation = Kind::Quantity { dimension: RotationalSpeed, unit: "rpm", range: Range::POSITIVE };
     table.key("rotational_speed", rotation, OneOf, "rotational speed of the disc");
     let speed = Kind::Quantity { dimension: Speed, unit: "m/s", range: Range::POSITIVE };
     table.key("sliding_speed", speed, OneOf, "sliding speed at the mean radius");
     table.key("duration", time(Range::POSITIVE), OneOf, "physical time to simulate").role = Role::Length;
     table.key("steps", Integer(1), OneOf, "steps to simulate, each by one column of cells").role = Role::Length;
+    table.key(
+        "cycle.file",
+        InputFile,
+        OneOf,
+        "load and speed over time: .csv whose header has units, such as time [s], normal_force [N], rotational_speed [rpm]",
+    );
+    table.key("cycle.points", Rows, OneOf, "the same in the scene: rows of time, load and speed");
+    table.key(
+        "cycle.interpolation",
+        Choice(&const { words(&choices::INTERPOLATION) }),
+        Default("\"linear\""),
+        "what is between two rows: straight lines, or the values of the first",
+    );
+    table.key("cycle.repeat", Integer(1), Default("1"), "how many times the rows are played");
+    table.key("cycle.force_scale", Number(Range::POSITIVE), Default("1"), "factor of every load of the cycle");
+    table.key("cycle.speed_scale", Number(Range::POSITIVE), Default("1"), "factor of every speed of the cycle");
 
     table.section = "contact";
     table.key(

@@ -135,6 +135,8 @@ pub enum Kind {
     Times,
     /// Names of maps, see [`plateau_core::observe::Map::name`].
     Maps,
+    /// Rows of a cycle: time, load and speed of each.
+    Rows,
 }
 
 /// What happens when a key is absent.
@@ -152,6 +154,8 @@ pub enum Need {
     Computed(&'static str),
     /// It is an error, unless another key has a certain value: then this value is taken, in TOML.
     RequiredUnless(Choose, &'static str),
+    /// It is an error, unless the table with this full path is given.
+    RequiredWithout(&'static str),
     /// What the key describes is not done.
     Optional,
 }
@@ -185,6 +189,8 @@ pub struct Group {
     pub members: &'static [(&'static str, &'static [&'static str])],
     /// Whether one must be given.
     pub required: bool,
+    /// Full path of a table beside which none must be given all the same.
+    pub unless: Option<&'static str>,
 }
 
 impl Group {
@@ -193,6 +199,11 @@ impl Group {
         self.members
             .iter()
             .all(|(name, _)| name.rsplit_once('.').is_none_or(|(table, _)| given(&join(self.section, table))))
+    }
+
+    /// Whether one must be given in a scene that has these tables.
+    pub fn is_required(&self, given: impl Fn(&str) -> bool) -> bool {
+        self.required && !self.unless.is_some_and(given)
     }
 
     /// Whether this name is one of the alternatives.

@@ -5,6 +5,7 @@ const TABLES: &[(&str, &str)] = &[
     ("", "a simulation of a pin on a coated disc"),
     ("mesh", "the ring that the pin slides on, and its cells"),
     ("operation", "load, speed and how long"),
+    ("operation.cycle", "load and speed that change with time, see docs/cycles.md"),
     ("contact", "the elastic foundation that carries the load"),
     ("materials", "stiffness and wear of what touches"),
     ("materials.disc_primary", "the disc's coating"),

@@ -5,8 +5,11 @@ use crate::study::record::Series;
 
 fn record(identity: &str, finished: bool) -> Record {
     let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
-    let outcome =
-        if finished { Outcome::Finished { steps: 2, series } } else { Outcome::Failed { error: "no".into() } };
+    let outcome = if finished {
+        Outcome::Finished { steps: 2, series, events: None }
+    } else {
+        Outcome::Failed { error: "no".into() }
+    };
     let (host, end_time) = ("h".into(), "now".into());
     Record { identity: identity.into(), run: 1, outcome, wall_time: 0.5, host, end_time }
 }

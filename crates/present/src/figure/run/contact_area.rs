@@ -2,6 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
+use super::operation;
 use super::spans::{band, means};
 use super::{Figures, Subject};
 use crate::colour::paler;
@@ -45,19 +46,31 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         lines.push(Content::Line { points, colour: colour(*number), width: line_width(*number, subjects.len()) });
         meanings.push(Meaning::of_run(*number, &subject.label));
     }
-    let chart = Chart {
+    let mut charts = operation::charts(subjects, &time, end)?;
+    let (with_operation, height) = (!charts.is_empty(), if charts.is_empty() { 760.0 } else { 420.0 });
+    charts.push(Chart {
         title: String::new(),
         x: Axis::linear(0.0..=time.value(end), time.label("time")),
         y: Axis::linear(up_from_zero(area.value(largest)), area.label(title("contact_area"))),
         contents: steps.into_iter().chain(lines).collect(),
+    });
+    if let [subject] = subjects {
+        operation::shade_events(subject.run, &time, &mut charts)?;
+    }
+    let of_operation = if with_operation {
+        " Above it load and speed; spans with both are shaded (of a single run that has ended)."
+    } else {
+        ""
     };
     figures.add(
         "contact-area",
         "Contact area",
-        "Contact area against time: the line is the mean over the last revolution, the band reaches from the least to the \
+        format!(
+            "Contact area against time: the line is the mean over the last revolution, the band reaches from the least to the \
          greatest of the samples of single steps. Where there are more samples than the figure can tell apart, the line is \
-         their mean; where there are few, a paler line goes through those of single steps instead of the band.",
-        page(COLUMN, 760.0, 1, vec![chart], &meanings),
+         their mean; where there are few, a paler line goes through those of single steps instead of the band.{of_operation}"
+        ),
+        page(COLUMN, height, 1, charts, &meanings),
     );
     Ok(())
 }

@@ -8,6 +8,7 @@
 //! | status of their cells | [`status`] |
 //! | contact pressure on the pin | [`pressure`] |
 //! | contact area against time | [`contact_area`] |
+//! | load and speed above it, of runs with a cycle | [`operation`] |
 //! | filling and coverage against time | [`filled`] |
 //! | how large plateaus are | [`plateau_sizes`] |
 //! | where the debris is | [`debris`] |
@@ -22,6 +23,7 @@ mod filled;
 mod heights;
 mod map_page;
 mod moments;
+mod operation;
 mod plateau_sizes;
 mod pressure;
 mod shape;

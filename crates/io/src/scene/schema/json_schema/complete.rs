@@ -47,7 +47,8 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
 /// Whether a table holds anything that is required, but for tables that are themselves a choice.
 fn is_needed(path: &str) -> bool {
     let in_it = |section: &str| section == path || is_below(section, path);
-    let is_required = |key: &Key| matches!(key.need, Need::Required | Need::RequiredUnless(..));
+    let is_required =
+        |key: &Key| matches!(key.need, Need::Required | Need::RequiredUnless(..) | Need::RequiredWithout(_));
     let key = |key: &Key| is_required(key) && key.inline_table().is_none() && in_it(key.section);
     let group = |group: &Group| {
         let plain = group.members.iter().all(|(name, _)| !name.contains('.'));
@@ -58,9 +59,12 @@ fn is_needed(path: &str) -> bool {
 
 /// One of each group is given.
 fn choices(path: &str) -> Vec<Value> {
-    let groups = GROUPS.iter().filter(|group| group.required).filter_map(|group| members(group, path));
     let one = |name: &str| json!({ "required": [name] });
-    groups.map(|names| json!({ "anyOf": names.into_iter().map(one).collect::<Vec<_>>() })).collect()
+    let groups = GROUPS.iter().filter(|group| group.required).filter_map(|group| {
+        let beside = group.unless.and_then(|table| table.strip_prefix(path)?.strip_prefix('.'));
+        Some(members(group, path)?.into_iter().chain(beside))
+    });
+    groups.map(|names| json!({ "anyOf": names.map(one).collect::<Vec<_>>() })).collect()
 }
 
 /// Keys that are required unless another of the table has a certain value.
@@ -69,6 +73,10 @@ fn unless(path: &str) -> Vec<Value> {
     let alternatives = of_table.filter_map(|key| match key.need {
         Need::RequiredUnless(choose, _) => {
             Some(json!({ "anyOf": [{ "required": [key.name] }, chooses(path, choose)?] }))
+        }
+        Need::RequiredWithout(table) => {
+            let table = table.strip_prefix(path)?.strip_prefix('.')?;
+            Some(json!({ "anyOf": [{ "required": [key.name] }, { "required": [table] }] }))
         }
         _ => None,
     });

@@ -32,6 +32,7 @@ fn range(kind: Kind) -> Option<String> {
 fn absent(key: &Key) -> Option<String> {
     match key.need {
         Need::Required => Some("Required".to_owned()),
+        Need::RequiredWithout(table) => Some(format!("Required without [{table}]")),
         Need::Default(default) => Some(format!("Default: {default}")),
         Need::SameAs(table) => Some(format!("Default: as in [{table}]")),
         Need::Computed(what) => Some(format!("Default: {}", what.replace('`', ""))),
@@ -39,7 +40,11 @@ fn absent(key: &Key) -> Option<String> {
             Some(format!("Required; default with {} = \"{}\": {default}", choose.key, choose.value))
         }
         Need::OneOf => key.group().map(|group| {
-            let count = if group.required { "One of" } else { "At most one of" };
+            let count = match group.unless {
+                Some(table) => format!("Without [{table}] one of"),
+                None if group.required => "One of".to_owned(),
+                None => "At most one of".to_owned(),
+            };
             format!("{count} {}", group.names())
         }),
         Need::Optional => None,

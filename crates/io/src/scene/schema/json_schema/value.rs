@@ -47,6 +47,16 @@ fn kind(kind: Kind) -> Value {
         Kind::Choice(words) => json!({ "enum": words }),
         Kind::Text | Kind::InputFile => json!({ "type": "string", "pattern": r"\S" }),
         Kind::Times => json!({ "type": "array", "items": quantity(Dimension::Time, Range::NOT_NEGATIVE) }),
+        Kind::Rows => {
+            let of = |dimension| quantity(dimension, Range::NOT_NEGATIVE);
+            let either = |one, other| json!({ "anyOf": [of(one), of(other)] });
+            let row = json!([
+                of(Dimension::Time),
+                either(Dimension::Force, Dimension::Pressure),
+                either(Dimension::RotationalSpeed, Dimension::Speed),
+            ]);
+            json!({ "type": "array", "minItems": 2, "items": { "type": "array", "items": row, "minItems": 3, "maxItems": 3 } })
+        }
         Kind::Maps => {
             json!({ "type": "array", "items": { "enum": observe::Map::ALL.map(observe::Map::name) } })
         }

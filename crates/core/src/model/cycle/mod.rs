@@ -1,0 +1,329 @@
+//! Operation as a cycle of load and speed (model 9).
+//!
+//! Load F(t) and speed ω(t) are given at nodes. Steps are at equal angles ψ = ∫ω dt, counted where there is load and speed, and the load of a step is
+//! such that Σ F̄ ds = r ∫F ω dt for every m. Every value comes in closed form from the two ends of an interval, the sums
+//! over one round and the number of rounds: nothing is added up step by step, so nothing drifts.
+
+mod event;
+mod interval;
+
+use std::iter;
+
+use thiserror::Error;
+
+pub use self::event::{Event, largest_acceleration};
+use self::interval::Interval;
+pub use self::interval::{Kind, Node};
+use super::operation::StepOperation;
+
+/// Part of a step below which an angle counts as reached: rounding must not put the end of a step behind the pause that begins with
+/// it.
+const SLACK: f64 = 1e-9;
+
+/// Each event has a row in the run file, and there may be as many events as intervals.
+const MOST_INTERVALS: u64 = 1_000_000;
+
+/// What is between two nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight lines.
+    Linear,
+    /// The values of the first; the last node only ends the cycle.
+    Hold,
+}
+
+/// Why a table is no cycle. Rows are counted from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum CycleError {
+    /// There is nothing between fewer than two rows.
+    #[error("fewer than two rows ({rows}), so there is no time between them")]
+    Rows {
+        /// How many there are.
+        rows: usize,
+    },
+    /// The first time is not 0, or a time is before that of the row above.
+    #[error("a time of {time} s after {before} s: times begin with 0 and do not go back")]
+    Time {
+        /// The row.
+        row: usize,
+        /// Its time, s.
+        time: f64,
+        /// The time of the row above, s.
+        before: f64,
+    },
+    /// A load or speed that is negative or no number.
+    #[error("a {quantity} of {value}, expected 0 or more")]
+    Value {
+        /// The row.
+        row: usize,
+        /// Load or speed.
+        quantity: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// What is played is more than can be kept an account of.
+    #[error("{intervals} intervals in all, expected at most {MOST_INTERVALS}: fewer rows, or a smaller repeat")]
+    TooMany {
+        /// Rows times rounds.
+        intervals: u64,
+    },
+    /// No step would be taken.
+    #[error("nowhere between two rows is there load and speed, so no step would be taken")]
+    Inactive,
+}
+
+/// A table of nodes, played so many times; the last of one round and the first of the next are at the same time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cycle {
+    intervals: Vec<Interval>,
+    rounds: u64,
+    /// Length of a round, s.
+    period: f64,
+    /// ψ of a round, rad.
+    angle: f64,
+}
+
+/// A moment of a cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Place {
+    round: u64,
+    interval: usize,
+    /// Since the start of the interval, s.
+    time: f64,
+}
+
+impl Cycle {
+    /// The cycle that plays a table `rounds` times.
+    ///
+    /// # Errors
+    /// [`CycleError`] when times go back, a value is negative, or no step would be taken.
+    pub fn new(nodes: &[Node], interpolation: Interpolation, rounds: u64) -> Result<Self, CycleError> {
+        check(nodes)?;
+        let intervals = rounds.saturating_mul(nodes.len() as u64);
+        if intervals > MOST_INTERVALS {
+            return Err(CycleError::TooMany { intervals });
+        }
+        let mut intervals: Vec<Interval> = Vec::with_capacity(nodes.len());
+        for pair in nodes.windows(2).filter(|pair| pair[1].time > pair[0].time) {
+            let (start, mut end) = (pair[0], pair[1]);
+            if interpolation == Interpolation::Hold {
+                end = Node { time: end.time, ..start };
+            }
+            intervals.push(Interval::between(start, end, intervals.last()));
+        }
+        let angle = intervals.last().map_or(0.0, |last| last.angle);
+        if angle == 0.0 {
+            return Err(CycleError::Inactive);
+        }
+        Ok(Self { intervals, rounds, period: nodes[nodes.len() - 1].time, angle })
+    }
+
+    /// When it ends, s.
+    pub fn duration(&self) -> f64 {
+        self.rounds as f64 * self.period
+    }
+
+    /// F (N) and ω (rad/s) where both never change.
+    pub fn constant(&self) -> Option<(f64, f64)> {
+        let Node { force, speed, .. } = self.intervals[0].start;
+        let mut ends = self.intervals.iter().flat_map(|interval| [interval.start, interval.end]);
+        ends.all(|node| node.force == force && node.speed == speed).then_some((force, speed))
+    }
+
+    /// The largest F at any time, N.
+    pub fn largest_force(&self) -> f64 {
+        self.intervals.iter().flat_map(|interval| [interval.start.force, interval.end.force]).fold(0.0, f64::max)
+    }
+
+    /// ψ at a time (s), rad.
+    pub fn angle_at(&self, time: f64) -> f64 {
+        let Place { round, interval, time } = self.place(time);
+        round as f64 * self.angle + self.intervals[interval].angle_after(time)
+    }
+
+    /// F and ω at a time (s), and what happens then; at a jump, what begins.
+    pub fn at(&self, time: f64) -> (Node, Kind) {
+        let Place { interval, time: since, .. } = self.place(time);
+        let interval = &self.intervals[interval];
+        (Node { time, ..interval.after(since) }, interval.kind)
+    }
+
+    /// What happens right before a time (s); at t = 0, what begins.
+    pub fn before(&self, time: f64) -> Kind {
+        let Place { round, interval, time: since } = self.place(time);
+        let is_first = (round, interval) == (0, 0);
+        let count = self.intervals.len();
+        let interval = if since > 0.0 || is_first { interval } else { (interval + count - 1) % count };
+        self.intervals[interval].kind
+    }
+
+    /// For how long the pin was on the disc until a time (s), moving or not, s.
+    pub fn loaded_until(&self, time: f64) -> f64 {
+        self.loaded_at(self.place(time))
+    }
+
+    /// Distance that the vehicle travels until a time (s), m.
+    pub fn road_distance_at(&self, time: f64) -> f64 {
+        let Place { round, interval, time } = self.place(time);
+        let whole = self.intervals.last().map_or(0.0, |last| last.road);
+        round as f64 * whole + self.intervals[interval].road_after(time)
+    }
+
+    /// For how long there is load and speed, s.
+    pub fn active_time(&self) -> f64 {
+        let active = self.intervals.iter().filter(|interval| interval.kind == Kind::Active);
+        self.rounds as f64 * active.map(Interval::length).sum::<f64>()
+    }
+
+    /// F̄ of a step of angle `step` (rad), N, and ω at its end, rad/s; in a `pause` at a time (s) what is then: without load none.
+    pub fn operation_at(&self, number: u64, step: f64, time: f64, pause: Option<Kind>) -> [f64; 2] {
+        let load = if number == 0 || pause == Some(Kind::Lifted) { 0.0 } else { self.step(number, step).load };
+        let speed = if pause.is_some() {
+            self.at(time).0.speed
+        } else {
+            let Place { interval, time, .. } = self.reached(number, step);
+            self.intervals[interval].after(time).speed
+        };
+        [load, speed]
+    }
+
+    /// Steps of angle `step` (rad) that are done at a time (s): floor(ψ/(m Δθ) + 1e-9).
+    pub fn steps_done(&self, time: f64, step: f64) -> u64 {
+        (self.angle_at(time) / step + SLACK).floor() as u64
+    }
+
+    /// The first step of angle `step` (rad) that ends at a time (s) or later, or in whose pause that time is.
+    pub fn steps_until(&self, time: f64, step: f64) -> u64 {
+        (self.angle_at(time) / step - SLACK).ceil().max(0.0) as u64
+    }
+
+    /// t_n of the `number`-th step of angle `step` (rad), s.
+    pub fn end_of(&self, number: u64, step: f64) -> f64 {
+        self.time_of(self.reached(number, step))
+    }
+
+    /// The `number`-th step, from 1, of angle `step` (rad).
+    pub fn step(&self, number: u64, step: f64) -> StepOperation {
+        let (from, to) = (self.reached(number - 1, step), self.reached(number, step));
+        let (mut work, mut angle, mut only, mut turns) = (0.0, 0.0, None, None);
+        for place in self.path(from, to) {
+            let interval = &self.intervals[place.interval];
+            let is_last = (place.round, place.interval) == (to.round, to.interval);
+            let end = if is_last { to.time } else { interval.length() };
+            if interval.kind != Kind::Active || end <= place.time {
+                continue;
+            }
+            turns = turns.or(Some(place));
+            let (force, turned) = interval.mean_force(place.time..end);
+            // A load that never changes is that load, to the bit.
+            only = if angle == 0.0 || only == Some(force) { Some(force) } else { None };
+            work += force * turned;
+            angle += turned;
+        }
+        let [before, turns, after] = [from, turns.unwrap_or(to), to].map(|place| self.loaded_at(place));
+        StepOperation {
+            end: self.time_of(to),
+            load: only.unwrap_or(work / angle),
+            standing_before: turns - before,
+            loaded: after - turns,
+        }
+    }
+
+    /// The maximal stretches of active intervals until a time (s).
+    pub fn events(&self, until: f64) -> Vec<Event> {
+        let rounds = (0..self.rounds).map(|round| round as f64 * self.period).take_while(|start| *start < until);
+        let mut events: Vec<Event> = Vec::new();
+        let mut is_open = false;
+        for (start, interval) in rounds.flat_map(|start| self.intervals.iter().map(move |interval| (start, interval))) {
+            let (start, length) = (start + interval.start.time, interval.length());
+            if interval.kind != Kind::Active || start >= until {
+                is_open = false;
+                continue;
+            }
+            let last = interval.after(length.min(until - start));
+            let end = Node { time: (start + length).min(until), ..last };
+            match events.last_mut() {
+                Some(event) if is_open => event.end = end,
+                _ => events.push(Event { start: Node { time: start, ..interval.start }, end }),
+            }
+            is_open = true;
+        }
+        events
+    }
+
+    /// By how much the disc turns in an event, rad.
+    pub fn angle_of(&self, event: &Event) -> f64 {
+        self.angle_at(event.end.time) - self.angle_at(event.start.time)
+    }
+
+    /// Where so many steps are done first.
+    fn reached(&self, number: u64, step: f64) -> Place {
+        if number == 0 {
+            return Place { round: 0, interval: 0, time: 0.0 };
+        }
+        let angle = number as f64 * step;
+        // Many steps on, the angle itself is rounded by more.
+        let slack = (SLACK * step).max(4.0 * f64::EPSILON * angle);
+        let round = (((angle - slack) / self.angle).ceil() - 1.0).clamp(0.0, (self.rounds - 1) as f64);
+        let angle = angle - round * self.angle;
+        let found = self.intervals.partition_point(|interval| interval.angle < angle - slack);
+        let interval = found.min(self.intervals.len() - 1);
+        Place { round: round as u64, interval, time: self.intervals[interval].time_to(angle) }
+    }
+
+    /// The places at which the intervals from one place to another begin, the first being that place itself.
+    fn path(&self, from: Place, to: Place) -> impl Iterator<Item = Place> {
+        let count = self.intervals.len();
+        let next = move |place: &Place| {
+            let (round, interval) = (place.round, place.interval);
+            let next = if interval + 1 == count { (round + 1, 0) } else { (round, interval + 1) };
+            (next <= (to.round, to.interval)).then_some(Place { round: next.0, interval: next.1, time: 0.0 })
+        };
+        iter::successors(Some(from), next)
+    }
+
+    /// Where a time (s) is; where two intervals meet, in the later one.
+    fn place(&self, time: f64) -> Place {
+        let round = (time / self.period).floor().clamp(0.0, (self.rounds - 1) as f64);
+        let within = (time - round * self.period).clamp(0.0, self.period);
+        let found = self.intervals.partition_point(|interval| interval.end.time <= within);
+        let interval = found.min(self.intervals.len() - 1);
+        let Interval { start, .. } = self.intervals[interval];
+        let since = (within - start.time).clamp(0.0, self.intervals[interval].length());
+        Place { round: round as u64, interval, time: since }
+    }
+
+    fn time_of(&self, place: Place) -> f64 {
+        place.round as f64 * self.period + (self.intervals[place.interval].start.time + place.time)
+    }
+
+    fn loaded_at(&self, place: Place) -> f64 {
+        let round = self.intervals.last().map_or(0.0, |last| last.loaded);
+        place.round as f64 * round + self.intervals[place.interval].loaded_after(place.time)
+    }
+}
+
+/// Refuses what is no table of a cycle.
+fn check(nodes: &[Node]) -> Result<(), CycleError> {
+    if nodes.len() < 2 {
+        return Err(CycleError::Rows { rows: nodes.len() });
+    }
+    let mut before = 0.0;
+    for (row, node) in nodes.iter().enumerate() {
+        // The first row is the start of the run.
+        let follows = if row == 0 { node.time == 0.0 } else { node.time >= before && node.time.is_finite() };
+        if !follows {
+            return Err(CycleError::Time { row, time: node.time, before });
+        }
+        for (quantity, value) in [("load", node.force), ("speed", node.speed)] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(CycleError::Value { row, quantity, value });
+            }
+        }
+        before = node.time;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,21 @@
+//! Series of the operation, in runs whose load or speed is given as a cycle (model 9).
+
+use super::extra::Extra;
+use super::sample::Quantity;
+
+/// Load and speed; [`Cycle::operation_at`](crate::model::cycle::Cycle::operation_at) gives their values.
+pub const CYCLE: Extra = Extra {
+    name: "cycle",
+    quantities: &[
+        Quantity::extra("normal_force", "N", "normal force of the step, mean over its angle"),
+        Quantity::extra("rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step"),
+    ],
+    request: None,
+};
+
+/// How far the vehicle has come, where its speed is given.
+pub const ROAD: Extra = Extra {
+    name: "road",
+    quantities: &[Quantity::extra("road_distance", "m", "distance that the vehicle has travelled")],
+    request: None,
+};

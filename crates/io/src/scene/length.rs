@@ -1,0 +1,69 @@
+//! How much of a scene is simulated: its steps and its physical time.
+
+use plateau_core::model::parameters::Parameters;
+
+use super::build::ACCELERATION;
+use super::contents::OperationCycle;
+use super::error::Problem;
+use super::settings::Settings;
+
+/// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
+const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
+
+/// How much is simulated.
+pub(super) struct Length {
+    pub steps: u64,
+    /// Physical time, s.
+    pub duration: f64,
+}
+
+/// The steps and the time that the keys say.
+pub(super) fn length(
+    settings: &Settings,
+    parameters: &Parameters,
+    operation: Option<&OperationCycle>,
+) -> Result<Length, Problem> {
+    let duration = settings.optional_number("operation.duration")?;
+    let given = settings.get("operation.steps").map(|_| settings.integer("operation.steps")).transpose()?;
+    let key = match (duration, given) {
+        (Some(_), _) => "operation.duration",
+        (None, Some(_)) => "operation.steps",
+        (None, None) => ACCELERATION,
+    };
+    let problem = |message: String| Problem::new(&settings.origin(key), key, message);
+    let length = match (operation, duration, given) {
+        (Some(OperationCycle { cycle, .. }), _, _) => {
+            let angle = parameters.step_angle();
+            let duration = match (duration, given) {
+                (Some(duration), _) => duration,
+                (None, Some(steps)) if steps <= cycle.steps_done(cycle.duration(), angle) => cycle.end_of(steps, angle),
+                (None, Some(_)) => f64::INFINITY,
+                (None, None) => cycle.duration(),
+            };
+            if duration > cycle.duration() * (1.0 + 1e-12) {
+                let (end, steps) = (cycle.duration(), cycle.steps_done(cycle.duration(), angle));
+                return Err(problem(format!(
+                    "the cycle ends after {end} s and {steps} steps, expected no more; raise operation.cycle.repeat to play it again"
+                )));
+            }
+            // One that never changes is operation as ever, whose last step ends at the end or goes beyond it.
+            let steps = parameters.steps_of(duration);
+            if steps == 0 {
+                let message = "the cycle turns the disc by less than a step until then, so nothing would happen; lower numerics.time_acceleration";
+                return Err(problem(message.to_owned()));
+            }
+            Length { steps, duration }
+        }
+        (None, Some(duration), _) => Length { steps: parameters.steps_of(duration), duration },
+        (None, None, _) => {
+            let steps = settings.integer("operation.steps")?;
+            Length { steps, duration: parameters.clock().time_at(steps) }
+        }
+    };
+    if length.steps > MOST_STEPS {
+        let message =
+            format!("these are more than {MOST_STEPS} steps, which cannot be counted exactly; shorten the run");
+        return Err(problem(message));
+    }
+    Ok(length)
+}

@@ -1,0 +1,69 @@
+//! Load and speed of runs with a cycle, above their contact area, and their events as shaded spans of time.
+
+use plateau_io::run_file::{ReadError, RunFile};
+
+use super::Subject;
+use super::spans::means;
+use crate::colour::INK;
+use crate::figure::axes::Axis;
+use crate::figure::chart::{Chart, colour, line_width, up_from_zero};
+use crate::figure::page::Content;
+use crate::quantity::{SeriesLook, Unit};
+
+/// How much of what lies below an event hides.
+const SHADE: f64 = 0.08;
+/// Events that are told apart, at most: more would be one grey.
+const MOST_EVENTS: usize = 100;
+
+/// Charts of load and of speed, for the runs that have them; none where no run has.
+pub fn charts(subjects: &[Subject], time: &Unit, end: f64) -> Result<Vec<Chart>, ReadError> {
+    let mut charts = Vec::new();
+    for name in ["normal_force", "rotational_speed"] {
+        let look = SeriesLook::of(name);
+        let mut lines = Vec::new();
+        let mut largest = 0.0_f64;
+        for (number, subject) in subjects.iter().enumerate() {
+            let Some(values) = subject.run.values(name)? else { continue };
+            let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
+            let values: Vec<f64> = values.iter().map(|value| look.unit.value(*value)).collect();
+            largest = values.iter().copied().fold(largest, f64::max);
+            lines.push(Content::Line {
+                points: means(&times, &values),
+                colour: colour(number),
+                width: line_width(number, subjects.len()),
+            });
+        }
+        if lines.is_empty() {
+            return Ok(Vec::new());
+        }
+        charts.push(Chart {
+            title: String::new(),
+            // The chart below them has the numbers.
+            x: Axis::linear(0.0..=time.value(end), "").shared(),
+            y: Axis::linear(up_from_zero(largest), look.unit.label(look.title)),
+            contents: lines,
+        });
+    }
+    Ok(charts)
+}
+
+/// Shades the events of a run in charts against time, below all that is in them.
+pub fn shade_events(run: &RunFile, time: &Unit, charts: &mut [Chart]) -> Result<(), ReadError> {
+    let events = run.events()?;
+    let ends = |name| events.iter().find(|(quantity, _)| quantity.name == name).map(|(_, values)| values.as_slice());
+    let (Some(starts), Some(ends)) = (ends("start"), ends("end")) else { return Ok(()) };
+    if starts.len() > MOST_EVENTS {
+        return Ok(());
+    }
+    for chart in charts {
+        let (low, high) = (*chart.y.range.start(), *chart.y.range.end());
+        let shade = |(start, end): (&f64, &f64)| Content::Band {
+            spans: [start, end].map(|at| [time.value(*at), low, high]).to_vec(),
+            colour: INK,
+            opacity: SHADE,
+        };
+        let shades: Vec<Content> = starts.iter().zip(ends).map(shade).collect();
+        chart.contents.splice(0..0, shades);
+    }
+    Ok(())
+}

@@ -1,0 +1,313 @@
+//! Load and speed as a cycle, through the whole program: closed forms, pauses, events, errors, and runs that are killed.
+
+use std::f64::consts::TAU;
+use std::fs;
+use std::process::Stdio;
+use std::thread;
+use std::time::Duration;
+
+use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, scene};
+use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::scenes::{Stream, few_or_all};
+
+/// The quick scene with other lines in place of its load, speed and duration.
+fn quick_with_operation(lines: &str) -> String {
+    quick_scene_with(&[
+        ("normal_force = \"5 N\"\n", ""),
+        ("rotational_speed = \"850 rpm\"\n", ""),
+        ("duration = \"60 s\"\n", lines),
+    ])
+}
+
+#[test]
+fn a_cycle_that_never_changes_is_constant_operation_bit_for_bit() {
+    let directory = WorkingDirectory::new();
+    let plain = "normal_force = \"5 N\"\nrotational_speed = \"850 rpm\"\nduration = \"20 s\"\n";
+    let rows = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 N\", \"850 rpm\"], [\"5 s\", \"5 N\", \"850 rpm\"]]\n\
+                repeat = 4\n";
+    let table = "normal_force = \"5 N\"\n[operation.cycle]\nfile = \"speed.csv\"\ninterpolation = \"hold\"\n";
+    directory.write("speed.csv", "time [s],rotational_speed [rpm]\n0,850\n20,0\n");
+    for (name, lines) in [("plain", plain), ("rows", rows), ("table", table)] {
+        directory.write(&format!("{name}.toml"), quick_with_operation(lines));
+        directory.plateau(["run", &format!("{name}.toml"), "-o", &format!("{name}.h5")]).quiet_success();
+    }
+    let content = |name: &str| {
+        let mut content = RunFile::open(directory.path(name)).content();
+        content.retain(|path, _| {
+            !path.starts_with("/event") && !path.ends_with("normal_force") && !path.ends_with("rotational_speed")
+        });
+        content
+    };
+    assert_eq!(differences(&content("plain.h5"), &content("rows.h5")), [""; 0]);
+    assert_eq!(differences(&content("plain.h5"), &content("table.h5")), [""; 0]);
+    let run = RunFile::open(directory.path("rows.h5"));
+    assert!(run.floats("/series/normal_force").iter().all(|force| *force == 5.0));
+    assert_eq!((run.floats("/event/start"), run.floats("/event/end")), (vec![0.0], vec![20.0]));
+}
+
+#[test]
+fn the_work_of_a_run_is_that_of_its_cycle_for_every_acceleration() {
+    let directory = WorkingDirectory::new();
+    // A ramp from 2 N to 6 N while the disc slows down from 600 rpm to 300 rpm in 4 s, then nothing for 2 s: Simpson's rule is exact.
+    let lines = "[operation.cycle]\npoints = [[\"0 s\", \"2 N\", \"600 rpm\"], [\"4 s\", \"6 N\", \"300 rpm\"], [\"4 s\", \"0 N\", \"300 rpm\"], [\"6 s\", \"0 N\", \"0 rpm\"]]\n\
+                 repeat = 3\n";
+    let work = 3.0 * 4.0 * (2.0 * 600.0 + 4.0 * 4.0 * 450.0 + 6.0 * 300.0) / 6.0 * TAU / 60.0;
+    let angle = 3.0 * 4.0 * 450.0 * TAU / 60.0;
+    directory.write("scene.toml", quick_with_operation(lines));
+    for m in [1.0, 3.0, 10.0, 45.0] {
+        let set = format!("numerics.time_acceleration={m}");
+        let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
+        let outcome = directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat());
+        // An event has 30 revolutions.
+        assert_eq!(
+            (outcome.status, outcome.stderr.contains("3 is the largest acceleration")),
+            (Some(0), m > 3.0),
+            "{outcome:?}"
+        );
+        let run = RunFile::open(directory.path("run.h5"));
+        let (time, force) = (run.floats("/time"), run.floats("/series/normal_force"));
+        let step = m * TAU / 690.0;
+        let steps = (angle / step + 1e-9).floor();
+        // The end of the run lies in a pause and has a sample of its own.
+        assert_eq!((time.len() as f64, time.last()), (steps + 1.0, Some(&18.0)), "m = {m}");
+        let sum: f64 = force.iter().map(|force| force * step).sum();
+        let rest = angle - steps * step;
+        assert!(((sum + 6.0 * rest) / work - 1.0).abs() < 1e-9 + rest / angle, "m = {m}: {sum}, expected {work}");
+        if rest < 1e-6 * step {
+            assert!((sum / work - 1.0).abs() < 1e-9, "m = {m}: {sum}, expected {work}");
+        }
+        let worn: f64 = run.floats("/series/worn_pin").last().copied().unwrap();
+        // κ Σ F̄ ds over the mean radius; the load lies somewhere between the radii of 20 mm and 21 mm, and films are worn through.
+        assert!((worn / (5e-14 * sum * 20.5e-3) - 1.0).abs() < 0.03, "m = {m}: {worn}");
+    }
+}
+
+#[test]
+fn a_pause_costs_no_step_and_reports_what_rests() {
+    let directory = WorkingDirectory::new();
+    directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5", "--set", "output.roughness=true"]).quiet_success();
+    let run = RunFile::open(directory.path("run.h5"));
+    let time = run.floats("/time");
+    let at = |series: &str, from: f64, to: f64| -> Vec<f64> {
+        let values = run.floats(&format!("/series/{series}"));
+        time.iter().zip(values).filter(|(time, _)| **time > from && **time < to).map(|(_, value)| value).collect()
+    };
+    let resting = |series: &str, from, to| {
+        let values = at(series, from, to);
+        assert!(values.len() > 30 && values.iter().all(|value| *value == values[0]), "{series}: {values:?}");
+        values[0]
+    };
+    // Lifted from 10 s to 14 s.
+    assert!(at("displacement", 10.05, 13.95).iter().all(|displacement| displacement.is_nan()));
+    for series in ["contact_area", "contact_ratio", "mean_pressure", "max_pressure", "normal_force"] {
+        assert_eq!(resting(series, 10.05, 13.95), 0.0, "{series}");
+    }
+    for series in ["worn_pin", "emitted", "filled_fraction", "disc_sq", "sliding_distance", "contact_area_integral"] {
+        assert!(resting(series, 10.05, 13.95) > 0.0, "{series}");
+    }
+    // Standing from 49 s to 60 s.
+    assert!(resting("contact_area", 49.05, 60.5) > 0.0 && resting("rotational_speed", 49.05, 60.5) == 0.0);
+    assert_eq!(resting("normal_force", 49.05, 60.5), 10.0);
+    let (integral, area) = (at("contact_area_integral", 49.05, 60.5), at("contact_area", 49.05, 60.5));
+    let (span, count) = (time[time.len() - 1] - time[time.len() - area.len()], area.len() - 1);
+    assert!(((integral[count] - integral[0]) / (area[0] * span) - 1.0).abs() < 1e-9);
+    // The speed rises in a straight line while the pin is lifted.
+    let speeds = at("rotational_speed", 17.05, 21.95);
+    assert!((speeds[speeds.len() - 1] * 60.0 / TAU - 850.0).abs() < 25.0 && speeds.is_sorted());
+    // 6 events; 400 rpm for 10 s and 425 rpm for 3 s at a mean radius of 20.5 mm.
+    let distances = run.floats("/event/distance");
+    let expected = [400.0 * 10.0, 425.0 * 3.0].map(|turns| turns / 60.0 * TAU * 20.5e-3);
+    assert_eq!(distances.len(), 6);
+    assert!((distances[0] / expected[0] - 1.0).abs() < 1e-12 && (distances[5] / expected[1] - 1.0).abs() < 1e-12);
+    let worn: f64 = run.floats("/event/worn").iter().sum();
+    let all: f64 = ["worn_pin", "worn_resin", "worn_disc"]
+        .iter()
+        .map(|name| *run.floats(&format!("/series/{name}")).last().unwrap())
+        .sum();
+    assert!((worn / all - 1.0).abs() < 1e-12);
+    directory.plateau(["verify", "run.h5"]).quiet_success();
+}
+
+#[test]
+fn workers_and_engines_agree_on_a_cycle() {
+    let directory = WorkingDirectory::new();
+    let run = |name: &str, options: &[&str]| {
+        let stops = scene("stops.toml");
+        let arguments =
+            ["run", &stops, "-o", name, "--set", "operation.duration=24 s", "--set", "numerics.time_acceleration=40"];
+        assert_eq!(directory.plateau([&arguments[..], options].concat()).status, Some(0));
+        RunFile::open(directory.path(name)).content()
+    };
+    let one = run("one.h5", &[]);
+    for workers in ["2", "3"] {
+        assert_eq!(differences(&one, &run(&format!("{workers}.h5"), &["--workers", workers])), [""; 0]);
+    }
+}
+
+/// Killed at moments of pauses and events alike; most samples lie in pauses.
+#[test]
+fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
+    let directory = WorkingDirectory::new();
+    let stops = scene("stops.toml");
+    let arguments = |name: &'static str, more: &[&'static str]| {
+        let sets = [
+            "operation.cycle.repeat=5",
+            "operation.duration=290 s",
+            "numerics.time_acceleration=1",
+            "output.sample_every=0.01 s",
+            "output.maps_at=[\"12 s\", \"16 s\", \"55 s\", \"200 s\", \"290 s\"]",
+            "output.checkpoint_every=0.03 s",
+        ];
+        let mut arguments = vec!["run".to_owned(), stops.clone(), "-o".to_owned(), name.to_owned()];
+        arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+        arguments.extend(more.iter().map(|word| (*word).to_owned()));
+        arguments
+    };
+    directory.plateau(arguments("whole.h5", &[])).quiet_success();
+    let (mut random, mut killed) = (Stream(21), 0);
+    while killed < few_or_all(6, 40) {
+        let mut command = directory.command(arguments("run.h5", &["--resume"]));
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_secs_f64(0.4 * random.uniform()));
+        if child.try_wait().unwrap().is_some() {
+            break;
+        }
+        kill(child);
+        killed += 1;
+    }
+    assert_eq!(directory.plateau(arguments("run.h5", &["--resume"])).status, Some(0));
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
+    assert!(whole.contains_key("/event/worn"));
+    assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
+    // It goes on beyond its end, which lies in a pause, as a longer run goes on there.
+    let extended = ["--extend-to", "300 s"];
+    assert_eq!(
+        directory.plateau([arguments("run.h5", &[]), extended.map(str::to_owned).to_vec()].concat()).status,
+        Some(0)
+    );
+    let longer = ["--set", "operation.duration=300 s"];
+    directory.plateau(arguments("longer.h5", &longer)).quiet_success();
+    let values = |name: &str, path: &str| RunFile::open(directory.path(name)).floats(path);
+    for path in ["/event/worn", "/event/contact_area_end"] {
+        assert_eq!(values("run.h5", path), values("longer.h5", path), "{path}");
+    }
+    assert_eq!(values("run.h5", "/time").last(), values("longer.h5", "/time").last());
+}
+
+#[test]
+fn what_is_wrong_with_a_cycle_is_said_with_its_place() {
+    let directory = WorkingDirectory::new();
+    let refused = |lines: &str, table: &str| {
+        directory.write("stops.csv", table);
+        directory.write("scene.toml", quick_with_operation(lines));
+        let outcome = directory.plateau(["check", "scene.toml"]);
+        assert_eq!(outcome.status, Some(2), "{outcome:?}");
+        directory.without_path(&outcome.stderr).replace("[directory]/", "")
+    };
+    let file = "[operation.cycle]\nfile = \"stops.csv\"\n";
+    let header = "time [s], normal_force [N], rotational_speed [rpm]\n";
+    let table = |rows: &str| format!("{header}{rows}");
+    for (rows, expected) in [
+        ("0,1,1\n2,1,1\n1,1,1\n", "stops.csv:4:1: operation.cycle.file: a time of 1 s after 2 s"),
+        ("0,1,1\n2,-1,1\n", "stops.csv:3:3: normal_force [N]: found -1, expected a number of 0 or more"),
+        ("0,1,1\n2,,1\n", "stops.csv:3:3: normal_force [N]: no value, expected a number in every row"),
+        ("0,1,1\n", "scene.toml:15:8: operation.cycle.file: fewer than two rows (1)"),
+        ("0,1,0\n2,1,0\n", "operation.cycle.file: nowhere between two rows is there load and speed"),
+    ] {
+        let found = refused(file, &table(rows));
+        assert!(found.contains(expected), "{found}\nexpected {expected}");
+    }
+    let found = refused(file, "time,normal_force [N]\n0,1\n");
+    assert!(found.contains("stops.csv:1:1: time: \"1\" has no unit"), "{found}");
+    let found = refused(file, "time [s],normal_force [N]\n0,1\n2,1\n");
+    assert!(
+        found.contains("there is no column of speed, and no rotational_speed or sliding_speed in [operation]"),
+        "{found}"
+    );
+    let found = refused("[operation.cycle]\n", "");
+    assert!(found.contains("one of {cycle.file, cycle.points}"), "{found}");
+    let rows = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 Pa\", \"850 rpm\"]]\n";
+    assert!(
+        refused(rows, "")
+            .contains("scene.toml:15:46: operation.cycle.points: a load of another kind than in the rows above")
+    );
+    let rows = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 N\"]]\n";
+    assert!(refused(rows, "").contains("a row of 2 values, expected three: time, load, speed"));
+    let long = "duration = \"20 s\"\n[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3 s\", \"5 N\", \"50 rpm\"]]\n";
+    assert!(refused(long, "").contains("operation.duration: the cycle ends after 3 s and"));
+    // Not together with an acceleration that the run chooses.
+    let set = "numerics.time_acceleration={ tolerance = 0.01, max = 100 }";
+    let outcome = directory.plateau(["check", &scene("stops.toml"), "--set", set]);
+    assert_eq!(outcome.status, Some(2));
+    assert!(
+        outcome
+            .stderr
+            .contains("write time_acceleration = 2 (with it every event has ten simulated revolutions) or less"),
+        "{outcome:?}"
+    );
+}
+
+#[test]
+fn events_are_exported_reported_and_plotted() {
+    let directory = WorkingDirectory::new();
+    directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5"]).quiet_success();
+    directory.plateau(["export", "run.h5", "--to", "csv"]).quiet_success();
+    let table = fs::read_to_string(directory.path("run-events.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines.len() == 7 && lines[0].starts_with("event,start (s),end (s),initial_speed (rad s-1)"), "{table}");
+    assert!(lines[2].starts_with("2,14.0,17.0,"), "{table}");
+    let said = directory.plateau(["check", &scene("stops.toml")]).quiet_success();
+    assert!(said.contains("6 events: 25.00 s of 60.00 s with load and speed, 22.27 m"), "{said}");
+    directory.plateau(["report", "run.h5", "-o", "run.html"]).quiet_success();
+    let page = fs::read_to_string(directory.path("run.html")).unwrap();
+    assert!(page.contains("Initial speed, rpm") && page.contains("<th scope=\"row\">6</th>"));
+    directory.plateau(["plot", "run.h5", "-o", "figures"]).quiet_success();
+    assert!(directory.path("figures/contact-area.png").is_file());
+}
+
+#[test]
+fn a_study_asks_single_events_and_all_of_them() {
+    let directory = WorkingDirectory::new();
+    let study = format!(
+        r#"version = 1
+base = "{}"
+design = "full-factorial"
+directory = "results"
+[[factor]]
+name = "load"
+key = "operation.cycle.force_scale"
+levels = [1.0, 2.0]
+[[response]]
+name = "third"
+dataset = "/event/worn"
+event = 3
+[[response]]
+name = "last"
+dataset = "/event/worn"
+event = "last"
+[[response]]
+name = "mean"
+dataset = "/event/contact_area_end"
+event = "mean"
+"#,
+        scene("stops.toml")
+    );
+    directory.write("study.toml", &study);
+    directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]).quiet_success();
+    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    let results = RunFile::open(directory.path("results/results.h5"));
+    directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5"]).quiet_success();
+    let run = RunFile::open(directory.path("run.h5"));
+    let (worn, areas) = (run.floats("/event/worn"), run.floats("/event/contact_area_end"));
+    let first = |name: &str| results.floats(name)[0];
+    assert_eq!((first("/third"), first("/last")), (worn[2], worn[5]));
+    assert!((first("/mean") / (areas.iter().sum::<f64>() / 6.0) - 1.0).abs() < 1e-12);
+    // Twice the load wears twice as much, but for films that are worn through.
+    assert!((results.floats("/third")[1] / worn[2] / 2.0 - 1.0).abs() < 0.02);
+    directory.write("study.toml", study.replace("event = 3", "event = \"third\""));
+    let outcome = directory.plateau(["sweep", "plan", "study.toml"]);
+    assert!(
+        outcome.status == Some(2) && outcome.stderr.contains("expected the number of an event, \"last\" or \"mean\""),
+        "{outcome:?}"
+    );
+}
