@@ -168,13 +168,15 @@ pub(super) fn short_events(settings: &Settings, parameters: &Parameters, cycle: 
     let largest = largest_acceleration(cycle, until);
     let m = parameters.time_acceleration;
     let is_short = |event: &&Event| cycle::largest_acceleration(cycle.angle_of(event)) < m * (1.0 - 1e-9);
-    let short = cycle.events(until).iter().filter(is_short).count();
+    let events = cycle.events(until);
+    let short = events.iter().filter(is_short).count();
     (short > 0).then(|| Warning {
         place: settings.origin(ACCELERATION),
         key: ACCELERATION.to_owned(),
         found: format!(
-            "with {m} the shortest of the cycle's events has {:.2} simulated revolutions, {short} have less than 10",
-            10.0 * largest / m
+            "with {m} the shortest of the cycle's events has {:.2} simulated revolutions, {short} of {} have less than 10",
+            10.0 * largest / m,
+            events.len()
         ),
         bound: "expected at least 10 in every event".to_owned(),
         advice: if largest >= 1.0 {
