@@ -129,7 +129,7 @@ fn a_pause_costs_no_step_and_reports_what_rests() {
 }
 
 #[test]
-fn workers_and_engines_agree_on_a_cycle() {
+fn workers_and_instruction_sets_agree_on_a_cycle() {
     let directory = WorkingDirectory::new();
     let run = |name: &str, options: &[&str]| {
         let stops = scene("stops.toml");
@@ -139,8 +139,8 @@ fn workers_and_engines_agree_on_a_cycle() {
         RunFile::open(directory.path(name)).content()
     };
     let one = run("one.h5", &[]);
-    for workers in ["2", "3"] {
-        assert_eq!(differences(&one, &run(&format!("{workers}.h5"), &["--workers", workers])), [""; 0]);
+    for options in [["--workers", "2"], ["--workers", "3"], ["--isa", "portable"]] {
+        assert_eq!(differences(&one, &run(&format!("{}.h5", options.concat()), &options)), [""; 0], "{options:?}");
     }
 }
 
