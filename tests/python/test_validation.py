@@ -11,6 +11,7 @@ import numpy as np
 STUDY = Path(__file__).parents[2] / "data/studies/riva2019"
 sys.path.insert(0, str(STUDY))
 import discs  # noqa: E402, where the study is
+import friction  # noqa: E402, where the study is
 import make_points  # noqa: E402, where the study is
 import measures  # noqa: E402
 import tables  # noqa: E402, where the study is
@@ -107,6 +108,52 @@ class Measures(unittest.TestCase):
         self.assertAlmostEqual(half, 4.302653 / np.sqrt(3.0), places=5)
 
 
+class Friction(unittest.TestCase):
+    """A contact of 10 mm² in the first half of 100 s and of 20 mm² in the second, under 47 N: by hand 0.75 MPa · 10 mm² / 47 N =
+    7.5/47, so the coefficient is 0.33 + 7.5/47 = 0.48957, then 0.33 + 15/47 = 0.64915 without ceiling."""
+
+    series = {
+        "time": np.arange(1.0, 101.0),
+        "contact_area": np.repeat([10e-6, 20e-6], 50),
+        "contact_area_integral": np.cumsum(np.repeat([10e-6, 20e-6], 50)),
+    }
+
+    def test_flat_on_flat_has_the_closed_form(self) -> None:
+        self.assertAlmostEqual(friction.mean_over(self.series, 0.0, 50.0), 0.33 + 7.5 / 47, places=12)
+
+    def test_the_ceiling_acts_on_steps_and_not_on_their_mean(self) -> None:
+        # The mean without it, 0.33 + 11.25/47 = 0.5694, is below the ceiling, and yet half of the steps are cut.
+        self.assertAlmostEqual(friction.mean_over(self.series, 0.0, 100.0), (0.33 + 7.5 / 47 + 0.6) / 2, places=12)
+        told = friction.ceiling({"1": [self.window(2700.0)]})
+        self.assertAlmostEqual(told["1"]["share"], 0.5)
+        self.assertAlmostEqual(told["1"]["taken"], (0.33 + 15 / 47 - 0.6) / 2, places=12)
+        self.assertAlmostEqual(told["highest"], 0.33 + 15 / 47, places=12)
+
+    def window(self, start: float) -> dict[str, np.ndarray]:
+        """The same pattern from a time on, three times as long, with nothing before."""
+        area = np.repeat([0.0, 10e-6, 20e-6], [int(start), 150, 150])
+        return {"time": np.arange(1.0, len(area) + 1), "contact_area": area, "contact_area_integral": np.cumsum(area)}
+
+    def test_samples_are_moved_to_the_mean_over_every_step(self) -> None:
+        # Samples that missed what was between them: they say 10 mm², the integral 12 mm².
+        series = self.series | {"contact_area": np.full(100, 10e-6), "contact_area_integral": 12e-6 * self.series["time"]}
+        self.assertAlmostEqual(friction.mean_over(series, 0.0, 100.0), 0.33 + 9 / 47, places=12)
+
+    def test_it_falls_with_the_load_and_rises_with_the_area(self) -> None:
+        law = friction.CHOSEN
+        self.assertAlmostEqual(law.without_ceiling(10e-6, 94.0), 0.33 + 3.75 / 47, places=12)
+        # The ceiling begins where 0.75 MPa · A = 0.27 · 47 N.
+        self.assertAlmostEqual(law.area_at_ceiling(47.0), 16.92e-6, places=12)
+
+    def test_discs_are_compared_on_the_same_surfaces(self) -> None:
+        # Differences of 0.1 and 0.3, mean 0.2; Student's t for one degree of freedom, 12.7062, times 0.1.
+        values = {"1": np.array([0.3, 0.4]), "0.1": np.array([0.35, 0.45]), "0.01": np.array([0.4, 0.7])}
+        mean, half = friction.between(values)["0.01 less 1"]
+        self.assertAlmostEqual(mean, 0.2)
+        self.assertAlmostEqual(half, 1.27062, places=4)
+        self.assertEqual(friction.order(values)["hits"], 2)
+
+
 class Documents(unittest.TestCase):
     def test_documents_have_the_numbers_of_the_study(self) -> None:
         check = [sys.executable, "-B", str(STUDY / "write_docs.py"), "--check"]
@@ -121,7 +168,11 @@ class Documents(unittest.TestCase):
             self.assertIn("{{m runs}}", text[: text.index("{{runs/")], name)
             # Where a piece begins that is read by itself: a paragraph, a list item, a row, a heading.
             for piece in re.split(r"\n(?=\n|- |\d\. |\||#)", text):
-                found = re.findall(r"\{\{(\w+)/(\w+)/[^}]*(?:contact|run_in|pressure|pin_|sq_|drift|filled|inner)", piece)
+                found = re.findall(r"\{\{(\w+)/(\w+)/[^}]*(?:contact|run_in|pressure|pin_|sq_|drift|filled|inner|friction)", piece)
+                of_friction = {"local": "sets", "choices": "sets", "pooled": "pooled-sets", "runs": "runs"}
+                for rule in re.findall(r"\{\{friction/(\w+)/", piece):
+                    if rule in of_friction:
+                        self.assertIn(f"{{{{m {of_friction[rule]}}}}}", piece, f"{name}: {piece}")
                 for part, rule in found:
                     if part in ("sets", "ratio", "symmetry", "pins"):
                         part = {"symmetry": "symmetry"}.get(part, "pooled-sets" if rule == "pooled" else "sets")

@@ -2,15 +2,20 @@
 
 use std::fmt;
 
+use plateau_core::model::accounts::AccountsReport;
 use plateau_core::observe::{self, EXTRAS, Map, QUANTITIES, Sample, schedule};
 use plateau_core::simulation::Simulation;
 
 /// Steps between two comparisons; where one fails, the steps before it are taken once more, one by one.
 const STEPS_BETWEEN: u64 = 100;
 
-// A sample is its step, its time and the quantities: none of its numbers is left out of a comparison.
-const _: () =
-    assert!(size_of::<Sample>() == size_of::<f64>() * (QUANTITIES.len() + 2) + size_of::<Vec<(&'static str, f64)>>());
+// A sample is its step, its time, the quantities and the extras: none of its numbers is left out of a comparison.
+const _: () = assert!(
+    size_of::<Sample>()
+        == size_of::<f64>() * (QUANTITIES.len() + 2)
+            + size_of::<AccountsReport>()
+            + size_of::<Vec<(&'static str, f64)>>()
+);
 
 /// The first step after which two simulations differ, and in what.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,9 +6,12 @@ use std::fs::{self, File};
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
+
+use crate::scenes::Stream;
 
 /// No command of these tests takes nearly as long; one that does hangs.
 const PATIENCE: Duration = Duration::from_secs(300);
@@ -207,6 +210,33 @@ pub fn run(mut command: Command) -> Outcome {
 pub fn kill(mut child: Child) {
     child.kill().expect("a process that runs");
     child.wait().expect("its end");
+}
+
+/// Begins a run that goes on from where it was, again and again, kills it after a random time of at most so many seconds, and
+/// then lets it come to its end; how many times it was killed.
+///
+/// # Panics
+/// When it cannot be begun, or does not end well.
+pub fn go_on_through_kills<A: AsRef<OsStr>>(
+    directory: &WorkingDirectory,
+    arguments: &[A],
+    kills: usize,
+    seconds: f64,
+    mut random: Stream,
+) -> usize {
+    let mut killed = 0;
+    while killed < kills {
+        let mut command = directory.command(arguments);
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        thread::sleep(Duration::from_secs_f64(seconds * random.uniform()));
+        if child.try_wait().unwrap().is_some() {
+            break;
+        }
+        kill(child);
+        killed += 1;
+    }
+    assert_eq!(directory.plateau(arguments).status, Some(0));
+    killed
 }
 
 /// Waits until something holds; whether it did in time.

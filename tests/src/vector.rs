@@ -7,6 +7,7 @@ use std::error::Error;
 use std::path::Path;
 
 use ndarray::ArrayView2;
+use plateau_core::model::accounts::{Accounts, AccountsReport, StepFacts};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::model::step::advance;
 use plateau_core::model::{State, Volumes};
@@ -29,9 +30,15 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
     write_initial(&surfaces, disc, pin, &folder.join("init.h5"))?;
 
     let mut state = State::new(parameters, surfaces);
-    let (mut records, mut moved, mut pressure) = (Vec::new(), Volumes::default(), Vec::new());
+    let mut accounts = Accounts::of(parameters);
+    let (mut records, mut moved, mut pressure, mut pm10_mass) = (Vec::new(), Volumes::default(), Vec::new(), None);
     for step in 1..=scene.steps {
-        let done = advance(parameters, &mut state)?;
+        let mut wear_rate_factor = 1.0;
+        if let Some(accounts) = &mut accounts {
+            accounts.begin(step, parameters.step_angle());
+            wear_rate_factor = accounts.wear_rate_factor();
+        }
+        let done = advance(&parameters.with_wear_rate_factor(wear_rate_factor), &mut state)?;
         let areas = || mesh.area().iter().cycle();
         let operation = parameters.operation_of(step, &parameters.clock());
         let mut record: Record = vec![
@@ -45,8 +52,32 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
             ("max_pressure", done.pressure.iter().copied().fold(0.0, f64::max)),
             ("pool", state.pools.iter().sum()),
         ];
-        if parameters.cycle.is_some() {
+        if parameters.cycle.is_some() || accounts.is_some() {
             record.push(("normal_force", operation.load));
+        }
+        if let Some(accounts) = &mut accounts {
+            accounts.record(&StepFacts {
+                number: step,
+                angle: parameters.step_angle(),
+                operation: &operation,
+                contact: &done.sums(parameters),
+                moved: &done.moved,
+            });
+            let AccountsReport { friction, heat, emission } =
+                accounts.report(step, parameters.step_angle(), operation.end, None);
+            record.extend(friction.iter().flat_map(|friction| {
+                [("friction_coefficient", friction.coefficient), ("friction_work", friction.work)]
+            }));
+            record.extend(heat.iter().flat_map(|heat| {
+                [
+                    ("contact_temperature", heat.contact),
+                    ("disc_temperature", heat.disc),
+                    ("pin_temperature", heat.pin),
+                    ("heat_lost", heat.lost),
+                ]
+            }));
+            record.extend(emission.iter().map(|emission| ("particle_number", emission.number)));
+            pm10_mass = emission.map(|emission| emission.pm10);
         }
         records.push(record);
         moved = moved + done.moved;
@@ -75,7 +106,7 @@ pub fn write(scene: &Scene, folder: &Path) -> Result<(), Box<dyn Error>> {
         ("deposited_pin", moved.deposited_pin),
         ("deposited_disc", moved.deposited_disc),
     ];
-    for (name, volume) in volumes {
+    for (name, volume) in volumes.into_iter().chain(pm10_mass.map(|mass| ("pm10_mass", mass))) {
         file.new_attr::<f64>().create(name)?.write_scalar(&volume)?;
     }
     Ok(file.close()?)

@@ -199,6 +199,9 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "one debris pool per track",
         "exponential wear",
         "load and speed that change",
+        "friction",
+        "heat",
+        "airborne emission",
         "time acceleration",
         "several workers",
         "map disc_height",
@@ -229,6 +232,13 @@ fn a_check_lists_every_part_that_a_scene_can_do_without() {
         "numerics.integrator=exponential",
         "numerics.workers=2",
         "operation.cycle.points=[[\"0 s\", \"5 N\", \"850 rpm\"], [\"60 s\", \"9 N\", \"850 rpm\"]]",
+        "friction.pressure_coefficient=0.3",
+        "thermal.ambient=23 degC",
+        "thermal.disc={ conductivity = \"50 W/(m K)\", density = \"7200 kg/m^3\", specific_heat = \"500 J/(kg K)\", \
+         area = \"7 cm^2\", thickness = \"6 mm\" }",
+        "thermal.pin={ conductivity = \"1.5 W/(m K)\", density = \"2600 kg/m^3\", specific_heat = \"900 J/(kg K)\", \
+         area = \"7.5 mm^2\", length = \"12 mm\" }",
+        "emission={ pin_density = \"2600 kg/m^3\", disc_density = \"7200 kg/m^3\" }",
     ];
     let switches: Vec<String> = on_request().map(|(name, _)| format!("output.{name}=true")).collect();
     let most = most.into_iter().chain(switches.iter().map(String::as_str));

@@ -2,11 +2,8 @@
 
 use std::f64::consts::TAU;
 use std::fs;
-use std::process::Stdio;
-use std::thread;
-use std::time::Duration;
 
-use plateau_tests::program::{WorkingDirectory, kill, quick_scene_with, scene};
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, quick_scene_with, scene};
 use plateau_tests::run_file::{RunFile, differences};
 use plateau_tests::scenes::{Stream, few_or_all};
 
@@ -165,18 +162,8 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
         arguments
     };
     directory.plateau(arguments("whole.h5", &[])).quiet_success();
-    let (mut random, mut killed) = (Stream(21), 0);
-    while killed < few_or_all(6, 40) {
-        let mut command = directory.command(arguments("run.h5", &["--resume"]));
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        thread::sleep(Duration::from_secs_f64(0.4 * random.uniform()));
-        if child.try_wait().unwrap().is_some() {
-            break;
-        }
-        kill(child);
-        killed += 1;
-    }
-    assert_eq!(directory.plateau(arguments("run.h5", &["--resume"])).status, Some(0));
+    let killed =
+        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(6, 40), 0.4, Stream(21));
     let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
     assert!(whole.contains_key("/event/worn"));
     assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
@@ -193,6 +180,79 @@ fn a_run_with_a_cycle_that_is_killed_ends_like_an_undisturbed_one() {
         assert_eq!(values("run.h5", path), values("longer.h5", path), "{path}");
     }
     assert_eq!(values("run.h5", "/time").last(), values("longer.h5", "/time").last());
+}
+
+/// A sample may be due in the part of a step before the pause within it: that takes none of the pause.
+#[test]
+fn every_multiple_in_a_pause_has_its_sample() {
+    let directory = WorkingDirectory::new();
+    let stops = scene("stops.toml");
+    for (every, m) in [(0.07, 2), (0.1, 40), (0.01, 1)] {
+        let sets = [format!("output.sample_every={every} s"), format!("numerics.time_acceleration={m}")];
+        let arguments = ["run", &stops, "-o", "run.h5", "--force", "--set", &sets[0], "--set", &sets[1]];
+        assert_eq!(directory.plateau(arguments).status, Some(0));
+        let times = RunFile::open(directory.path("run.h5")).floats("/time");
+        assert!(times.is_sorted_by(|one, other| one < other), "every {every} s, m = {m}");
+        for [start, end] in [[10.0, 14.0], [17.0, 22.0], [25.0, 30.0], [33.0, 38.0], [41.0, 46.0], [49.0, 60.0]] {
+            let multiples = |time: f64| (time / every + 1e-9).floor();
+            let due = (multiples(end - 1e-6) - multiples(start + 1e-6)) as usize;
+            let found = times.iter().filter(|time| **time > start + 1e-6 && **time < end - 1e-6).count();
+            assert_eq!(found, due, "every {every} s, m = {m}, from {start} s");
+        }
+    }
+}
+
+#[test]
+fn the_table_of_a_run_is_neither_exchanged_nor_replaced() {
+    let directory = WorkingDirectory::new();
+    let table = "time [s],normal_force [N],rotational_speed [rpm]\n0,5,850\n2,5,0\n4,0,0\n5,0,850\n5,5,850\n8,5,0\n";
+    directory.write("stops.csv", table);
+    directory.write("stops.toml", quick_with_operation("[operation.cycle]\nfile = \"stops.csv\"\n"));
+    let run = ["run", "stops.toml", "-o", "stops.h5", "--set", "operation.duration=3 s"];
+    assert_eq!(directory.plateau(run).status, Some(0));
+    directory.write("stops.csv", table.replace("8,5,0", "8,9,0"));
+    for options in [&["--resume"][..], &["--extend-to", "6 s"]] {
+        let outcome = directory.plateau([&run[..], options].concat());
+        assert_eq!(outcome.status, Some(2), "{outcome:?}");
+        assert!(outcome.stderr.contains("files that it reads have changed: ") && outcome.stderr.contains("stops.csv"));
+    }
+    directory.write("stops.csv", table);
+    for command in [
+        &["export", "stops.h5", "--to", "csv", "--force"][..],
+        &["export", "stops.h5", "--to", "npz", "-o", "stops.csv", "--force"],
+        &["report", "stops.h5", "-o", "stops.toml", "--force"],
+    ] {
+        let outcome = directory.plateau(command);
+        assert_eq!(outcome.status, Some(2), "{outcome:?}");
+        assert!(outcome.stderr.contains("is an input and is not replaced; name another file"), "{outcome:?}");
+    }
+    assert_eq!(fs::read_to_string(directory.path("stops.csv")).unwrap(), table);
+}
+
+/// Ended in an event and in a pause, and extended: times never go back, and events are as if it had never ended.
+#[test]
+fn a_run_that_is_extended_again_and_again_accounts_for_every_event() {
+    let directory = WorkingDirectory::new();
+    let rows = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"600 rpm\"], [\"1 s\", \"5 N\", \"0 rpm\"], \
+                [\"2 s\", \"5 N\", \"0 rpm\"], [\"2 s\", \"0 N\", \"0 rpm\"], [\"4 s\", \"0 N\", \"600 rpm\"], \
+                [\"4 s\", \"5 N\", \"600 rpm\"], [\"5 s\", \"5 N\", \"600 rpm\"]]\n";
+    directory.write("scene.toml", quick_with_operation(rows));
+    let sets = ["--set", "output.sample_every=0.01 s", "--set", "numerics.time_acceleration=2"];
+    let run = |name: &str, options: &[&str]| {
+        let outcome = directory.plateau([&["run", "scene.toml", "-o", name][..], &sets, options].concat());
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    };
+    run("whole.h5", &[]);
+    run("run.h5", &["--set", "operation.duration=0.731 s"]);
+    for end in ["1.5 s", "2.5 s", "5 s"] {
+        run("run.h5", &["--extend-to", end]);
+    }
+    let [whole, extended] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)));
+    assert!(extended.floats("/time").is_sorted_by(|one, other| one < other));
+    for path in ["/event/start", "/event/end", "/event/worn", "/event/contact_area_start", "/event/contact_area_end"] {
+        assert_eq!(extended.floats(path), whole.floats(path), "{path}");
+    }
+    assert_eq!(extended.last_map("/disc/height"), whole.last_map("/disc/height"));
 }
 
 #[test]

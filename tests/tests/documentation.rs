@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
-use plateau_io::units::Dimension;
 
 /// The text between the two marks of a table in a document is this, or is made so.
 fn expect_table(document: &str, name: &str, table: &str) {
@@ -76,7 +75,7 @@ fn the_source_files_that_documents_name_exist() {
 fn kind(key: &Key) -> String {
     let example = key.example().map(|example| format!(", such as `{example}`")).unwrap_or_default();
     match key.kind {
-        Kind::Quantity { dimension, .. } => format!("{}{example}", quantity(dimension)),
+        Kind::Quantity { dimension, .. } => format!("{}{example}", dimension.name()),
         Kind::Lengths { single, count, .. } => {
             if single {
                 format!("length{example}, or list of {count}")
@@ -96,21 +95,8 @@ fn kind(key: &Key) -> String {
         Kind::InputFile => "path".into(),
         Kind::Times => format!("list of times{example}"),
         Kind::Rows => format!("rows{example}"),
-        Kind::Maps => format!("list of {}", Map::ALL.map(|map| format!("`\"{}\"`", map.name())).join(", ")),
-    }
-}
-
-/// The dimension as messages name it, without the article.
-fn quantity(dimension: Dimension) -> &'static str {
-    match dimension {
-        Dimension::Length => "length",
-        Dimension::Force => "force",
-        Dimension::Pressure => "pressure",
-        Dimension::Time => "time",
-        Dimension::Speed => "speed",
-        Dimension::RotationalSpeed => "rotational speed",
-        Dimension::SpecificWearRate => "specific wear rate",
-        Dimension::Area => "area",
+        Kind::Factor => format!("rows of temperature and factor{example}"),
+        Kind::Maps => format!("list of {}", Map::CHOICES.map(|map| format!("`\"{}\"`", map.name())).join(", ")),
     }
 }
 

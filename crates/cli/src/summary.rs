@@ -1,7 +1,7 @@
 //! What a finished run tells its user.
 
 use plateau_core::observe::window_mean::WindowMean;
-use plateau_run::RunSummary;
+use plateau_run::{PartsSummary, RunSummary};
 
 use crate::failure::Failure;
 use crate::number;
@@ -56,16 +56,45 @@ pub fn text(summary: &RunSummary) -> String {
             "worn volume",
             format!("{}, of which emitted {}", cubic_millimetres(summary.worn), cubic_millimetres(summary.emitted)),
         ),
-        (
-            "residuals",
-            format!("load {:.1e} at most, debris balance {:.1e}", summary.load_residual, summary.balance_residual),
-        ),
     ];
+    rows.extend(parts(&summary.parts));
+    rows.push((
+        "residuals",
+        format!(
+            "load {:.1e} at most, debris balance {:.1e}{}",
+            summary.load_residual,
+            summary.balance_residual,
+            summary.parts.heat_residual.map_or(String::new(), |residual| format!(", heat {residual:.1e}"))
+        ),
+    ));
     if let Some(bytes) = summary.peak_memory {
         rows.push(("peak memory", number::bytes(bytes)));
     }
     rows.push(("run file", format!("{} ({})", summary.file.display(), number::bytes(summary.file_size))));
     format!("{}\n{}", table(&summary.title, &rows), list("Surfaces", &summary.surfaces))
+}
+
+/// Rows of the parts of the model that the scene asks for.
+fn parts(parts: &PartsSummary) -> Vec<(&'static str, String)> {
+    let mut rows = Vec::new();
+    if let (Some(coefficient), Some(work)) = (parts.friction_coefficient_mean, parts.friction_work) {
+        let over = "mean of the last simulated revolution";
+        rows.push(("friction", format!("coefficient {coefficient:.3} ({over}), work {} J", number::short(work))));
+    }
+    if let (Some(contact), Some(disc), Some(pin)) =
+        (parts.contact_temperature, parts.disc_temperature, parts.pin_temperature)
+    {
+        let celsius = |kelvin: f64| format!("{:.1} °C", kelvin - 273.15);
+        let contact = if contact.is_nan() { "lifted".to_owned() } else { celsius(contact) };
+        rows.push(("temperature", format!("contact {contact}, disc {}, pin {}", celsius(disc), celsius(pin))));
+    }
+    if let (Some(pm10), Some(pm25), Some(number)) = (parts.pm10_mass, parts.pm25_mass, parts.particle_number) {
+        let microgram = |mass: f64| format!("{} µg", number::short(mass * 1e9));
+        let particles = number::short(number);
+        let airborne = format!("PM10 {}, PM2.5 {}, {particles} particles", microgram(pm10), microgram(pm25));
+        rows.push(("airborne", airborne));
+    }
+    rows
 }
 
 /// A mean contact area with its standard error, and over what it is taken.

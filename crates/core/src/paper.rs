@@ -31,6 +31,9 @@ impl Parameters {
             plateaus: PlateauRules::LOCAL,
             time_acceleration: 1.0,
             integrator: Integrator::Explicit,
+            friction: None,
+            thermal: None,
+            emission: None,
         }
     }
 }

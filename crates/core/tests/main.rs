@@ -3,6 +3,7 @@
 mod closed_forms;
 mod description;
 mod extremes;
+mod heat;
 mod laws;
 mod model;
 mod preparation;

@@ -1,10 +1,14 @@
-//! The engine takes the steps of the plain model, in hundreds or thousands of random small scenes with every option; its first contact is
-//! the one that is told before.
+//! The engine takes the steps of the plain model, in hundreds or thousands of random small scenes with every option;
+//! its first contact is the one that is told before.
 
 use crate::scenes::few_or_all;
 use crate::scenes::{random_scene, random_surfaces};
 use plateau_core::engine::kernel::InstructionSet;
+use plateau_core::model::accounts::AccountsReport;
+use plateau_core::model::emission::EmissionReport;
 use plateau_core::model::first_contact::FirstContact;
+use plateau_core::model::friction::FrictionReport;
+use plateau_core::model::heat::account::HeatReport;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, Disc, InitialSurfaces, Pin};
@@ -45,8 +49,54 @@ fn differences(plain: &Sample, fast: &Sample, parameters: &Parameters) -> Vec<St
     ];
     // What is no number differs.
     let agree = |plain: f64, fast: f64, scale: f64| (plain - fast).abs() <= RELATIVE * scale;
-    let differ = quantities.into_iter().filter(|(_, plain, fast, scale)| !agree(*plain, *fast, *scale));
+    let dissipated = accounted(plain, parameters, worn).into_iter().zip(accounted(fast, parameters, worn));
+    // Without contact, and before the first interval of an event has ended, there is no number in either.
+    let dissipated = dissipated.filter(|((_, plain, _), (_, fast, _))| !(plain.is_nan() && fast.is_nan()));
+    let dissipated = dissipated.map(|((name, plain, scale), (_, fast, _))| (name, plain, fast, scale));
+    let differ =
+        quantities.into_iter().chain(dissipated).filter(|(_, plain, fast, scale)| !agree(*plain, *fast, *scale));
     differ.map(|(name, plain, fast, _)| format!("{name}: plain {plain:e}, fast {fast:e}")).collect()
+}
+
+/// Every number of friction, heat and emission: name, value, and the size that deviations are held against.
+fn accounted(sample: &Sample, parameters: &Parameters, worn: f64) -> Vec<(&'static str, f64, f64)> {
+    let AccountsReport { friction, heat, emission } = sample.accounts;
+    assert_eq!(
+        [friction.is_some(), heat.is_some(), emission.is_some()],
+        [parameters.friction.is_some(), parameters.thermal.is_some(), parameters.emission.is_some()]
+    );
+    let mut numbers = Vec::new();
+    if let Some(FrictionReport { coefficient, coefficient_mean, work, load_work }) = friction {
+        numbers.extend([("μ", coefficient), ("mean μ", coefficient_mean), ("work", work), ("work of 1", load_work)]);
+    }
+    let mut numbers: Vec<_> = numbers.into_iter().map(|(name, value)| (name, value, value)).collect();
+    if let Some(heat) = heat {
+        // What of a temperature is no rise above the ambient says nothing; some 1e-13 K are rounding.
+        let ambient = parameters.thermal.as_ref().map_or(0.0, |thermal| thermal.ambient);
+        let HeatReport { contact, disc, pin, face, share, lost, residual, event_start, event_peak } = heat;
+        for (name, value) in [
+            ("contact temperature", contact),
+            ("disc temperature", disc),
+            ("pin temperature", pin),
+            ("face temperature", face),
+            ("temperature at the start of the event", event_start),
+            ("largest temperature of the event", event_peak),
+        ] {
+            numbers.push((name, value, (value - ambient).abs() + 1e-3));
+        }
+        numbers.extend([
+            ("share of the disc", share, 1.0),
+            ("heat lost", lost, lost),
+            ("residual of heat", residual, 1e-3),
+        ]);
+    }
+    if let (Some(report), Some(emission)) = (emission, &parameters.emission) {
+        let mass = worn * emission.pin_density.max(emission.disc_density);
+        let EmissionReport { mass: emitted, pm10, pm25, number } = report;
+        numbers.extend([("emitted mass", emitted, mass), ("PM10", pm10, mass), ("PM2.5", pm25, mass)]);
+        numbers.push(("particles", number, mass * emission.number_per_mass));
+    }
+    numbers
 }
 
 fn largest_deviation(plain: &[f64], fast: &[f64]) -> f64 {
@@ -57,8 +107,8 @@ fn largest_deviation(plain: &[f64], fast: &[f64]) -> f64 {
 enum End {
     /// Both took the same steps.
     Equal,
-    /// A build-up was worn through to the last bit, as where one cell carries all the load and loses what the cell ahead
-    /// of it lost and left there: on which side of nothing rounding leaves it, is chance.
+    /// A build-up was worn through to the last bit, as where one cell carries all the load and loses what the cell
+    /// ahead of it lost and left there: on which side of nothing rounding leaves it, is chance.
     Tie,
     /// They differ.
     Different(String),

@@ -3,6 +3,10 @@
 use std::sync::Arc;
 
 use plateau_core::model::cycle::{Cycle, Interpolation, Node};
+use plateau_core::model::emission::Emission;
+use plateau_core::model::friction::{Friction, FrictionLaw};
+use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::{Coating, Disc, Pin as ThermalPin, Substance, Thermal};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
@@ -104,11 +108,81 @@ pub fn random_scene(seed: u64, debris: DebrisRule) -> Parameters {
     if between(0.0, 1.0) < 0.4 {
         parameters.cycle = random_cycle(&parameters, &mut between);
     }
+    if between(0.0, 1.0) < 0.6 {
+        add_dissipation(&mut parameters, &mut between);
+    }
     parameters
 }
 
-/// Ramps, jumps, lifted pauses and stops about the load and speed of a scene, in intervals of some steps, played again and
-/// again.
+/// Friction, by one law or by one for each status; often with heat, whose factors change much from revolution to
+/// revolution. Emission with it or without it.
+fn add_dissipation(parameters: &mut Parameters, between: &mut impl FnMut(f64, f64) -> f64) {
+    let half = |between: &mut dyn FnMut(f64, f64) -> f64| between(0.0, 1.0) < 0.5;
+    if between(0.0, 1.0) < 0.8 {
+        let mut law =
+            || FrictionLaw { pressure_coefficient: between(0.0, 0.6), shear_strength: between(-1e5, 2e6).max(0.0) };
+        let [primary, secondary, resin] = [law(), law(), law()];
+        let maximum = if half(between) { f64::INFINITY } else { between(0.3, 2.0) };
+        let friction = Friction::of(primary, maximum);
+        parameters.friction = Some(if half(between) { friction } else { Friction { secondary, resin, ..friction } });
+        if between(0.0, 1.0) < 0.7 {
+            parameters.thermal = Some(Arc::new(random_thermal(parameters, between)));
+            let is_stiff = parameters.with_wear_rate_factor(LARGEST_FACTOR).stiffness_number() > 1.0;
+            parameters.integrator = if is_stiff { Integrator::Exponential } else { parameters.integrator };
+        }
+    }
+    if half(between) {
+        parameters.emission = Some(Emission {
+            pm10_fraction: between(0.0, 1.0),
+            pm25_fraction: between(0.0, 0.5),
+            number_per_mass: 1e15,
+            pin_density: between(1e3, 5e3),
+            disc_density: between(2e3, 9e3),
+            number_factor: random_factor(between),
+        });
+    }
+}
+
+/// No factor is larger.
+const LARGEST_FACTOR: f64 = 3.0;
+/// K.
+const AMBIENT: f64 = 296.15;
+
+/// A factor that changes within some kelvin above the ambient, and is not 1 there.
+fn random_factor(between: &mut impl FnMut(f64, f64) -> f64) -> Factor {
+    let points = [-1.0, 0.5, 10.0].map(|excess| (AMBIENT + excess, between(0.3, LARGEST_FACTOR)));
+    Factor::new(points.to_vec()).expect("temperatures that rise")
+}
+
+/// Small bodies that a load of this size warms by some kelvin.
+fn random_thermal(parameters: &Parameters, between: &mut impl FnMut(f64, f64) -> f64) -> Thermal {
+    let mut substance = || Substance {
+        conductivity: 10.0_f64.powf(between(-1.0, 2.0)),
+        density: between(1e3, 1e4),
+        specific_heat: between(200.0, 1000.0),
+    };
+    let [disc, pin, coating] = [substance(), substance(), substance()];
+    let size = parameters.normal_force.sqrt();
+    let is_coated = between(0.0, 1.0) < 0.5;
+    let coating = Coating { thickness: 10.0_f64.powf(between(-6.0, -3.0)), substance: coating };
+    Thermal {
+        ambient: AMBIENT,
+        disc: Disc {
+            substance: disc,
+            area: 1e-4 * size,
+            thickness: between(1e-4, 1e-2),
+            cooling: between(-0.1, 0.4).max(0.0) * size,
+            cooling_per_speed: between(-2e-3, 4e-3).max(0.0) * size,
+            coating: is_coated.then_some(coating),
+        },
+        pin: ThermalPin { substance: pin, area: 5e-5, length: between(1e-3, 2e-2), cooling: between(0.0, 0.05) },
+        wear_rate_factor: if between(0.0, 1.0) < 0.7 { random_factor(between) } else { Factor::default() },
+        friction_factor: if between(0.0, 1.0) < 0.7 { random_factor(between) } else { Factor::default() },
+    }
+}
+
+/// Ramps, jumps, lifted pauses and stops about the load and speed of a scene, in intervals of some steps, played again
+/// and again.
 fn random_cycle(parameters: &Parameters, between: &mut impl FnMut(f64, f64) -> f64) -> Option<Arc<Cycle>> {
     let (mut nodes, mut time) = (Vec::new(), 0.0);
     let mut value = |largest: f64| (between(-0.5, 1.0) * largest).max(0.0);

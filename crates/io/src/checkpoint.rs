@@ -4,7 +4,7 @@
 //! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
 //!
 //! ```text
-//! magic    16 bytes: "plateau state 3\n"
+//! magic    16 bytes: "plateau state 4\n"
 //! length   8 bytes: of what follows but for the digest, the least first
 //! content  the state, in the encoding of the crate postcard 1
 //! digest   32 bytes: SHA-256 of the content
@@ -28,10 +28,10 @@ use crate::regular;
 use crate::temporary::Temporary;
 
 /// How every checkpoint begins.
-const MAGIC: &[u8; 16] = b"plateau state 3\n";
+const MAGIC: &[u8; 16] = b"plateau state 4\n";
 /// How those of every version do.
 const OWN: &[u8] = b"plateau state ";
-/// Bytes of what is not of every cell, at most: scene, sums, and what is known of a revolution.
+/// Bytes of what is neither of every cell nor of every column, at most: scene and sums.
 const BESIDES: u64 = 16 * 1024;
 /// No mesh that fits into memory needs more, bytes.
 const LARGEST: u64 = 1 << 40;
@@ -106,7 +106,9 @@ pub fn size_estimate(mesh: &Mesh, chooses_acceleration: bool) -> u64 {
     let states = if chooses_acceleration { 2 } else { 1 };
     // In a pause of a cycle the pressures are kept, too.
     let pressures = (mesh.pin_cells() * size_of::<f64>()) as u64;
-    BESIDES + pressures + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
+    // Contact area, friction force and load of the steps of a revolution.
+    let revolution = (3 * mesh.disc_columns() * size_of::<f64>()) as u64;
+    BESIDES + pressures + revolution + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
 }
 
 /// Where the checkpoints of a run file are: the last, and the one before.

@@ -19,7 +19,6 @@
 
 pub mod checkpoint;
 pub mod claim;
-pub mod cycle_table;
 pub mod dataset_file;
 pub mod export;
 mod hdf5_file;

@@ -52,6 +52,11 @@ pub fn with_error(number: f64, error: Option<f64>) -> String {
     format!("{number:.decimals$} ± {error:.decimals$}")
 }
 
+/// The number to nine significant digits, for words: the last digits of a sum of many terms say nothing.
+pub fn to_nine_digits(number: f64) -> f64 {
+    format!("{number:.8e}").parse().unwrap_or(number)
+}
+
 /// A number with at most so many significant digits, for people: no zeros at the end, and a sign that is as wide as a plus.
 pub fn rounded(number: f64, digits: usize) -> String {
     let text = significant(number, digits);

@@ -3,120 +3,18 @@
 //! A unit is a product of symbols with whole powers; `/` divides by the one factor that follows it. Factors of ten are
 //! taken into the decimal exponent before the number is rounded, so that "50 um" is the same double as `5e-5`.
 
+mod dimension;
 mod expression;
 pub mod pattern;
 
-use std::fmt;
-
-use expression::{Powers, Scale};
+use dimension::meaning;
+use expression::Scale;
 use thiserror::Error;
 
-/// The kinds of quantity that scenes ask for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Dimension {
-    /// m.
-    Length,
-    /// N.
-    Force,
-    /// Pa: pressures and elastic moduli.
-    Pressure,
-    /// s.
-    Time,
-    /// m/s.
-    Speed,
-    /// rad/s.
-    RotationalSpeed,
-    /// 1/Pa = m³/(N·m): worn volume per force and sliding distance.
-    SpecificWearRate,
-    /// m².
-    Area,
-}
+pub use dimension::Dimension;
 
-/// What a unit of these powers measures.
-const MEANINGS: &[(Powers, &str)] = &[
-    ([1, 0, 0, 0], "a length"),
-    ([1, 1, -2, 0], "a force"),
-    ([-1, 1, -2, 0], "a pressure"),
-    ([0, 0, 1, 0], "a time"),
-    ([1, 0, -1, 0], "a speed"),
-    ([0, 0, -1, 1], "a rotational speed"),
-    ([1, -1, 2, 0], "a specific wear rate"),
-    ([0, 0, 0, 0], "a plain number"),
-    ([0, 1, 0, 0], "a mass"),
-    ([0, 0, 0, 1], "an angle"),
-    ([0, 0, -1, 0], "a frequency"),
-    ([2, 0, 0, 0], "an area"),
-    ([3, 0, 0, 0], "a volume"),
-    ([2, 1, -2, 0], "an energy"),
-];
-
-fn meaning(powers: Powers) -> &'static str {
-    MEANINGS.iter().find(|(known, _)| *known == powers).map_or("a quantity of another kind", |(_, name)| name)
-}
-
-impl Dimension {
-    fn powers(self) -> Powers {
-        match self {
-            Self::Length => [1, 0, 0, 0],
-            Self::Force => [1, 1, -2, 0],
-            Self::Pressure => [-1, 1, -2, 0],
-            Self::Time => [0, 0, 1, 0],
-            Self::Speed => [1, 0, -1, 0],
-            Self::RotationalSpeed => [0, 0, -1, 1],
-            Self::SpecificWearRate => [1, -1, 2, 0],
-            Self::Area => [2, 0, 0, 0],
-        }
-    }
-
-    /// The coherent SI unit.
-    pub fn si_unit(self) -> &'static str {
-        match self {
-            Self::Length => "m",
-            Self::Force => "N",
-            Self::Pressure => "Pa",
-            Self::Time => "s",
-            Self::Speed => "m/s",
-            Self::RotationalSpeed => "rad/s",
-            Self::SpecificWearRate => "1/Pa",
-            Self::Area => "m^2",
-        }
-    }
-
-    /// A quantity as a scene may write it.
-    pub fn example(self) -> &'static str {
-        match self {
-            Self::Length => "50 um",
-            Self::Force => "47 N",
-            Self::Pressure => "100 GPa",
-            Self::Time => "3000 s",
-            Self::Speed => "2 m/s",
-            Self::RotationalSpeed => "850 rpm",
-            Self::SpecificWearRate => "5e-14 1/Pa",
-            Self::Area => "2000 um^2",
-        }
-    }
-
-    /// The units that are commonly used, for messages and documentation.
-    pub fn units(self) -> &'static str {
-        match self {
-            Self::Length => "m, mm, um, nm",
-            Self::Force => "N, kN, mN",
-            Self::Pressure => "Pa, kPa, MPa, GPa",
-            Self::Time => "s, ms, min, h",
-            Self::Speed => "m/s, mm/s, km/h",
-            Self::RotationalSpeed => "rpm, rad/s",
-            Self::SpecificWearRate => "1/Pa, m^2/N, mm^3/(N m)",
-            Self::Area => "m^2, mm^2, um^2",
-        }
-    }
-}
-
-/// Says what is expected, with an example: `a force such as "47 N" (N, kN, mN)`.
-impl fmt::Display for Dimension {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} such as \"{}\" ({})", meaning(self.powers()), self.example(), self.units())
-    }
-}
+/// 0 °C, K.
+const CELSIUS: f64 = 273.15;
 
 /// Why a text is no quantity of the kind that is asked for.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -192,18 +90,37 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     if unit.is_empty() {
         return Err(UnitError::NoUnit { text: format!("\"{}\"", shown()), expected });
     }
+    if expected == Dimension::Temperature && is_celsius(unit) {
+        return finite(shift_decimal(number, 0) + CELSIUS, || UnitError::NotFinite { text: shown(), expected });
+    }
     let scale = Scale::parse(unit).map_err(|reason| UnitError::Unit { text: shown(), reason, expected })?;
     if scale.powers != expected.powers() {
         return Err(UnitError::WrongDimension { text: shown(), found: meaning(scale.powers), expected });
     }
     let value = shift_decimal(number, scale.tens) * scale.times / scale.over;
-    if value.is_finite() { Ok(value + 0.0) } else { Err(UnitError::NotFinite { text: shown(), expected }) }
+    finite(value, || UnitError::NotFinite { text: shown(), expected })
+}
+
+/// Degrees Celsius are no multiple of a kelvin, and have a meaning only as a temperature alone.
+fn is_celsius(unit: &str) -> bool {
+    matches!(unit, "degC" | "°C")
+}
+
+/// The number without the sign of −0, if it is finite.
+fn finite(value: f64, error: impl Fn() -> UnitError) -> Result<f64, UnitError> {
+    if value.is_finite() { Ok(value + 0.0) } else { Err(error()) }
 }
 
 /// Writes a value in SI units as a quantity in the given unit, so that [`parse`] gives the same double back.
 ///
 /// Where a unit that is no power of ten of the SI unit (rpm) cannot give the same double, the SI unit is used.
 pub fn format(value: f64, unit: &str, dimension: Dimension) -> String {
+    if is_celsius(unit) {
+        let text = format!("{} {unit}", decimal(&format!("{:.12e}", value - CELSIUS), 0));
+        if parse(&text, dimension) == Ok(value) {
+            return text;
+        }
+    }
     if let Ok(scale) = Scale::parse(unit) {
         let candidates = if scale.times == 1.0 && scale.over == 1.0 {
             vec![format!("{value:e}")]

@@ -4,6 +4,10 @@ use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use plateau_core::model::emission::Emission;
+use plateau_core::model::friction::{Friction, FrictionLaw};
+use plateau_core::model::heat::factor::Factor;
+use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::material::Material;
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::model::state::{Base, InitialSurfaces};
@@ -80,7 +84,7 @@ fn the_example_of_the_format_gives_its_values() {
     assert_eq!(scene.output.file, Path::new("baseline.h5"));
     assert_eq!(scene.output.sample_every, SampleEvery::Time(1.0));
     assert_eq!(scene.output.maps_at, [0.0, 500.0, 3000.0]);
-    assert_eq!(scene.output.maps, Map::ALL);
+    assert_eq!(scene.output.maps, Map::CHOICES);
     assert_eq!(scene.files, [good("full.toml")]);
     assert_eq!(scene.warnings, []);
 }
@@ -106,9 +110,52 @@ fn what_is_absent_gets_the_default_of_the_format() {
     assert_eq!(scene.workers, Workers::Count(1));
     assert_eq!(scene.output.file, Path::new("minimal.h5"));
     assert_eq!(scene.output.sample_every, SampleEvery::Steps(276));
-    assert_eq!((scene.output.maps_at.as_slice(), scene.output.maps.as_slice()), (&[][..], &Map::ALL[..]));
+    assert_eq!((scene.output.maps_at.as_slice(), scene.output.maps.as_slice()), (&[][..], &Map::CHOICES[..]));
     // State and surfaces of 8·276 and 8·16 cells, two maps' worth of everything under way: the sum is in memory.rs.
     assert_eq!(memory_estimate(&scene), 2208 * 16 + 128 * 33 + 8 * 16 + 2 * (2208 * 17 + 128 * 25));
+}
+
+#[test]
+fn friction_heat_and_emission_are_read_in_si_units() {
+    // Expected: the text of hot.toml.
+    let scene = load("hot.toml", &[]);
+    let Parameters { friction, thermal, emission, .. } = &scene.parameters;
+    let law = |pressure_coefficient, shear_strength| FrictionLaw { pressure_coefficient, shear_strength };
+    let (primary, secondary, resin) = (law(0.33, 0.75e6), law(0.33, 1e6), law(0.2, 0.75e6));
+    assert_eq!(*friction, Some(Friction { primary, secondary, resin, maximum: 0.6 }));
+    let substance = |conductivity, density, specific_heat| Substance { conductivity, density, specific_heat };
+    let factor = |points| Factor::new(points).unwrap();
+    let coating = Coating { thickness: 60e-6, substance: substance(15.0, 13500.0, 250.0) };
+    let expected = Thermal {
+        ambient: 296.15,
+        disc: Disc {
+            substance: substance(50.0, 7200.0, 500.0),
+            area: 31e-4,
+            thickness: 6e-3,
+            cooling: 0.4,
+            cooling_per_speed: 2e-3,
+            coating: Some(coating),
+        },
+        pin: Pin { substance: substance(1.5, 2600.0, 900.0), area: 78.5e-6, length: 12e-3, cooling: 0.0 },
+        wear_rate_factor: factor(vec![(503.15, 1.0), (673.15, 4.0)]),
+        friction_factor: factor(vec![(296.15, 1.0), (600.0, 0.5)]),
+    };
+    assert_eq!(thermal.as_deref(), Some(&expected));
+    let expected = Emission {
+        pm10_fraction: 0.4,
+        pm25_fraction: 0.15,
+        number_per_mass: 1e15,
+        pin_density: 2600.0,
+        disc_density: 7200.0,
+        number_factor: factor(vec![(443.15, 1.0), (463.15, 100.0)]),
+    };
+    assert_eq!(*emission, Some(expected));
+    assert_eq!(scene.output.maps, Map::ALL);
+    let names: Vec<_> = scene.extras(false).iter().map(|extra| extra.name).collect();
+    assert_eq!(names, ["contact_temperature", "friction", "heat", "emission"]);
+    // A scene that asks for none of them has none.
+    let Parameters { friction, thermal, emission, .. } = load("minimal.toml", &[]).parameters;
+    assert!(friction.is_none() && thermal.is_none() && emission.is_none());
 }
 
 #[test]
@@ -299,6 +346,7 @@ fn a_resolved_scene_reads_back_alike() {
                 "pin.surface.synthetic.skewness=-0.5",
             ],
         ),
+        ("hot.toml", &["thermal.ambient=0 degC", "thermal.wear_rate_factor=[['100.1 degC', 0.3]]"]),
         ("vector-flat.toml", &[]),
         ("vector-rough.toml", &[]),
         ("vector-track.toml", &["operation.duration=0.1 min"]),

@@ -82,6 +82,24 @@ fn npy(folder: &TempDir, name: &str, (columns, rows): (usize, usize), height: im
 }
 
 #[test]
+fn what_heat_is_told_is_looked_at() {
+    let hot = "tests/scenes/good/hot.toml";
+    for (key, beyond, inside, words) in [
+        ("friction.shear_strength", "1.1 GPa", "0.9 GPa", "a shear strength of 1.1 GPa"),
+        ("thermal.ambient", "23 K", "-40 degC", "an ambient temperature of 23 K"),
+        ("thermal.disc.conductivity", "5 kW/(m K)", "400 W/(m K)", "a conductivity of 5000 W/(m K)"),
+        ("thermal.disc.coating.conductivity", "0.01 W/(m K)", "2000 W/(m K)", "a conductivity of 0.01 W/(m K)"),
+        ("emission.disc_density", "7.2 kg/m^3", "7.2 g/cm^3", "a density of 7.2 kg/m^3"),
+    ] {
+        let set = |value: &str| format!("{key}={value}");
+        bounds(hot, key, &[&set(beyond)], &[&set(inside)], &[words]);
+    }
+    let half = 0.5e6 * pin_area();
+    let set = |part: f64| format!("thermal.pin.area={} mm^2", part * half);
+    bounds(hot, "thermal.pin.area", &[&set(0.99)], &[&set(1.01)], &["of the pin in [mesh]"]);
+}
+
+#[test]
 fn pressure_is_at_most_a_tenth_of_the_softest_plateau() {
     // F_N = 0.1 · 1 GPa · ΣA.
     let bound = 1e8 * pin_area();

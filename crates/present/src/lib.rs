@@ -9,6 +9,7 @@
 //! | tables as text and as CSV | [`table`], [`csv_table`] |
 //! | what is shown: titles, units, signs, colour maps | [`quantity`], [`colour`] |
 //! | numbers as people read them | [`plateau_io::number`] |
+//! | many values as few, with their envelope | [`envelope`] |
 //! | what runs are called | [`label`] |
 
 // The tables of files are for those who read the source: they name what is private, too.
@@ -17,6 +18,7 @@
 mod colour;
 pub mod csv_table;
 mod deflate;
+mod envelope;
 pub mod figure;
 pub mod label;
 mod quantity;

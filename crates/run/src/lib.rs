@@ -50,6 +50,6 @@ pub use job::Job;
 pub use observer::Observer;
 pub use options::{ExecutionOptions, Program, RunOptions, StartMode};
 pub use run::run;
-pub use summary::RunSummary;
+pub use summary::{PartsSummary, RunSummary};
 pub use time_loop::Sink;
 pub use warnings::{idle_warning, stiffness_warning};

@@ -88,6 +88,7 @@ impl Prepared {
             &[&header.scene, &header.source_revision, &format!("{:?}", header.inputs)].map(String::as_str).concat(),
         )?;
         let (program, engine) = (options.program.build(), execution.engine);
+        let inputs = inputs.into_iter().chain(cycle_file(&scene, &header)).collect();
         let identity = RunIdentity { program, engine, scene: scene.resolved.clone(), inputs };
         Ok(Self { scene, path, assembly, header, identity })
     }
@@ -177,6 +178,13 @@ fn stop_if_asked(observer: &mut dyn Observer, job: &mut Job) -> Result<(), RunEr
     let Some(signal) = job.agree(own)?.signal else { return Ok(()) };
     let progress = if job.leads() { Progress::NotStarted } else { Progress::Elsewhere };
     Err(Stopped { signal, progress }.into())
+}
+
+/// The file of the cycle, if there is one, with its digest: with another content it is another run.
+fn cycle_file(scene: &Scene, header: &Header) -> Option<(PathBuf, String)> {
+    let path = scene.cycle.as_ref()?.file.clone()?;
+    let digest = header.inputs.iter().find(|input| Path::new(&input.path) == path)?.sha256.clone();
+    Some((path, digest))
 }
 
 /// Says what else the scene can hardly mean, and keeps it with what was said of it before.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use plateau_core::model::accounts::AccountsReport;
 use plateau_core::observe::Sample;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
@@ -59,6 +60,9 @@ pub struct RunSummary {
     pub worn: f64,
     /// Debris that left the contact, m³.
     pub emitted: f64,
+    /// Friction, heat and emission, where the scene asks for them.
+    #[serde(flatten)]
+    pub parts: PartsSummary,
     /// Largest load residual of any step, relative.
     pub load_residual: f64,
     /// What the scene allows.
@@ -67,6 +71,55 @@ pub struct RunSummary {
     pub balance_residual: f64,
     /// What the scene can hardly mean.
     pub warnings: Vec<Warning>,
+}
+
+/// What came of the parts of the model that a scene may do without; each is there where the scene asks for it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PartsSummary {
+    /// Coefficient of friction, mean over the last simulated revolution, weighted by load.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_coefficient_mean: Option<f64>,
+    /// Work of friction, J.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction_work: Option<f64>,
+    /// Temperature of the contact, K; no number where the pin is lifted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_temperature: Option<f64>,
+    /// Mean temperature of the disc, K.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disc_temperature: Option<f64>,
+    /// Mean temperature of the pin, K.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_temperature: Option<f64>,
+    /// What the energy balance is off by, relative.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub heat_residual: Option<f64>,
+    /// PM10, kg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pm10_mass: Option<f64>,
+    /// PM2.5, kg.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pm25_mass: Option<f64>,
+    /// Airborne particles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub particle_number: Option<f64>,
+}
+
+impl PartsSummary {
+    fn of(last: &Sample) -> Self {
+        let AccountsReport { friction, heat, emission } = last.accounts;
+        Self {
+            friction_coefficient_mean: friction.map(|friction| friction.coefficient_mean),
+            friction_work: friction.map(|friction| friction.work),
+            contact_temperature: heat.map(|heat| heat.contact),
+            disc_temperature: heat.map(|heat| heat.disc),
+            pin_temperature: heat.map(|heat| heat.pin),
+            heat_residual: heat.map(|heat| heat.residual),
+            pm10_mass: emission.map(|emission| emission.pm10),
+            pm25_mass: emission.map(|emission| emission.pm25),
+            particle_number: emission.map(|emission| emission.number),
+        }
+    }
 }
 
 impl RunSummary {
@@ -105,6 +158,7 @@ impl RunSummary {
             pin_secondary: last.pin_secondary,
             worn: last.worn_pin + last.worn_resin + last.worn_disc,
             emitted: last.emitted,
+            parts: PartsSummary::of(last),
             load_residual: course.largest_load_residual,
             load_tolerance: scene.load_tolerance,
             balance_residual: last.balance_residual,

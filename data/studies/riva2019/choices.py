@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import claims
@@ -17,10 +18,19 @@ from readings import READINGS, SEEDS
 Found = dict[str, dict[str, list[dict[str, float]]]]
 
 
+def setting(variant: str, name: str) -> float:
+    """A number that a variant has, in its unit there."""
+    return float((DEFAULT | VARIANTS[variant])[name].split()[0])
+
+
+def load_of(variant: str) -> float:
+    """Load of a variant, N."""
+    return setting(variant, "normal force")
+
+
 def wear_of(variant: str) -> float:
     """Wear rate times load of a variant, m3/m."""
-    settings = DEFAULT | VARIANTS[variant]
-    return float(settings["normal force"].split()[0]) * float(settings["wear rate"].split()[0])
+    return load_of(variant) * setting(variant, "wear rate")
 
 
 def whole(found: Found) -> Found:
@@ -31,26 +41,30 @@ def whole(found: Found) -> Found:
     return {name: discs for name, discs in found.items() if name not in missing}
 
 
-def of_scenes(path: Path) -> Found:
-    """The variants that scenes have, from the collected study."""
+def runs_of(path: Path, variants: Collection[str]) -> Iterator[tuple[str, str, dict[str, np.ndarray]]]:
+    """Variant, disc and series of every run of some variants in the collected study, sets of surfaces in their order."""
+    if not path.exists():
+        return
     # In the order of points.csv.
     keys = [(name, heights) for name in VARIANTS for heights in SCENES]
-    found = {name: {heights: [] for heights in SCENES} for name in VARIANTS}
-    if not path.exists():
-        return whole(found)
     with h5py.File(path) as file:
-        finished = file["state"].asstr()[:] == "finished"
+        finished = np.flatnonzero(file["state"].asstr()[:] == "finished")
         names = [name for name, data in file.items() if data.ndim == 2 and name != "sample_time"]
-        for row in np.flatnonzero(finished):
-            name, heights = keys[int(file["point"][row]) - 1]
-            time = file["time"][:] if "time" in file else file["sample_time"][row]
-            there = np.isfinite(time)
-            series = {key: file[key][row][there] for key in names} | {"time": time[there]}
-            found[name][heights].append((int(file["replicate"][row]), history(series, load=wear_of(name))))
-    return whole({
-        name: {heights: [numbers for _, numbers in sorted(runs, key=lambda run: run[0])] for heights, runs in discs.items()}
-        for name, discs in found.items()
-    })
+        points, replicates = file["point"][:], file["replicate"][:]
+        for row in sorted(finished, key=lambda row: replicates[row]):
+            name, heights = keys[int(points[row]) - 1]
+            if name in variants:
+                time = file["time"][:] if "time" in file else file["sample_time"][row]
+                there = np.isfinite(time)
+                yield name, heights, {key: file[key][row][there] for key in names} | {"time": time[there]}
+
+
+def of_scenes(path: Path) -> Found:
+    """The variants that scenes have, from the collected study."""
+    found = {name: {heights: [] for heights in SCENES} for name in VARIANTS}
+    for name, heights, series in runs_of(path, VARIANTS):
+        found[name][heights].append(history(series, load=wear_of(name)))
+    return whole(found)
 
 
 def of_readings(path: Path) -> tuple[Found, list[dict[str, float]]]:

@@ -50,6 +50,7 @@ CLAIMS = {
     "heights / 10 not steady": ("drift", lambda of: of("drift", "0.1") > of("drift_error", "0.1")),
     "fuller inside": ("inner_over_outer", lambda of: of("inner_over_outer", "1") > 0),
     "higher pressure": ("mean_pressure", falling("mean_pressure")),
+    "higher friction": ("friction", rising("friction")),
 }
 
 

@@ -8,10 +8,12 @@ import json
 import re
 import sys
 import tomllib
+from dataclasses import asdict
 from pathlib import Path
 
 import choices
 import claims
+import friction
 import h5py
 import maps
 import measures
@@ -51,7 +53,7 @@ def run_numbers(path: Path) -> dict[str, object]:
             "wall_time": float(file.attrs.get("wall_time", np.nan)),
             "acceleration": acceleration(file),
             "steps": round(float(series["time"][-1]) / STEP / acceleration(file)),
-            "history": {f"{end:.0f}": history(series, end, WEAR) for end in ends},
+            "history": {f"{end:.0f}": history(series, end, WEAR) | {"friction": friction.at_the_end(series, end)} for end in ends},
             "pin": {f"{end:.0f}": maps.at_the_end(file, end) for end in ends},
             "disc": {f"{moment:.0f}": maps.of_the_disc(file, moment) for moment in times if moment not in late},
             "sizes": {f"{end:.0f}": maps.sizes(file, end) for end in ends},
@@ -67,11 +69,11 @@ def there(paths: list[Path]) -> list[Path]:
     return [path for path in paths if path.name not in missing]
 
 
-def of_sets(rule: str) -> dict[str, list[dict[str, float]]]:
-    """The numbers of each set of surfaces of which all three discs are there."""
+def paths_of_sets(rule: str) -> dict[str, list[Path]]:
+    """The runs of each disc with the sets of surfaces of which all three discs are there."""
     paths = {seed: [RUNS / f"set-{rule}-{seed}-{heights}.h5" for heights in SCENES] for seed in SETS}
     whole = [paths[seed] for seed in SETS if len(there(paths[seed])) == len(SCENES)]
-    return {heights: [flat(run_numbers(of_set[disc])) for of_set in whole] for disc, heights in enumerate(SCENES)}
+    return {heights: [of_set[disc] for of_set in whole] for disc, heights in enumerate(SCENES)}
 
 
 def of_the_model() -> dict[str, object]:
@@ -101,7 +103,7 @@ def exactness() -> dict[str, dict[str, object]]:
         for name in (scene, f"quick-{heights}"):
             with opened(RUNS / f"{name}.h5") as file:
                 series = series_of(file)
-                numbers = history(series, until) | {"acceleration": acceleration(file)}
+                numbers = history(series, until) | {"acceleration": acceleration(file), "friction": friction.at_the_end(series, until)}
                 areas = window_means(series["time"], series["contact_area_integral"], until, 100.0)[1]
                 pairs.append((numbers | (maps.at_the_end(file, END) if until == END else {}), areas))
         (exact, exact_areas), (near, near_areas) = pairs
@@ -177,6 +179,22 @@ def symmetry() -> dict[str, dict[str, float]]:
     return found
 
 
+def of_friction(paths: dict[str, dict[str, list[Path]]], pooled: dict[str, object]) -> dict[str, object]:
+    """Friction over sets of surfaces with both rules, of the runs of one set, with other numbers of its law and under other loads."""
+    series = {rule: {heights: [friction.read(path) for path in of] for heights, of in discs.items()} for rule, discs in paths.items()}
+    accelerations = {}
+    for rule, discs in paths.items():
+        with opened(discs["1"][0]) as file:
+            accelerations[rule] = acceleration(file)
+    return {rule: friction.of_sets(discs, accelerations[rule]) for rule, discs in series.items()} | {
+        "runs": friction.of_runs({heights: run_of(RUNS, heights) for heights in SCENES}),
+        "pooled_runs": friction.of_means({heights: run["contact_area"] for heights, run in pooled.items()}),
+        "choices": friction.of_choices(series["local"]) if "local" in series else {},
+        "law": asdict(friction.CHOSEN) | {"area_at_ceiling": friction.CHOSEN.area_at_ceiling(friction.LOAD)},
+        "loads": friction.of_loads(HERE / "open-questions/results.h5"),
+    }
+
+
 def books(runs: list[dict[str, float]]) -> dict[str, float]:
     """What the balances of many runs leave at worst."""
     rests = ("bookkeeping", "balance_residual", "load_residual")
@@ -212,8 +230,9 @@ def as_text(results: object) -> str:
 
 
 def main() -> None:
-    runs = of_the_model()
-    sets = {rule: discs for rule in RULES if (discs := of_sets(rule))["1"]}
+    runs, pooled = of_the_model(), pooled_runs()
+    paths = {rule: of_rule for rule in RULES if (of_rule := paths_of_sets(rule))["1"]}
+    sets = {rule: {heights: [flat(run_numbers(path)) for path in of] for heights, of in discs.items()} for rule, discs in paths.items()}
     seen_otherwise = symmetry()
     scenes = choices.of_scenes(HERE / "open-questions/results.h5")
     readings, check = choices.of_readings(RUNS / "readings.json")
@@ -225,7 +244,7 @@ def main() -> None:
     ]
     results = {
         "runs": runs,
-        "pooled_runs": pooled_runs(),
+        "pooled_runs": pooled,
         "exactness": exactness(),
         "starts": starts(),
         "sets": {rule: {heights: claims.intervals(of) for heights, of in discs.items()} for rule, discs in sets.items()},
@@ -240,6 +259,7 @@ def main() -> None:
         },
         "holds": {rule: claims.holds(discs) for rule, discs in sets.items()},
         "holds_once": claims.holds({heights: [flat(run)] for heights, run in runs.items()}),
+        "friction": of_friction(paths, pooled),
         "pins": pins_on_one_disc(),
         "symmetry": seen_otherwise,
         "set_count": {rule: len(sets[rule]["1"]) if rule in sets else 0 for rule in RULES},

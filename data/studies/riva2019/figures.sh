@@ -11,4 +11,5 @@ root=$PWD
 . scripts/lock.sh
 . scripts/python.sh
 with_lock .venv.lock install_readers || exit 1
-exec "$root/.venv/bin/python" -B data/studies/riva2019/figures.py
+"$root/.venv/bin/python" -B data/studies/riva2019/figures.py || exit 1
+exec "$root/.venv/bin/python" -B data/studies/riva2019/friction_figures.py

@@ -123,6 +123,7 @@ ASKED = [
     ("8", "inner less outer half, percentage points", "inner_over_outer", 100, ".1f", "fuller inside"),
     ("9", "half of the contact lies in spots below, µm", "contact_50", 1e6, ".0f", None),
     ("10", "mean pressure of the contact, MPa", "mean_pressure", 1e-6, ".2f", "higher pressure"),
+    ("10", "coefficient of friction, 2700 to 3000 s", "friction", 1, ".4f", "higher friction"),
 ]
 
 
@@ -217,6 +218,7 @@ def table_error() -> str:
     asked = {key: (name, factor, form) for _, name, key, factor, form, _ in ASKED if key}
     asked["drift"] = ("drift in the last third, % per 1000 s", 100, ".1f")
     asked["contact_area_mean"] = ("contact area, last tenth, mm²", 1e6, ".2f")
+    asked["friction"] = ("coefficient of friction, last tenth", 1, ".4f")
     for key, (name, factor, form) in asked.items():
         if any(key in of["numbers"] for of in found.values()):
             pairs = [of["numbers"].get(key, []) for of in found.values()]

@@ -3,7 +3,7 @@
 usage: write_docs.py [--check]: with --check only says whether they agree, as exit status
 
 Templates have `{{path}}`, `{{path|format}}` and `{{path|factor|format}}`: a path in results.json, a factor and a Python
-format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py, `{{m runs}}` the
+format; with `*` in the path for the three discs, one after the other. `{{table NAME}}` is one of tables.py or friction_tables.py, `{{m runs}}` the
 time acceleration of a part of the study; between `{{if PATH}}`, `{{else}}` and `{{end}}` stands what depends on a part that may
 not be there yet; `{{holds RULE CLAIM}}` in how many sets a claim holds, and `{{last tenth HEIGHTS END}}`
 the mean contact area of a run at m = 1 over the last tenth of the time to its end, mm².
@@ -13,6 +13,7 @@ import re
 import sys
 from pathlib import Path
 
+import friction_tables
 import tables
 from discs import NAMES
 from tables import last_tenth, m_of, share, told, value
@@ -49,7 +50,8 @@ def filled_in(template: str) -> str:
     def one(match: re.Match) -> str:
         what = match.group(1)
         if what.startswith("table "):
-            return getattr(tables, "table_" + what.removeprefix("table "))().rstrip("\n")
+            name = "table_" + what.removeprefix("table ")
+            return getattr(friction_tables if hasattr(friction_tables, name) else tables, name)().rstrip("\n")
         if what.startswith("m "):
             return m_of(what.removeprefix("m "))
         if what.startswith("last tenth "):

@@ -19,6 +19,26 @@ const ACCELERATED: &str = "no maps, acceleration 8";
 const ACCELERATION: f64 = 8.0;
 /// The table of keys that say how long a run is: of two that say it only one can be set.
 const LENGTH: &str = "operation.";
+/// Without maps, and with friction.
+const WITH_FRICTION: &str = "no maps, friction";
+/// That, and heat with a coated disc and a feedback on wear and friction that is felt.
+const WITH_HEAT: &str = "no maps, friction, heat";
+/// A law of friction, and another one for build-ups.
+const FRICTION: &str = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }";
+const FRICTION_OF_BUILD_UPS: &str = "friction.secondary={ shear_strength = \"1 MPa\" }";
+/// The rig of model section 12.
+const HEAT: [&str; 5] = [
+    "thermal.ambient=\"23 degC\"",
+    "thermal.wear_rate_factor=[[\"23 degC\", 1.0], [\"100 degC\", 1.5]]",
+    "thermal.disc={ conductivity = \"50 W/(m K)\", density = \"7200 kg/m^3\", specific_heat = \"500 J/(kg K)\", \
+     area = \"31 cm^2\", thickness = \"6 mm\", cooling = \"0.4 W/K\" }",
+    "thermal.disc.coating={ thickness = \"60 um\", conductivity = \"15 W/(m K)\", density = \"13500 kg/m^3\", \
+     specific_heat = \"250 J/(kg K)\" }",
+    "thermal.pin={ conductivity = \"1.5 W/(m K)\", density = \"2600 kg/m^3\", specific_heat = \"900 J/(kg K)\", \
+     area = \"78.5 mm^2\", length = \"12 mm\", cooling = \"0.02 W/K\" }",
+];
+const EMISSION: &str = "emission={ pm10_fraction = 0.4, pm25_fraction = 0.15, number_per_mass = \"1e15 1/kg\", \
+     pin_density = \"2600 kg/m^3\", disc_density = \"7200 kg/m^3\" }";
 /// How many times a run with many maps has them.
 const MAP_TIMES: u32 = 9;
 
@@ -73,6 +93,12 @@ pub fn variants(subject: &Subject) -> Vec<Variant> {
     add(NO_MAPS, "materials of build-ups given as those below", &[&same_debris]);
     add(NO_MAPS, "materials of their own for build-ups", &[SOFTER_DEBRIS, FASTER_DEBRIS]);
     add(NO_MAPS, "two workers", &["numerics.workers=2"]);
+
+    add(NO_MAPS, "friction", &[FRICTION]);
+    add(WITH_FRICTION, "another law for build-ups", &[FRICTION_OF_BUILD_UPS]);
+    add(WITH_FRICTION, "heat", &HEAT);
+    add(WITH_HEAT, "contact temperatures with every sample", &["output.contact_temperature=true"]);
+    add(NO_MAPS, "emission", &[EMISSION]);
 
     add(NO_MAPS, "one debris pool", &[ONE_POOL, POOLED_FRACTION]);
     add(POOLED, "no destruction", &[NO_DESTRUCTION]);

@@ -178,7 +178,7 @@ impl Check {
             .collect();
         let workers = Reasoned { part: "several workers".into(), reason: format!("workers = {}", execution.workers) };
         reasoned.push((execution.workers > 1, workers));
-        reasoned.extend(plateau_core::observe::Map::ALL.map(|map| {
+        reasoned.extend(plateau_core::observe::Map::CHOICES.map(|map| {
             let asked = scene.output.maps.contains(&map);
             let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
             (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })

@@ -1,6 +1,6 @@
 //! What `plateau check` says of a cycle of load and speed.
 
-use plateau_core::model::cycle::{Cycle, largest_acceleration};
+use plateau_core::model::cycle::Cycle;
 use plateau_io::scene::Scene;
 use serde::Serialize;
 
@@ -34,14 +34,13 @@ impl CycleReport {
             let step = |time| cycle.steps_until(time, angle).min(scene.steps);
             events.iter().map(move |event| step(event.end.time) - step(event.start.time))
         };
-        let largest = events.iter().map(|event| largest_acceleration(cycle.angle_of(event)));
         Some(Self {
             events: events.len(),
             active_time: events.iter().map(|event| event.end.time - event.start.time).sum(),
             duration: until,
             distance: cycle.angle_at(until) * parameters.mesh.mean_radius(),
             steps_per_event: [steps().min().unwrap_or(0), steps().max().unwrap_or(0)],
-            largest_acceleration_without_warning: largest.fold(f64::INFINITY, f64::min),
+            largest_acceleration_without_warning: cycle.largest_acceleration(until),
         })
     }
 

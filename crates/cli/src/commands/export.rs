@@ -123,7 +123,7 @@ impl Job<'_> {
     }
 
     fn check(&self, path: &Path) -> Result<(), Failure> {
-        output::check(path, self.force, &[self.run.path().to_owned()])
+        output::check(path, self.force, &super::runs::inputs_of(std::slice::from_ref(self.run)))
     }
 
     fn series(&self) -> String {

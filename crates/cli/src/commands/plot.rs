@@ -21,7 +21,8 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     output::make_directory(&directory)?;
     let place = |figure: &Figure| directory.join(format!("{}.{}", figure.name, format.ending()));
     // Before the first is written: either all are, or none.
-    figures.figures.iter().try_for_each(|figure| output::check(&place(figure), *force, paths))?;
+    let inputs = super::runs::inputs_of(&runs);
+    figures.figures.iter().try_for_each(|figure| output::check(&place(figure), *force, &inputs))?;
     for figure in &figures.figures {
         let path = place(figure);
         output::write(&path, &figure.draw(format).map_err(Failure::run)?, *force)?;

@@ -22,6 +22,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     });
     output::check(page, *force, paths)?;
     let runs = super::open_runs(paths)?;
+    output::check(page, *force, &super::runs::inputs_of(&runs))?;
     let figures = super::figures(&runs, &Options::default())?;
     let html = report::page(&runs, &Pictures::draw(&figures).map_err(Failure::run)?, &version::program())
         .map_err(Failure::input)?;

@@ -64,3 +64,9 @@ pub fn named_like(run: &Path, ending: &str) -> PathBuf {
     name.push(ending);
     name.into()
 }
+
+/// The runs and the files that they have read: none of them is replaced by what is made of the runs.
+pub(super) fn inputs_of(runs: &[RunFile]) -> Vec<PathBuf> {
+    let read = runs.iter().flat_map(RunFile::inputs).map(|input| PathBuf::from(input.path));
+    runs.iter().map(|run| run.path().to_owned()).chain(read).collect()
+}

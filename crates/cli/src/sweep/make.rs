@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use plateau_core::observe::event::{EVENT_QUANTITIES, EventQuantity};
+use plateau_core::observe::event::event_quantities;
 use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::Scene;
@@ -71,9 +71,10 @@ fn finish(
     let steps = assembly.simulation.steps_done();
     recorder.watcher.steps(steps - recorder.told);
     let events = (!assembly.events().is_empty()).then(|| {
-        let column = |quantity: &EventQuantity| assembly.events().iter().map(quantity.value).collect();
-        let names = EVENT_QUANTITIES.iter().map(|quantity| quantity.name.to_owned()).collect();
-        Series::new(names, EVENT_QUANTITIES.iter().map(column).collect()).pack()
+        let extras = scene.extras(false);
+        let quantities = || event_quantities(&extras);
+        let columns = quantities().map(|quantity| assembly.events().iter().map(quantity.value).collect());
+        Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
     });
     Ok(Outcome::Finished { steps, series: recorder.series().pack(), events })
 }

@@ -10,6 +10,7 @@ use crate::engine::forecast::Forecast;
 use crate::engine::history::{Course, History};
 use crate::engine::kernel::Bracket;
 use crate::engine::quantum::Quantum;
+use crate::model::accounts::AccountsState;
 use crate::model::clock::Clock;
 use crate::model::mesh::Mesh;
 use crate::observe::Sample;
@@ -51,6 +52,8 @@ pub(crate) struct Memory {
     pub time_acceleration: f64,
     pub account: Account,
     pub history: History,
+    /// Of friction, heat and emission, where the scene asks for any.
+    pub accounts: Option<AccountsState>,
     /// What the fast engine keeps beside it; the plain model needs nothing more.
     pub engine: Option<EngineMemory>,
 }

@@ -11,6 +11,8 @@ use crate::engine::exact::{Weights, float};
 use crate::engine::kernel::{Bracket, NearPair};
 use crate::engine::sums::{PairSums, RowWeights, Sums};
 use crate::model::ContactError;
+use crate::model::friction::{ContactSums, StatusContact};
+use crate::model::material::Status;
 
 /// What a reading says about the balance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,12 +53,15 @@ pub struct Contact {
     pools: Vec<PoolContact>,
     /// What a unit of the area is worth, m².
     area_unit: f64,
+    /// By status of the pin, where friction differs between them.
+    statuses: Option<[StatusContact; 3]>,
 }
 
 impl Contact {
-    /// Contact of a pin that has not touched yet.
-    pub fn new(weights: &RowWeights) -> Self {
+    /// Contact of a pin that has not touched yet; with sums by status, if they are needed.
+    pub fn new(weights: &RowWeights, by_status: bool) -> Self {
         Self {
+            statuses: by_status.then(Default::default),
             displacement: None,
             load: 0.0,
             slope: 0.0,
@@ -127,6 +132,7 @@ impl Contact {
     /// Takes the sums from the lower end of the bracket to the displacement.
     fn settle(&mut self, weights: &RowWeights, sums: &Sums, near: &[NearPair], bracket: &Bracket, displacement: f64) {
         let above = displacement - bracket.low;
+        self.settle_statuses(weights, sums, near, bracket, displacement);
         for (contact, sums) in self.pools.iter_mut().zip(&sums.pools) {
             *contact = PoolContact::default();
             for pair in weights.pairs {
@@ -159,6 +165,38 @@ impl Contact {
             self.load += weights.stiffness_of(near) * overlap;
             self.slope += weights.stiffness_of(near);
         }
+    }
+
+    /// The same by status of the pin, where friction asks for it.
+    fn settle_statuses(
+        &mut self,
+        weights: &RowWeights,
+        sums: &Sums,
+        near: &[NearPair],
+        bracket: &Bracket,
+        displacement: f64,
+    ) {
+        let Some(statuses) = &mut self.statuses else { return };
+        *statuses = Default::default();
+        let above = displacement - bracket.low;
+        for pair in weights.pairs {
+            let all = |sum: fn(&PairSums) -> i128| float(sums.pools.iter().map(|pool| sum(&pool.pairs[*pair])).sum());
+            let unit = weights.stiffness[*pair].unit();
+            let status = &mut statuses[usize::from(status_of(*pair))];
+            status.load +=
+                (all(|sums| sums.load) * bracket.quantum.value() + all(|sums| sums.stiffness) * above) * unit;
+            status.area += all(|sums| sums.area) * self.area_unit;
+        }
+        for near in near.iter().take_while(|near| near.gap < displacement) {
+            let status = &mut statuses[usize::from(status_of(usize::from(near.pair)))];
+            status.load += weights.stiffness_of(near) * (displacement - near.gap);
+            status.area += weights.area.value(near.row as usize);
+        }
+    }
+
+    /// What friction must know of the contact under a load, N.
+    pub fn sums(&self, load: f64) -> ContactSums {
+        ContactSums { load, area: self.area(), statuses: self.statuses }
     }
 
     /// δ, m; 0 before the first step.
@@ -206,7 +244,12 @@ fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f6
 
 /// Whether the pin of a pair is bare resin.
 fn is_bare_resin(pair: usize) -> bool {
-    pair < 2
+    status_of(pair) == Status::None as u8
+}
+
+/// Number of the pin's status in a pair.
+fn status_of(pair: usize) -> u8 {
+    (pair / 2) as u8
 }
 
 /// A distance that rounding does not lose between displacements of this size, m.

@@ -6,10 +6,11 @@ use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::pair::Coefficients;
 use crate::engine::parts::Needs;
 use crate::engine::quantum::Quantum;
-use crate::engine::running_sum::RunningSum;
 use crate::engine::strips::strips;
 use crate::engine::sums::{RowWeights, Sums};
+use crate::model::Volumes;
 use crate::model::parameters::{DebrisRule, Parameters};
+use crate::model::running_sum::RunningSum;
 use serde::{Deserialize, Serialize};
 
 /// Volumes moved since t = 0, m³.
@@ -32,6 +33,17 @@ pub struct Totals {
 }
 
 impl Totals {
+    /// Adds what a step moved.
+    pub fn add(&mut self, moved: &Volumes) {
+        self.worn_pin.add(moved.worn_pin);
+        self.worn_resin.add(moved.worn_resin);
+        self.worn_disc.add(moved.worn_disc);
+        self.returned.add(moved.returned);
+        self.deposited_pin.add(moved.deposited_pin);
+        self.deposited_disc.add(moved.deposited_disc);
+        self.emitted.add(moved.emitted);
+    }
+
     /// (worn + returned − deposited − emitted − pool) / worn with this much (m³) in the pools; 0 if nothing is worn.
     pub fn balance_residual(&self, pool: f64) -> f64 {
         let worn = self.worn_pin.value() + self.worn_resin.value() + self.worn_disc.value();
@@ -189,7 +201,10 @@ impl Debris {
     /// What wears follows from the contact, less what cells were spared whose build-up was worn through; what is
     /// compacted is the even deposit on every open cell, and what some got beyond it. Where every open cell got the whole
     /// share, the pool has given all.
-    pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) {
+    ///
+    /// Returns what the step moved.
+    pub fn settle(&mut self, contact: &Contact, sums: &Sums, losses: Quantum) -> Volumes {
+        let mut all = Volumes::default();
         for (index, (contact, sums)) in contact.pools().iter().zip(&sums.pools).enumerate() {
             let mut worn_pin = contact.pin_loss;
             let worn_resin = self.wear_height * (float(contact.resin_area) * self.area_unit);
@@ -233,14 +248,11 @@ impl Debris {
                 pool.add(-(deposited_pin + deposited_disc));
             }
 
-            self.totals.worn_pin.add(worn_pin);
-            self.totals.worn_resin.add(worn_resin);
-            self.totals.worn_disc.add(worn_disc);
-            self.totals.returned.add(returned);
-            self.totals.deposited_pin.add(deposited_pin);
-            self.totals.deposited_disc.add(deposited_disc);
-            self.totals.emitted.add(emitted);
+            let moved = Volumes { worn_pin, worn_resin, worn_disc, returned, deposited_pin, deposited_disc, emitted };
+            self.totals.add(&moved);
+            all = all + moved;
         }
+        all
     }
 
     /// What of the worn volume stays in the contact and what leaves it, m³: η and 1 − η of it, each for resin and plateaus.

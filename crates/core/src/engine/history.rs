@@ -3,8 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::running_sum::RunningSum;
-use crate::model::operation::StepOperation;
+use crate::model::clock::StepOperation;
+use crate::model::revolution::Revolution;
+use crate::model::running_sum::RunningSum;
 
 /// What the steps so far were like.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -26,12 +27,8 @@ pub struct Course {
 /// What a sample needs to know of the steps before its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    /// Contact area of the last steps, m²; at most one simulated revolution, then the oldest is overwritten.
-    revolution: Vec<f64>,
-    /// Where the next step goes in a full `revolution`.
-    oldest: usize,
-    /// Steps of one simulated revolution.
-    steps_per_revolution: usize,
+    /// Contact area of the steps of the last revolution, m².
+    revolution: Revolution,
     /// Σ contact area · m Δt, m² s.
     integral: RunningSum,
 }
@@ -39,34 +36,21 @@ pub struct History {
 impl History {
     /// No step yet.
     pub fn new(steps_per_revolution: usize) -> Self {
-        Self { revolution: Vec::new(), oldest: 0, steps_per_revolution, integral: RunningSum::default() }
+        Self { revolution: Revolution::new(steps_per_revolution), integral: RunningSum::default() }
     }
 
     /// Adds a step.
     pub fn record(&mut self, contact_area: f64, operation: &StepOperation) {
         if operation.standing_before > 0.0 {
-            self.integral.add(self.newest() * operation.standing_before);
+            self.integral.add(self.revolution.newest().unwrap_or(0.0) * operation.standing_before);
         }
-        if self.revolution.len() < self.steps_per_revolution {
-            self.revolution.push(contact_area);
-        } else {
-            self.revolution[self.oldest] = contact_area;
-            self.oldest = (self.oldest + 1) % self.steps_per_revolution;
-        }
+        self.revolution.record(contact_area);
         self.integral.add(contact_area * operation.loaded);
-    }
-
-    /// Contact area of the last step, m²; 0 before the first.
-    fn newest(&self) -> f64 {
-        let newest = if self.oldest == 0 { self.revolution.last() } else { self.revolution.get(self.oldest - 1) };
-        newest.copied().unwrap_or(0.0)
     }
 
     /// Mean over the last simulated revolution, m²; over all steps so far before the first is done.
     pub fn revolution_mean(&self) -> f64 {
-        let (newer, older) = self.revolution.split_at(self.oldest);
-        let sum: f64 = older.iter().chain(newer).sum();
-        sum / self.revolution.len().max(1) as f64
+        self.revolution.mean()
     }
 
     /// Σ contact area · m Δt since t = 0, m² s.
@@ -80,16 +64,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_mean_is_over_all_steps_until_a_revolution_is_done() {
+    fn the_integral_has_the_time_on_the_disc_moving_or_not() {
         let mut history = History::new(4);
-        let mut means = Vec::new();
         for area in [1.0, 3.0, 5.0, 7.0, 9.0, 11.0] {
             let standing_before = if area == 9.0 { 2.0 } else { 0.0 };
-            history.record(area, &StepOperation { end: 0.0, load: 1.0, standing_before, loaded: 0.5 });
-            means.push(history.revolution_mean());
+            history.record(area, &StepOperation { end: 0.0, load: 1.0, standing_before, loaded: 0.5, active: 0.5 });
         }
-        assert_eq!(means, [1.0, 2.0, 3.0, 4.0, 6.0, 8.0]);
         // Half of the sum, and 2 s of the contact of the step before the fifth.
         assert_eq!(history.integral(), 18.0 + 14.0);
+        assert_eq!(history.revolution_mean(), 8.0);
     }
 }

@@ -5,7 +5,7 @@
 //! | module | what it is |
 //! |---|---|
 //! | `lanes` | what the kernels ask of a processor |
-//! | `quantum`, `exact`, `sums`, `running_sum` | sums as integers, so that the order of cells does not show; sums over time that do not drift |
+//! | `quantum`, `exact`, `sums` | sums as integers, so that the order of cells does not show |
 //! | `strips`, `pin_strips`, `sector` | heights as the kernels read them; the ring in sectors and bands |
 //! | [`parts`] | which parts of the model a scene needs |
 //! | `pair`, `wear`, `plateau`, `debris` | the rules, one for each file |
@@ -33,7 +33,6 @@ pub mod parts;
 pub(crate) mod pin_strips;
 pub(crate) mod plateau;
 pub(crate) mod quantum;
-pub(crate) mod running_sum;
 pub(crate) mod sector;
 pub(crate) mod strips;
 pub(crate) mod sums;

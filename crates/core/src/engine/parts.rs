@@ -41,7 +41,8 @@ impl Needs {
         Self {
             distinct: forms
                 && (materials.pin_primary != materials.pin_secondary
-                    || materials.disc_primary != materials.disc_secondary),
+                    || materials.disc_primary != materials.disc_secondary
+                    || parameters.friction.is_some_and(|friction| friction.primary != friction.secondary)),
             disc_wears: materials.disc_primary.specific_wear_rate > 0.0
                 || (forms && materials.disc_secondary.specific_wear_rate > 0.0),
             forms,
@@ -85,8 +86,8 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
         part(
             "properties of their own for build-ups",
             distinct,
-            "secondary materials differ from primary ones",
-            "secondary materials equal primary ones",
+            "secondary materials or their friction differ from primary ones",
+            "secondary materials equal primary ones, and so does their friction",
         ),
         part(
             "debris pool",
@@ -112,6 +113,9 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
             "operation.cycle",
             "no operation.cycle, or one that never changes",
         ),
+        part("friction", parameters.friction.is_some(), "[friction]", "no [friction]"),
+        part("heat", parameters.thermal.is_some(), "[thermal]", "no [thermal]"),
+        part("airborne emission", parameters.emission.is_some(), "[emission]", "no [emission]"),
         part(
             ACCELERATION,
             parameters.time_acceleration > 1.0,

@@ -1,4 +1,4 @@
-//! Physical time of steps (model 4.6).
+//! Physical time of steps, and what a step is told of the operation (model 4.6 and 9).
 
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +41,21 @@ impl Clock {
         // Nothing is rounded once more where nothing changes.
         if step_time == self.step_time { *self } else { Self { step, time: self.time_at(step), step_time } }
     }
+}
+
+/// What a step is told of the operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepOperation {
+    /// t at its end, s.
+    pub end: f64,
+    /// F_N, or F̄_n of a cycle, N.
+    pub load: f64,
+    /// For how long the pin stands on the disc before the step turns it, s.
+    pub standing_before: f64,
+    /// For how long it is on the disc from then to the end of the step, s.
+    pub loaded: f64,
+    /// For how long there is load and speed in the step, s.
+    pub active: f64,
 }
 
 #[cfg(test)]

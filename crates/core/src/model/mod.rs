@@ -12,21 +12,32 @@
 //! | 4P | loss of support | [`step::destroy`] |
 //! | 4P | pooled debris fills open cells | [`step::form`] |
 //! | 4.6 | all of these, once | [`step::advance`] |
+//! | 9 | load and speed that change | [`cycle`] |
+//! | 10 | friction | [`friction::Friction::coefficient`] |
+//! | 11 | heat | [`heat`] |
+//! | 12 | emission | [`emission::Emission::mass`] |
 
+pub mod accounts;
 pub mod clock;
 pub mod cycle;
+pub mod emission;
 pub mod first_contact;
+pub mod friction;
+pub mod heat;
 pub mod material;
 pub mod mesh;
-pub mod operation;
 pub mod parameters;
+pub(crate) mod revolution;
+pub(crate) mod running_sum;
 pub mod state;
 pub mod step;
-
-use std::ops::Add;
+mod volumes;
 
 use thiserror::Error;
 
+pub use self::volumes::Volumes;
+use crate::model::friction::{ContactSums, StatusContact};
+use crate::model::material::Status;
 use crate::model::parameters::{DebrisRule, Parameters};
 use crate::model::state::{Disc, InitialSurfaces, Pin};
 
@@ -107,41 +118,24 @@ pub struct Step {
     pub pressure: Vec<f64>,
     /// Whether a pin cell touches.
     pub contact: Vec<bool>,
+    /// Status of every pin cell at the start of the step.
+    pub pin_status: Vec<Status>,
     /// What was moved.
     pub moved: Volumes,
 }
 
-/// Volumes that one step moves, m³.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Volumes {
-    /// Worn off plateaus of the pin.
-    pub worn_pin: f64,
-    /// Worn off resin.
-    pub worn_resin: f64,
-    /// Worn off the disc.
-    pub worn_disc: f64,
-    /// Build-up that lost its support.
-    pub returned: f64,
-    /// Compacted on the pin.
-    pub deposited_pin: f64,
-    /// Compacted on the disc.
-    pub deposited_disc: f64,
-    /// Left the contact.
-    pub emitted: f64,
-}
-
-impl Add for Volumes {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            worn_pin: self.worn_pin + other.worn_pin,
-            worn_resin: self.worn_resin + other.worn_resin,
-            worn_disc: self.worn_disc + other.worn_disc,
-            returned: self.returned + other.returned,
-            deposited_pin: self.deposited_pin + other.deposited_pin,
-            deposited_disc: self.deposited_disc + other.deposited_disc,
-            emitted: self.emitted + other.emitted,
+impl Step {
+    /// What friction must know of the contact (model 10).
+    pub fn sums(&self, parameters: &Parameters) -> ContactSums {
+        let mut statuses = [StatusContact::default(); 3];
+        let cells = self.contact.iter().zip(&self.pressure).zip(&self.pin_status);
+        for (((touches, pressure), status), area) in cells.zip(parameters.mesh.area().iter().cycle()) {
+            if *touches {
+                let of = &mut statuses[*status as usize];
+                (of.area, of.load) = (of.area + area, of.load + pressure * area);
+            }
         }
+        let area = statuses.iter().map(|status| status.area).sum();
+        ContactSums { load: self.load, area, statuses: Some(statuses) }
     }
 }

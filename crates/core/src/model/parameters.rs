@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::model::clock::Clock;
+use crate::model::clock::{Clock, StepOperation};
 use crate::model::cycle::Cycle;
+use crate::model::emission::Emission;
+use crate::model::friction::Friction;
+use crate::model::heat::Thermal;
 use crate::model::material::Materials;
 use crate::model::mesh::Mesh;
 
@@ -87,9 +90,24 @@ pub struct Parameters {
     pub time_acceleration: f64,
     /// How wear follows from contact.
     pub integrator: Integrator,
+    /// Friction, where it is reckoned (model 10).
+    pub friction: Option<Friction>,
+    /// Heat and what it changes, where it is reckoned (model 11); it needs friction.
+    pub thermal: Option<Arc<Thermal>>,
+    /// Airborne emission, where it is reckoned (model 12).
+    pub emission: Option<Emission>,
 }
 
 impl Parameters {
+    /// The same with the wear rates of the pin's plateaus multiplied by f_κ (model 11, feedback).
+    pub fn with_wear_rate_factor(&self, factor: f64) -> Self {
+        let mut parameters = self.clone();
+        for material in [&mut parameters.materials.pin_primary, &mut parameters.materials.pin_secondary] {
+            material.specific_wear_rate *= factor;
+        }
+        parameters
+    }
+
     /// m Δt = m Δθ/ω, s: physical time of one step.
     pub fn step_time(&self) -> f64 {
         self.time_acceleration * self.mesh.column_angle() / self.angular_velocity
@@ -106,6 +124,49 @@ impl Parameters {
             Some(cycle) => cycle.steps_done(duration, self.step_angle()),
             None => self.clock().steps_until(duration).max(1),
         }
+    }
+
+    /// Load and time of a step, counted from 1, by a clock of constant operation.
+    pub fn operation_of(&self, step: u64, clock: &Clock) -> StepOperation {
+        match &self.cycle {
+            Some(cycle) => cycle.step(step, self.step_angle()),
+            None => StepOperation {
+                end: clock.time_at(step),
+                load: self.normal_force,
+                standing_before: 0.0,
+                loaded: clock.step_time(),
+                active: clock.step_time(),
+            },
+        }
+    }
+
+    /// Mean speed over the angle of a step, counted from 1, rad/s.
+    pub fn mean_speed_of(&self, step: u64) -> f64 {
+        match &self.cycle {
+            Some(cycle) if step > 0 => self.step_angle() / cycle.step(step, self.step_angle()).active,
+            _ => self.angular_velocity,
+        }
+    }
+
+    /// m Δθ, rad: by how much one step turns the disc.
+    pub fn step_angle(&self) -> f64 {
+        self.time_acceleration * self.mesh.column_angle()
+    }
+
+    /// The angle that so many steps turned, which end at a time (s), rad.
+    pub fn angle_turned(&self, steps: u64, time: f64) -> f64 {
+        // The time of constant operation knows steps of another acceleration, too.
+        if self.cycle.is_some() { steps as f64 * self.step_angle() } else { time * self.angular_velocity }
+    }
+
+    /// The load of a step, counted from 1, N.
+    pub fn load_of(&self, step: u64) -> f64 {
+        self.operation_of(step, &self.clock()).load
+    }
+
+    /// The largest load of any step, N.
+    pub fn largest_load(&self) -> f64 {
+        self.cycle.as_ref().map_or(self.normal_force, |cycle| cycle.largest_force())
     }
 
     /// Π = κ k m r Δθ at the outer radius for the fastest wearing pair: above 1 the explicit rule overshoots, above 2

@@ -56,6 +56,7 @@ pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, Conta
         displacement,
         pressure: overlaps.clone().zip(&pairs).map(|(overlap, pair)| pair.stiffness * overlap).collect(),
         contact: overlaps.map(|overlap| overlap > 0.0).collect(),
+        pin_status: pairs.iter().map(|pair| pair.pin_status).collect(),
         moved: match parameters.plateaus.debris {
             DebrisRule::Local => deposit_locally(parameters, state, &pairs, displacement, &losses),
             DebrisRule::Contact | DebrisRule::Track => pool(parameters, state, &pairs, displacement, &losses),

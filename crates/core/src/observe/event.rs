@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dissipation::{EMISSION, FRICTION, HEAT};
+use super::extra::Extra;
 use super::sample::Sample;
+use crate::model::accounts::AccountsReport;
 use crate::model::cycle::{Cycle, Event};
 use crate::model::parameters::Parameters;
 
@@ -27,6 +30,18 @@ pub struct EventRecord {
     pub contact_area_start: f64,
     /// Contact area of its last step, m²; NaN where it has none.
     pub contact_area_end: f64,
+    /// Work of friction, J; NaN without friction.
+    pub work: f64,
+    /// Coefficient of friction, mean weighted by load; NaN without friction, or a step.
+    pub friction_coefficient: f64,
+    /// T_c at its start, K; NaN without heat, or a step.
+    pub temperature_start: f64,
+    /// Largest T_c at the end of an interval, K; NaN without heat, or a step.
+    pub temperature_peak: f64,
+    /// PM10, kg; NaN without emission.
+    pub pm10_mass: f64,
+    /// Airborne particles; NaN without emission.
+    pub particle_number: f64,
 }
 
 /// Name, unit and meaning of one quantity of an event.
@@ -38,16 +53,19 @@ pub struct EventQuantity {
     pub unit: &'static str,
     /// What it is, in words.
     pub long_name: &'static str,
+    /// The part of the model that brings it; none where every run with a cycle has it.
+    part: Option<&'static Extra>,
     /// The value of an event.
     pub value: fn(&EventRecord) -> f64,
 }
 
 macro_rules! quantities {
-    ($($field:ident, $unit:literal, $long_name:literal;)*) => {
+    ($($field:ident, $unit:literal, $long_name:literal, $part:expr;)*) => {
         &[$(EventQuantity {
             name: stringify!($field),
             unit: $unit,
             long_name: $long_name,
+            part: $part,
             value: |record| record.$field,
         }),*]
     };
@@ -55,16 +73,27 @@ macro_rules! quantities {
 
 /// What is reported of every event, in this order.
 pub const EVENT_QUANTITIES: &[EventQuantity] = quantities! {
-    start, "s", "time at the start of the event";
-    end, "s", "time at the end of the event";
-    initial_speed, "rad s-1", "rotational speed of the disc at the start of the event";
-    final_speed, "rad s-1", "rotational speed of the disc at the end of the event";
-    distance, "m", "sliding distance at the mean radius";
-    worn, "m3", "volume worn off pin and disc";
-    emitted, "m3", "wear debris that left the contact";
-    contact_area_start, "m2", "contact area of the first step";
-    contact_area_end, "m2", "contact area of the last step";
+    start, "s", "time at the start of the event", None;
+    end, "s", "time at the end of the event", None;
+    initial_speed, "rad s-1", "rotational speed of the disc at the start of the event", None;
+    final_speed, "rad s-1", "rotational speed of the disc at the end of the event", None;
+    distance, "m", "sliding distance at the mean radius", None;
+    worn, "m3", "volume worn off pin and disc", None;
+    emitted, "m3", "wear debris that left the contact", None;
+    contact_area_start, "m2", "contact area of the first step", None;
+    contact_area_end, "m2", "contact area of the last step", None;
+    work, "J", "work of friction", Some(&FRICTION);
+    friction_coefficient, "1", "coefficient of friction, mean weighted by load", Some(&FRICTION);
+    temperature_start, "K", "temperature of the contact at the start of the event", Some(&HEAT);
+    temperature_peak, "K", "largest temperature of the contact", Some(&HEAT);
+    pm10_mass, "kg", "mass that is airborne as PM10", Some(&EMISSION);
+    particle_number, "1", "number of airborne particles", Some(&EMISSION);
 };
+
+/// What is reported of events in a run with these series besides those of every run.
+pub fn event_quantities(extras: &[&Extra]) -> impl Iterator<Item = &'static EventQuantity> {
+    EVENT_QUANTITIES.iter().filter(|quantity| quantity.part.is_none_or(|part| extras.contains(&part)))
+}
 
 /// The quantity of an event with this name.
 pub fn event_quantity(name: &str) -> Option<&'static EventQuantity> {
@@ -85,9 +114,30 @@ struct Planned {
 /// What an event that has begun needs to know of its start.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Begun {
+    sums: Sums,
+    contact_area: Option<f64>,
+    temperature: Option<f64>,
+}
+
+/// What grows from step to step, as far as a sample has it.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+struct Sums {
     worn: f64,
     emitted: f64,
-    contact_area: Option<f64>,
+    work: f64,
+    load_work: f64,
+    pm10_mass: f64,
+    particle_number: f64,
+}
+
+impl Sums {
+    fn of(sample: &Sample) -> Self {
+        let AccountsReport { friction, emission, .. } = sample.accounts;
+        let [work, load_work] = friction.map_or([f64::NAN; 2], |friction| [friction.work, friction.load_work]);
+        let [pm10_mass, particle_number] = emission.map_or([f64::NAN; 2], |emission| [emission.pm10, emission.number]);
+        let worn = sample.worn_pin + sample.worn_resin + sample.worn_disc;
+        Self { worn, emitted: sample.emitted, work, load_work, pm10_mass, particle_number }
+    }
 }
 
 /// How far the events of a run have come: what a checkpoint keeps.
@@ -96,6 +146,17 @@ pub struct EventProgress {
     /// Those that have ended.
     pub records: Vec<EventRecord>,
     begun: Option<Begun>,
+    /// The last of them: the end of a run may have cut it short, and the next one begins with its sums.
+    ended: Option<Ended>,
+}
+
+/// What an event that has ended leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Ended {
+    begun: Begun,
+    /// Its last step.
+    step: u64,
+    sums: Sums,
 }
 
 /// The events of a run, and what is reported of those that have ended.
@@ -118,7 +179,7 @@ impl EventLog {
             Planned { event, distance, before: step(event.start.time), last: step(event.end.time) }
         });
         let mut log = Self { plan: plan.collect(), progress: EventProgress::default() };
-        log.note(&Sample::default());
+        log.take(Sums::default(), &Sample::default());
         log
     }
 
@@ -127,9 +188,17 @@ impl EventLog {
         &self.progress
     }
 
-    /// Goes on from what was kept.
+    /// Goes on from what was kept. An event that the end of the former run cut short has not ended.
     pub fn restore(&mut self, progress: EventProgress) {
         self.progress = progress;
+        let EventProgress { records, begun, ended } = &mut self.progress;
+        let planned = records.len().checked_sub(1).and_then(|place| self.plan.get(place));
+        if let (Some(planned), Some(record), Some(last)) = (planned, records.last(), *ended)
+            && (planned.event.end.time != record.end || planned.last != last.step)
+        {
+            records.pop();
+            (*begun, *ended) = (Some(last.begun), None);
+        }
     }
 
     /// The next step after which a sample is needed.
@@ -140,84 +209,43 @@ impl EventLog {
 
     /// Takes what a sample of the step just done says of the event to which it belongs, and of those that begin or end with it.
     pub fn note(&mut self, sample: &Sample) {
+        self.take(Sums::of(sample), sample);
+    }
+
+    fn take(&mut self, sums: Sums, sample: &Sample) {
         while let Some(planned) = self.plan.get(self.progress.records.len()).copied() {
             let Planned { event, distance, before, last } = planned;
-            let (worn, emitted) = (sample.worn_pin + sample.worn_resin + sample.worn_disc, sample.emitted);
             if sample.step >= before {
-                let begun = self.progress.begun.get_or_insert(Begun { worn, emitted, contact_area: None });
+                // Nothing wears in the pause before it.
+                let former = self.progress.ended.map_or(Sums::default(), |ended| ended.sums);
+                let begun = self.progress.begun.get_or_insert(Begun { sums: former, ..Begun::default() });
                 if sample.step > before {
                     begun.contact_area.get_or_insert(sample.contact_area);
+                    begun.temperature = begun.temperature.or(sample.accounts.heat.map(|heat| heat.event_start));
                 }
             }
             let Some(begun) = self.progress.begun.filter(|_| sample.step >= last) else { return };
-            self.progress.begun = None;
+            (self.progress.begun, self.progress.ended) = (None, Some(Ended { begun, step: last, sums }));
             self.progress.records.push(EventRecord {
                 start: event.start.time,
                 end: event.end.time,
                 initial_speed: event.start.speed,
                 final_speed: event.end.speed,
                 distance,
-                worn: worn - begun.worn,
-                emitted: emitted - begun.emitted,
+                worn: sums.worn - begun.sums.worn,
+                emitted: sums.emitted - begun.sums.emitted,
                 contact_area_start: begun.contact_area.unwrap_or(f64::NAN),
                 contact_area_end: if last > before { sample.contact_area } else { f64::NAN },
+                work: sums.work - begun.sums.work,
+                friction_coefficient: (sums.work - begun.sums.work) / (sums.load_work - begun.sums.load_work),
+                temperature_start: begun.temperature.unwrap_or(f64::NAN),
+                temperature_peak: sample.accounts.heat.map_or(f64::NAN, |heat| heat.event_peak),
+                pm10_mass: sums.pm10_mass - begun.sums.pm10_mass,
+                particle_number: sums.particle_number - begun.sums.particle_number,
             });
         }
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::cycle::{Interpolation, Node};
-    use std::f64::consts::TAU;
-
-    /// Ten revolutions a second for a second, a second of rest, five revolutions: steps of half a revolution on two columns.
-    fn log() -> EventLog {
-        let paper = Parameters::paper();
-        let mesh = crate::model::mesh::Mesh::new(1, 2, 1, 1.0, 3.0).unwrap();
-        let parameters = Parameters { mesh, ..paper };
-        let node = |time, force| Node::new(time, force, 10.0 * TAU);
-        let nodes = [node(0.0, 1.0), node(1.0, 1.0), node(1.0, 0.0), node(2.0, 0.0), node(2.0, 1.0), node(2.5, 1.0)];
-        let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
-        EventLog::new(&parameters, Some(&cycle), 2.5, 30)
-    }
-
-    fn sample(step: u64) -> Sample {
-        let (worn, area) = (step as f64, 100.0 + step as f64);
-        Sample { step, worn_pin: worn, emitted: 0.5 * worn, contact_area: area, ..Sample::default() }
-    }
-
-    #[test]
-    fn each_event_has_what_was_worn_between_its_ends() {
-        let mut log = log();
-        let mut asked = Vec::new();
-        let mut done = 0;
-        while let Some(step) = log.next(done) {
-            asked.push(step);
-            log.note(&sample(step));
-            done = step;
-        }
-        assert_eq!(asked, [1, 20, 21, 30]);
-        let [first, second] = log.progress().records[..] else { panic!("{log:?}") };
-        assert_eq!((first.start, first.end, second.start, second.end), (0.0, 1.0, 2.0, 2.5));
-        assert_eq!((first.worn, second.worn, second.emitted), (20.0, 10.0, 5.0));
-        assert_eq!((first.contact_area_start, first.contact_area_end), (101.0, 120.0));
-        assert_eq!((second.contact_area_start, second.contact_area_end), (121.0, 130.0));
-        // Ten and five revolutions at a mean radius of 2 m.
-        assert!((first.distance - 20.0 * TAU).abs() < 1e-9 && (second.distance - 10.0 * TAU).abs() < 1e-9);
-    }
-
-    #[test]
-    fn a_log_that_was_kept_within_an_event_goes_on() {
-        let (mut whole, mut stopped) = (log(), log());
-        for step in [1, 20, 21, 30] {
-            whole.note(&sample(step));
-            stopped.note(&sample(step));
-            let kept = serde_json::to_string(stopped.progress()).unwrap();
-            stopped = log();
-            stopped.restore(serde_json::from_str(&kept).unwrap());
-        }
-        assert_eq!(stopped.progress(), whole.progress());
-    }
-}
+mod tests;

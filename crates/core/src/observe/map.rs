@@ -17,11 +17,13 @@ pub enum Map {
     PinStatus,
     /// p, Pa, of the step that ends there.
     Pressure,
+    /// T, K, of every pin cell (model 11): where `output.contact_temperature` asks for it.
+    Temperature,
 }
 
 impl Map {
     /// Every map.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::DiscHeight,
         Self::DiscSubstrate,
         Self::DiscStatus,
@@ -29,7 +31,14 @@ impl Map {
         Self::PinSubstrate,
         Self::PinStatus,
         Self::Pressure,
+        Self::Temperature,
     ];
+
+    /// Those that a scene chooses among: all but the one that a series on request brings.
+    pub const CHOICES: [Self; 7] = {
+        let [choices @ .., _] = Self::ALL;
+        choices
+    };
 
     /// Name in a scene.
     pub fn name(self) -> &'static str {
@@ -41,6 +50,7 @@ impl Map {
             Self::PinSubstrate => "pin_substrate",
             Self::PinStatus => "pin_status",
             Self::Pressure => "pressure",
+            Self::Temperature => "temperature",
         }
     }
 
@@ -58,7 +68,7 @@ impl Map {
 /// The values of one map, column by column; disc columns in the disc's own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapValues {
-    /// Heights or pressures.
+    /// Heights, pressures or temperatures.
     Float(Vec<f64>),
     /// Statuses, as the discriminants of [`crate::model::material::Status`].
     Status(Vec<u8>),

@@ -6,11 +6,13 @@
 //! | `extra.rs` | what it takes to be a series that not every run has |
 //! | `roughness.rs`, `pressure_spread.rs` | such series, on request |
 //! | `operation.rs` | such series of runs with a cycle |
+//! | `dissipation.rs` | such series of runs with friction, heat or emission |
 //! | `event.rs` | what is reported of each event of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
 //! | `window_mean.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
 
+pub mod dissipation;
 pub mod event;
 pub mod extra;
 pub mod map;
@@ -28,8 +30,17 @@ pub use self::sample::{QUANTITIES, Quantity, Sample};
 
 /// The table of series that not every run has, in the order of a run file. Scenes (`output.NAME`), run files, exports,
 /// figures and documents follow from its entries.
-pub const EXTRAS: &[&Extra] =
-    &[&roughness::EXTRA, &pressure_spread::EXTRA, &ACCELERATION, &operation::CYCLE, &operation::ROAD];
+pub const EXTRAS: &[&Extra] = &[
+    &roughness::EXTRA,
+    &pressure_spread::EXTRA,
+    &dissipation::CONTACT_TEMPERATURE,
+    &ACCELERATION,
+    &operation::CYCLE,
+    &operation::ROAD,
+    &dissipation::FRICTION,
+    &dissipation::HEAT,
+    &dissipation::EMISSION,
+];
 
 /// The acceleration at the end of a step, in a run that chooses it.
 pub const ACCELERATION: Extra = Extra {

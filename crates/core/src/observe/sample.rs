@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::accounts::AccountsReport;
+
 /// The reported quantities at the end of one step, in SI units.
 ///
 /// Displacement, contact area and pressures are those of that step's load balance, everything else is the state after
@@ -58,6 +60,8 @@ pub struct Sample {
     pub load_residual: f64,
     /// (worn + returned − deposited − emitted − pool) / worn; 0 if nothing is worn.
     pub balance_residual: f64,
+    /// Of friction, heat and emission, where the scene asks for them.
+    pub accounts: AccountsReport,
     /// Quantities that not every run has, by their names; none in a checkpoint.
     #[serde(skip)]
     pub extras: Vec<(&'static str, f64)>,
@@ -81,6 +85,18 @@ pub struct Quantity {
     pub long_name: &'static str,
     /// Where a sample keeps it; else it is among the extras.
     field: Option<fn(&Sample) -> f64>,
+}
+
+impl Quantity {
+    /// One that not every run has, but whose place in a sample is known.
+    pub const fn of(
+        name: &'static str,
+        unit: &'static str,
+        long_name: &'static str,
+        field: fn(&Sample) -> f64,
+    ) -> Self {
+        Self { name, unit, long_name, field: Some(field) }
+    }
 }
 
 impl Quantity {

@@ -86,7 +86,7 @@ impl Schedule {
         let end = self.end();
         self.map_moments = self.maps_at.iter().map(|time| earlier(self.due(*time), end)).collect();
         self.map_moments.push(end);
-        self.map_moments.sort_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        self.map_moments.sort_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)));
         self.map_moments.dedup();
     }
 
@@ -133,21 +133,64 @@ impl Schedule {
             SampleEvery::Time(every) if self.cycle.is_none() && every <= self.clock.step_time() => {
                 (step + 1, self.end_of(step + 1))
             }
-            SampleEvery::Time(every) => {
-                let mut multiple = (time / every).floor();
-                let mut next = self.due(multiple * every);
-                while !is_after(next, now) {
-                    multiple += 1.0;
-                    if multiple * every > end.1 {
-                        return Some(end);
+            SampleEvery::Time(every) => match &self.cycle {
+                Some((cycle, _)) => self.next_of_cycle(cycle, every, now, end),
+                None => {
+                    let mut multiple = (time / every).floor();
+                    let mut next = self.due(multiple * every);
+                    while !is_after(next, now) {
+                        multiple += 1.0;
+                        if multiple * every > end.1 {
+                            return Some(end);
+                        }
+                        next = self.due(multiple * every);
                     }
-                    next = self.due(multiple * every);
+                    next
                 }
-                next
-            }
+            },
         };
         // Steps may be over before the time is, in a pause.
         Some(if is_after(next, now) { earlier(next, end) } else { end })
+    }
+
+    /// The first moment with a sample in a run with a cycle: a multiple of `every` (s) in a pause, at its own time, or the end of the
+    /// first step in whose time with load and speed there is one.
+    fn next_of_cycle(&self, cycle: &Cycle, every: f64, now: (u64, f64), end: (u64, f64)) -> (u64, f64) {
+        let (step, time) = now;
+        let mut done = step.min(self.last);
+        // In a pause within a step that step has not ended.
+        while done > 0 && self.end_of(done) > time {
+            done -= 1;
+        }
+        let mut at_step = end;
+        let mut at = multiple_after(self.end_of(done), every);
+        while at <= end.1 {
+            let next = self.due(at);
+            // A multiple in a pause is reported there.
+            at = match cycle.pause_in(at, at) {
+                Some(pause) if next.1 == at => multiple_from(pause.end, every),
+                _ if is_after(next, now) => {
+                    at_step = next;
+                    break;
+                }
+                _ => multiple_after(at, every),
+            };
+        }
+        let mut from = multiple_after(time, every);
+        while let Some(pause) = cycle.pause_in(from, at_step.1) {
+            let at = from.max(multiple_from(pause.start, every));
+            if at >= pause.end {
+                from = at;
+                continue;
+            }
+            let next = self.due(at);
+            if is_after(next, now) {
+                return earlier(next, at_step);
+            }
+            // Where the pause begins with the end of a step, that has been reported.
+            from = multiple_after(at, every);
+        }
+        at_step
     }
 
     /// The step whose surfaces are those of a time (s), and its end, or that time if it lies in a pause.
@@ -204,10 +247,18 @@ impl Schedule {
     pub fn samples(&self) -> u64 {
         let samples = match self.sample_every {
             SampleEvery::Steps(every) => self.last as f64 / every as f64,
-            SampleEvery::Time(every) if self.cycle.is_some() => self.end_time() / every,
+            SampleEvery::Time(every) if self.cycle.is_some() => self.samples_of_cycle(every),
             SampleEvery::Time(every) => self.last as f64 / (every / self.clock.step_time()).max(1.0),
         };
         (samples - 1e-9).ceil() as u64
+    }
+
+    /// Number of samples of a run with a cycle, at most: in pauses one for each multiple, else not more than one for each step.
+    fn samples_of_cycle(&self, every: f64) -> f64 {
+        let Some((cycle, _)) = &self.cycle else { return 0.0 };
+        let end = self.end_time();
+        let resting = cycle.resting_until(end);
+        resting / every + ((end - resting) / every).min(self.last as f64)
     }
 
     /// Number of times at which maps are taken.
@@ -216,9 +267,23 @@ impl Schedule {
     }
 }
 
-/// Whether a moment, as step and time, is later than another.
+/// The first multiple of `every` after a time.
+fn multiple_after(time: f64, every: f64) -> f64 {
+    let multiple = (time / every).floor();
+    // Of a product that is rounded down, the next.
+    [0.0, 1.0, 2.0].map(|more| (multiple + more) * every).into_iter().find(|at| *at > time).unwrap_or(f64::INFINITY)
+}
+
+/// The first multiple of `every` that is not before a time.
+fn multiple_from(time: f64, every: f64) -> f64 {
+    let multiple = (time / every).floor();
+    [0.0, 1.0].map(|more| (multiple + more) * every).into_iter().find(|at| *at >= time).unwrap_or(f64::INFINITY)
+}
+
+/// Whether a moment, as step and time, is later than another. Where both are known, time decides: a run that was ended in a pause
+/// may go on with the step around it.
 fn is_after(one: (u64, f64), other: (u64, f64)) -> bool {
-    one.0 > other.0 || (one.0 == other.0 && one.1 > other.1)
+    one.1 > other.1 || (one.1 == other.1 && one.0 > other.0)
 }
 
 /// The earlier of two moments.
@@ -227,52 +292,4 @@ fn earlier(one: (u64, f64), other: (u64, f64)) -> (u64, f64) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::cycle::{Interpolation, Node};
-    use crate::model::mesh::Mesh;
-    use std::f64::consts::PI;
-
-    /// 1 rad/s for 2 s, lifted for 2 s, 1 rad/s for 1.5 s, in steps of 1 rad.
-    fn schedule(end: f64, sample_every: SampleEvery, maps_at: &[f64]) -> Schedule {
-        let nodes = [(0.0, 1.0), (2.0, 1.0), (2.0, 0.0), (4.0, 0.0), (4.0, 1.0), (5.5, 1.0)];
-        let nodes = nodes.map(|(time, force)| Node::new(time, force, 1.0));
-        let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
-        let mesh = Mesh::new(1, 2, 1, 1.0, 2.0).unwrap();
-        let parameters =
-            Parameters { mesh, time_acceleration: 1.0 / PI, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
-        Schedule::new(&parameters, End::Time(end), sample_every, maps_at)
-    }
-
-    /// Every moment from the start to the end: its step and time, and what is due.
-    fn moments(schedule: &Schedule) -> Vec<(u64, f64, bool, bool)> {
-        let (mut moments, mut now) = (Vec::new(), (0, 0.0));
-        while let Some(moment) = schedule.next(now.0, now.1) {
-            assert_eq!(moment.pause.is_some(), moment.time > 2.0 && moment.time <= 4.0, "{moment:?}");
-            moments.push((moment.step, moment.time, moment.sample, moment.maps));
-            now = (moment.step, moment.time);
-            assert!(moments.len() < 100, "{moments:?}");
-        }
-        moments
-    }
-
-    #[test]
-    fn samples_in_a_pause_have_their_own_time() {
-        let every = SampleEvery::Time(0.75);
-        let times =
-            |end| moments(&schedule(end, every, &[])).iter().map(|moment| (moment.0, moment.1)).collect::<Vec<_>>();
-        let pause = [(1, 1.0), (2, 2.0), (2, 2.25), (2, 3.0), (2, 3.75)];
-        assert_eq!(times(5.5), [&pause[..], &[(3, 5.0)]].concat());
-        // A run that ends in the pause has a sample then.
-        assert_eq!(times(3.5), [&pause[..4], &[(2, 3.5)]].concat());
-        assert_eq!(times(4.0), [&pause[..], &[(2, 4.0)]].concat());
-    }
-
-    #[test]
-    fn maps_and_steps_are_due_in_order_of_time() {
-        let found = moments(&schedule(5.5, SampleEvery::Steps(2), &[0.0, 1.5, 2.5]));
-        assert_eq!(found, [(2, 2.0, true, true), (2, 2.5, false, true), (3, 5.0, true, true)]);
-        let found = moments(&schedule(3.5, SampleEvery::Steps(2), &[]));
-        assert_eq!(found, [(2, 2.0, true, false), (2, 3.5, true, true)]);
-    }
-}
+mod tests;

@@ -3,7 +3,11 @@
 use super::Simulation;
 use crate::engine::checkpoint::{Checkpoint, LastContact};
 use crate::engine::error::SimulationError;
+use crate::engine::history::Course;
+use crate::model::accounts::{Accounts, AccountsReport};
 use crate::model::cycle::Kind;
+use crate::model::heat::account::HeatModel;
+use crate::model::heat::map;
 use crate::model::state::{Disc, Pin};
 use crate::observe::extra::Extra;
 use crate::observe::schedule::Moment;
@@ -24,6 +28,16 @@ impl Simulation {
         let amounts = || QUANTITIES.iter().filter(|quantity| quantity.unit != "1");
         let name = |place| format!("the {}", amounts().nth(place).map_or("", |quantity| quantity.long_name));
         self.refuse_not_finite(amounts().map(|quantity| quantity.value(&sample)), name)?;
+        let AccountsReport { friction, heat, emission } = sample.accounts;
+        let parts = [
+            ("the work of friction", friction.map(|friction| friction.work)),
+            ("the heat lost", heat.map(|heat| heat.lost)),
+            ("the temperature of the disc", heat.map(|heat| heat.disc)),
+            ("the number of airborne particles", emission.map(|emission| emission.number)),
+        ];
+        for (name, value) in parts {
+            self.refuse_not_finite(value.into_iter(), |_| name.to_owned())?;
+        }
         Ok(sample)
     }
 
@@ -55,11 +69,12 @@ impl Simulation {
     /// As [`Simulation::sample`].
     pub fn sample_at(&mut self, moment: &Moment, extras: &[&Extra]) -> Result<Sample, SimulationError> {
         let mut sample = self.sample()?;
-        if let (Some(cycle), Some(pause)) = (&self.parameters.cycle, moment.pause) {
+        if let (Some(cycle), Some(pause)) = (self.parameters.cycle.clone(), moment.pause) {
             let loaded = cycle.loaded_until(moment.time) - cycle.loaded_until(sample.time);
             sample.contact_area_integral += sample.contact_area * loaded;
             sample.sliding_distance = cycle.angle_at(moment.time) * self.parameters.mesh.mean_radius();
             sample.time = moment.time;
+            sample.accounts = self.accounts_at(moment)?;
             if pause == Kind::Lifted {
                 (sample.displacement, sample.contact_area, sample.contact_ratio) = (f64::NAN, 0.0, 0.0);
                 (sample.mean_pressure, sample.max_pressure) = (0.0, 0.0);
@@ -74,29 +89,26 @@ impl Simulation {
         Ok(sample)
     }
 
+    /// Friction, heat and emission at a moment; none of them where the scene asks for none.
+    fn accounts_at(&mut self, moment: &Moment) -> Result<AccountsReport, SimulationError> {
+        let parameters = &self.parameters;
+        if parameters.friction.is_none() && parameters.emission.is_none() {
+            return Ok(AccountsReport::default());
+        }
+        let accounts = self.workers.accounts(parameters)?;
+        let report =
+            |accounts: &Accounts| accounts.report(moment.step, parameters.step_angle(), moment.time, moment.pause);
+        Ok(accounts.as_ref().map(report).unwrap_or_default())
+    }
+
     /// The maps asked for, as they are now.
     ///
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
     /// [`Simulation::pass_to`], [`SimulationError::NotFinite`] when a value is no number.
     pub fn snapshot(&mut self, maps: &[Map]) -> Result<Snapshot, SimulationError> {
-        let snapshot = match self.last_contact().map(|contact| contact.pressure.clone()) {
-            Some(pressure) if maps.contains(&Map::Pressure) => {
-                let others: Vec<Map> = maps.iter().copied().filter(|map| *map != Map::Pressure).collect();
-                let mut snapshot = self.workers.snapshot(&others)?;
-                let place = maps.iter().take_while(|map| **map != Map::Pressure).count();
-                snapshot.maps.insert(place, (Map::Pressure, MapValues::Float(pressure)));
-                snapshot
-            }
-            _ => self.workers.snapshot(maps)?,
-        };
-        for (map, values) in &snapshot.maps {
-            if let MapValues::Float(values) = values {
-                let name = |place| format!("cell {place} of {}", map.name());
-                self.refuse_not_finite(values.iter().copied(), name)?;
-            }
-        }
-        Ok(snapshot)
+        let Course { steps, time, .. } = self.course();
+        self.snapshot_at(&Moment { step: steps, time, ..Moment::default() }, maps)
     }
 
     /// The same at a moment that the last step belongs to: in a pause without load all pressures are 0.
@@ -104,14 +116,54 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::snapshot`].
     pub fn snapshot_at(&mut self, moment: &Moment, maps: &[Map]) -> Result<Snapshot, SimulationError> {
-        let mut snapshot = self.snapshot(maps)?;
-        snapshot.time = moment.time;
-        for (map, values) in &mut snapshot.maps {
-            if let (Map::Pressure, Some(Kind::Lifted), MapValues::Float(pressures)) = (*map, moment.pause, values) {
-                pressures.fill(0.0);
-            }
+        let mut values = Vec::with_capacity(maps.len());
+        for map in maps {
+            values.push((
+                *map,
+                match map {
+                    Map::Pressure => MapValues::Float(self.pressures_at(moment)?),
+                    Map::Temperature => MapValues::Float(self.temperatures_at(moment)?),
+                    map => self.field(*map)?,
+                },
+            ));
         }
-        Ok(snapshot)
+        Ok(Snapshot { time: moment.time, maps: values })
+    }
+
+    /// p of every pin cell at a moment, Pa.
+    fn pressures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
+        if moment.pause == Some(Kind::Lifted) {
+            return Ok(vec![0.0; self.parameters.mesh.pin_cells()]);
+        }
+        match self.last_contact() {
+            Some(contact) => Ok(contact.pressure.clone()),
+            None => Ok(self.field(Map::Pressure)?.into_numbers()),
+        }
+    }
+
+    /// T of every pin cell at a moment, K; no numbers where the pin is lifted, or no heat is reckoned.
+    fn temperatures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
+        let pressure = self.pressures_at(moment)?;
+        let AccountsReport { friction, heat, .. } = self.accounts_at(moment)?;
+        let (Some(model), Some(friction), Some(heat)) = (HeatModel::of(&self.parameters), friction, heat) else {
+            return Ok(vec![f64::NAN; pressure.len()]);
+        };
+        let speed = self.parameters.mean_speed_of(moment.step);
+        let moves = moment.pause.is_none() && moment.step > 0;
+        let flux =
+            if moves { heat.share * friction.coefficient * speed * self.parameters.mesh.mean_radius() } else { 0.0 };
+        Ok(map::temperatures(model.passing(), &self.parameters.mesh, &pressure, flux, heat.face, speed))
+    }
+
+    /// One map that the workers have.
+    fn field(&mut self, map: Map) -> Result<MapValues, SimulationError> {
+        let found = self.workers.snapshot(&[map])?.maps.into_iter().next();
+        let values = found.map_or(MapValues::Float(Vec::new()), |(_, values)| values);
+        if let MapValues::Float(values) = &values {
+            let name = |place| format!("cell {place} of {}", map.name());
+            self.refuse_not_finite(values.iter().copied(), name)?;
+        }
+        Ok(values)
     }
 
     /// The disc as it is now.

@@ -7,12 +7,13 @@ use crate::engine::debris::{Account, Totals};
 use crate::engine::error::SimulationError;
 use crate::engine::execution::Engine;
 use crate::engine::history::{Course, History};
-use crate::engine::running_sum::RunningSum;
+use crate::model::accounts::{Accounts, AccountsReport, StepFacts};
 use crate::model::clock::Clock;
 use crate::model::material::Status;
 use crate::model::parameters::Parameters;
+use crate::model::running_sum::RunningSum;
 use crate::model::state::InitialSurfaces;
-use crate::model::{State, Step, Volumes, step};
+use crate::model::{State, Step, step};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 
 /// A simulation that takes [`step::advance`] for every step.
@@ -28,6 +29,9 @@ pub(crate) struct Plain {
     clock: Clock,
     /// V(0), m³.
     initial_volume: f64,
+    accounts: Option<Accounts>,
+    /// The parameters with the wear rates that hold now.
+    worn_with: Arc<Parameters>,
 }
 
 impl Plain {
@@ -42,10 +46,13 @@ impl Plain {
             course: Course::default(),
             clock: parameters.clock(),
             initial_volume: 0.0,
+            accounts: Accounts::of(&parameters),
+            worn_with: parameters.clone(),
             state,
             parameters,
         };
         plain.initial_volume = plain.open_volume();
+        plain.wear_as_accounted();
         plain
     }
 
@@ -53,7 +60,11 @@ impl Plain {
     pub fn advance_to(&mut self, step: u64, watched: bool) -> Result<(), SimulationError> {
         while self.course.steps < step {
             self.last = None;
-            let taken = step::advance(&self.parameters, &mut self.state)
+            if let Some(accounts) = &mut self.accounts {
+                accounts.begin(self.course.steps + 1, self.parameters.step_angle());
+                self.wear_as_accounted();
+            }
+            let taken = step::advance(&self.worn_with, &mut self.state)
                 .map_err(|source| SimulationError::Contact { step: self.course.steps + 1, source })?;
             let area = self.parameters.mesh.area().iter().cycle();
             let cells = taken.contact.iter().zip(area);
@@ -63,7 +74,16 @@ impl Plain {
             let operation = self.parameters.operation_of(self.course.steps, &self.clock);
             self.history.record(self.course.contact_area, &operation);
             self.course.time = operation.end;
-            add(&mut self.totals, &taken.moved);
+            self.totals.add(&taken.moved);
+            if let Some(accounts) = &mut self.accounts {
+                accounts.record(&StepFacts {
+                    number: self.course.steps,
+                    angle: self.parameters.step_angle(),
+                    operation: &operation,
+                    contact: &taken.sums(&self.parameters),
+                    moved: &taken.moved,
+                });
+            }
             self.last = (watched && self.course.steps == step).then_some(taken);
         }
         Ok(())
@@ -74,7 +94,17 @@ impl Plain {
         let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
         self.clock = self.clock.changed(self.course.steps, parameters.step_time());
         self.parameters = Arc::new(parameters);
+        self.wear_as_accounted();
         Ok(())
+    }
+
+    /// Takes over the wear rates that hold in the coming step.
+    fn wear_as_accounted(&mut self) {
+        let factor = self.accounts.as_ref().map_or(1.0, Accounts::wear_rate_factor);
+        self.worn_with = match factor {
+            1.0 => self.parameters.clone(),
+            factor => Arc::new(self.parameters.with_wear_rate_factor(factor)),
+        };
     }
 
     /// What the steps so far were like.
@@ -95,13 +125,14 @@ impl Plain {
             time_acceleration: self.parameters.time_acceleration,
             account: Account { pools: self.state.pools.iter().map(pool).collect(), totals: self.totals },
             history: self.history.clone(),
+            accounts: self.accounts.as_ref().map(|accounts| accounts.state().clone()),
             engine: None,
         }
     }
 
     /// Takes over the state of a plain simulation of the same parameters and surfaces.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
-        let Memory { course, clock, time_acceleration, account, history, engine } = checkpoint.memory.clone();
+        let Memory { course, clock, time_acceleration, account, history, accounts, engine } = checkpoint.memory.clone();
         if engine.is_some() {
             return Err(SimulationError::OtherEngine { found: Engine::Fast, expected: Engine::Plain });
         }
@@ -113,6 +144,10 @@ impl Plain {
         *steps = course.steps;
         (self.course, self.clock, self.history, self.totals) = (course, clock, history, account.totals);
         self.last = None;
+        if let (Some(own), Some(state)) = (&mut self.accounts, accounts) {
+            own.restore(state);
+        }
+        self.wear_as_accounted();
         Ok(())
     }
 
@@ -140,6 +175,8 @@ impl Plain {
                     Some(step) => step.pressure.clone(),
                     None => vec![0.0; pin.height.len()],
                 }),
+                // The simulation makes it of the pressures.
+                Map::Temperature => continue,
             };
             values.push((*map, field));
         }
@@ -189,6 +226,9 @@ impl Plain {
             },
             load_residual: step.map_or(0.0, |step| self.load_residual(step)),
             balance_residual: totals.balance_residual(pool),
+            accounts: self.accounts.as_ref().map_or(AccountsReport::default(), |accounts| {
+                accounts.report(self.course.steps, parameters.step_angle(), self.course.time, None)
+            }),
             extras: Vec::new(),
         })
     }
@@ -206,15 +246,4 @@ impl Plain {
         let cells = disc.height.iter().zip(self.parameters.mesh.area().iter().cycle());
         cells.map(|(height, area)| (reference_height - height).max(0.0) * area).sum()
     }
-}
-
-/// Adds what a step moved.
-fn add(totals: &mut Totals, moved: &Volumes) {
-    totals.worn_pin.add(moved.worn_pin);
-    totals.worn_resin.add(moved.worn_resin);
-    totals.worn_disc.add(moved.worn_disc);
-    totals.returned.add(moved.returned);
-    totals.deposited_pin.add(moved.deposited_pin);
-    totals.deposited_disc.add(moved.deposited_disc);
-    totals.emitted.add(moved.emitted);
 }

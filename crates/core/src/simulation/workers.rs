@@ -15,6 +15,7 @@ use crate::engine::parts::Needs;
 use crate::engine::sector::Partition;
 use crate::engine::worker::{Worker, halo_words};
 use crate::engine::worker_threads::WorkerThreads;
+use crate::model::accounts::Accounts;
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 use crate::observe::{Map, Sample, Snapshot};
@@ -105,6 +106,15 @@ impl Workers {
             Self::Rank(worker) => Ok(worker.memory()),
             Self::Plain(plain) => Ok(plain.memory()),
         }
+    }
+
+    /// The accounts of friction, heat and emission, where the scene asks for any.
+    pub fn accounts(&mut self, parameters: &Parameters) -> Result<Option<Accounts>, SimulationError> {
+        let state = self.memory()?.accounts;
+        Ok(Accounts::of(parameters).zip(state).map(|(mut accounts, state)| {
+            accounts.restore(state);
+            accounts
+        }))
     }
 
     /// Takes over the state of a simulation of the same parameters and surfaces.

@@ -9,6 +9,7 @@
 //! Each is a list of rules. A rule belongs to the key that is most likely wrong; it looks, and tells what it found, the
 //! bound and what to do. `docs/scenes.md` lists them all.
 
+mod dissipation;
 mod recorded;
 mod scene;
 mod surfaces;

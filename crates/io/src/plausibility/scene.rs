@@ -5,7 +5,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::{HeightSynthesis, Length, Texture};
 
 use super::words::{number, pressure};
-use super::{Finding, Rule, apply, softest_plateau, too_much_pressure};
+use super::{Finding, Rule, apply, dissipation, softest_plateau, too_much_pressure};
 use crate::scene::Warning;
 use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
 
@@ -63,7 +63,9 @@ const RULES: &[Rule<Scene>] = &[
 
 /// What cannot be meant, as far as the scene tells without its surfaces.
 pub fn of_scene(scene: &Scene) -> Vec<Warning> {
-    apply(RULES, scene, scene)
+    let mut warnings = apply(RULES, scene, scene);
+    warnings.extend(dissipation::of_scene(scene));
+    warnings
 }
 
 fn nominal_pressure(scene: &Scene) -> Option<Finding> {

@@ -6,7 +6,7 @@ use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
 use ndarray::s;
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::event::{EVENT_QUANTITIES, EventRecord};
+use plateau_core::observe::event::{EventRecord, event_quantities};
 use plateau_core::observe::extra::Extra;
 use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{Map, quantities};
@@ -78,6 +78,7 @@ pub(crate) fn map_path(map: Map) -> &'static str {
         Map::PinSubstrate => "pin/substrate",
         Map::PinStatus => "pin/status",
         Map::Pressure => "pin/pressure",
+        Map::Temperature => "pin/temperature",
     }
 }
 
@@ -86,6 +87,7 @@ pub(crate) fn map_unit(map: Map) -> &'static str {
     match map {
         Map::DiscStatus | Map::PinStatus => "1",
         Map::Pressure => "Pa",
+        Map::Temperature => "K",
         _ => "m",
     }
 }
@@ -99,6 +101,7 @@ fn map_long_name(map: Map) -> &'static str {
         Map::PinSubstrate => "height of the pin below any compacted debris, positive away from the disc",
         Map::PinStatus => "status of the pin cells",
         Map::Pressure => "contact pressure",
+        Map::Temperature => "temperature of the contact, pressures frozen during the pass",
     }
 }
 
@@ -121,7 +124,7 @@ pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: O
     layout.pin_base(header)?;
     let has_events = header.extras.iter().any(|extra| **extra == CYCLE);
     if let Some(source) = source.filter(|_| has_events) {
-        layout.events(source.events)?;
+        layout.events(source.events, &header.extras)?;
     }
     layout.dimensions.finish()
 }
@@ -280,7 +283,7 @@ impl<'a> Layout<'a> {
     }
 
     /// One row for each event of the cycle.
-    fn events(&mut self, records: &[EventRecord]) -> hdf5::Result<()> {
+    fn events(&mut self, records: &[EventRecord], extras: &[&Extra]) -> hdf5::Result<()> {
         self.file
             .create_group_builder()
             .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
@@ -288,7 +291,7 @@ impl<'a> Layout<'a> {
         let numbers: Vec<f64> = (1..=records.len()).map(|number| number as f64).collect();
         let scale = self.scale(EVENT, "1", "number of the event")?;
         fixed(&scale, &numbers)?;
-        for quantity in EVENT_QUANTITIES {
+        for quantity in event_quantities(extras) {
             let values: Vec<f64> = records.iter().map(quantity.value).collect();
             let dataset =
                 self.dataset(&event_path(quantity.name), &self.float, &[EVENT], quantity.unit, quantity.long_name)?;

@@ -10,6 +10,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{EXTRAS, Map, MapValues, quantities};
 
 use super::error::ReadError;
+use super::header::InputFile;
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
 use crate::hdf5_file::{self, OpenError};
 use crate::timestamp::from_iso_8601;
@@ -107,6 +108,17 @@ impl RunFile {
     /// A text of its root attributes, such as `program` or `host`, if it is there.
     pub fn attribute(&self, name: &str) -> Option<String> {
         hdf5_file::text_attribute(&self.file, name).ok().flatten()
+    }
+
+    /// The files that its run has read, as far as they can be told.
+    pub fn inputs(&self) -> Vec<InputFile> {
+        let document: serde_json::Value =
+            self.attribute("inputs").and_then(|text| serde_json::from_str(&text).ok()).unwrap_or_default();
+        let entry = |entry: &serde_json::Value| {
+            let text = |name: &str| entry.get(name).and_then(|value| value.as_str()).map(str::to_owned);
+            Some(InputFile { path: text("path")?, sha256: text("sha256")? })
+        };
+        document.as_array().into_iter().flatten().filter_map(entry).collect()
     }
 
     /// A number of its root attributes, such as `workers` or `wall_time`, if it is there.

@@ -6,22 +6,21 @@ use plateau_core::acceleration::Adaptive;
 use plateau_core::model::material::{Material, Materials};
 use plateau_core::model::mesh::{Mesh, MeshError};
 use plateau_core::model::parameters::{Parameters, PlateauRules};
+use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
 use plateau_core::observe::extra::Extra;
-use plateau_core::observe::requested;
 use plateau_core::observe::schedule::SampleEvery;
+use plateau_core::observe::{Map, requested};
 
 use super::contents::{OperationCycle, OutputSettings, Scene, Workers};
-use super::cycle::{operation, refuse_choice, short_events};
+use super::cycle::{constants_without_effect, operation, refuse_choice, short_events};
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
 use super::length::{Length, length};
-use super::schema::{choices, join};
+use super::schema::{ACCELERATION, choices, join};
 use super::settings::Settings;
 use super::surfaces::{base, heights};
-use super::{Warning, memory, resolved};
-
-/// A number, or a table with how the run chooses it.
-pub(super) const ACCELERATION: &str = "numerics.time_acceleration";
+use super::{Warning, dissipation, memory, resolved};
+use crate::number;
 
 /// Makes the scene; `files` are the scene file and those it extends.
 pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
@@ -31,7 +30,8 @@ pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path
     let Length { steps, duration } = length(&settings, &parameters, operation.as_ref())?;
     warnings.extend(debris_by_default(&settings, path));
     if let Some(operation) = &operation {
-        refuse_choice(&settings, &parameters, &operation.cycle, duration)?;
+        refuse_choice(&settings, &operation.cycle, duration)?;
+        warnings.extend(constants_without_effect(&settings, operation));
         warnings.extend(short_events(&settings, &parameters, &operation.cycle, duration));
     }
     files.extend(operation.as_ref().and_then(|operation| operation.file.clone()));
@@ -105,7 +105,7 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         None => (settings.number("operation.normal_force")?, speed.map_or_else(|| settings.number(speed_key), Ok)?),
     };
     let cycle = operation.as_ref().map(|operation| operation.cycle.clone());
-    let parameters = Parameters {
+    let mut parameters = Parameters {
         mesh,
         normal_force,
         angular_velocity,
@@ -115,7 +115,11 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
         plateaus: plateaus(settings)?,
         time_acceleration: settings.optional_number(ACCELERATION)?.unwrap_or(1.0),
         integrator: settings.choice("numerics.integrator", &choices::INTEGRATOR)?,
+        friction: None,
+        thermal: None,
+        emission: None,
     };
+    dissipation::add(settings, &mut parameters)?;
     if !parameters.step_time().is_normal() {
         let message = format!("a step would last {} s, which cannot be computed with", parameters.step_time());
         return Err(Problem::new(&settings.origin(speed_key), speed_key, message));
@@ -223,6 +227,9 @@ fn output(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> Res
     settings.insert("output.maps", Setting::Maps(maps.clone()), &Origin::Default);
     let file = PathBuf::from(settings.text("output.file")?);
     let extras = extras(settings)?;
+    if extras.contains(&&CONTACT_TEMPERATURE) {
+        maps.push(Map::Temperature);
+    }
     let checkpoint_every = settings.number("output.checkpoint_every")?;
     let maps_at = map_times(settings, end, warnings);
     Ok(OutputSettings { file, sample_every, maps_at, maps, extras, checkpoint_every })
@@ -252,15 +259,10 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
             key: key.to_owned(),
             found: format!("maps at {}", beyond.join(", ")),
             // In words for people: the last digits of a time that is a sum of steps say nothing.
-            bound: format!("after the run, which ends at {} s", rounded(end)),
+            bound: format!("after the run, which ends at {} s", number::to_nine_digits(end)),
             advice: "they are not taken: give earlier times, or a longer operation.duration".to_owned(),
         });
     }
     settings.insert(key, Setting::Numbers(kept.clone()), &origin);
     kept
-}
-
-/// A number to nine significant digits.
-pub(super) fn rounded(number: f64) -> f64 {
-    format!("{number:.8e}").parse().unwrap_or(number)
 }

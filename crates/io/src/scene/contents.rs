@@ -7,6 +7,7 @@ use std::sync::Arc;
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
+use plateau_core::observe::dissipation::{EMISSION, FRICTION, HEAT};
 use plateau_core::observe::extra::Extra;
 use plateau_core::observe::operation::{CYCLE, ROAD};
 use plateau_core::observe::schedule::{End, SampleEvery, Schedule};
@@ -73,9 +74,16 @@ impl Scene {
     pub fn extras(&self, chooses_acceleration: bool) -> Vec<&'static Extra> {
         let acceleration = chooses_acceleration.then_some(&ACCELERATION);
         let has_road = self.cycle.as_ref().is_some_and(|operation| operation.has_road);
-        let operation = [(self.cycle.is_some(), &CYCLE), (has_road, &ROAD)];
-        let operation = operation.into_iter().filter(|(is_there, _)| *is_there).map(|(_, extra)| extra);
-        self.output.extras.iter().copied().chain(acceleration).chain(operation).collect()
+        let Parameters { friction, thermal, emission, .. } = &self.parameters;
+        let others = [
+            (self.cycle.is_some(), &CYCLE),
+            (has_road, &ROAD),
+            (friction.is_some(), &FRICTION),
+            (thermal.is_some(), &HEAT),
+            (emission.is_some(), &EMISSION),
+        ];
+        let others = others.into_iter().filter(|(is_there, _)| *is_there).map(|(_, extra)| extra);
+        self.output.extras.iter().copied().chain(acceleration).chain(others).collect()
     }
 
     /// When the run is over.
@@ -92,6 +100,10 @@ impl Scene {
 pub struct OperationCycle {
     /// Load and speed over time. Where they never change, the parameters of the scene have no cycle.
     pub cycle: Arc<Cycle>,
+    /// Whether it has a load of its own, in place of the constant one.
+    pub has_load: bool,
+    /// Whether it has a speed of its own.
+    pub has_speed: bool,
     /// Whether it says how fast the vehicle is.
     pub has_road: bool,
     /// The file of its rows, if they are not in the scene.

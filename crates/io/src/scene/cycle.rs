@@ -3,22 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use plateau_core::model::cycle::{self, Cycle, CycleError, Event, Node};
+use plateau_core::model::cycle::{Cycle, CycleError, Node};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::Parameters;
 
-use super::build::{ACCELERATION, rounded};
 use super::contents::OperationCycle;
-use super::document::{Entry, Value};
+use super::cycle_table::{self, Loads, Speeds};
 use super::error::{Origin, Problem, Warning};
-use super::interpret::{Setting, quantity};
-use super::schema::{Range, choices, join};
+use super::interpret::Setting;
+use super::schema::{ACCELERATION, CYCLE, choices, join};
 use super::settings::Settings;
-use crate::cycle_table::{self, CycleTable, Loads, Speeds};
-use crate::units::Dimension::{Force, Pressure, RotationalSpeed, Speed, Time};
-
-/// The table of a scene that has the keys of its cycle.
-const TABLE: &str = "operation.cycle";
+use crate::number;
 
 /// The cycle of a scene, if it has one; `force` (N) and `speed` (rad/s) take the place of a column that there is not.
 pub(super) fn operation(
@@ -27,7 +22,7 @@ pub(super) fn operation(
     force: Option<f64>,
     speed: Option<f64>,
 ) -> Result<Option<OperationCycle>, Problem> {
-    let key = |name: &str| format!("{TABLE}.{name}");
+    let key = |name: &str| format!("{CYCLE}.{name}");
     let (source, table) = match settings.get(&key("points")) {
         Some(Setting::Rows(table)) => (key("points"), table.clone()),
         _ if settings.get(&key("file")).is_some() => {
@@ -49,6 +44,7 @@ pub(super) fn operation(
     let scale = |name: &str| settings.number(&key(name));
     let (force_scale, speed_scale) = (scale("force_scale")?, scale("speed_scale")?);
     let rows = table.times.len();
+    let (has_load, has_speed) = (table.loads.is_some(), table.speeds.is_some());
     let loads = match table.loads {
         Some(Loads::Force(loads)) => loads,
         Some(Loads::NominalPressure(pressures)) => {
@@ -80,107 +76,77 @@ pub(super) fn operation(
         };
         Problem::new(row.unwrap_or(&place), &source, error.to_string())
     })?;
-    Ok(Some(OperationCycle { cycle: Arc::new(cycle), has_road, file }))
+    Ok(Some(OperationCycle { cycle: Arc::new(cycle), has_load, has_speed, has_road, file }))
 }
 
 /// A file that cannot be read is the fault of the key that names it.
 fn named(settings: &Settings, problem: Problem) -> Problem {
     match problem.origin {
         Origin::File(file) => {
-            let key = format!("{TABLE}.file");
+            let key = format!("{CYCLE}.file");
             Problem::new(&settings.origin(&key), &key, format!("{}: {}", file.display(), problem.message))
         }
         _ => problem,
     }
 }
 
-/// Rows of time, load and speed as a scene gives them.
-pub(super) fn rows(list: &[Entry]) -> Result<Setting, (Origin, String)> {
-    let (mut forces, mut pressures, mut rotations, mut slides) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    let (mut times, mut places) = (Vec::new(), Vec::new());
-    for entry in list {
-        let fail = |message: String| (entry.origin.clone(), message);
-        let Value::Array(row) = &entry.value else {
-            return Err(fail(format!("{}, expected a row such as [\"0 s\", \"47 N\", \"850 rpm\"]", entry.value)));
-        };
-        let [time, load, speed] = row.as_slice() else {
-            return Err(fail(format!("a row of {} values, expected three: time, load, speed", row.len())));
-        };
-        let value = |entry: &Entry, dimension| quantity(&entry.value, dimension, Range::NOT_NEGATIVE);
-        let at = |entry: &Entry| {
-            let origin = entry.origin.clone();
-            move |message: String| (origin, message)
-        };
-        times.push(value(time, Time).map_err(at(time))?);
-        match (value(load, Force), value(load, Pressure)) {
-            (_, Ok(pressure)) => pressures.push(pressure),
-            (force, Err(_)) => forces.push(force.map_err(at(load))?),
-        }
-        match (value(speed, RotationalSpeed), value(speed, Speed)) {
-            (_, Ok(slide)) => slides.push(slide),
-            (rotation, Err(_)) => rotations.push(rotation.map_err(at(speed))?),
-        }
-        let mixed = |one: usize, other: usize| one > 0 && other > 0;
-        if mixed(forces.len(), pressures.len()) {
-            return Err(at(load)("a load of another kind than in the rows above: give forces or pressures".to_owned()));
-        }
-        if mixed(rotations.len(), slides.len()) {
-            let message = "a speed of another kind than in the rows above: give rotational speeds or sliding speeds";
-            return Err(at(speed)(message.to_owned()));
-        }
-        places.push(entry.origin.clone());
-    }
-    let loads = if forces.is_empty() { Loads::NominalPressure(pressures) } else { Loads::Force(forces) };
-    let speeds = if rotations.is_empty() { Speeds::Sliding(slides) } else { Speeds::Rotational(rotations) };
-    Ok(Setting::Rows(CycleTable { times, loads: Some(loads), speeds: Some(speeds), road_speeds: None, places }))
-}
-
-/// The largest acceleration with which every event of a run has simulated revolutions enough.
-fn largest_acceleration(cycle: &Cycle, until: f64) -> f64 {
-    cycle
-        .events(until)
-        .iter()
-        .map(|event| cycle::largest_acceleration(cycle.angle_of(event)))
-        .fold(f64::INFINITY, f64::min)
-}
-
 /// The error that a choice would estimate is that of a history; a cycle has another one in every event.
-pub(super) fn refuse_choice(
-    settings: &Settings,
-    parameters: &Parameters,
-    cycle: &Cycle,
-    until: f64,
-) -> Result<(), Problem> {
+pub(super) fn refuse_choice(settings: &Settings, cycle: &Cycle, until: f64) -> Result<(), Problem> {
     let tolerance = join(ACCELERATION, "tolerance");
     if settings.get(&tolerance).is_none() {
         return Ok(());
     }
-    let largest = largest_acceleration(cycle, until).floor().max(parameters.time_acceleration);
+    let largest = cycle.largest_acceleration(until);
+    let advice = if largest >= 1.0 {
+        format!(
+            "write time_acceleration = {} (with it every event has ten simulated revolutions) or less",
+            largest.floor()
+        )
+    } else {
+        "write time_acceleration = 1, for an event of the cycle has less than ten revolutions".to_owned()
+    };
     let message = format!(
-        "a run with a cycle does not choose its acceleration, for every event would need another one; write time_acceleration = {largest} \
-         (with it every event has ten simulated revolutions) or less, and see docs/cycles.md for its error"
+        "a run with a cycle does not choose its acceleration, for every event would need another one; {advice}, and see \
+         docs/cycles.md for its error"
     );
     Err(Problem::new(&settings.origin(&tolerance), &tolerance, message))
 }
 
+/// A word to a constant load or speed that is set on the command line, or varied by a study, beside a cycle that has its own.
+pub(super) fn constants_without_effect(settings: &Settings, operation: &OperationCycle) -> Vec<Warning> {
+    let keys = [
+        ("operation.normal_force", operation.has_load, "force_scale"),
+        ("operation.rotational_speed", operation.has_speed, "speed_scale"),
+        ("operation.sliding_speed", operation.has_speed, "speed_scale"),
+    ];
+    let is_set = |key: &str| matches!(settings.origin(key), Origin::Set(_));
+    keys.into_iter()
+        .filter(|(key, has_own, _)| *has_own && is_set(key))
+        .map(|(key, _, scale)| Warning {
+            place: settings.origin(key),
+            key: key.to_owned(),
+            found: "set beside a cycle that has a column of its own".to_owned(),
+            bound: "so it changes nothing".to_owned(),
+            advice: format!("set operation.cycle.{scale} to change all rows"),
+        })
+        .collect()
+}
+
 /// A word to cycles with events that are too short for the acceleration (model section 9).
 pub(super) fn short_events(settings: &Settings, parameters: &Parameters, cycle: &Cycle, until: f64) -> Option<Warning> {
-    let largest = largest_acceleration(cycle, until);
+    let largest = cycle.largest_acceleration(until);
     let m = parameters.time_acceleration;
-    let is_short = |event: &&Event| cycle::largest_acceleration(cycle.angle_of(event)) < m * (1.0 - 1e-9);
-    let events = cycle.events(until);
-    let short = events.iter().filter(is_short).count();
+    let (short, all) = (cycle.short_events(until, m), cycle.events(until).len());
     (short > 0).then(|| Warning {
         place: settings.origin(ACCELERATION),
         key: ACCELERATION.to_owned(),
         found: format!(
-            "with {m} the shortest of the cycle's events has {:.2} simulated revolutions, {short} of {} have less than 10",
-            10.0 * largest / m,
-            events.len()
+            "with {m} the shortest of the cycle's events has {:.2} simulated revolutions, {short} of {all} have less than 10",
+            10.0 * largest / m
         ),
         bound: "expected at least 10 in every event".to_owned(),
         advice: if largest >= 1.0 {
-            format!("{} is the largest acceleration with which all have them", rounded(largest))
+            format!("{} is the largest acceleration with which all have them", number::to_nine_digits(largest))
         } else {
             "no acceleration gives them to all: that event is that short".to_owned()
         },

@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
+use plateau_core::model::heat::factor::Factor;
 use plateau_core::observe::Map;
 
-use super::cycle;
+use super::cycle_table::CycleTable;
 use super::document::{Entry, Value};
 use super::error::{Origin, Problem};
+use super::quantity::{at, in_range, quantity};
+use super::rows;
 use super::schema::{self, Kind, Range};
-use crate::cycle_table::CycleTable;
-use crate::units::{self, Dimension, UnitError};
+use crate::units::Dimension;
 
 /// A checked value.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +23,7 @@ pub(super) enum Setting {
     Numbers(Vec<f64>),
     Maps(Vec<Map>),
     Rows(CycleTable),
+    Factor(Factor),
 }
 
 /// Reads the value of the key `path`; input files named by no scene file are relative to the one at `scene`.
@@ -33,18 +36,14 @@ pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> 
             .collect::<Result<_, _>>()
             .map(Setting::Numbers),
         (Kind::Maps, Value::Array(list)) => list.iter().map(map).collect::<Result<_, _>>().map(Setting::Maps),
-        (Kind::Rows, Value::Array(list)) if list.len() >= 2 => cycle::rows(list),
+        (Kind::Rows, Value::Array(list)) if list.len() >= 2 => rows::cycle(list).map(Setting::Rows),
+        (Kind::Factor, Value::Array(list)) if !list.is_empty() => rows::factor(list).map(Setting::Factor),
         (Kind::InputFile, Value::Text(text)) => {
             not_empty(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
         }
         (_, value) => plain(kind, value).map_err(at(entry)),
     }
     .map_err(|(origin, message)| Problem::new(&origin, path, message))
-}
-
-/// Puts the place of an entry beside a message.
-fn at(entry: &Entry) -> impl Fn(String) -> (Origin, String) {
-    |message| (entry.origin.clone(), message)
 }
 
 fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
@@ -56,9 +55,11 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
         (Kind::LengthUnit, Value::Text(text)) => length_unit(text, value).map(Setting::Number),
         (Kind::NumberOr(_, word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
         (Kind::Number(range) | Kind::NumberOr(range, _), Value::Integer(integer)) => {
-            in_range(*integer as f64, value, range)
+            in_range(*integer as f64, value, range).map(Setting::Number)
         }
-        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Float(float)) => in_range(*float, value, range),
+        (Kind::Number(range) | Kind::NumberOr(range, _), Value::Float(float)) => {
+            in_range(*float, value, range).map(Setting::Number)
+        }
         (Kind::Integer(least), Value::Integer(integer)) => count(*integer, least),
         (Kind::CountOr(_), Value::Integer(integer)) => count(*integer, 1),
         (Kind::CountOr(word), Value::Text(text)) if text == word => Ok(Setting::Text(text.clone())),
@@ -92,22 +93,8 @@ fn expectation(kind: Kind) -> String {
         Kind::InputFile => "the path of a file as a string".to_owned(),
         Kind::Times => "a list of times such as [\"0 s\", \"500 s\"]".to_owned(),
         Kind::Rows => "rows such as [[\"0 s\", \"47 N\", \"850 rpm\"], [\"3 s\", \"47 N\", \"0 rpm\"]]".to_owned(),
-        Kind::Maps => format!("a list of {}", quoted(Map::ALL.iter().map(|map| map.name()))),
-    }
-}
-
-pub(super) fn quantity(value: &Value, dimension: Dimension, range: Range) -> Result<f64, String> {
-    let number = match value {
-        Value::Text(text) => units::parse(text, dimension).map_err(|error| error.to_string())?,
-        Value::Integer(_) | Value::Float(_) => {
-            return Err(UnitError::NoUnit { text: value.text(), expected: dimension }.to_string());
-        }
-        _ => return Err(format!("{value}, expected {dimension}")),
-    };
-    if range.contains(number) {
-        Ok(number)
-    } else {
-        Err(format!("{} is out of range, expected {range} {}", value.text(), dimension.si_unit()))
+        Kind::Factor => "rows of temperature and factor such as [[\"230 degC\", 1.0], [\"400 degC\", 4.0]]".to_owned(),
+        Kind::Maps => format!("a list of {}", quoted(Map::CHOICES.iter().map(|map| map.name()))),
     }
 }
 
@@ -116,14 +103,6 @@ fn length_unit(text: &str, value: &Value) -> Result<f64, String> {
     let short = text.trim_start().starts_with(char::is_alphabetic);
     let full = if short { Value::Text(format!("1 {text}")) } else { value.clone() };
     quantity(&full, Dimension::Length, Range::POSITIVE)
-}
-
-fn in_range(number: f64, value: &Value, range: Range) -> Result<Setting, String> {
-    if range.contains(number) {
-        Ok(Setting::Number(number))
-    } else {
-        Err(format!("{} is out of range, expected {range}", value.text()))
-    }
 }
 
 fn count(integer: i128, least: u64) -> Result<Setting, String> {
@@ -152,7 +131,7 @@ fn time(entry: &Entry) -> Result<f64, (Origin, String)> {
 
 fn map(entry: &Entry) -> Result<Map, (Origin, String)> {
     match &entry.value {
-        Value::Text(text) => one_of(text, &Map::ALL, |map| map.name()).copied(),
+        Value::Text(text) => one_of(text, &Map::CHOICES, |map| map.name()).copied(),
         other => Err(format!("{other}, expected the name of a map")),
     }
     .map_err(at(entry))

@@ -2,9 +2,9 @@
 
 use plateau_core::model::parameters::Parameters;
 
-use super::build::ACCELERATION;
 use super::contents::OperationCycle;
 use super::error::Problem;
+use super::schema::ACCELERATION;
 use super::settings::Settings;
 
 /// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
@@ -43,14 +43,18 @@ pub(super) fn length(
             if duration > cycle.duration() * (1.0 + 1e-12) {
                 let (end, steps) = (cycle.duration(), cycle.steps_done(cycle.duration(), angle));
                 return Err(problem(format!(
-                    "the cycle ends after {end} s and {steps} steps, expected no more; raise operation.cycle.repeat to play it again"
+                    "the cycle ends after {end} s and {steps} steps, expected no more; write duration = \"{end} s\" in [operation], also \
+                     where a scene that is extended gives another one, or raise operation.cycle.repeat to play it again"
                 )));
             }
             // One that never changes is operation as ever, whose last step ends at the end or goes beyond it.
             let steps = parameters.steps_of(duration);
             if steps == 0 {
-                let message = "the cycle turns the disc by less than a step until then, so nothing would happen; lower numerics.time_acceleration";
-                return Err(problem(message.to_owned()));
+                let (turned, step) = (cycle.angle_at(duration), angle);
+                return Err(problem(format!(
+                    "until {duration} s the cycle turns the disc by {turned} rad, less than a step of {step} rad, so nothing would \
+                     happen; a longer duration, faster speeds or a smaller numerics.time_acceleration help"
+                )));
             }
             Length { steps, duration }
         }

@@ -98,9 +98,12 @@ mod tests {
         let (maps, none) = ([Map::DiscHeight, Map::PinStatus], []);
         assert_eq!(estimate([2, 10, 3], &maps, &none, false), 550 + 428);
         // All seven: disc 20·17, pin 6·(17 + 8), twice.
-        assert_eq!(estimate([2, 10, 3], &Map::ALL, &none, false), 550 + 2 * (20 * 17 + 6 * 25));
+        assert_eq!(estimate([2, 10, 3], &Map::CHOICES, &none, false), 550 + 2 * (20 * 17 + 6 * 25));
         // With the heights of both and the pressure, own and gathered.
-        assert_eq!(estimate([2, 10, 3], &Map::ALL, EXTRAS, false), 550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6));
+        assert_eq!(
+            estimate([2, 10, 3], &Map::CHOICES, EXTRAS, false),
+            550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6)
+        );
         assert_eq!(estimate([u64::MAX; 3], &maps, EXTRAS, true), u64::MAX);
     }
 

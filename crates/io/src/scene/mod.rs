@@ -10,14 +10,18 @@
 mod build;
 mod contents;
 mod cycle;
+mod cycle_table;
 mod difference;
+mod dissipation;
 mod document;
 mod error;
 mod interpret;
 mod layers;
 mod length;
 mod memory;
+mod quantity;
 mod resolved;
+mod rows;
 pub mod schema;
 mod settings;
 mod surfaces;

@@ -2,10 +2,10 @@
 
 use plateau_core::observe::Map;
 
+use super::cycle_table::{CycleTable, Loads, Speeds};
 use super::interpret::Setting;
 use super::schema::{self, Key, Kind};
 use super::settings::Settings;
-use crate::cycle_table::{CycleTable, Loads, Speeds};
 use crate::units::{self, Dimension};
 
 /// Writes a scene that reads back as the same settings, and needs neither the scenes it extended nor `--set`.
@@ -38,6 +38,12 @@ fn value(key: &Key, setting: &Setting) -> String {
             _ => list(numbers, |time| units::format(*time, "s", Dimension::Time)),
         },
         Setting::Rows(table) => rows(table),
+        Setting::Factor(factor) => {
+            let row = |(temperature, factor): &(f64, f64)| {
+                format!("[{}, {factor:?}]", string(&units::format(*temperature, "degC", Dimension::Temperature)))
+            };
+            format!("[{}]", factor.points().iter().map(row).collect::<Vec<_>>().join(", "))
+        }
         Setting::Maps(maps) => list(maps, |map: &Map| map.name().to_owned()),
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use plateau_core::model::heat::factor::Factor;
 use plateau_core::observe::Map;
 
 use super::document::{self, Entries, Value};
@@ -100,6 +101,20 @@ impl Settings {
         }
     }
 
+    /// A factor over temperature; without the key it is 1.
+    pub(super) fn factor(&self, path: &str) -> Result<Factor, Problem> {
+        match self.get(path) {
+            None => Ok(Factor::default()),
+            Some(Setting::Factor(factor)) => Ok(factor.clone()),
+            other => Err(self.unlike(path, "a factor", other)),
+        }
+    }
+
+    /// Whether any key of a table is given or has a default.
+    pub(super) fn has_table(&self, table: &str) -> bool {
+        self.values.keys().any(|path| schema::is_below(path, table))
+    }
+
     /// A number or quantity that may be absent.
     pub(super) fn optional_number(&self, path: &str) -> Result<Option<f64>, Problem> {
         self.get(path).map(|_| self.number(path)).transpose()
@@ -150,7 +165,7 @@ impl Settings {
             "plateaus.debris" => {
                 Some(self.get("plateaus.debris_pool").cloned().unwrap_or(Setting::Text("contact".to_owned())))
             }
-            "output.maps" => Some(Setting::Maps(Map::ALL.to_vec())),
+            "output.maps" => Some(Setting::Maps(Map::CHOICES.to_vec())),
             // They have a meaning only beside an image.
             "pin.base.rotate" | "pin.base.threshold" | "pin.base.fibres" if !entries.contains_key("pin.base.image") => {
                 None
@@ -158,6 +173,9 @@ impl Settings {
             "pin.base.rotate" => Some(Setting::Text("0 deg".to_owned())),
             "pin.base.threshold" => Some(Setting::Text("otsu".to_owned())),
             "pin.base.fibres" => Some(Setting::Text("bright".to_owned())),
+            path if path.starts_with("friction.") => {
+                self.get(&schema::join("friction", path.rsplit('.').next().unwrap_or_default())).cloned()
+            }
             // One column a step: a revolution has as many steps as the ring has columns.
             "output.sample_every_steps" if !entries.contains_key("output.sample_every") => {
                 self.get("mesh.disc_columns").cloned()
@@ -176,9 +194,11 @@ fn is_meaningless(path: &str, entries: &Entries) -> bool {
     schema::MEANINGLESS.iter().any(|each| each.key == path && document::chooses(entries, each.beside))
 }
 
-/// Whether the inline table that holds the key, if it is in one, is there.
+/// Whether the tables are there without which the key has no meaning: the inline table that holds it, if it is in one, and
+/// that which switches its part of the model on.
 fn applies(key: &Key, entries: &Entries) -> bool {
-    key.inline_table().is_none_or(|table| entries.get(&table).is_some_and(|entry| entry.value == Value::Table))
+    let is_there = |table: &str| entries.get(table).is_some_and(|entry| entry.value == Value::Table);
+    key.inline_table().is_none_or(|table| is_there(&table)) && schema::optional_table(key.section).is_none_or(is_there)
 }
 
 /// `dataset` means nothing without `file`, and so on.

@@ -4,10 +4,10 @@ use std::f64::consts::{PI, TAU};
 use std::iter::Peekable;
 use std::str::Chars;
 
-/// Powers of length, mass, time and plane angle.
+/// Powers of length, mass, time, plane angle and temperature.
 ///
 /// The angle counts as a dimension of its own, for only so does "14 Hz" differ from "14 rad/s".
-pub(super) type Powers = [i32; 4];
+pub(super) type Powers = [i32; 5];
 
 /// A unit in terms of SI: 10^tens · times / over of the SI unit with these powers.
 ///
@@ -26,26 +26,29 @@ const fn unit(powers: Powers, tens: i32, times: f64, over: f64) -> Scale {
 
 /// Symbols that take a prefix.
 const PREFIXABLE: &[(&str, Scale)] = &[
-    ("m", unit([1, 0, 0, 0], 0, 1.0, 1.0)),
-    ("s", unit([0, 0, 1, 0], 0, 1.0, 1.0)),
-    ("N", unit([1, 1, -2, 0], 0, 1.0, 1.0)),
-    ("Pa", unit([-1, 1, -2, 0], 0, 1.0, 1.0)),
-    ("g", unit([0, 1, 0, 0], -3, 1.0, 1.0)),
-    ("Hz", unit([0, 0, -1, 0], 0, 1.0, 1.0)),
+    ("m", unit([1, 0, 0, 0, 0], 0, 1.0, 1.0)),
+    ("s", unit([0, 0, 1, 0, 0], 0, 1.0, 1.0)),
+    ("N", unit([1, 1, -2, 0, 0], 0, 1.0, 1.0)),
+    ("Pa", unit([-1, 1, -2, 0, 0], 0, 1.0, 1.0)),
+    ("g", unit([0, 1, 0, 0, 0], -3, 1.0, 1.0)),
+    ("Hz", unit([0, 0, -1, 0, 0], 0, 1.0, 1.0)),
+    ("J", unit([2, 1, -2, 0, 0], 0, 1.0, 1.0)),
+    ("W", unit([2, 1, -3, 0, 0], 0, 1.0, 1.0)),
+    ("K", unit([0, 0, 0, 0, 1], 0, 1.0, 1.0)),
 ];
 
 /// Symbols that take none.
 const PLAIN: &[(&str, Scale)] = &[
-    ("min", unit([0, 0, 1, 0], 0, 60.0, 1.0)),
-    ("h", unit([0, 0, 1, 0], 0, 3600.0, 1.0)),
-    ("d", unit([0, 0, 1, 0], 0, 86400.0, 1.0)),
-    ("bar", unit([-1, 1, -2, 0], 5, 1.0, 1.0)),
-    ("rad", unit([0, 0, 0, 1], 0, 1.0, 1.0)),
-    ("deg", unit([0, 0, 0, 1], 0, PI, 180.0)),
-    ("rev", unit([0, 0, 0, 1], 0, TAU, 1.0)),
-    ("rpm", unit([0, 0, -1, 1], 0, TAU, 60.0)),
+    ("min", unit([0, 0, 1, 0, 0], 0, 60.0, 1.0)),
+    ("h", unit([0, 0, 1, 0, 0], 0, 3600.0, 1.0)),
+    ("d", unit([0, 0, 1, 0, 0], 0, 86400.0, 1.0)),
+    ("bar", unit([-1, 1, -2, 0, 0], 5, 1.0, 1.0)),
+    ("rad", unit([0, 0, 0, 1, 0], 0, 1.0, 1.0)),
+    ("deg", unit([0, 0, 0, 1, 0], 0, PI, 180.0)),
+    ("rev", unit([0, 0, 0, 1, 0], 0, TAU, 1.0)),
+    ("rpm", unit([0, 0, -1, 1, 0], 0, TAU, 60.0)),
     // Tribology writes "mm^3/Nm" and means mm³/(N·m).
-    ("Nm", unit([2, 1, -2, 0], 0, 1.0, 1.0)),
+    ("Nm", unit([2, 1, -2, 0, 0], 0, 1.0, 1.0)),
     ("1", Scale::ONE),
 ];
 
@@ -68,7 +71,7 @@ pub(super) const PREFIXES: &[(char, i32)] = &[
 const LONGEST: usize = 64;
 
 impl Scale {
-    const ONE: Self = unit([0; 4], 0, 1.0, 1.0);
+    const ONE: Self = unit([0; 5], 0, 1.0, 1.0);
 
     /// Reads a unit expression; the error says what is wrong with it.
     pub(super) fn parse(text: &str) -> Result<Self, String> {

@@ -29,6 +29,11 @@ pub fn length_unit() -> String {
 }
 
 fn number_with_unit(dimension: Dimension, sign: Sign) -> String {
+    if dimension == Dimension::Temperature {
+        // 0 °C is above 0 K.
+        let celsius = number(if sign == Sign::Any { Sign::Any } else { Sign::NotNegative });
+        return format!("({} *K|{celsius} *(degC|°C))", number(sign));
+    }
     let (glued, apart) = Units::new().of(dimension);
     let number = number(sign);
     match apart {
@@ -54,6 +59,9 @@ struct Units {
     time: String,
     force: String,
     pressure: String,
+    mass: String,
+    energy: String,
+    power: String,
 }
 
 const OVER: &str = " ?/ ?";
@@ -69,12 +77,13 @@ impl Units {
         let (length, force) = (prefixed("m"), prefixed("N"));
         let time = format!("({}|min|h|d)", prefixed("s"));
         let pressure = format!("({}|bar|{force}{OVER}{length}{SQUARED})", prefixed("Pa"));
-        Self { length, time, force, pressure }
+        let [mass, energy, power] = ["g", "J", "W"].map(prefixed);
+        Self { length, time, force, pressure, mass, energy, power }
     }
 
     /// Units that may follow a number at once, and those that must stand apart from it.
     fn of(&self, dimension: Dimension) -> (String, Option<String>) {
-        let Self { length, time, force, pressure } = self;
+        let Self { length, time, force, pressure, mass, energy, power } = self;
         let glued = match dimension {
             Dimension::Length => length.clone(),
             Dimension::Force => force.clone(),
@@ -83,6 +92,13 @@ impl Units {
             Dimension::Speed => format!("{length}{OVER}{time}"),
             Dimension::RotationalSpeed => format!("rpm|(rad|rev|deg){OVER}{time}"),
             Dimension::Area => format!("{length}{SQUARED}"),
+            Dimension::Temperature => "K".to_owned(),
+            Dimension::ThermalConductivity => format!("{power}({OVER}{length}{OVER}K|{OVER}\\({length}{TIMES}K\\))"),
+            Dimension::Density => format!("{mass}{OVER}{length}{CUBED}"),
+            Dimension::SpecificHeat => format!("{energy}({OVER}{mass}{OVER}K|{OVER}\\({mass}{TIMES}K\\))"),
+            Dimension::Cooling => format!("{power}{OVER}K"),
+            Dimension::CoolingPerSpeed => format!("{energy}({OVER}K{OVER}rad|{OVER}\\(K{TIMES}rad\\))"),
+            Dimension::NumberPerMass => return (format!("{mass}{INVERSE}"), Some(format!("1{OVER}{mass}"))),
             Dimension::SpecificWearRate => {
                 let work = format!(
                     r"{OVER}(\( ?{force}{TIMES}{length} ?\)|{force}{OVER}{length}|Nm)|{TIMES}{force}{INVERSE}{TIMES}{length}{INVERSE}"
@@ -104,7 +120,7 @@ mod tests {
     use super::*;
     use crate::units::parse;
 
-    const DIMENSIONS: [Dimension; 8] = [
+    const DIMENSIONS: [Dimension; 15] = [
         Dimension::Length,
         Dimension::Force,
         Dimension::Pressure,
@@ -113,6 +129,13 @@ mod tests {
         Dimension::RotationalSpeed,
         Dimension::SpecificWearRate,
         Dimension::Area,
+        Dimension::Temperature,
+        Dimension::ThermalConductivity,
+        Dimension::Density,
+        Dimension::SpecificHeat,
+        Dimension::Cooling,
+        Dimension::CoolingPerSpeed,
+        Dimension::NumberPerMass,
     ];
 
     /// Without the anchors, which the generator of strings does not know.

@@ -89,6 +89,33 @@ fn a_refusal_says_what_was_found_and_what_is_expected() {
 }
 
 #[test]
+fn temperatures_are_in_degrees_celsius_or_kelvins() {
+    for (text, expected) in
+        [("23 degC", 296.15), ("23 °C", 296.15), ("-40degC", 233.15), ("296.15 K", 296.15), ("1 mK", 1e-3)]
+    {
+        assert!((parse(text, Temperature).unwrap() - expected).abs() < 1e-13, "{text}");
+    }
+    let message = |text: &str, expected| parse(text, expected).unwrap_err().to_string();
+    // A degree Celsius is no unit of anything else: 0 °C is no zero.
+    assert!(message("1 W/degC", Cooling).contains("unknown unit \"degC\""));
+    assert!(
+        message("23 J", Temperature).contains("is an energy, expected a temperature such as \"23 degC\" (degC, K)")
+    );
+    for (text, dimension, expected) in [
+        ("50 W/(m K)", ThermalConductivity, 50.0),
+        ("0.5 W/(cm K)", ThermalConductivity, 50.0),
+        ("7.2 g/cm^3", Density, 7200.0),
+        ("500 J/(kg K)", SpecificHeat, 500.0),
+        ("0.5 kJ/kg/K", SpecificHeat, 500.0),
+        ("0.4 W/K", Cooling, 0.4),
+        ("2 mJ/(K rad)", CoolingPerSpeed, 0.002),
+        ("1e9 1/mg", NumberPerMass, 1e15),
+    ] {
+        assert!((parse(text, dimension).unwrap() / expected - 1.0).abs() < 1e-15, "{text}");
+    }
+}
+
+#[test]
 fn an_exponent_beyond_all_doubles_is_zero_or_not_finite() {
     assert_eq!(parse("1e-99999999999999999999 m", Length), Ok(0.0));
     assert_eq!(parse("-0 m", Length).map(f64::to_bits), Ok(0));
@@ -106,6 +133,10 @@ fn quantities_are_written_as_one_would() {
         (0.0, "um", Length, "0 um"),
         (-8e-6, "um", Length, "-8 um"),
         (850.0 * std::f64::consts::TAU / 60.0, "rpm", RotationalSpeed, "850 rpm"),
+        (296.15, "degC", Temperature, "23 degC"),
+        (273.15, "degC", Temperature, "0 degC"),
+        (0.0031, "cm^2", Area, "31 cm^2"),
+        (0.002, "J/(K rad)", CoolingPerSpeed, "0.002 J/(K rad)"),
     ] {
         assert_eq!(format(value, unit, dimension), expected);
     }
@@ -113,12 +144,12 @@ fn quantities_are_written_as_one_would() {
 
 proptest! {
     #[test]
-    fn what_is_written_reads_back_as_the_same_double(bits in any::<u64>(), which in 0_usize..8) {
+    fn what_is_written_reads_back_as_the_same_double(bits in any::<u64>(), which in 0_usize..10) {
         let value = f64::from_bits(bits);
         prop_assume!(value.is_finite());
         let (unit, dimension) = [
             ("um", Length), ("mm", Length), ("N", Force), ("GPa", Pressure), ("mm^3/(N m)", SpecificWearRate),
-            ("min", Time), ("km/h", Speed), ("rpm", RotationalSpeed),
+            ("min", Time), ("km/h", Speed), ("rpm", RotationalSpeed), ("degC", Temperature), ("1/kg", NumberPerMass),
         ][which];
         prop_assert_eq!(parse(&format(value, unit, dimension), dimension), Ok(value));
     }

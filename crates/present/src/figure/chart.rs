@@ -138,3 +138,34 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
 pub fn up_from_zero(largest: f64) -> RangeInclusive<f64> {
     0.0..=if largest > 0.0 { 1.04 * largest } else { 1.0 }
 }
+
+/// From a little below the least to a little above the greatest of those values that are numbers, with a little width where
+/// all are equal; from 0 to 1 where none is.
+pub fn around<'a>(values: impl IntoIterator<Item = &'a f64>) -> RangeInclusive<f64> {
+    let numbers = values.into_iter().copied().filter(|value| value.is_finite());
+    let (low, high) =
+        numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    if low > high {
+        return 0.0..=1.0;
+    }
+    // What rounding makes of equal values is no range.
+    let size = low.abs().max(high.abs());
+    let margin = if high - low > 1e-9 * size { 0.05 * (high - low) } else { 0.05 * size.max(1e-3) };
+    low - margin..=high + margin
+}
+
+#[cfg(test)]
+mod tests {
+    use super::around;
+
+    #[test]
+    fn axes_reach_a_little_beyond_the_values() {
+        let ends = |values: &[f64]| (*around(values).start(), *around(values).end());
+        assert_eq!(ends(&[30.0, f64::NAN, 10.0]), (9.0, 31.0));
+        let (low, high) = ends(&[20.0, 20.0 + 1e-12]);
+        assert!((low - 19.0).abs() < 1e-9 && (high - 21.0).abs() < 1e-9);
+        assert_eq!(ends(&[f64::NAN]), (0.0, 1.0));
+        let (low, high) = ends(&[0.0]);
+        assert!(low < 0.0 && high > 0.0);
+    }
+}

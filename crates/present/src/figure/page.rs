@@ -70,6 +70,8 @@ pub enum KeyStyle {
 pub enum Mark {
     /// A dot.
     Dot,
+    /// A small dot, of which there may be many.
+    Point,
     /// A dot with a white rim, to be seen on a map.
     Rimmed,
     /// An upright cross with a white rim.
@@ -212,6 +214,7 @@ impl Mark {
         };
         match self {
             Self::Dot => disc(Self::RADIUS, colour),
+            Self::Point => disc(0.6 * Self::RADIUS, colour),
             Self::Rimmed => {
                 disc(Self::RADIUS + Self::RIM, GROUND)?;
                 disc(Self::RADIUS, colour)

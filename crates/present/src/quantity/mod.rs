@@ -29,7 +29,7 @@ pub struct SeriesLook {
 }
 
 /// The series that pages, figures or the terminal name, in the order in which they are told.
-static SERIES: [SeriesLook; 21] = [
+static SERIES: [SeriesLook; 35] = [
     series("sliding_distance", "sliding distance", Unit::METRE),
     series("contact_area", "contact area", Unit::MM2),
     series("contact_area_mean", "contact area, mean of the last revolution", Unit::MM2),
@@ -51,6 +51,20 @@ static SERIES: [SeriesLook; 21] = [
     series("normal_force", "normal force", Unit::NEWTON),
     series("rotational_speed", "rotational speed", Unit::RPM),
     series("road_distance", "distance of the vehicle", Unit::METRE),
+    series("friction_coefficient", "coefficient of friction", Unit::NUMBER),
+    series("friction_coefficient_mean", "coefficient of friction, mean of the last revolution", Unit::NUMBER),
+    series("friction_work", "work of friction", Unit::KILOJOULE),
+    series("contact_temperature", "temperature of the contact", Unit::CELSIUS),
+    series("contact_temperature_heated", "temperature of the cells in contact, mean", Unit::CELSIUS),
+    series("contact_temperature_max", "temperature of the hottest cell of the pin", Unit::CELSIUS),
+    series("disc_temperature", "mean temperature of the disc", Unit::CELSIUS),
+    series("pin_temperature", "mean temperature of the pin", Unit::CELSIUS),
+    series("heat_lost", "heat lost to air and holder", Unit::KILOJOULE),
+    series("heat_residual", "relative residual of the energy balance", Unit::NUMBER),
+    series("emitted_mass", "mass of the emitted debris", Unit::MICROGRAM),
+    series("pm10_mass", "mass airborne as PM10", Unit::MICROGRAM),
+    series("pm25_mass", "mass airborne as PM2.5", Unit::MICROGRAM),
+    series("particle_number", "airborne particles", Unit::NUMBER),
 ];
 
 const fn series(name: &'static str, title: &'static str, unit: Unit) -> SeriesLook {
@@ -113,7 +127,7 @@ pub enum Colours {
     Statuses,
 }
 
-static MAPS: [MapLook; 7] = [
+static MAPS: [MapLook; 8] = [
     height(Map::DiscHeight, "Disc: height, positive toward the pin", None),
     height(Map::DiscSubstrate, "Disc: height below the debris", Some(Map::DiscHeight)),
     status(Map::DiscStatus, "Disc: status"),
@@ -126,6 +140,15 @@ static MAPS: [MapLook; 7] = [
         what: "pressure",
         unit: Unit::MEGAPASCAL,
         colours: Colours::FromZero,
+        about_mean: false,
+        above: None,
+    },
+    MapLook {
+        map: Map::Temperature,
+        title: "Pin: contact temperature",
+        what: "temperature",
+        unit: Unit::CELSIUS,
+        colours: Colours::Span,
         about_mean: false,
         above: None,
     },

@@ -19,15 +19,15 @@ pub fn rows(runs: &[Vec<Measure>]) -> Vec<Vec<String>> {
 /// The value of `other`, and how far it is from that of `reference`, absolutely and in percent of it.
 fn compare(reference: &Measure, other: &Measure) -> String {
     let (Some(from), Some(to)) = (reference.value, other.value) else { return other.text() };
-    let difference = (to - from) * other.unit.per_si;
+    let difference = other.unit.difference(to - from);
     if difference == 0.0 {
         return format!("{} (same)", other.text());
     }
     let percent = 100.0 * (to - from) / from.abs();
-    // Percent of percent confuse; of a number that is 0 there are none.
+    // Percent of percent confuse; of a number that is 0, or that has its 0 anywhere, there are none.
     if other.unit.symbol == "%" {
         format!("{} ({} points)", other.text(), signed(&four_digits(difference)))
-    } else if percent.is_finite() {
+    } else if percent.is_finite() && other.unit.offset == 0.0 {
         format!("{} ({}, {} %)", other.text(), signed(&four_digits(difference)), signed(&percentage(percent)))
     } else {
         format!("{} ({})", other.text(), signed(&four_digits(difference)))
@@ -86,5 +86,8 @@ mod tests {
         assert_eq!(shown[0][2], "62.500 % (+12.5 points)");
         let shown = rows(&[vec![measure(Unit::NUMBER, 0.0)], vec![measure(Unit::NUMBER, 2.0)]]);
         assert_eq!(shown[0][2], "2.0000 (+2)");
+        // 150 °C and 160 °C.
+        let shown = rows(&[vec![measure(Unit::CELSIUS, 423.15)], vec![measure(Unit::CELSIUS, 433.15)]]);
+        assert_eq!(shown[0][1..], ["150.00 °C", "160.00 °C (+10)"]);
     }
 }

@@ -20,7 +20,7 @@ pub fn tables(runs: &[RunFile], labels: &[String]) -> Result<String, ReadError> 
         for (quantity, values) in &events {
             let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
             let unit = if quantity.unit == "rad s-1" { Unit::RPM } else { Unit::readable(quantity.unit, largest) };
-            heads.push(html::capital(&unit.label(&quantity.name.replace('_', " "))));
+            heads.push(html::capital(&unit.label(&words(quantity.name))));
             columns.push(values.iter().map(|value| number::short(unit.value(*value))).collect::<Vec<_>>());
         }
         let row = |event: usize| {
@@ -31,4 +31,21 @@ pub fn tables(runs: &[RunFile], labels: &[String]) -> Result<String, ReadError> 
         text.push_str(&html::number_table(label, &heads, &rows));
     }
     Ok(text)
+}
+
+/// The name of a quantity of the events in words.
+fn words(name: &str) -> String {
+    name.replace('_', " ").replace("pm10", "PM10")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_are_called_as_people_call_them() {
+        let heads = [("temperature_peak", "K", 420.0), ("work", "J", 1.2e3), ("pm10_mass", "kg", 3e-9)]
+            .map(|(name, unit, largest)| html::capital(&Unit::readable(unit, largest).label(&words(name))));
+        assert_eq!(heads, ["Temperature peak, °C", "Work, kJ", "PM10 mass, µg"]);
+    }
 }

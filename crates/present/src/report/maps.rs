@@ -57,7 +57,7 @@ impl PageMap {
         if step == 0.0 {
             return format!("{} not at all, being alike everywhere", self.name);
         }
-        let step = number::significant(self.unit.value(step), 2);
+        let step = number::significant(self.unit.difference(step), 2);
         format!("{} in steps of {}", self.name, self.unit.with_symbol(&step))
     }
 }

@@ -11,6 +11,7 @@
 //! | text as HTML, tables | [`html`] |
 //! | a series with its last and largest value, thinned | [`series`] |
 //! | how the runs ended, and the comparison with the first | [`outcome`], [`comparison`] |
+//! | the same of friction, heat and emission, of runs that have them | [`dissipation`] |
 //! | the events of a cycle | [`events`] |
 //! | where the run files come from, in which keys their scenes differ | [`provenance`] |
 //! | the JSON document of the page | [`document`] |
@@ -19,6 +20,7 @@
 //! | figures made by the program | [`picture`] |
 
 mod comparison;
+mod dissipation;
 mod document;
 mod effects;
 mod events;

@@ -30,7 +30,7 @@ impl Measure {
     /// The number with its unit.
     pub fn text(&self) -> String {
         let text = |value: f64| match self.error {
-            Some(error) => number::with_error(self.unit.value(value), Some(self.unit.value(error))),
+            Some(error) => number::with_error(self.unit.value(value), Some(self.unit.difference(error))),
             None => readable(self.unit.value(value)),
         };
         self.value.map_or_else(|| UNKNOWN.into(), |value| self.unit.with_symbol(&text(value)))

@@ -1,5 +1,6 @@
 //! The page, put together.
 
+use plateau_core::observe::Map;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::run_file::{ReadError, RunFile, State};
 
@@ -9,7 +10,7 @@ use super::layout::{AROUND, Layout, Section};
 use super::outcome::{self, Measure, UNKNOWN, readable};
 use super::picture::Pictures;
 use super::series::{MOST_POINTS, Recorded, recorded};
-use super::{comparison, events, provenance};
+use super::{comparison, dissipation, events, provenance};
 use crate::label::labels;
 use plateau_io::number;
 
@@ -37,8 +38,9 @@ pub fn page(runs: &[RunFile], pictures: &Pictures, program: &str) -> Result<Stri
     let labels = labels(runs);
     let series = runs.iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
     let contact_areas = runs.iter().map(RunFile::last_contact_area).collect::<Result<Vec<_>, _>>()?;
+    let of_every_run = series.iter().zip(&contact_areas).map(|(series, area)| outcome::measures(series, *area));
     let measures: Vec<_> =
-        series.iter().zip(&contact_areas).map(|(series, area)| outcome::measures(series, *area)).collect();
+        of_every_run.zip(dissipation::measures(&series)).map(|(every, parts)| [every, parts].concat()).collect();
     let mut document = Document::new(runs, &labels, &series, &pictures.pictures);
     let parts = Parts { runs, labels: &labels, series: &series, contact_areas: &contact_areas, measures: &measures };
     let around = AROUND + STYLE.len() + SCRIPT.len() + parts.provenance().len() + 20_000 * (1 + runs.len());
@@ -196,6 +198,13 @@ impl Parts<'_> {
              more than it is rough: its colours are of heights less their mean at each time."
                 .to_owned(),
         ];
+        if self.runs.iter().any(|run| run.has_map(Map::Temperature)) {
+            notes.push(
+                "Temperatures of the pin's cells count pressures as frozen during a pass and have no conduction along the \
+                 surface: on rough discs the hottest may be half of their rise too low."
+                    .to_owned(),
+            );
+        }
         for (run, file) in document.runs.iter().zip(self.runs) {
             let samples = file.time().len();
             let thinned = if samples > MOST_POINTS { "thinned in the charts" } else { "all in the charts" };

@@ -190,7 +190,7 @@ fn last_map(run: &RunFile, map: Map) -> Result<Option<Vec<f64>>, ReadError> {
 
 /// Refuses a run whose scene differs in more than numerics and output.
 fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String)]) -> Result<(), ReferenceError> {
-    let read: Vec<InputFile> = run.attribute("inputs").map(|text| parsed_inputs(&text)).unwrap_or_default();
+    let read = run.inputs();
     let digest_there = |path: &str| read.iter().find(|input| input.path == path).map(|input| input.sha256.as_str());
     let digest_here =
         |path: &str| inputs.iter().find(|(input, _)| input.as_os_str() == path).map(|(_, sha256)| sha256.as_str());
@@ -222,17 +222,6 @@ fn refuse_another_scene(run: &RunFile, scene: &Scene, inputs: &[(PathBuf, String
         return Ok(());
     }
     Err(ReferenceError::OtherScene { path: run.path().to_owned(), differences: message })
-}
-
-/// The files that a run file says its run has read.
-fn parsed_inputs(text: &str) -> Vec<InputFile> {
-    let document: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
-    let entries = document.as_array().cloned().unwrap_or_default();
-    let entry = |entry: &serde_json::Value| {
-        let text = |name: &str| entry.get(name).and_then(|value| value.as_str()).map(str::to_owned);
-        Some(InputFile { path: text("path")?, sha256: text("sha256")? })
-    };
-    entries.iter().filter_map(entry).collect()
 }
 
 #[cfg(test)]

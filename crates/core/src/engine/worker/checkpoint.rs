@@ -8,6 +8,9 @@ use crate::engine::comm::Communicator;
 use crate::engine::error::SimulationError;
 use crate::engine::execution::Engine;
 use crate::engine::kernel::Rules;
+use crate::engine::pair::Coefficients;
+use crate::engine::sums::RowWeights;
+use crate::model::accounts::Accounts;
 use crate::model::parameters::Parameters;
 
 impl<C: Communicator> Worker<C> {
@@ -19,6 +22,7 @@ impl<C: Communicator> Worker<C> {
             time_acceleration: self.parameters.time_acceleration,
             account: self.debris.account(),
             history: self.history.clone(),
+            accounts: self.accounts.as_ref().map(|accounts| accounts.state().clone()),
             engine: Some(EngineMemory {
                 contact: self.contact.clone(),
                 forecast: self.forecast.clone(),
@@ -30,10 +34,13 @@ impl<C: Communicator> Worker<C> {
 
     /// Takes over the state of a simulation of the same parameters and surfaces.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
-        let Memory { course, clock, time_acceleration, account, history, engine } = checkpoint.memory.clone();
+        let Memory { course, clock, time_acceleration, account, history, accounts, engine } = checkpoint.memory.clone();
         let Some(EngineMemory { contact, forecast, bracket, overlaps }) = engine else {
             return Err(SimulationError::OtherEngine { found: Engine::Plain, expected: Engine::Fast });
         };
+        if let (Some(own), Some(state)) = (&mut self.accounts, accounts) {
+            own.restore(state);
+        }
         self.accept_coefficients(&Parameters { time_acceleration, ..Parameters::clone(&self.parameters) });
         let rows = self.parameters.mesh.rows();
         let own = self.rows.clone();
@@ -60,12 +67,17 @@ impl<C: Communicator> Worker<C> {
         Ok(())
     }
 
-    /// Makes everything that depends on the acceleration anew.
+    /// Makes everything that depends on the acceleration, and on wear rates that change with temperature, anew.
     pub(super) fn accept_coefficients(&mut self, parameters: &Parameters) {
-        self.coefficients = crate::engine::pair::Coefficients::new(parameters);
-        self.rules = Rules::new(parameters, &self.coefficients, self.filling.reference_height(), self.shortcut);
-        self.weights = crate::engine::sums::RowWeights::new(parameters, &self.coefficients, self.rows.clone());
-        self.debris.set_coefficients(&self.coefficients);
         self.parameters = Arc::new(parameters.clone());
+        self.wear_rate_factor = self.accounts.as_deref().map_or(1.0, Accounts::wear_rate_factor);
+        let now = match self.wear_rate_factor {
+            1.0 => self.parameters.clone(),
+            factor => Arc::new(parameters.with_wear_rate_factor(factor)),
+        };
+        self.coefficients = Coefficients::new(&now);
+        self.rules = Rules::new(&now, &self.coefficients, self.filling.reference_height(), self.shortcut);
+        self.weights = RowWeights::new(&now, &self.coefficients, self.rows.clone());
+        self.debris.set_coefficients(&self.coefficients);
     }
 }

@@ -31,8 +31,9 @@ use crate::engine::quantum::Quantum;
 use crate::engine::sector::Partition;
 use crate::engine::strips::{DiscSector, strips};
 use crate::engine::sums::{RowWeights, Sums};
+use crate::model::accounts::{Accounts, StepFacts};
 use crate::model::clock::Clock;
-use crate::model::operation::StepOperation;
+use crate::model::clock::StepOperation;
 use crate::model::parameters::Parameters;
 use crate::model::state::InitialSurfaces;
 
@@ -79,6 +80,10 @@ pub(crate) struct Worker<C> {
     /// p of the own pin cells in the last step, column by column, Pa; empty if it was not watched.
     pressure: Vec<f64>,
     course: Course,
+    /// Friction, heat and emission, where the scene asks for any.
+    accounts: Option<Box<Accounts>>,
+    /// f_κ with which the coefficients were made.
+    wear_rate_factor: f64,
     clock: Clock,
     /// Load and time of the step that is being taken, or was taken last.
     operation: StepOperation,
@@ -119,14 +124,15 @@ impl<C: Communicator> Worker<C> {
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
         let quantum =
             Quantum::of(parameters.largest_load() / coefficients.least_plateau_stiffness(), mesh.pin_columns());
-        Self {
+        let by_status = parameters.friction.is_some_and(|friction| friction.depends_on_status());
+        let mut worker = Self {
             instructions: execution.instructions,
             shortcut: execution.shortcut,
             sweep: sweep(needs),
             read: read(needs),
             wear_column: wear_column(needs),
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
-            contact: Contact::new(&weights),
+            contact: Contact::new(&weights, by_status),
             quantum,
             overlaps: quantum,
             pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs),
@@ -144,6 +150,8 @@ impl<C: Communicator> Worker<C> {
             halo: Vec::new(),
             pressure: Vec::new(),
             course: Course::default(),
+            accounts: Accounts::of(&parameters).map(Box::new),
+            wear_rate_factor: 1.0,
             clock: parameters.clock(),
             operation: parameters.operation_of(1, &parameters.clock()),
             turned,
@@ -155,7 +163,11 @@ impl<C: Communicator> Worker<C> {
             partition,
             communicator,
             parameters,
+        };
+        if worker.accounts.as_ref().is_some_and(|accounts| accounts.wear_rate_factor() != 1.0) {
+            worker.accept_coefficients(&worker.parameters.clone());
         }
+        worker
     }
 
     /// Takes steps until `step` of them are done; the last may be watched, for a sample or maps of pressure to follow.
@@ -182,8 +194,10 @@ impl<C: Communicator> Worker<C> {
     /// | 4.2, 4L, 4P | wear, destruction and formation in every cell | [`crate::engine::wear`], [`crate::engine::plateau`], [`crate::engine::kernel`] |
     /// | 4.1 | the pairs of the next step against where its displacement is expected | [`crate::engine::kernel`] |
     /// | 4L, 4P | debris balance | [`Debris::settle`] |
+    /// | 10, 11, 12 | friction, heat and emission | [`Accounts`] |
     /// | 4.6 | the disc turns by one column | |
     fn advance(&mut self, watched: bool) -> Result<(), SimulationError> {
+        self.begin_accounts()?;
         self.operation = self.parameters.operation_of(self.course.steps + 1, &self.clock);
         let largest_overlap = self.balance()?;
         if watched {
@@ -194,11 +208,36 @@ impl<C: Communicator> Worker<C> {
         let bracket = self.sweep_columns()?;
         self.gather_sweep(&bracket)?;
         self.bracket = Some(bracket);
-        self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
+        let moved = self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
         self.course.contact_area = self.contact.area();
         self.history.record(self.course.contact_area, &self.operation);
         self.course.steps += 1;
         self.course.time = self.operation.end;
+        if let Some(accounts) = &mut self.accounts {
+            accounts.record(&StepFacts {
+                number: self.course.steps,
+                angle: self.parameters.step_angle(),
+                operation: &self.operation,
+                contact: &self.contact.sums(self.operation.load),
+                moved: &moved,
+            });
+        }
+        Ok(())
+    }
+
+    /// Has the accounts take the pauses before the coming step, and takes over the wear rates that hold in it.
+    fn begin_accounts(&mut self) -> Result<(), SimulationError> {
+        let Some(accounts) = &mut self.accounts else { return Ok(()) };
+        accounts.begin(self.course.steps + 1, self.parameters.step_angle());
+        if accounts.wear_rate_factor() == self.wear_rate_factor {
+            return Ok(());
+        }
+        self.accept_coefficients(&self.parameters.clone());
+        // The sums of the coming step were taken with the weights of before. No bracket has missed, so this is not
+        // counted; and who goes on from a checkpoint has read them again anyway.
+        let extra_readings = self.course.extra_readings;
+        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
+        self.course.extra_readings = extra_readings;
         Ok(())
     }
 

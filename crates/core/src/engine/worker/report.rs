@@ -7,6 +7,7 @@ use crate::engine::comm::Communicator;
 use crate::engine::error::SimulationError;
 use crate::engine::exact::{self, RingSum};
 use crate::engine::strips::DiscSector;
+use crate::model::accounts::AccountsReport;
 use crate::model::material::Status;
 use crate::model::state::{disc_status, pin_status};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
@@ -56,6 +57,9 @@ impl<C: Communicator> Worker<C> {
             filled_fraction: self.filling.filled_fraction(open_volume),
             load_residual: self.contact.residual(),
             balance_residual: self.debris.balance_residual(),
+            accounts: self.accounts.as_ref().map_or(AccountsReport::default(), |accounts| {
+                accounts.report(self.course.steps, parameters.step_angle(), self.course.time, None)
+            }),
             extras: Vec::new(),
         })
     }

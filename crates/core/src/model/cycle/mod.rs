@@ -6,15 +6,17 @@
 
 mod event;
 mod interval;
+mod pause;
 
 use std::iter;
 
 use thiserror::Error;
 
-pub use self::event::{Event, largest_acceleration};
+pub use self::event::Event;
 use self::interval::Interval;
 pub use self::interval::{Kind, Node};
-use super::operation::StepOperation;
+pub use self::pause::Pause;
+use super::clock::StepOperation;
 
 /// Part of a step below which an angle counts as reached: rounding must not put the end of a step behind the pause that begins with
 /// it.
@@ -194,7 +196,8 @@ impl Cycle {
 
     /// The first step of angle `step` (rad) that ends at a time (s) or later, or in whose pause that time is.
     pub fn steps_until(&self, time: f64, step: f64) -> u64 {
-        (self.angle_at(time) / step - SLACK).ceil().max(0.0) as u64
+        let angle = self.angle_at(time);
+        ((angle - Self::slack(angle, step)) / step).ceil().max(0.0) as u64
     }
 
     /// t_n of the `number`-th step of angle `step` (rad), s.
@@ -205,7 +208,7 @@ impl Cycle {
     /// The `number`-th step, from 1, of angle `step` (rad).
     pub fn step(&self, number: u64, step: f64) -> StepOperation {
         let (from, to) = (self.reached(number - 1, step), self.reached(number, step));
-        let (mut work, mut angle, mut only, mut turns) = (0.0, 0.0, None, None);
+        let (mut work, mut angle, mut only, mut turns, mut active) = (0.0, 0.0, None, None, 0.0);
         for place in self.path(from, to) {
             let interval = &self.intervals[place.interval];
             let is_last = (place.round, place.interval) == (to.round, to.interval);
@@ -214,6 +217,7 @@ impl Cycle {
                 continue;
             }
             turns = turns.or(Some(place));
+            active += end - place.time;
             let (force, turned) = interval.mean_force(place.time..end);
             // A load that never changes is that load, to the bit.
             only = if angle == 0.0 || only == Some(force) { Some(force) } else { None };
@@ -226,34 +230,14 @@ impl Cycle {
             load: only.unwrap_or(work / angle),
             standing_before: turns - before,
             loaded: after - turns,
+            active,
         }
     }
 
-    /// The maximal stretches of active intervals until a time (s).
-    pub fn events(&self, until: f64) -> Vec<Event> {
-        let rounds = (0..self.rounds).map(|round| round as f64 * self.period).take_while(|start| *start < until);
-        let mut events: Vec<Event> = Vec::new();
-        let mut is_open = false;
-        for (start, interval) in rounds.flat_map(|start| self.intervals.iter().map(move |interval| (start, interval))) {
-            let (start, length) = (start + interval.start.time, interval.length());
-            if interval.kind != Kind::Active || start >= until {
-                is_open = false;
-                continue;
-            }
-            let last = interval.after(length.min(until - start));
-            let end = Node { time: (start + length).min(until), ..last };
-            match events.last_mut() {
-                Some(event) if is_open => event.end = end,
-                _ => events.push(Event { start: Node { time: start, ..interval.start }, end }),
-            }
-            is_open = true;
-        }
-        events
-    }
-
-    /// By how much the disc turns in an event, rad.
-    pub fn angle_of(&self, event: &Event) -> f64 {
-        self.angle_at(event.end.time) - self.angle_at(event.start.time)
+    /// By how much an angle (rad) may be off by rounding, in steps of angle `step` (rad).
+    fn slack(angle: f64, step: f64) -> f64 {
+        // Many steps on, the angle itself is rounded by more.
+        (SLACK * step).max(4.0 * f64::EPSILON * angle)
     }
 
     /// Where so many steps are done first.
@@ -262,8 +246,7 @@ impl Cycle {
             return Place { round: 0, interval: 0, time: 0.0 };
         }
         let angle = number as f64 * step;
-        // Many steps on, the angle itself is rounded by more.
-        let slack = (SLACK * step).max(4.0 * f64::EPSILON * angle);
+        let slack = Self::slack(angle, step);
         let round = (((angle - slack) / self.angle).ceil() - 1.0).clamp(0.0, (self.rounds - 1) as f64);
         let angle = angle - round * self.angle;
         let found = self.intervals.partition_point(|interval| interval.angle < angle - slack);

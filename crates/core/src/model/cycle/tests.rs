@@ -164,7 +164,9 @@ fn events_are_the_longest_active_stretches() {
     assert_eq!(cycle.events(2.0), [Event { start: STOPS[0], end: STOPS[2] }]);
     let drag = [node(0.0, 1.0, 1.0), node(1.0, 2.0, 1.0)];
     assert_eq!(linear(&drag, 4).events(9.0).len(), 1);
-    near(largest_acceleration(40.0 * std::f64::consts::PI), 2.0);
+    // The shortest turns the disc by 25 rad and 15 rad of the 20π rad of ten revolutions.
+    near(cycle.largest_acceleration(12.0), 2.0 / std::f64::consts::PI);
+    assert_eq!([0.63, 0.64].map(|m| cycle.short_events(12.0, m)), [0, 2]);
 }
 
 #[test]

@@ -23,6 +23,11 @@ const USUAL: &[(&str, &str)] = &[
     ("resin_recess", "8 um"),
     ("sample_every", "1 s"),
     ("checkpoint_every", "60 s"),
+    ("shear_strength", "0.75 MPa"),
+    ("thickness", "6 mm"),
+    ("coating.thickness", "60 um"),
+    ("length", "12 mm"),
+    ("area", "31 cm^2"),
 ];
 
 /// A value that the key may have, in TOML; `None` where its form is plain.
@@ -36,6 +41,7 @@ pub(super) fn of(key: &Key) -> Option<String> {
         Kind::LengthUnit => Some("\"um\"".to_owned()),
         Kind::Times => Some("[\"0 s\", \"500 s\"]".to_owned()),
         Kind::Rows => Some("[[\"0 s\", \"47 N\", \"850 rpm\"], [\"3 s\", \"47 N\", \"0 rpm\"]]".to_owned()),
+        Kind::Factor => Some("[[\"230 degC\", 1.0], [\"400 degC\", 4.0]]".to_owned()),
         Kind::Maps => Some("[\"disc_height\", \"pressure\"]".to_owned()),
         _ => None,
     }

@@ -3,7 +3,8 @@
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
-use super::{Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
+use super::optional_parts;
+use super::{CYCLE, Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
 use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
 use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
@@ -16,9 +17,6 @@ const TEXTURES: &[(&str, &[&str])] = &[
     ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
     ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
 ];
-
-/// What brings load, speed and duration with it.
-const CYCLE: &str = "operation.cycle";
 
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
@@ -75,7 +73,7 @@ const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
 const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
 const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
 
-const fn length(unit: &'static str, range: Range) -> Kind {
+pub(super) const fn length(unit: &'static str, range: Range) -> Kind {
     Kind::Quantity { dimension: Length, unit, range }
 }
 
@@ -167,6 +165,8 @@ pub(super) fn all() -> Vec<Key> {
     table.key("pad_share", Number(Range::FRACTION), Default("0.5"), pad_share);
     table.key("formation", Bool, Default("true"), "whether plateaus form at all");
     table.key("destruction", Bool, Default("true"), "whether unsupported plateaus of the pin break up, with a pool");
+
+    optional_parts::add(&mut table);
 
     table.section = "disc.surface";
     table.heights();
@@ -260,14 +260,14 @@ pub(super) fn all() -> Vec<Key> {
 }
 
 /// Collects keys; `section` is the table to which the next ones belong, `role` what they change.
-struct Table {
-    keys: Vec<Key>,
-    section: &'static str,
+pub(super) struct Table {
+    pub(super) keys: Vec<Key>,
+    pub(super) section: &'static str,
     role: Role,
 }
 
 impl Table {
-    fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) -> &mut Key {
+    pub(super) fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) -> &mut Key {
         let place = self.keys.len();
         self.keys.push(Key { section: self.section, name, kind, need, meaning, role: self.role });
         &mut self.keys[place]

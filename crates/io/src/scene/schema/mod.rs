@@ -7,6 +7,7 @@ pub mod choices;
 mod example;
 mod json_schema;
 mod keys;
+mod optional_parts;
 mod suggest;
 mod tables;
 
@@ -19,6 +20,11 @@ pub use json_schema::document as json_schema;
 pub use keys::{GROUPS, MEANINGLESS};
 pub(crate) use suggest::{nearest, unknown};
 pub use tables::table_meaning;
+
+/// Full path of the key of m: a number, or a table with how the run chooses it.
+pub(crate) const ACCELERATION: &str = "numerics.time_acceleration";
+/// Full path of the table of the cycle.
+pub(crate) const CYCLE: &str = "operation.cycle";
 
 /// One key of a scene.
 #[derive(Debug, Clone)]
@@ -137,6 +143,8 @@ pub enum Kind {
     Maps,
     /// Rows of a cycle: time, load and speed of each.
     Rows,
+    /// Rows of temperature and factor.
+    Factor,
 }
 
 /// What happens when a key is absent.
@@ -271,6 +279,14 @@ pub fn keys() -> &'static [Key] {
 /// The key with this full path.
 pub fn find(path: &str) -> Option<&'static Key> {
     keys().iter().find(|key| key.path() == path)
+}
+
+/// Tables that switch a part of the model on; without the table its keys are not asked for.
+const OPTIONAL_TABLES: &[&str] = &["friction", "thermal", "emission"];
+
+/// The table without which the keys of a section are not asked for, if there is one.
+pub(crate) fn optional_table(section: &str) -> Option<&'static str> {
+    OPTIONAL_TABLES.iter().copied().find(|table| section == *table || is_below(section, table))
 }
 
 /// Whether keys live below this path.

@@ -66,7 +66,7 @@ pub fn axes(analysis: &Analysis) -> Vec<FactorAxis<'_>> {
 
 /// The unit in which a response is shown.
 pub fn unit(response: &AnalysedResponse, effects: &Effects) -> Unit {
-    Unit::readable(response.unit, responses(effects).map(f64::abs).fold(0.0, f64::max))
+    Unit::readable_with_differences(response.unit, responses(effects).map(f64::abs).fold(0.0, f64::max))
 }
 
 /// The responses of the runs that have one.

@@ -7,29 +7,41 @@
 //! | heights of disc and pin | [`topography`] |
 //! | status of their cells | [`status`] |
 //! | contact pressure on the pin | [`pressure`] |
+//! | temperature of the pin's cells, of runs that record it | [`contact_temperature`] |
 //! | contact area against time | [`contact_area`] |
 //! | load and speed above it, of runs with a cycle | [`operation`] |
+//! | coefficient of friction, of runs with friction | [`friction`] |
+//! | temperatures against time, of runs with heat | [`temperature`] |
+//! | airborne mass and particles, of runs with emission | [`emission`] |
 //! | filling and coverage against time | [`filled`] |
 //! | how large plateaus are | [`plateau_sizes`] |
 //! | where the debris is | [`debris`] |
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
 //! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`] and [`shape`], the moments that are
-//! shown in [`moments`], many samples as few in [`spans`], names of runs in [`mod@crate::label`].
+//! shown in [`moments`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
+//! [`rates`], names of runs in [`mod@crate::label`].
 
 mod contact_area;
+mod contact_temperature;
 mod debris;
+mod emission;
 mod filled;
+mod friction;
 mod heights;
 mod map_page;
 mod moments;
 mod operation;
 mod plateau_sizes;
 mod pressure;
+mod rates;
 mod shape;
 mod spans;
 mod status;
+mod temperature;
 mod topography;
+#[cfg(test)]
+mod written;
 
 use std::fmt;
 use std::path::PathBuf;
@@ -101,10 +113,14 @@ pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError
     topography::add(&subjects, options, &mut figures)?;
     status::add(&subjects, options, &mut figures)?;
     pressure::add(&subjects, &mut figures)?;
+    contact_temperature::add(&subjects, &mut figures)?;
     contact_area::add(&subjects, &mut figures)?;
+    friction::add(&subjects, &mut figures)?;
+    temperature::add(&subjects, &mut figures)?;
     filled::add(&subjects, &mut figures)?;
     plateau_sizes::add(&subjects, &mut figures)?;
     debris::add(&subjects, &mut figures)?;
+    emission::add(&subjects, &mut figures)?;
     heights::add(&subjects, &mut figures)?;
     Ok(figures)
 }
@@ -144,5 +160,17 @@ impl Figures {
             }
         }
         having
+    }
+
+    /// The same for series of a part that scenes do without, such as friction: where no run has them, there is nothing to note.
+    fn with_part<'a>(
+        &mut self,
+        what: &'static str,
+        subjects: &'a [Subject<'a>],
+        series: &[&str],
+    ) -> Vec<(usize, &'a Subject<'a>)> {
+        let has = |subject: &Subject, name: &str| subject.run.series().iter().any(|series| series.name == name);
+        let is_there = subjects.iter().any(|subject| series.iter().all(|name| has(subject, name)));
+        if is_there { self.with_series(what, subjects, series) } else { Vec::new() }
     }
 }

@@ -21,6 +21,12 @@ pub fn means(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
     times.chunks(length).zip(values.chunks(length)).map(|(times, values)| [mean(times), mean(values)]).collect()
 }
 
+/// The pieces of a curve whose points have gaps between them: those that are no numbers.
+pub fn pieces(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let is_number = |point: &[f64; 2]| point[1].is_finite();
+    points.split(|point| !is_number(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
+}
+
 /// The first sample, the means in spans of time, and the last sample.
 pub fn means_between_ends(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
     let end = |at: Option<(&f64, &f64)>| at.map(|(time, value)| [*time, *value]);
@@ -72,6 +78,13 @@ mod tests {
         let whole = means_between_ends(&times, &values);
         assert_eq!((whole.len(), whole[0], whole[1]), (MOST_SPANS + 2, [0.0, 0.0], [1.0, 1.0]));
         assert_eq!(whole[MOST_SPANS + 1], [(3 * MOST_SPANS - 1) as f64, 2.0]);
+    }
+
+    #[test]
+    fn a_curve_is_broken_where_there_is_no_number() {
+        let [gap, one, two, three] = [f64::NAN, 1.0, 2.0, 3.0].map(|value| [value, value]);
+        assert_eq!(pieces(&[gap, one, two, gap, gap, three]), [vec![one, two], vec![three]]);
+        assert_eq!(pieces(&[gap]), [[[0.0; 2]; 0]; 0]);
     }
 
     #[test]

@@ -7,10 +7,18 @@ const groups = [
     ["Filled fraction and coverage", ["filled_fraction", "disc_secondary", "pin_primary", "pin_secondary", "pin_none"]],
     ["Debris balance", ["worn_pin", "worn_resin", "worn_disc", "deposited_pin", "deposited_disc", "emitted", "pool", "returned"]],
     ["Contact pressure", ["mean_pressure", "max_pressure"]],
+    ["Coefficient of friction", ["friction_coefficient", "friction_coefficient_mean"]],
+    ["Temperature", ["contact_temperature", "disc_temperature", "pin_temperature"]],
+    ["Temperature of the cells of the pin", ["contact_temperature_heated", "contact_temperature_max"]],
+    ["Work of friction and heat lost", ["friction_work", "heat_lost"]],
+    ["Emitted and airborne mass", ["emitted_mass", "pm10_mass", "pm25_mass"]],
     ["Roughness of the disc", ["disc_sa", "disc_sq"]],
     ["Roughness of the pin", ["pin_sa", "pin_sq"]],
 ];
-const residuals = ["Residuals", ["load_residual", "balance_residual"]];
+/** Residuals, and what each is called. */
+const residuals = { load_residual: "Load balance", balance_residual: "Debris balance", heat_residual: "Energy balance" };
+/** What fluctuates from step to step, and its mean. */
+const fluctuating = [["contact_area", "contact_area_mean"], ["friction_coefficient", "friction_coefficient_mean"]];
 const dashes = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 5], [14, 4], [2, 6], [1, 2]];
 
 /** A chart with controls in `place`; `shown` tells which runs are drawn. */
@@ -69,7 +77,7 @@ class Chart {
     data(lines) {
         const value = (line, value) => {
             const size = this.magnitude ? Math.abs(value) : value;
-            const drawn = size * line.series.unit.scale;
+            const drawn = inUnit(size, line.series.unit);
             return Number.isFinite(drawn) && !(this.logarithmic.checked && drawn <= 0) ? drawn : null;
         };
         return uPlot.join(lines.map((line) => [line.points.times, line.points.values.map((number) => value(line, number))]));
@@ -100,8 +108,8 @@ class Chart {
     style(line) {
         const colours = scheme().runs;
         // Single steps fluctuate: a faint band behind their mean.
-        const band = line.series.name === "contact_area";
-        const fluctuates = band || line.series.name === "contact_area_mean";
+        const band = fluctuating.some(([steps]) => line.series.name === steps);
+        const fluctuates = fluctuating.flat().includes(line.series.name);
         return {
             stroke: colours[(this.several ? line.index : line.kind) % colours.length],
             dash: this.several && !fluctuates ? dashes[line.kind % dashes.length] : [],
@@ -253,8 +261,10 @@ function showCharts() {
     }
     const residual = document.getElementById("residual-chart");
     if (residual) {
-        const each = residuals[1].map((name) => [{ load_residual: "Load balance", balance_residual: "Debris balance" }[name], [name]]);
-        const chart = new Chart(residual, [residuals, ...each], 0, shown, true);
+        const recorded = new Set(report.runs.flatMap((run) => run.series.map(({ name }) => name)));
+        const names = Object.keys(residuals).filter((name) => recorded.has(name));
+        const each = names.map((name) => [residuals[name], [name]]);
+        const chart = new Chart(residual, [["Residuals", names], ...each], 0, shown, true);
         chart.magnitude = true;
     }
     const draw = () => Promise.all(Chart.all.map((chart) => chart.draw()));

@@ -60,7 +60,12 @@ function valueOf(map, code) {
     return code > map.steps ? null : map.range[0] + (code / map.steps) * (map.range[1] - map.range[0]);
 }
 
+/** A value, SI, in a unit; only degrees Celsius have an offset. */
+function inUnit(value, unit) {
+    return value * unit.scale + (unit.offset ?? 0);
+}
+
 /** A number with its unit. */
 function withUnit(value, unit, digits) {
-    return value === null ? "no number" : `${readable(value * unit.scale, digits)} ${unit.symbol}`.trim();
+    return value === null ? "no number" : `${readable(inUnit(value, unit), digits)} ${unit.symbol}`.trim();
 }

@@ -66,7 +66,7 @@ impl Parallel {
             .map(|at| {
                 let values = analysis.runs.iter().map(|(_, responses)| responses[at].abs());
                 let largest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
-                Unit::readable(analysis.responses[at].unit, largest)
+                Unit::readable_with_differences(analysis.responses[at].unit, largest)
             })
             .collect();
         let values = |(settings, responses): &(Vec<Setting>, Vec<f64>)| {

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::super::suggest::children;
-use super::super::{GROUPS, Group, Key, Need, find, is_below, is_table, join, keys};
+use super::super::{GROUPS, Group, Key, Need, find, is_below, is_table, join, keys, optional_table};
 use super::exclusion::{chooses, members, name_in};
 
 /// What must be in a table, and in the tables in it.
@@ -18,7 +18,7 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
             if below.is_empty() {
                 continue;
             }
-            if is_needed(&child) {
+            if is_needed(&child) && optional_table(&child) != Some(child.as_str()) {
                 required.push(name.clone());
             }
             properties.insert(name, below.into());
@@ -49,7 +49,9 @@ fn is_needed(path: &str) -> bool {
     let in_it = |section: &str| section == path || is_below(section, path);
     let is_required =
         |key: &Key| matches!(key.need, Need::Required | Need::RequiredUnless(..) | Need::RequiredWithout(_));
-    let key = |key: &Key| is_required(key) && key.inline_table().is_none() && in_it(key.section);
+    let is_asked_for =
+        |key: &Key| optional_table(key.section).is_none_or(|table| in_it(table) || is_below(path, table));
+    let key = |key: &Key| is_required(key) && key.inline_table().is_none() && in_it(key.section) && is_asked_for(key);
     let group = |group: &Group| {
         let plain = group.members.iter().all(|(name, _)| !name.contains('.'));
         group.required && plain && in_it(group.section)

@@ -57,8 +57,12 @@ fn kind(kind: Kind) -> Value {
             ]);
             json!({ "type": "array", "minItems": 2, "items": { "type": "array", "items": row, "minItems": 3, "maxItems": 3 } })
         }
+        Kind::Factor => {
+            let row = json!([quantity(Dimension::Temperature, Range::POSITIVE), number(Range::NOT_NEGATIVE)]);
+            json!({ "type": "array", "minItems": 1, "items": { "type": "array", "items": row, "minItems": 2, "maxItems": 2 } })
+        }
         Kind::Maps => {
-            json!({ "type": "array", "items": { "enum": observe::Map::ALL.map(observe::Map::name) } })
+            json!({ "type": "array", "items": { "enum": observe::Map::CHOICES.map(observe::Map::name) } })
         }
     }
 }

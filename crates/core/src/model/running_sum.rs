@@ -24,6 +24,12 @@ impl RunningSum {
     }
 }
 
+impl From<f64> for RunningSum {
+    fn from(sum: f64) -> Self {
+        Self { sum, compensation: 0.0 }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

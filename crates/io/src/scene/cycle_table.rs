@@ -1,10 +1,11 @@
 //! Tables of load and speed over time (docs/cycles.md): text with one row a moment, as instruments and spreadsheets write it.
 
+use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::error::{Origin, Problem};
 use crate::regular;
-use crate::scene::{Origin, Problem};
 use crate::units::{self, Dimension};
 
 /// What a column may hold.
@@ -83,8 +84,10 @@ struct Reader {
 /// What is wrong, with line and column.
 pub fn read(path: &Path) -> Result<CycleTable, Problem> {
     let file: Arc<Path> = path.into();
-    let text = regular::read_to_string(path)
-        .map_err(|error| Problem::without_key(&Origin::File(file.clone()), format!("cannot read it: {error}")))?;
+    let text = regular::read_to_string(path).map_err(|error| {
+        let advice = if error.kind() == ErrorKind::InvalidData { "; save it as UTF-8" } else { "" };
+        Problem::without_key(&Origin::File(file.clone()), format!("cannot read it: {error}{advice}"))
+    })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
         let line = line.trim();
@@ -94,6 +97,14 @@ pub fn read(path: &Path) -> Result<CycleTable, Problem> {
         let message = "it is empty, expected a header such as: time [s],normal_force [N],rotational_speed [rpm]";
         return Err(Problem::without_key(&Origin::File(file), message));
     };
+    if header.contains('\t') {
+        let problem = "the columns are separated by tabs, expected commas, or semicolons with a decimal comma";
+        return Err(Problem {
+            origin: Origin::Place { file, line: number, column: 1 },
+            key: None,
+            message: problem.to_owned(),
+        });
+    }
     let reader = Reader { file, separator: if header.contains(';') { ';' } else { ',' } };
     let mut columns = reader.header(number, header)?;
     let mut rows = Vec::new();

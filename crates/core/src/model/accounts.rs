@@ -1,0 +1,191 @@
+//! What follows from each step beside wear: friction, heat and emission (model 10 to 12), where a scene asks for them.
+//!
+//! All of it comes from sums that the load balance and the debris have anyway, so the engine and the plain model share
+//! it, and every worker of the engine keeps the same account.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::clock::StepOperation;
+use crate::model::cycle::{Cycle, Kind};
+use crate::model::emission::{Emission, EmissionAccount, EmissionReport};
+use crate::model::friction::{ContactSums, Friction, FrictionAccount, FrictionReport};
+use crate::model::heat::account::{HeatAccount, HeatModel, HeatReport};
+use crate::model::parameters::Parameters;
+use crate::model::volumes::Volumes;
+
+/// The accounts of a simulation.
+#[derive(Debug, Clone)]
+pub struct Accounts {
+    friction: Option<Friction>,
+    heat: Option<HeatModel>,
+    emission: Option<Emission>,
+    cycle: Option<Arc<Cycle>>,
+    /// r̄, m.
+    mean_radius: f64,
+    /// Steps of a revolution.
+    columns: u64,
+    state: AccountsState,
+}
+
+/// What the accounts know of the steps so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AccountsState {
+    friction: Option<FrictionAccount>,
+    heat: Option<HeatAccount>,
+    emission: Option<EmissionAccount>,
+    /// Whether pauses after the last step are still to be taken by the chain.
+    pause_due: bool,
+}
+
+/// What is reported of the accounts.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct AccountsReport {
+    /// With friction.
+    pub friction: Option<FrictionReport>,
+    /// With heat.
+    pub heat: Option<HeatReport>,
+    /// With emission.
+    pub emission: Option<EmissionReport>,
+}
+
+/// A step as the accounts see it.
+#[derive(Debug, Clone, Copy)]
+pub struct StepFacts<'a> {
+    /// Its number, from 1.
+    pub number: u64,
+    /// m Δθ, rad.
+    pub angle: f64,
+    /// Its load and time.
+    pub operation: &'a StepOperation,
+    /// What touched.
+    pub contact: &'a ContactSums,
+    /// What it moved.
+    pub moved: &'a Volumes,
+}
+
+impl Accounts {
+    /// Those of a scene at t = 0; none where it asks for neither friction nor emission.
+    pub fn of(parameters: &Parameters) -> Option<Self> {
+        let Parameters { mesh, friction, emission, cycle, .. } = parameters;
+        if friction.is_none() && emission.is_none() {
+            return None;
+        }
+        let heat = HeatModel::of(parameters).filter(|_| friction.is_some());
+        let begins_with_pause =
+            cycle.as_ref().is_some_and(|cycle| !cycle.pauses_after(0, parameters.step_angle()).is_empty());
+        Some(Self {
+            state: AccountsState {
+                friction: friction.map(|_| FrictionAccount::new(mesh.disc_columns())),
+                heat: heat.as_ref().map(HeatAccount::new),
+                emission: emission.as_ref().map(|_| EmissionAccount::default()),
+                pause_due: heat.is_some() && begins_with_pause,
+            },
+            friction: *friction,
+            heat,
+            emission: emission.clone(),
+            cycle: cycle.clone(),
+            mean_radius: mesh.mean_radius(),
+            columns: mesh.disc_columns() as u64,
+        })
+    }
+
+    /// What is known of the steps so far.
+    pub fn state(&self) -> &AccountsState {
+        &self.state
+    }
+
+    /// Goes on from what was kept.
+    pub fn restore(&mut self, state: AccountsState) {
+        self.state = state;
+    }
+
+    /// f_κ, by which the wear rates of the pin's plateaus are multiplied in the coming step.
+    pub fn wear_rate_factor(&self) -> f64 {
+        self.state.heat.as_ref().map_or(1.0, |heat| heat.factors().wear_rate)
+    }
+
+    /// Before a step, by number and angle (rad): the pauses that came after the step before it.
+    pub fn begin(&mut self, number: u64, angle: f64) {
+        let (Some(cycle), Some(model), Some(heat)) = (&self.cycle, &self.heat, &mut self.state.heat) else { return };
+        if !std::mem::take(&mut self.state.pause_due) {
+            return;
+        }
+        for pause in cycle.pauses_after(number - 1, angle) {
+            heat.pause(model, &pause, f64::INFINITY);
+        }
+        heat.read_factors(model);
+        heat.begin_event(model);
+    }
+
+    /// Takes a step.
+    pub fn record(&mut self, step: &StepFacts) {
+        let mut work = 0.0;
+        if let (Some(law), Some(friction)) = (&self.friction, &mut self.state.friction) {
+            let factor = self.state.heat.as_ref().map_or(1.0, |heat| heat.factors().friction);
+            let distance = self.mean_radius * step.angle;
+            work = friction.record(factor * law.coefficient(step.contact), step.operation.load, distance);
+        }
+        if let (Some(emission), Some(account)) = (&self.emission, &mut self.state.emission) {
+            account.record(emission.mass(step.moved));
+            if self.heat.is_none() {
+                account.count(emission, None);
+            }
+        }
+        let Some(heat) = &mut self.state.heat else { return };
+        heat.collect(work, step.operation.active, step.angle);
+        let pauses = self.cycle.as_ref().map(|cycle| cycle.has_pause_after(step.number, step.angle));
+        self.state.pause_due = pauses.unwrap_or(false);
+        if self.state.pause_due || heat.steps() == self.columns {
+            self.end_interval();
+            if let (false, Some(model), Some(heat)) = (self.state.pause_due, &self.heat, &mut self.state.heat) {
+                heat.read_factors(model);
+            }
+        }
+    }
+
+    /// The chain takes the steps since the last interval ended, and their particles are counted.
+    fn end_interval(&mut self) {
+        let (Some(model), Some(heat)) = (&self.heat, &mut self.state.heat) else { return };
+        let temperature = heat.end_interval(model);
+        if let (Some(emission), Some(account)) = (&self.emission, &mut self.state.emission) {
+            account.count(emission, Some(temperature));
+        }
+    }
+
+    /// What is reported at a time (s), after so many steps of this angle (rad): their end, or a time in a pause before
+    /// or after it.
+    pub fn report(&self, steps: u64, angle: f64, time: f64, pause: Option<Kind>) -> AccountsReport {
+        let (Some(cycle), Some(model)) = (&self.cycle, &self.heat) else { return self.as_it_is(pause) };
+        if !self.state.pause_due && pause.is_none() {
+            return self.as_it_is(pause);
+        }
+        let mut then = self.clone();
+        if !self.state.pause_due && then.state.heat.as_ref().is_some_and(|heat| heat.steps() > 0) {
+            then.end_interval();
+        }
+        let mut pauses = if self.state.pause_due { cycle.pauses_after(steps, angle) } else { Vec::new() };
+        if pause.is_some() {
+            // In the last pause of a run the step around it is not taken any more.
+            pauses.extend(cycle.pauses_after(steps + 1, angle));
+        }
+        if let Some(heat) = &mut then.state.heat {
+            let _ = pauses.iter().all(|pause| heat.pause(model, pause, time));
+        }
+        then.as_it_is(pause)
+    }
+
+    fn as_it_is(&self, pause: Option<Kind>) -> AccountsReport {
+        let AccountsState { friction, heat, emission, .. } = &self.state;
+        let mut friction = friction.as_ref().map(FrictionAccount::report);
+        if let (Some(friction), Some(Kind::Lifted)) = (&mut friction, pause) {
+            friction.coefficient = f64::NAN;
+        }
+        AccountsReport {
+            friction,
+            heat: heat.as_ref().zip(self.heat.as_ref()).map(|(heat, model)| heat.report(model)),
+            emission: emission.as_ref().zip(self.emission.as_ref()).map(|(account, emission)| account.report(emission)),
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Friction of what touches (model 10; Briscoe and Tabor's shear of a thin film).
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::material::Status;
+use crate::model::revolution::Revolution;
+use crate::model::running_sum::RunningSum;
+
+/// The stress that resists sliding, τ = τ₀ + α p.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionLaw {
+    /// α.
+    pub pressure_coefficient: f64,
+    /// τ₀, Pa.
+    pub shear_strength: f64,
+}
+
+/// Friction of each status of the pin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// Of fibres.
+    pub primary: FrictionLaw,
+    /// Of compacted debris.
+    pub secondary: FrictionLaw,
+    /// Of bare resin.
+    pub resin: FrictionLaw,
+    /// μ_max; infinite where there is no ceiling.
+    pub maximum: f64,
+}
+
+/// What touches of the cells of one status.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct StatusContact {
+    /// A_s, m².
+    pub area: f64,
+    /// N_s, N.
+    pub load: f64,
+}
+
+/// What friction must know of the contact of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSums {
+    /// F̄, N.
+    pub load: f64,
+    /// A_c, m².
+    pub area: f64,
+    /// By [`Status`] of the pin; none where one law holds for all.
+    pub statuses: Option<[StatusContact; 3]>,
+}
+
+impl Friction {
+    /// The same law for every status.
+    pub fn of(law: FrictionLaw, maximum: f64) -> Self {
+        Self { primary: law, secondary: law, resin: law, maximum }
+    }
+
+    /// Whether the law depends on the status, so that the sums of each are needed.
+    pub fn depends_on_status(&self) -> bool {
+        self.secondary != self.primary || self.resin != self.primary
+    }
+
+    fn law(&self, status: Status) -> &FrictionLaw {
+        match status {
+            Status::None => &self.resin,
+            Status::Primary => &self.primary,
+            Status::Secondary => &self.secondary,
+        }
+    }
+
+    /// μ = min(Σ_s (α_s N_s + τ₀_s A_s)/F̄, μ_max), at the temperature at which the law holds.
+    pub fn coefficient(&self, contact: &ContactSums) -> f64 {
+        let coefficient = match &contact.statuses {
+            None => self.primary.pressure_coefficient + self.primary.shear_strength * contact.area / contact.load,
+            Some(statuses) => {
+                let resistance = [Status::None, Status::Primary, Status::Secondary].map(|status| {
+                    let (law, StatusContact { area, load }) = (self.law(status), statuses[status as usize]);
+                    law.pressure_coefficient * load + law.shear_strength * area
+                });
+                resistance.into_iter().sum::<f64>() / contact.load
+            }
+        };
+        coefficient.min(self.maximum)
+    }
+}
+
+/// Friction of the steps so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FrictionAccount {
+    /// μ of the last step; none before the first.
+    coefficient: Option<f64>,
+    /// Σ μ F̄ r̄ m Δθ, J.
+    work: RunningSum,
+    /// Σ F̄ r̄ m Δθ, J: what the work would be with μ = 1.
+    load_work: RunningSum,
+    /// μ F̄ of the steps of the last revolution, N.
+    forces: Revolution,
+    /// F̄ of the same steps, N.
+    loads: Revolution,
+}
+
+/// What is reported of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FrictionReport {
+    /// μ of the step; no number before the first.
+    pub coefficient: f64,
+    /// Σ μ F̄/Σ F̄ over the last revolution; no number before the first step.
+    pub coefficient_mean: f64,
+    /// Work of friction since t = 0, J.
+    pub work: f64,
+    /// Load times sliding distance since t = 0, J: the work would be that with μ = 1.
+    pub load_work: f64,
+}
+
+impl FrictionAccount {
+    /// No step yet; a revolution has so many steps.
+    pub fn new(steps_per_revolution: usize) -> Self {
+        let revolution = || Revolution::new(steps_per_revolution);
+        let (work, load_work) = (RunningSum::default(), RunningSum::default());
+        Self { coefficient: None, work, load_work, forces: revolution(), loads: revolution() }
+    }
+
+    /// Adds a step with this μ and F̄ (N) over a distance (m) at the mean radius; its work, J.
+    pub fn record(&mut self, coefficient: f64, load: f64, distance: f64) -> f64 {
+        let work = coefficient * load * distance;
+        self.coefficient = Some(coefficient);
+        self.work.add(work);
+        self.load_work.add(load * distance);
+        self.forces.record(coefficient * load);
+        self.loads.record(load);
+        work
+    }
+
+    /// What is reported after the last step.
+    pub fn report(&self) -> FrictionReport {
+        FrictionReport {
+            coefficient: self.coefficient.unwrap_or(f64::NAN),
+            coefficient_mean: self.forces.sum() / self.loads.sum(),
+            work: self.work.value(),
+            load_work: self.load_work.value(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: FrictionLaw = FrictionLaw { pressure_coefficient: 0.33, shear_strength: 0.75e6 };
+
+    fn contact(load: f64, area: f64) -> ContactSums {
+        ContactSums { load, area, statuses: None }
+    }
+
+    #[test]
+    fn flat_on_flat_has_the_closed_form_with_its_ceiling() {
+        // Model section 12: μ = α + τ₀ ΣA/F, with the ceiling below F = τ₀ ΣA/(μ_max − α).
+        let (friction, area) = (Friction::of(LAW, 0.6), 1.6e-5);
+        let ceiling = LAW.shear_strength * area / (0.6 - LAW.pressure_coefficient);
+        assert!((friction.coefficient(&contact(47.0, area)) - (0.33 + 0.75e6 * 1.6e-5 / 47.0)).abs() < 1e-15);
+        assert!(friction.coefficient(&contact(1.001 * ceiling, area)) < 0.6);
+        assert_eq!(friction.coefficient(&contact(0.999 * ceiling, area)), 0.6);
+    }
+
+    #[test]
+    fn one_law_for_all_is_the_same_as_that_law_for_each() {
+        let friction = Friction::of(LAW, f64::INFINITY);
+        let statuses = [(1e-7, 0.1), (3e-6, 30.0), (2e-6, 16.9)].map(|(area, load)| StatusContact { area, load });
+        let apart = ContactSums { statuses: Some(statuses), ..contact(47.0, 5.1e-6) };
+        let [one, each] = [contact(47.0, 5.1e-6), apart].map(|contact| friction.coefficient(&contact));
+        assert!((one - each).abs() < 1e-15);
+        assert!(!friction.depends_on_status());
+        let slippery = Friction { resin: FrictionLaw { shear_strength: 0.0, ..LAW }, ..friction };
+        assert!(slippery.depends_on_status());
+        // What resin does not resist any more is its τ₀ A_s.
+        assert!((one - slippery.coefficient(&apart) - 0.75e6 * 1e-7 / 47.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_mean_is_weighted_by_load_over_one_revolution() {
+        let mut account = FrictionAccount::new(2);
+        assert!(account.report().coefficient.is_nan() && account.report().coefficient_mean.is_nan());
+        let works = [(0.9, 5.0), (0.5, 10.0), (0.2, 30.0)].map(|(mu, load)| account.record(mu, load, 2.0));
+        assert_eq!(works, [9.0, 10.0, 12.0]);
+        let FrictionReport { coefficient, coefficient_mean, work, load_work } = account.report();
+        assert_eq!((coefficient, work, load_work), (0.2, 31.0, 90.0));
+        // By hand: (0.5 · 10 + 0.2 · 30)/40.
+        assert_eq!(coefficient_mean, 0.275);
+    }
+}

@@ -1,0 +1,222 @@
+//! Holder – 8 pin layers – contact – 8 disc layers – air (model 11, one chain).
+
+use serde::{Deserialize, Serialize};
+
+use super::repeated;
+use super::sub_step::{NODES, SubStep};
+use super::{Substance, Thermal};
+use crate::model::running_sum::RunningSum;
+
+/// Layers of each body.
+const LAYERS: usize = NODES / 2;
+/// By how much each layer is thicker than the one nearer to the contact.
+const GROWTH: f64 = 1.4;
+/// Longest sub-step, s.
+const LONGEST: f64 = 0.1;
+/// More sub-steps than these are taken at once (`repeated.rs`), at a cost that hardly depends on how many they are.
+const MOST_ONE_BY_ONE: u64 = 10_000;
+
+/// What the contact does to heat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Link {
+    /// It conducts through this resistance R of the disc's face, K/W.
+    Closed(f64),
+    /// The pin is lifted.
+    Open,
+}
+
+/// One body, its layers counted from the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Body {
+    /// Heat capacity of each layer, J/K.
+    capacity: [f64; LAYERS],
+    /// From the middle of each layer to that of the next, W/K.
+    conductance: [f64; LAYERS - 1],
+    /// From the middle of the first layer to its face, K/W.
+    face: f64,
+}
+
+impl Body {
+    fn new(substance: &Substance, area: f64, length: f64) -> Self {
+        let growth: [f64; LAYERS] = std::array::from_fn(|layer| GROWTH.powi(layer as i32));
+        let whole: f64 = growth.iter().sum();
+        let thickness = growth.map(|growth| length * growth / whole);
+        let Substance { conductivity, density, specific_heat } = substance;
+        Self {
+            capacity: thickness.map(|thickness| density * specific_heat * area * thickness),
+            conductance: std::array::from_fn(|layer| {
+                conductivity * area / ((thickness[layer] + thickness[layer + 1]) / 2.0)
+            }),
+            face: thickness[0] / 2.0 / (conductivity * area),
+        }
+    }
+
+    /// Σ C θ, J.
+    fn stored(&self, excess: &[f64; LAYERS]) -> f64 {
+        self.capacity.iter().zip(excess).map(|(capacity, excess)| capacity * excess).sum()
+    }
+
+    /// Mean of θ, weighted by heat capacity, K.
+    fn mean(&self, excess: &[f64; LAYERS]) -> f64 {
+        self.stored(excess) / self.capacity.iter().sum::<f64>()
+    }
+}
+
+/// The chain of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chain {
+    pin: Body,
+    disc: Body,
+    /// H_p, W/K.
+    pin_cooling: f64,
+    /// H₀, W/K.
+    disc_cooling: f64,
+    /// H₁, J/(K rad).
+    disc_cooling_per_speed: f64,
+}
+
+/// Temperatures of the chain, as excess over the ambient, and what went in and out.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ChainState {
+    /// θ of the layers from the holder to the disc's last, K. Where they hardly change any more, what a sub-step adds
+    /// is lost in their rounding, so they are sums that keep it.
+    excess: [RunningSum; NODES],
+    /// θ of the contact, K; none where the pin is lifted.
+    pub contact: Option<f64>,
+    /// Power into the disc in the last sub-step, W.
+    pub into_disc: f64,
+    /// Heat of friction so far, J.
+    gained: RunningSum,
+    /// Heat that went to the air and the holder, J.
+    lost: RunningSum,
+}
+
+impl ChainState {
+    /// All at ambient temperature, and in contact.
+    pub fn at_rest() -> Self {
+        Self { contact: Some(0.0), ..Self::default() }
+    }
+
+    /// θ of every layer, K.
+    fn excess(&self) -> [f64; NODES] {
+        self.excess.map(|excess| excess.value())
+    }
+
+    /// θ of the layers next to the contact, of pin and disc, K.
+    fn faces(&self) -> [f64; 2] {
+        [LAYERS - 1, LAYERS].map(|layer| self.excess[layer].value())
+    }
+}
+
+/// Means of the chain over the ambient, and its balance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChainReport {
+    /// Mean θ of the disc, K.
+    pub disc: f64,
+    /// Mean θ of the pin, K.
+    pub pin: f64,
+    /// Heat lost so far, J.
+    pub lost: f64,
+    /// (gained − lost − stored)/gained; 0 where nothing was gained.
+    pub residual: f64,
+}
+
+/// Number of equal sub-steps of at most 0.1 s in a time (s).
+pub fn sub_steps(time: f64) -> u64 {
+    // As in the number of steps of a run, rounding of the time must not make one more.
+    ((time / LONGEST - 1e-9).ceil() as u64).max(1)
+}
+
+impl Chain {
+    /// The chain of these bodies.
+    pub fn new(thermal: &Thermal) -> Self {
+        let Thermal { disc, pin, .. } = thermal;
+        Self {
+            pin: Body::new(&pin.substance, pin.area, pin.length),
+            disc: Body::new(&disc.substance, disc.area, disc.thickness),
+            pin_cooling: pin.cooling,
+            disc_cooling: disc.cooling,
+            disc_cooling_per_speed: disc.cooling_per_speed,
+        }
+    }
+
+    /// What comes of a state after `count` sub-steps of `time` (s) each under a power (W) of friction, at a speed
+    /// (rad/s): implicit Euler.
+    pub fn advance(&self, state: &mut ChainState, count: u64, time: f64, power: f64, speed: f64, link: Link) {
+        let disc_cooling = self.disc_cooling + self.disc_cooling_per_speed * speed;
+        // From the contact to the middle of the first layer of pin and disc, W/K, with R in series.
+        let links = match link {
+            Link::Closed(resistance) => Some([1.0 / self.pin.face, 1.0 / (resistance + self.disc.face)]),
+            Link::Open => None,
+        };
+        // The contact has no heat capacity: its power is parted, and the first layers are linked through it.
+        let (through, parts) = match links {
+            Some([pin, disc]) => (pin * disc / (pin + disc), [pin, disc].map(|link| power * (link / (pin + disc)))),
+            None => (0.0, [0.0, 0.0]),
+        };
+        // Along the chain: the pin from its holder to the contact, then the disc.
+        let (capacity, conductance) = self.along(through);
+        let (mut outward, mut gain) = ([0.0; NODES], [0.0; NODES]);
+        (outward[0], outward[LAYERS]) = (self.pin_cooling, disc_cooling);
+        (gain[LAYERS - 1], gain[LAYERS]) = (parts[0], parts[1]);
+        let step = SubStep::new(time, capacity, conductance, outward, gain);
+        if count > MOST_ONE_BY_ONE {
+            let mut excess = state.excess();
+            state.lost.add(repeated::advance(&step, &mut excess, count));
+            state.excess = excess.map(RunningSum::from);
+        } else {
+            let mut excess = state.excess();
+            for _ in 0..count {
+                let rise = step.rise(&excess, true);
+                for (node, sum) in state.excess.iter_mut().enumerate() {
+                    sum.add(rise[node]);
+                    excess[node] = sum.value();
+                }
+                state.lost.add(step.lost(&excess));
+            }
+        }
+        state.gained.add(power * time * count as f64);
+        let [first_of_pin, first_of_disc] = state.faces();
+        state.contact = links.map(|[pin, disc]| (power + pin * first_of_pin + disc * first_of_disc) / (pin + disc));
+        // Of the difference of the layers: that to the contact is lost in rounding where the disc conducts very well.
+        state.into_disc =
+            links.map_or(0.0, |[pin, disc]| disc / (pin + disc) * (power + pin * (first_of_pin - first_of_disc)));
+    }
+
+    /// θ of a contact that closes without power, through this resistance (K/W), K.
+    pub fn closing(&self, state: &ChainState, resistance: f64) -> f64 {
+        let [pin, disc] = [1.0 / self.pin.face, 1.0 / (resistance + self.disc.face)];
+        let [first_of_pin, first_of_disc] = state.faces();
+        (pin * first_of_pin + disc * first_of_disc) / (pin + disc)
+    }
+
+    /// Heat capacity of every layer, J/K, and conductance to the next, W/K, from the holder to the disc's last layer.
+    fn along(&self, through: f64) -> ([f64; NODES], [f64; NODES - 1]) {
+        let (mut capacity, mut conductance) = ([0.0; NODES], [0.0; NODES - 1]);
+        for layer in 0..LAYERS {
+            capacity[LAYERS - 1 - layer] = self.pin.capacity[layer];
+            capacity[LAYERS + layer] = self.disc.capacity[layer];
+            if layer + 1 < LAYERS {
+                conductance[LAYERS - 2 - layer] = self.pin.conductance[layer];
+                conductance[LAYERS + layer] = self.disc.conductance[layer];
+            }
+        }
+        conductance[LAYERS - 1] = through;
+        (capacity, conductance)
+    }
+
+    /// Means and balance of a state.
+    pub fn report(&self, state: &ChainState) -> ChainReport {
+        let (gained, lost) = (state.gained.value(), state.lost.value());
+        let excess = state.excess();
+        let pin = std::array::from_fn(|layer| excess[LAYERS - 1 - layer]);
+        let disc = std::array::from_fn(|layer| excess[LAYERS + layer]);
+        let stored = self.pin.stored(&pin) + self.disc.stored(&disc);
+        ChainReport {
+            disc: self.disc.mean(&disc),
+            pin: self.pin.mean(&pin),
+            lost,
+            residual: if gained == 0.0 { 0.0 } else { (gained - lost - stored) / gained },
+        }
+    }
+}

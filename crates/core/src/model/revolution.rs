@@ -1,0 +1,67 @@
+//! What a quantity was in the steps of the last simulated revolution.
+
+use serde::{Deserialize, Serialize};
+
+/// The values of the last steps, at most so many as a revolution has.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Revolution {
+    /// In a full revolution, the oldest is overwritten.
+    values: Vec<f64>,
+    /// Where the next goes in a full revolution.
+    oldest: usize,
+    /// Steps of one revolution.
+    steps: usize,
+}
+
+impl Revolution {
+    /// No step yet; a revolution has so many.
+    pub fn new(steps: usize) -> Self {
+        Self { values: Vec::new(), oldest: 0, steps }
+    }
+
+    /// Adds the value of a step.
+    pub fn record(&mut self, value: f64) {
+        if self.values.len() < self.steps {
+            self.values.push(value);
+        } else {
+            self.values[self.oldest] = value;
+            self.oldest = (self.oldest + 1) % self.steps;
+        }
+    }
+
+    /// The value of the last step; none before the first.
+    pub fn newest(&self) -> Option<f64> {
+        let newest = if self.oldest == 0 { self.values.last() } else { self.values.get(self.oldest - 1) };
+        newest.copied()
+    }
+
+    /// Sum over the last revolution; over all steps so far before the first is done.
+    pub fn sum(&self) -> f64 {
+        // From the oldest to the newest, so that a run that goes on adds in the same order.
+        let (newer, older) = self.values.split_at(self.oldest);
+        older.iter().chain(newer).sum()
+    }
+
+    /// Mean over the last revolution; over all steps so far before the first is done, 0 before any.
+    pub fn mean(&self) -> f64 {
+        self.sum() / self.values.len().max(1) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_is_over_all_steps_until_a_revolution_is_done() {
+        let mut revolution = Revolution::new(4);
+        assert_eq!((revolution.newest(), revolution.mean()), (None, 0.0));
+        let means = [1.0, 3.0, 5.0, 7.0, 9.0, 11.0].map(|value| {
+            revolution.record(value);
+            assert_eq!(revolution.newest(), Some(value));
+            revolution.mean()
+        });
+        assert_eq!(means, [1.0, 2.0, 3.0, 4.0, 6.0, 8.0]);
+        assert_eq!(revolution.sum(), 32.0);
+    }
+}

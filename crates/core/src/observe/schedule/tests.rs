@@ -1,0 +1,99 @@
+//! When samples and maps of runs with a cycle are due.
+
+use super::*;
+use crate::model::cycle::{Interpolation, Node};
+use crate::model::mesh::Mesh;
+use std::f64::consts::PI;
+
+/// 1 rad/s for 2 s, lifted for 2 s, 1 rad/s for 1.5 s, in steps of 1 rad.
+fn schedule(end: f64, sample_every: SampleEvery, maps_at: &[f64]) -> Schedule {
+    let nodes = [(0.0, 1.0), (2.0, 1.0), (2.0, 0.0), (4.0, 0.0), (4.0, 1.0), (5.5, 1.0)];
+    let nodes = nodes.map(|(time, force)| Node::new(time, force, 1.0));
+    let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
+    let mesh = Mesh::new(1, 2, 1, 1.0, 2.0).unwrap();
+    let parameters =
+        Parameters { mesh, time_acceleration: 1.0 / PI, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
+    Schedule::new(&parameters, End::Time(end), sample_every, maps_at)
+}
+
+/// Every moment from the start to the end: its step and time, and what is due.
+fn moments(schedule: &Schedule) -> Vec<(u64, f64, bool, bool)> {
+    let (mut moments, mut now) = (Vec::new(), (0, 0.0));
+    while let Some(moment) = schedule.next(now.0, now.1) {
+        assert_eq!(moment.pause.is_some(), moment.time > 2.0 && moment.time <= 4.0, "{moment:?}");
+        moments.push((moment.step, moment.time, moment.sample, moment.maps));
+        now = (moment.step, moment.time);
+        assert!(moments.len() < 100, "{moments:?}");
+    }
+    moments
+}
+
+#[test]
+fn samples_in_a_pause_have_their_own_time() {
+    let every = SampleEvery::Time(0.75);
+    let times = |end| moments(&schedule(end, every, &[])).iter().map(|moment| (moment.0, moment.1)).collect::<Vec<_>>();
+    let pause = [(1, 1.0), (2, 2.0), (2, 2.25), (2, 3.0), (2, 3.75)];
+    assert_eq!(times(5.5), [&pause[..], &[(3, 5.0)]].concat());
+    // A run that ends in the pause has a sample then.
+    assert_eq!(times(3.5), [&pause[..4], &[(2, 3.5)]].concat());
+    assert_eq!(times(4.0), [&pause[..], &[(2, 4.0)]].concat());
+}
+
+#[test]
+fn a_sample_before_a_pause_within_a_step_takes_none_of_the_pause() {
+    // Steps of 1 rad end at 1, 2, 4.5 and 5.5 s: the pause from 2.5 s to 4 s lies within the third.
+    let nodes = [(0.0, 1.0), (2.5, 1.0), (2.5, 0.0), (4.0, 0.0), (4.0, 1.0), (6.0, 1.0)];
+    let nodes = nodes.map(|(time, force)| Node::new(time, force, 1.0));
+    let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
+    let mesh = Mesh::new(1, 2, 1, 1.0, 2.0).unwrap();
+    let parameters =
+        Parameters { mesh, time_acceleration: 1.0 / PI, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
+    let moments = |every: f64, end: f64, mut now: (u64, f64)| {
+        let schedule = Schedule::new(&parameters, End::Time(end), SampleEvery::Time(every), &[]);
+        let mut found = Vec::new();
+        while let Some(moment) = schedule.next(now.0, now.1) {
+            now = (moment.step, moment.time);
+            found.push(now);
+            assert!(found.len() < 100, "{found:?}");
+        }
+        found
+    };
+    // 2.4 s is due at 4.5 s, but after what is due in the pause; 4.2 s has the same step.
+    let expected = [(2, 2.0), (3, 3.0), (3, 3.6), (3, 4.5), (4, 5.5)];
+    let found = moments(0.6, 6.0, (1, 1.0));
+    assert!(found.iter().zip(expected).all(|(one, other)| one.0 == other.0 && (one.1 - other.1).abs() < 1e-12));
+    assert_eq!(found.len(), expected.len());
+    // A run that ended in the pause, before the step around it, goes on from there: no time comes twice or goes back.
+    let ended = moments(0.6, 3.3, (1, 1.0));
+    assert_eq!(ended.last(), Some(&(2, 3.3)));
+    let gone_on = moments(0.6, 6.0, (2, 3.3));
+    assert!(gone_on[0].0 == 3 && (gone_on[0].1 - 3.6).abs() < 1e-12 && gone_on.len() == 3, "{gone_on:?}");
+}
+
+#[test]
+fn maps_and_steps_are_due_in_order_of_time() {
+    let found = moments(&schedule(5.5, SampleEvery::Steps(2), &[0.0, 1.5, 2.5]));
+    assert_eq!(found, [(2, 2.0, true, true), (2, 2.5, false, true), (3, 5.0, true, true)]);
+    let found = moments(&schedule(3.5, SampleEvery::Steps(2), &[]));
+    assert_eq!(found, [(2, 2.0, true, false), (2, 3.5, true, true)]);
+}
+
+/// The end of a step that is rounded to just before the pause that begins with it takes none of the pause either.
+#[test]
+fn a_pause_that_begins_with_the_end_of_a_step_has_all_its_samples() {
+    for speed in [400.0 * (2.0 * PI) / 60.0, 400.0 * (2.0 * PI / 60.0)] {
+        let nodes = [(0.0, 5.0), (10.0, 5.0), (10.0, 0.0), (14.0, 0.0), (14.0, 10.0), (17.0, 10.0)];
+        let nodes = nodes.map(|(time, force)| Node::new(time, force, speed));
+        let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
+        let mesh = Mesh::new(1, 690, 40, 0.020, 0.021).unwrap();
+        let parameters =
+            Parameters { mesh, time_acceleration: 40.0, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
+        let schedule = Schedule::new(&parameters, End::Time(17.0), SampleEvery::Time(0.1), &[]);
+        let (mut now, mut count) = ((0, 0.0), 0);
+        while let Some(moment) = schedule.next(now.0, now.1) {
+            now = (moment.step, moment.time);
+            count += usize::from(moment.time > 10.05 && moment.time < 13.95);
+        }
+        assert_eq!(count, 39);
+    }
+}

@@ -1,0 +1,182 @@
+//! Airborne mass and number of particles: what is added in a time, and for each kilometre of road (model section 12).
+
+use plateau_io::run_file::ReadError;
+use plotters::style::RGBColor;
+
+use super::rates::{Rate, per_metre, rates, steps};
+use super::{Figures, Subject, operation};
+use crate::colour::{INK, paler};
+use crate::figure::axes::Axis;
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
+use crate::figure::page::{Content, KeyStyle};
+use crate::quantity::Unit;
+
+const NAME: &str = "emission";
+const SERIES: [&str; 3] = ["pm10_mass", "pm25_mass", "particle_number"];
+const ROAD: &str = "road_distance";
+/// Colour of PM2.5, as a part of the run's colour.
+const PALE: f64 = 0.45;
+
+/// One of the series of a run as a curve, SI.
+struct Curve {
+    colour: RGBColor,
+    width: u32,
+    points: Vec<[f64; 2]>,
+}
+
+/// Adds the figure.
+pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
+    let having = figures.with_part(NAME, subjects, &SERIES);
+    if having.is_empty() {
+        return Ok(());
+    }
+    let on_road = figures.with_part(NAME, subjects, &[SERIES[0], SERIES[1], SERIES[2], ROAD]);
+    let end = having.iter().filter_map(|(_, subject)| subject.run.time().last()).copied().fold(0.0, f64::max);
+    let time = Unit::for_size("s", end);
+    let in_time = |times: &[f64], values: &[f64], _: &[f64]| {
+        let rates: Vec<Rate> = rates(times, values);
+        steps(&rates)
+    };
+    let [masses, numbers] = curves(&having, subjects.len(), in_time)?;
+    let mut charts = vec![
+        chart("airborne mass", "rate", "kg s-1", &masses, &time, end),
+        chart("airborne particles", "rate", "s-1", &numbers, &time, end),
+    ];
+    if !on_road.is_empty() {
+        let [masses, numbers] = curves(&on_road, subjects.len(), per_metre)?;
+        let mean = "mean since the start";
+        charts.push(chart("airborne mass for each kilometre of road", mean, "kg m-1", &masses, &time, end));
+        charts.push(chart("airborne particles for each kilometre of road", mean, "m-1", &numbers, &time, end));
+    }
+    if let [subject] = subjects {
+        operation::shade_events(subject.run, &time, &mut charts)?;
+    }
+    let runs = having.iter().map(|(number, subject)| Meaning::of_run(*number, &subject.label));
+    let sizes = [(INK, "PM10, particles"), (paler(INK, PALE), "PM2.5")];
+    let sizes = sizes.map(|(colour, text)| Meaning { colour, style: KeyStyle::Line, text: text.to_owned() });
+    let meanings: Vec<Meaning> = runs.chain(sizes).collect();
+    let of_road = if on_road.is_empty() {
+        ""
+    } else {
+        " Below, all since the start for each kilometre that the vehicle has travelled, without the first twentieth of its way: \
+         the line ends at the emission factor of the whole run."
+    };
+    figures.add(
+        NAME,
+        "Airborne emission",
+        format!(
+            "Airborne mass (PM10 and, paler, PM2.5) and number of particles that are added in a time, in windows with equally \
+             many samples.{of_road} Events of a single run with a cycle that has ended are shaded."
+        ),
+        page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
+    );
+    Ok(())
+}
+
+/// Curves of the masses and of the numbers of runs, made of times, values and ways.
+fn curves(
+    runs: &[(usize, &Subject)],
+    count: usize,
+    make: impl Fn(&[f64], &[f64], &[f64]) -> Vec<[f64; 2]>,
+) -> Result<[Vec<Curve>; 2], ReadError> {
+    let (mut masses, mut numbers) = (Vec::new(), Vec::new());
+    for (number, subject) in runs {
+        let times = subject.run.time();
+        let values = |name: &str| Ok(subject.run.values(name)?.unwrap_or_default());
+        let (way, own) = (values(ROAD)?, colour(*number));
+        let width = line_width(*number, count);
+        let curve = |name: &str, colour| Ok(Curve { colour, width, points: make(times, &values(name)?, &way) });
+        // The smaller mass would be hidden below the larger one.
+        masses.extend([curve("pm10_mass", own)?, curve("pm25_mass", paler(own, PALE))?]);
+        numbers.push(curve("particle_number", own)?);
+    }
+    Ok([masses, numbers])
+}
+
+/// A chart of curves in a unit that makes them readable.
+fn chart(title: &str, what: &str, si: &str, curves: &[Curve], time: &Unit, end: f64) -> Chart {
+    let largest = curves.iter().flat_map(|curve| &curve.points).map(|[_, value]| *value).fold(0.0, f64::max);
+    let unit = Unit::readable(si, largest);
+    let line = |curve: &Curve| Content::Line {
+        points: curve.points.iter().map(|[at, value]| [time.value(*at), unit.value(*value)]).collect(),
+        colour: curve.colour,
+        width: curve.width,
+    };
+    Chart {
+        title: title.to_owned(),
+        x: Axis::linear(0.0..=time.value(end), time.label("time")),
+        y: Axis::linear(up_from_zero(unit.value(largest)), unit.label(what)),
+        contents: curves.iter().map(line).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::colour::RUNS;
+    use crate::figure::run::written::{Written, lines_of, notes};
+
+    /// Ten seconds: 2 µg PM10 a second, from 5 s on twice as much, while the vehicle goes 20 m a second.
+    fn run(title: &'static str, series: &[&'static str]) -> Written {
+        Written::new(title, series, |name, time| {
+            let mass = 2e-9 * time + 2e-9 * (time - 5.0).max(0.0);
+            match name {
+                "pm10_mass" => mass,
+                "pm25_mass" => 0.25 * mass,
+                "particle_number" => 1e15 * mass,
+                ROAD => 20.0 * time,
+                _ => time,
+            }
+        })
+    }
+
+    fn close(points: &[[f64; 2]], expected: &[[f64; 2]]) {
+        assert_eq!(points.len(), expected.len(), "{points:?}");
+        for (point, expected) in points.iter().zip(expected) {
+            assert!((0..2).all(|at| (point[at] - expected[at]).abs() < 1e-9), "{points:?}");
+        }
+    }
+
+    #[test]
+    fn rates_are_differences_and_factors_are_of_the_way() {
+        let road = [&SERIES[..], &[ROAD]].concat();
+        let figures = Written::figures(&[run("road", &road), run("bench", &SERIES)]);
+        let figure = figures.figures.iter().find(|figure| figure.name == NAME).unwrap();
+        let [mass, number, mass_of_way, number_of_way] = &figure.page.panels[..] else { panic!("four boxes") };
+        let labels = [mass, number, mass_of_way, number_of_way].map(|panel| panel.axes.y.label.clone());
+        let factor = "mean since the start";
+        assert_eq!(
+            labels,
+            [
+                "rate, µg/s".to_owned(),
+                "rate, 10⁶ s⁻¹".into(),
+                format!("{factor}, mg/km"),
+                format!("{factor}, 10⁶ km⁻¹")
+            ]
+        );
+        let windows = (1..=10).map(f64::from).map(|end| (end, if end > 5.0 { 2.0 } else { 1.0 }));
+        let rate =
+            |unit: f64| windows.clone().flat_map(move |(end, twice)| [[end - 1.0, unit * twice], [end, unit * twice]]);
+        for run in [0, 1] {
+            close(&lines_of(mass, RUNS[run])[0], &rate(2.0).collect::<Vec<_>>());
+            close(&lines_of(mass, paler(RUNS[run], PALE))[0], &rate(0.5).collect::<Vec<_>>());
+            close(&lines_of(number, RUNS[run])[0], &rate(2.0).collect::<Vec<_>>());
+        }
+        // 30 µg in 200 m are 0.15 mg/km, and 30 million particles 150 million for a kilometre.
+        let last = |panel, colour| lines_of(panel, colour)[0].last().copied().unwrap();
+        close(&[last(mass_of_way, RUNS[0])], &[[10.0, 0.15]]);
+        close(&[last(mass_of_way, paler(RUNS[0], PALE))], &[[10.0, 0.0375]]);
+        close(&[last(number_of_way, RUNS[0])], &[[10.0, 150.0]]);
+        assert!(lines_of(mass_of_way, RUNS[1]).is_empty());
+        assert_eq!(notes(&figures, NAME), ["no series road_distance"]);
+    }
+
+    #[test]
+    fn without_road_there_is_nothing_of_it() {
+        let figures = Written::figures(&[run("bench", &SERIES)]);
+        let figure = figures.figures.iter().find(|figure| figure.name == NAME).unwrap();
+        assert!(
+            figure.page.panels.len() == 2 && notes(&figures, NAME).is_empty() && !figure.caption.contains("kilometre")
+        );
+    }
+}

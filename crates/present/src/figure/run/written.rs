@@ -1,0 +1,122 @@
+//! Run files that the tests of figures make up.
+
+use std::path::Path;
+
+use plateau_core::model::mesh::Mesh;
+use plateau_core::model::state::Base;
+use plateau_core::observe::extra::Extra;
+use plateau_core::observe::{EXTRAS, Map, MapValues, Quantity, Sample, Snapshot, quantities};
+use plateau_io::run_file::{End, Header, RunFile, RunWriter};
+use plotters::style::RGBColor;
+
+use super::{Figures, Options, figures};
+use crate::figure::page::{Content, Panel};
+
+/// Cells of the pin.
+pub const CELLS: usize = 20;
+/// Time of the last of the samples, which are a second from each other, s.
+const END: u32 = 10;
+
+/// The value of the series of a name at a time, s.
+type Value = dyn Fn(&str, f64) -> f64;
+
+/// A run that is to be written.
+pub struct Written {
+    title: &'static str,
+    /// Names of its series besides those of every run.
+    series: Vec<&'static str>,
+    value: Box<Value>,
+    /// Maps of the temperature, K.
+    temperatures: Vec<Vec<f64>>,
+}
+
+impl Written {
+    /// A run without maps.
+    pub fn new(title: &'static str, series: &[&'static str], value: impl Fn(&str, f64) -> f64 + 'static) -> Self {
+        Self { title, series: series.to_vec(), value: Box::new(value), temperatures: Vec::new() }
+    }
+
+    /// The same with maps of the temperature (K), a second from each other, from 0 s on.
+    pub fn with_temperatures(self, maps: impl Iterator<Item = Vec<f64>>) -> Self {
+        Self { temperatures: maps.collect(), ..self }
+    }
+
+    /// The figures of runs.
+    pub fn figures(runs: &[Self]) -> Figures {
+        let folder = tempfile::tempdir().unwrap();
+        let open = |(number, run): (usize, &Self)| run.write(&folder.path().join(format!("{number}.h5")));
+        let runs: Vec<RunFile> = runs.iter().enumerate().map(open).collect();
+        figures(&runs, &Options::default()).unwrap()
+    }
+
+    /// Writes the run file and opens it.
+    fn write(&self, path: &Path) -> RunFile {
+        let mesh = Mesh::new(4, 60, 5, 20e-3, 24e-3).unwrap();
+        let quantity = |name: &&'static str| {
+            let known = quantities(EXTRAS).find(|quantity| quantity.name == *name).expect("a series of run files");
+            Quantity::extra(name, known.unit, known.long_name)
+        };
+        // Tests end soon.
+        let series: &'static [Quantity] = Vec::leak(self.series.iter().map(quantity).collect());
+        let extra = Box::leak(Box::new(Extra { name: "made up", quantities: series, request: None }));
+        let header = Header {
+            title: self.title.into(),
+            pin_base: vec![Base::Primary; mesh.pin_cells()],
+            mesh,
+            maps: if self.temperatures.is_empty() { Vec::new() } else { vec![Map::Temperature] },
+            extras: vec![extra],
+            expected_samples: u64::from(END),
+            scene: "version = 1\n[mesh]\ninner_radius = \"20 mm\"\nouter_radius = \"24 mm\"\nrows = 4\n\
+                    disc_columns = 60\npin_columns = 5\n"
+                .into(),
+            program: "plateau".into(),
+            source_revision: String::new(),
+            host: "bench".into(),
+            workers: 1,
+            instruction_set: "baseline".into(),
+            seeds: Vec::new(),
+            inputs: Vec::new(),
+            surfaces: Vec::new(),
+        };
+        let mut writer = RunWriter::create(path, false, &header).unwrap();
+        for (second, temperatures) in self.temperatures.iter().enumerate() {
+            let maps = vec![(Map::Temperature, MapValues::Float(temperatures.clone()))];
+            writer.snapshot(Snapshot { time: second as f64, maps }).unwrap();
+        }
+        for second in 1..=END {
+            let time = f64::from(second);
+            let mean_pressure = (self.value)("mean_pressure", time);
+            let mut sample = Sample { step: u64::from(second), time, mean_pressure, ..Sample::default() };
+            sample.add(series, series.iter().map(|quantity| (self.value)(quantity.name, time)));
+            writer.sample(sample).unwrap();
+        }
+        writer.finish(&End::Finished, &[]).unwrap();
+        RunFile::open(path).unwrap()
+    }
+}
+
+/// What was noted to be left out of a figure, run by run.
+pub fn notes<'a>(figures: &'a Figures, name: &str) -> Vec<&'a str> {
+    let of_figure = figures.left_out.iter().filter(|note| note.figures.contains(&name));
+    let mut notes: Vec<_> = of_figure.map(|note| (&note.path, note.missing.as_str())).collect();
+    notes.sort_by_key(|(path, _)| *path);
+    notes.into_iter().map(|(_, missing)| missing).collect()
+}
+
+/// The lines of a colour in a box.
+pub fn lines_of(panel: &Panel, wanted: RGBColor) -> Vec<Vec<[f64; 2]>> {
+    let line = |content: &Content| match content {
+        Content::Line { points, colour, .. } if *colour == wanted => Some(points.clone()),
+        _ => None,
+    };
+    panel.contents.iter().filter_map(line).collect()
+}
+
+/// The marks of a colour in a box.
+pub fn marks_of(panel: &Panel, wanted: RGBColor) -> Vec<[f64; 2]> {
+    let marks = |content: &Content| match content {
+        Content::Marks { points, colour, .. } if *colour == wanted => points.clone(),
+        _ => Vec::new(),
+    };
+    panel.contents.iter().flat_map(marks).collect()
+}

@@ -1,0 +1,229 @@
+//! Friction, heat and emission through the whole program: closed forms, the same bits, kills, and what is refused.
+
+use std::fs;
+
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, scene};
+use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::scenes::{Stream, few_or_all};
+
+/// All parts, with feedback on wear and friction that is felt at a few kelvins.
+const PARTS: &str = r#"
+[friction]
+pressure_coefficient = 0.33
+shear_strength = "0.75 MPa"
+maximum = 0.6
+[friction.secondary]
+shear_strength = "0.9 MPa"
+[friction.resin]
+pressure_coefficient = 0.1
+[thermal]
+ambient = "23 degC"
+wear_rate_factor = [["23 degC", 1.0], ["24 degC", 1.5], ["40 degC", 4.0]]
+friction_factor = [["23 degC", 1.0], ["60 degC", 0.7]]
+[thermal.disc]
+conductivity = "50 W/(m K)"
+density = "7200 kg/m^3"
+specific_heat = "500 J/(kg K)"
+area = "3 cm^2"
+thickness = "6 mm"
+cooling = "0.04 W/K"
+cooling_per_speed = "0.002 J/(K rad)"
+[thermal.disc.coating]
+thickness = "60 um"
+conductivity = "15 W/(m K)"
+density = "13500 kg/m^3"
+specific_heat = "250 J/(kg K)"
+[thermal.pin]
+conductivity = "1.5 W/(m K)"
+density = "2600 kg/m^3"
+specific_heat = "900 J/(kg K)"
+area = "8 mm^2"
+length = "12 mm"
+cooling = "0.002 W/K"
+[emission]
+pm10_fraction = 0.4
+pm25_fraction = 0.15
+number_per_mass = "1e15 1/kg"
+pin_density = "2600 kg/m^3"
+disc_density = "7200 kg/m^3"
+number_factor = [["23 degC", 1.0], ["30 degC", 10.0]]
+"#;
+
+/// A scene with all parts, laid over a shipped one.
+fn hot(base: &str, output: &str) -> String {
+    format!("version = 1\nextends = \"{}\"\n{PARTS}\n[output]\ncontact_temperature = true\n{output}\n", scene(base))
+}
+
+#[test]
+fn a_scene_without_the_parts_has_nothing_of_them() {
+    let directory = WorkingDirectory::new();
+    directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5"]).quiet_success();
+    let content = RunFile::open(directory.path("run.h5")).content();
+    let words = ["friction", "temperature", "heat", "pm10", "pm25", "particle", "emitted_mass", "work"];
+    let found: Vec<_> = content.keys().filter(|path| words.iter().any(|word| path.contains(word))).collect();
+    assert_eq!(found, [""; 0]);
+}
+
+#[test]
+fn wear_and_contact_do_not_see_friction_and_emission() {
+    let directory = WorkingDirectory::new();
+    let of_table = |name: &str| PARTS.find(&format!("[{name}]")).unwrap();
+    let without_heat = format!("{}{}", &PARTS[..of_table("thermal")], &PARTS[of_table("emission")..]);
+    let without_heat = without_heat.replace("number_factor", "# number_factor");
+    directory.write("cold.toml", format!("version = 1\nextends = \"{}\"\n{without_heat}", scene("stops.toml")));
+    // With another law for build-ups they are told apart, which rounds sums in another place.
+    directory
+        .write("alike.toml", fs::read_to_string(directory.path("cold.toml")).unwrap().replace("0.9 MPa", "0.75 MPa"));
+    let run = |scene: &str, name: &str| {
+        directory.plateau(["run", scene, "-o", name]).quiet_success();
+        RunFile::open(directory.path(name))
+    };
+    let (plain, cold, alike) =
+        (run(&scene("stops.toml"), "plain.h5"), run("cold.toml", "cold.h5"), run("alike.toml", "alike.h5"));
+    for (path, content) in plain.content() {
+        assert_eq!(alike.content()[&path], content, "{path}");
+    }
+    for path in ["/series/worn_pin", "/series/contact_area_integral"] {
+        let (one, other) = (plain.floats(path), cold.floats(path));
+        assert!(one.iter().zip(&other).all(|(one, other)| (one / other - 1.0).abs() < 1e-9), "{path}");
+    }
+    // PM10 is a part of the emitted volume at the density of the pin, which alone wears.
+    let emitted: Vec<f64> = plain.floats("/series/emitted").iter().map(|volume| 0.4 * 2600.0 * volume).collect();
+    let pm10 = cold.floats("/series/pm10_mass");
+    assert!(pm10.iter().zip(&emitted).all(|(found, expected)| (found / expected - 1.0).abs() < 1e-9));
+    let number = cold.floats("/series/particle_number");
+    assert!(number.iter().zip(&pm10).all(|(number, mass)| (number / (1e15 * mass) - 1.0).abs() < 1e-9));
+}
+
+#[test]
+fn flat_on_flat_has_the_coefficient_of_the_closed_form() {
+    let directory = WorkingDirectory::new();
+    let friction = "friction={ pressure_coefficient = 0.33, shear_strength = \"0.75 MPa\", maximum = 0.6 }";
+    let flat = [friction, "disc.surface.flat=true", "pin.surface.flat=true", "pin.base.uniform=primary"];
+    for force in [60.0, 30.0, 3.0] {
+        let (force_set, name) = (format!("operation.normal_force={force} N"), format!("{force}.h5"));
+        let sets = [&flat[..], &["operation.duration=1 s", &force_set]].concat();
+        let sets: Vec<&str> = sets.into_iter().flat_map(|set| ["--set", set]).collect();
+        let quick = scene("quick.toml");
+        directory.plateau([&["run", &quick, "-o", &name][..], &sets].concat()).quiet_success();
+        let run = RunFile::open(directory.path(&name));
+        // The pin covers 40 of 690 columns of a ring from 20 to 21 mm.
+        let area = std::f64::consts::PI * (21e-3_f64.powi(2) - 20e-3_f64.powi(2)) * 40.0 / 690.0;
+        let expected = (0.33 + 0.75e6 * area / force).min(0.6);
+        for path in ["/series/friction_coefficient", "/series/friction_coefficient_mean"] {
+            assert!(run.floats(path).iter().all(|found| (found / expected - 1.0).abs() < 1e-12), "{force} N, {path}");
+        }
+        let (work, distance) = (run.floats("/series/friction_work"), run.floats("/series/sliding_distance"));
+        let whole = |(work, distance): (&f64, &f64)| (work / (expected * force * distance) - 1.0).abs() < 1e-12;
+        assert!(work.iter().zip(&distance).all(whole));
+    }
+}
+
+#[test]
+fn workers_and_instruction_sets_agree_on_heat() {
+    let directory = WorkingDirectory::new();
+    directory.write("hot.toml", hot("stops.toml", "sample_every = \"0.3 s\"\nmaps_at = [\"12 s\", \"16 s\"]"));
+    let run = |name: &str, options: &[&str]| {
+        let arguments = ["run", "hot.toml", "-o", name, "--set", "numerics.time_acceleration=20"];
+        assert_eq!(directory.plateau([&arguments[..], options].concat()).status, Some(0));
+        RunFile::open(directory.path(name)).content()
+    };
+    let one = run("one.h5", &[]);
+    assert!(one.contains_key("/pin/temperature") && one.contains_key("/event/temperature_peak"));
+    for options in [["--workers", "2"], ["--workers", "3"], ["--isa", "portable"]] {
+        let name = format!("{}.h5", options[1]);
+        assert_eq!(differences(&one, &run(&name, &options)), [""; 0], "{options:?}");
+    }
+    let run = RunFile::open(directory.path("one.h5"));
+    let contact = run.floats("/series/contact_temperature");
+    // It warms up, and the feedback is felt.
+    assert!(contact.iter().copied().fold(0.0, f64::max) > 300.0);
+    assert!(contact.iter().any(|temperature| temperature.is_nan()), "the pin is lifted at some samples");
+    let residual = run.floats("/series/heat_residual");
+    assert!(residual.iter().all(|residual| residual.abs() < 1e-12), "{residual:?}");
+}
+
+/// Killed in pauses and events, in the middle of intervals of heat.
+#[test]
+fn a_hot_run_that_is_killed_ends_like_an_undisturbed_one() {
+    let directory = WorkingDirectory::new();
+    directory.write(
+        "hot.toml",
+        hot("stops.toml", "sample_every = \"0.05 s\"\nmaps_at = [\"12 s\", \"55 s\"]\ncheckpoint_every = \"0.03 s\""),
+    );
+    let arguments = |name: &'static str, more: &'static [&'static str]| {
+        let sets = ["--set", "operation.cycle.repeat=3", "--set", "operation.duration=170 s"];
+        [&["run", "hot.toml", "-o", name, "--set", "numerics.time_acceleration=1"][..], &sets, more].concat()
+    };
+    directory.plateau(arguments("whole.h5", &[])).quiet_success();
+    let killed =
+        go_on_through_kills(&directory, &arguments("run.h5", &["--resume"]), few_or_all(5, 40), 0.6, Stream(22));
+    let [whole, run] = ["whole.h5", "run.h5"].map(|name| RunFile::open(directory.path(name)).content());
+    assert_eq!(differences(&whole, &run), [""; 0], "after {killed} kills");
+}
+
+#[test]
+fn the_program_and_the_model_as_it_is_read_agree_on_heat() {
+    let directory = WorkingDirectory::new();
+    directory.write("hot.toml", hot("stops.toml", "sample_every = \"0.7 s\""));
+    let run = |engine: &str| {
+        let name = format!("{engine}.h5");
+        let arguments = ["run", "hot.toml", "-o", &name, "--set", "numerics.time_acceleration=50", "--engine", engine];
+        assert_eq!(directory.plateau(arguments).status, Some(0));
+        RunFile::open(directory.path(&name))
+    };
+    let (fast, plain) = (run("fast"), run("plain"));
+    for path in fast.content().keys().filter(|path| path.starts_with("/series/") || path.starts_with("/event/")) {
+        let (one, other) = (fast.floats(path), plain.floats(path));
+        let scale = other.iter().copied().filter(|value| value.is_finite()).map(f64::abs).fold(0.0, f64::max);
+        let agree = |(one, other): (&f64, &f64)| (one - other).abs() <= 1e-9 * scale || one.is_nan() && other.is_nan();
+        // Residuals are what rounding leaves.
+        assert!(path.ends_with("residual") || one.iter().zip(&other).all(agree), "{path}");
+    }
+}
+
+#[test]
+fn a_study_asks_friction_and_events_are_exported() {
+    let directory = WorkingDirectory::new();
+    directory.write("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
+    let study = "version = 1\nbase = \"hot.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
+                 [[factor]]\nname = \"load\"\nkey = \"operation.cycle.force_scale\"\nlevels = [1.0, 2.0]\n\
+                 [[factor]]\nname = \"strength\"\nkey = \"friction.shear_strength\"\nlevels = [\"0.5 MPa\", \"1 MPa\"]\n\
+                 [[response]]\nname = \"friction\"\ndataset = \"/series/friction_coefficient_mean\"\nat = \"end\"\n\
+                 [[response]]\nname = \"peak\"\ndataset = \"/event/temperature_peak\"\nevent = \"last\"\n\
+                 [[response]]\nname = \"work\"\ndataset = \"/event/work\"\nevent = \"mean\"\n";
+    directory.write("study.toml", study);
+    directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]).quiet_success();
+    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    let results = RunFile::open(directory.path("results/results.h5"));
+    let friction = results.floats("/friction");
+    // The first factor changes first: friction falls with load and rises with the shear strength.
+    let [falls, rises] = [[(0, 1), (2, 3)], [(0, 2), (1, 3)]];
+    assert!(falls.iter().all(|(one, other)| friction[*one] > friction[*other]), "{friction:?}");
+    assert!(rises.iter().all(|(one, other)| friction[*one] < friction[*other]), "{friction:?}");
+    assert!(results.floats("/peak").iter().all(|peak| *peak > 296.15));
+    directory.plateau(["run", "hot.toml", "-o", "run.h5"]).quiet_success();
+    directory.plateau(["export", "run.h5", "--to", "csv"]).quiet_success();
+    let events = fs::read_to_string(directory.path("run-events.csv")).unwrap();
+    let head = events.lines().next().unwrap();
+    assert!(
+        head.contains("work (J)") && head.contains("temperature_peak (K)") && head.contains("pm10_mass (kg)"),
+        "{head}"
+    );
+    let run = RunFile::open(directory.path("run.h5"));
+    // What the events did is what was done in all.
+    let of_events: f64 = run.floats("/event/work").iter().sum();
+    assert!((of_events / run.floats("/series/friction_work").last().unwrap() - 1.0).abs() < 1e-12);
+    directory.plateau(["verify", "run.h5"]).quiet_success();
+}
+
+#[test]
+fn a_run_whose_heat_is_no_number_any_more_has_failed() {
+    let directory = WorkingDirectory::new();
+    directory.write("hot.toml", hot("stops.toml", "sample_every = \"1 s\""));
+    let set = "thermal.friction_factor=[[\"24 degC\", 1.0], [\"25 degC\", 1e308]]";
+    let outcome = directory.plateau(["run", "hot.toml", "-o", "run.h5", "--set", set]);
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("the work of friction"), "{outcome:?}");
+    assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "failed");
+}
