@@ -99,10 +99,10 @@ mod tests {
         assert_eq!(estimate([2, 10, 3], &maps, &none, false), 550 + 428);
         // All seven: disc 20·17, pin 6·(17 + 8), twice.
         assert_eq!(estimate([2, 10, 3], &Map::CHOICES, &none, false), 550 + 2 * (20 * 17 + 6 * 25));
-        // With the heights of both and the pressure, own and gathered.
+        // With the heights of both and the pressure, and the pressure and temperature of the contact, own and gathered.
         assert_eq!(
             estimate([2, 10, 3], &Map::CHOICES, EXTRAS, false),
-            550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6)
+            550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6 + 6 + 6)
         );
         assert_eq!(estimate([u64::MAX; 3], &maps, EXTRAS, true), u64::MAX);
     }
