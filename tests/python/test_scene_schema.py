@@ -22,6 +22,7 @@ SCENES = ROOT / "crates/io/tests/scenes"
 FORM_IS_GOOD = {
     "black-is-white",
     "companion-alone",
+    "contact-temperature-without-heat",
     "extends-a-folder",
     "extends-a-newer",
     "extends-in-a-circle",
@@ -29,9 +30,13 @@ FORM_IS_GOOD = {
     "extends-itself",
     "extends-what-is-not-there",
     "fibre-wider-than-long",
+    "heat-incomplete",
+    "heat-without-friction",
     "image-without-pixel",
     "mesh-larger-than-memory",
+    "number-factor-without-heat",
     "pin-wider-than-ring",
+    "pm25-above-pm10",
     "power-law-incomplete",
     "radii-exchanged",
     "steps-beyond-counting",
@@ -119,6 +124,7 @@ def good_value(path, key):
         case {"type": "array"}:
             lists = {"maps": '["pressure", "pin_status"]', "maps_at": '["0 s", "2 min"]', "height_range": '["2 um", "2 um"]'}
             lists["points"] = '[["0 s", "4 N", "9 rpm"], ["1 min", "0 N", "0 rpm"]]'
+            lists |= dict.fromkeys(("wear_rate_factor", "friction_factor", "number_factor"), '[["9.5 degC", 2.5], ["300 K", 0]]')
             return lists[path.split(".")[-1]]
         case {"type": "boolean"}:
             return "true"
