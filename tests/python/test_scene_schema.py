@@ -124,7 +124,7 @@ def good_value(path, key):
         case {"type": "array"}:
             lists = {"maps": '["pressure", "pin_status"]', "maps_at": '["0 s", "2 min"]', "height_range": '["2 um", "2 um"]'}
             lists["points"] = '[["0 s", "4 N", "9 rpm"], ["1 min", "0 N", "0 rpm"]]'
-            lists |= dict.fromkeys(("wear_rate_factor", "friction_factor", "number_factor"), '[["9.5 degC", 2.5], ["300 K", 0]]')
+            lists |= dict.fromkeys(("wear_rate_factor", "friction_factor", "number_factor"), '[["-9.5 degC", 2.5], ["300 K", 0]]')
             return lists[path.split(".")[-1]]
         case {"type": "boolean"}:
             return "true"

@@ -30,8 +30,11 @@ pub fn length_unit() -> String {
 
 fn number_with_unit(dimension: Dimension, sign: Sign) -> String {
     if dimension == Dimension::Temperature {
-        // 0 °C is above 0 K.
-        let celsius = number(if sign == Sign::Any { Sign::Any } else { Sign::NotNegative });
+        // Below 0 °C, down to 0 K.
+        let celsius = match sign {
+            Sign::Any => number(Sign::Any),
+            _ => format!(r"({}|-([01]?[0-9]{{1,2}}|2[0-6][0-9]|27[0-2])(\.[0-9]*)?)", number(Sign::NotNegative)),
+        };
         return format!("({} *K|{celsius} *(degC|°C))", number(sign));
     }
     let (glued, apart) = Units::new().of(dimension);
