@@ -16,7 +16,8 @@ use crate::{message, number, output};
 pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
     let run = super::open_run(&arguments.run)?;
     let named = |ending| arguments.output.clone().unwrap_or_else(|| super::named_like(&arguments.run, ending));
-    let mut job = Job { run: &run, force: arguments.force, written: Vec::new() };
+    let inputs = super::runs::inputs_of(std::slice::from_ref(&run));
+    let mut job = Job { run: &run, inputs, force: arguments.force, written: Vec::new() };
     match arguments.to {
         ExportFormat::Csv => job.csv(&named(".csv"), arguments.maps)?,
         ExportFormat::Npz => job.npz(&named(".npz"))?,
@@ -32,6 +33,8 @@ const BODIES: [(Body, &str); 2] = [(Body::Disc, "disc"), (Body::Pin, "pin")];
 /// What is written of a run file.
 struct Job<'a> {
     run: &'a RunFile,
+    /// The run file and what its run has read: none of them is replaced.
+    inputs: Vec<PathBuf>,
     force: bool,
     /// Path and content of every file.
     written: Vec<(String, String)>,
@@ -123,7 +126,7 @@ impl Job<'_> {
     }
 
     fn check(&self, path: &Path) -> Result<(), Failure> {
-        output::check(path, self.force, &super::runs::inputs_of(std::slice::from_ref(self.run)))
+        output::check(path, self.force, &self.inputs)
     }
 
     fn series(&self) -> String {

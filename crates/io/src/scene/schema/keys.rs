@@ -4,8 +4,9 @@ use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
 use super::optional_parts;
+use super::table::{Table, length};
 use super::{CYCLE, Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
-use crate::units::Dimension::{Area, Force, Length, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
+use crate::units::Dimension::{Area, Force, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
 use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
 
@@ -73,16 +74,12 @@ const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
 const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
 const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
 
-pub(super) const fn length(unit: &'static str, range: Range) -> Kind {
-    Kind::Quantity { dimension: Length, unit, range }
-}
-
 const fn time(range: Range) -> Kind {
     Kind::Quantity { dimension: Time, unit: "s", range }
 }
 
 pub(super) fn all() -> Vec<Key> {
-    let mut table = Table { keys: Vec::new(), section: "", role: Role::Nothing };
+    let mut table = Table::new(Role::Nothing);
     table.key("version", Integer(1), Required, "version of the scene format: 1");
     table.key("title", Text, Computed("the scene file's name"), "title of the run");
     table.key("extends", Text, Optional, "scene that this one takes as its base, relative to this file");
@@ -259,20 +256,7 @@ pub(super) fn all() -> Vec<Key> {
     table.keys
 }
 
-/// Collects keys; `section` is the table to which the next ones belong, `role` what they change.
-pub(super) struct Table {
-    pub(super) keys: Vec<Key>,
-    pub(super) section: &'static str,
-    role: Role,
-}
-
 impl Table {
-    pub(super) fn key(&mut self, name: &'static str, kind: Kind, need: Need, meaning: &'static str) -> &mut Key {
-        let place = self.keys.len();
-        self.keys.push(Key { section: self.section, name, kind, need, meaning, role: self.role });
-        &mut self.keys[place]
-    }
-
     fn elasticity(&mut self, need: Need) {
         let modulus = Kind::Quantity { dimension: Pressure, unit: "Pa", range: Range::POSITIVE };
         self.key("youngs_modulus", modulus, need, "Young's modulus");

@@ -9,6 +9,7 @@ mod json_schema;
 mod keys;
 mod optional_parts;
 mod suggest;
+mod table;
 mod tables;
 
 use std::fmt;
