@@ -22,8 +22,10 @@
 //! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | [`deposit_locally`](model::step::deposit_locally) | `kernel::deposit` |
 //! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`destroy`](model::step::destroy) | `plateau` |
 //! | 4P formation | d = min(γ, s), s = M/S | [`form`](model::step::form) | `debris::Debris::prepare`, `plateau` |
-//! | 4P balance | M ← M + η worn + returned − deposited | [`advance`](model::step::advance) | `debris::Debris::settle` |
+//! | 4P balance | M ← M + η worn + returned − deposited | [`pool`](model::step::pool) | `debris::Debris::settle` |
 //! | 4.6 advance | t += m Δt | [`advance`](model::step::advance) | `worker` |
+//! | 9 operation | the load of a step is its mean over the step's angle | [`cycle`](model::cycle) | the same |
+//! | 10 to 12 friction, heat, emission | booked after each step, from sums that the load balance has | [`accounts`](model::accounts) | the same |
 //!
 //! [`Simulation`](simulation::Simulation) takes the steps and reports (5). [`model::step`] is all of it as it is read, cell by
 //! cell. The [`engine`] takes the same steps: `worker` takes the rules in turn,
@@ -41,7 +43,8 @@
 //!   sums and hand on the pin columns that cross from sector to sector ([`comm`](engine::comm)).
 //!
 //! # Range of validity
-//! Normal load only: no friction, no heat, no inertia. Cells deform independently (Winkler). Time acceleration m > 1 is
+//! The load balance knows the normal load alone: friction, heat and emission are booked after each step and act back on the
+//! wear rates and on friction only. No inertia. Cells deform independently (Winkler). Time acceleration m > 1 is
 //! an approximation. The explicit wear rule overshoots when the stiffness number Π = κ k m r Δθ exceeds 1 and is
 //! unstable above 2 ([`parameters::Parameters::stiffness_number`](model::parameters::Parameters::stiffness_number)); the exponential rule never is.
 

@@ -11,6 +11,7 @@
 //! | 4L | local debris: what wears ahead fills the gap behind it | [`step::deposit_locally`] |
 //! | 4P | loss of support | [`step::destroy`] |
 //! | 4P | pooled debris fills open cells | [`step::form`] |
+//! | 4P | what is in a pool | [`step::pool`] |
 //! | 4.6 | all of these, once | [`step::advance`] |
 //! | 9 | load and speed that change | [`cycle`] |
 //! | 10 | friction | [`friction::Friction::coefficient`] |

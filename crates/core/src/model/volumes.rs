@@ -2,7 +2,7 @@
 
 use std::ops::Add;
 
-/// Volumes that one step moves, m³.
+/// Volumes that one step moves, m³: worn + returned = deposited + emitted + what the pools gained.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Volumes {
     /// Worn off plateaus of the pin.
@@ -11,7 +11,7 @@ pub struct Volumes {
     pub worn_resin: f64,
     /// Worn off the disc.
     pub worn_disc: f64,
-    /// Build-up that lost its support.
+    /// Came off a surface without wearing, as a build-up does that lost its support; it is emitted or in a pool.
     pub returned: f64,
     /// Compacted on the pin.
     pub deposited_pin: f64,

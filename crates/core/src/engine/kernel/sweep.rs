@@ -29,13 +29,19 @@ pub fn sweep(needs: Needs) -> Sweep {
     if local {
         return sweep_locally(needs);
     }
-    macro_rules! choose {
-        ([$($chosen:literal),*]) => { sweep_span::<$($chosen),*> };
-        ([$($chosen:literal),*] $flag:ident $($rest:ident)*) => {
-            if $flag { choose!([$($chosen,)* true] $($rest)*) } else { choose!([$($chosen,)* false] $($rest)*) }
-        };
+    // Build-up that is told apart, and plateaus that fall, are there only where plateaus form.
+    match (forms, distinct, disc_wears, destroys) {
+        (false, _, false, _) => sweep_span::<false, false, false, false>,
+        (false, _, true, _) => sweep_span::<false, true, false, false>,
+        (true, false, false, false) => sweep_span::<false, false, true, false>,
+        (true, false, false, true) => sweep_span::<false, false, true, true>,
+        (true, false, true, false) => sweep_span::<false, true, true, false>,
+        (true, false, true, true) => sweep_span::<false, true, true, true>,
+        (true, true, false, false) => sweep_span::<true, false, true, false>,
+        (true, true, false, true) => sweep_span::<true, false, true, true>,
+        (true, true, true, false) => sweep_span::<true, true, true, false>,
+        (true, true, true, true) => sweep_span::<true, true, true, true>,
     }
-    choose!([] distinct disc_wears forms destroys)
 }
 
 kernel! {
