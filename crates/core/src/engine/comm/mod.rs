@@ -4,6 +4,7 @@
 pub mod mpi;
 #[cfg(feature = "mpi")]
 mod mpi_job;
+mod parking;
 pub(crate) mod single;
 pub(crate) mod threads;
 #[cfg(feature = "mpi")]

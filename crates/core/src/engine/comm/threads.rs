@@ -1,35 +1,34 @@
 //! Workers that are threads of one process and share memory.
 //!
 //! Messages are words in memory that all threads see; a counter tells when one is complete. Nothing is locked, and a
-//! worker that waits spins briefly, then gives way to others, then sleeps.
+//! worker that waits spins briefly and then sleeps until it is woken. It does not just give way: who gives way to a busy
+//! process gets the core back milliseconds later.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
 
 use crossbeam::utils::CachePadded;
 
+use super::parking::Parking;
 use super::{CommError, Communicator};
 
-/// Looks at a counter before giving way, where every worker has a core of its own.
-const SPINS: u32 = 500;
-/// Times of giving way before sleeping.
-const YIELDS: u32 = 1000;
-/// How long a worker sleeps between two looks.
-const NAP: Duration = Duration::from_micros(200);
+/// Looks at a counter before sleeping, where every worker has a core of its own: some 30 µs, several steps of a small mesh.
+const SPINS: u32 = 2000;
 /// Words of a message that are gathered at a time.
 const WORDS_AT_A_TIME: usize = 4096;
 
 /// A message and how many were written in its place so far.
 #[derive(Debug)]
 struct Place {
+    number: usize,
     written: CachePadded<AtomicU64>,
     words: Box<[AtomicU64]>,
 }
 
 impl Place {
-    fn new(words: usize) -> Self {
-        Self { written: CachePadded::new(AtomicU64::new(0)), words: (0..words).map(|_| AtomicU64::new(0)).collect() }
+    fn new(number: usize, words: usize) -> Self {
+        let words = (0..words).map(|_| AtomicU64::new(0)).collect();
+        Self { number, written: CachePadded::new(AtomicU64::new(0)), words }
     }
 
     /// Writes words from the place `first` on, and counts them as a message.
@@ -47,6 +46,7 @@ struct Shared {
     gathered: Vec<[Place; 2]>,
     /// A place for the column that crosses each boundary.
     halos: Vec<Place>,
+    parking: Parking,
     failed: AtomicBool,
     failure: Mutex<Option<CommError>>,
     spins: u32,
@@ -71,9 +71,10 @@ impl Threads {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
         let shared = Arc::new(Shared {
             gathered: (0..workers)
-                .map(|_| [Place::new(WORDS_AT_A_TIME + 1), Place::new(WORDS_AT_A_TIME + 1)])
+                .map(|rank| [2 * rank, 2 * rank + 1].map(|number| Place::new(number, WORDS_AT_A_TIME + 1)))
                 .collect(),
-            halos: (0..boundaries).map(|_| Place::new(halo_words)).collect(),
+            halos: (0..boundaries).map(|boundary| Place::new(2 * workers + boundary, halo_words)).collect(),
+            parking: Parking::new(workers),
             failed: AtomicBool::new(false),
             failure: Mutex::new(None),
             spins: if workers <= cores { SPINS } else { 0 },
@@ -95,17 +96,18 @@ impl Threads {
 
     /// Waits until `count` messages were written in a place.
     fn wait(&self, place: &Place, count: u64) -> Result<(), CommError> {
+        let is_there = || place.written.load(Ordering::Acquire) >= count;
         let mut looks = 0;
-        while place.written.load(Ordering::Acquire) < count {
+        while !is_there() {
             if self.shared.failed.load(Ordering::Relaxed) {
                 let failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner);
                 let unknown = || CommError::Worker { worker: self.rank, message: "an unknown failure".into() };
                 return Err(failure.clone().unwrap_or_else(unknown));
             }
-            match looks {
-                looks if looks < self.shared.spins => std::hint::spin_loop(),
-                looks if looks < self.shared.spins + YIELDS => std::thread::yield_now(),
-                _ => std::thread::park_timeout(NAP),
+            if looks < self.shared.spins {
+                std::hint::spin_loop();
+            } else {
+                self.shared.parking.sleep(self.rank, place.number, is_there);
             }
             looks = looks.saturating_add(1);
         }
@@ -117,6 +119,7 @@ impl Threads {
         let place = &self.shared.gathered[self.rank][(self.gatherings % 2) as usize];
         place.words[0].store(length as u64, Ordering::Relaxed);
         place.write(1, part);
+        self.shared.parking.wake(place.number);
         self.gatherings += 1;
     }
 
@@ -144,7 +147,9 @@ impl Communicator for Threads {
     }
 
     fn send_halo(&mut self, boundary: usize, _to: usize, words: &[u64]) -> Result<(), CommError> {
-        self.shared.halos[boundary].write(0, words);
+        let place = &self.shared.halos[boundary];
+        place.write(0, words);
+        self.shared.parking.wake(place.number);
         Ok(())
     }
 
@@ -191,6 +196,7 @@ impl Alarm {
         let mut failure = self.shared.failure.lock().unwrap_or_else(PoisonError::into_inner);
         failure.get_or_insert(CommError::Worker { worker: self.rank, message });
         self.shared.failed.store(true, Ordering::Release);
+        self.shared.parking.wake_all();
     }
 }
 
