@@ -50,7 +50,7 @@ number_factor = [["23 degC", 1.0], ["30 degC", 10.0]]
 "#;
 
 /// A scene with all parts, laid over a shipped one.
-fn hot(base: &str, output: &str) -> String {
+pub fn hot(base: &str, output: &str) -> String {
     format!("version = 1\nextends = \"{}\"\n{PARTS}\n[output]\ncontact_temperature = true\n{output}\n", scene(base))
 }
 

@@ -9,6 +9,8 @@ use std::process::{Child, Command, Stdio};
 use plateau_tests::program::{Outcome, WorkingDirectory, program, run, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
 
+use crate::heat::hot;
+
 /// The launcher, to be run in a directory.
 fn mpirun(directory: &WorkingDirectory) -> Command {
     let launcher = std::env::var("PLATEAU_MPIRUN").expect("PLATEAU_MPIRUN, for example \"mpirun --oversubscribe\"");
@@ -81,6 +83,26 @@ fn ranks_choose_the_same_acceleration() {
         let directory = WorkingDirectory::new();
         let outcome = on_ranks(&directory, ranks, &arguments);
         assert_eq!(differences(&one, &written(&directory, &outcome).0), [""; 0], "{ranks} ranks");
+    }
+}
+
+/// Stops and pauses with friction, heat that acts back on the wear rates, and emission.
+#[test]
+#[ignore = "needs MPI"]
+fn ranks_warm_up_alike() {
+    let directory = WorkingDirectory::new();
+    directory.write("hot.toml", hot("stops.toml", ""));
+    let arguments: Vec<String> = ["run", "hot.toml", "-o", "run.h5"].map(str::to_owned).to_vec();
+    let outcome = directory.plateau(&arguments);
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    let one = RunFile::open(directory.path("run.h5")).content();
+    assert!(one.contains_key("/series/contact_temperature"), "{:?}", one.keys());
+    for ranks in [2, 3] {
+        let outcome = on_ranks(&directory, ranks, &[&arguments[..], &["--force".to_owned()]].concat());
+        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        let run = RunFile::open(directory.path("run.h5"));
+        assert_eq!(run.number("workers"), ranks as f64);
+        assert_eq!(differences(&one, &run.content()), [""; 0], "{ranks} ranks");
     }
 }
 
