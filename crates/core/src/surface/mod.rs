@@ -5,6 +5,7 @@ mod base;
 mod body;
 pub mod describe;
 mod fft;
+mod fft2d;
 mod fibre;
 mod length;
 mod level;

@@ -65,23 +65,20 @@ pub enum PreparationError {
     },
     /// The patch does not cover the track.
     #[error(
-        "the patch is {} wide in r, the track {}: a pixel of at least {} lets its {rows} rows cover the track",
-        Length(*patch), Length(*track), Length(*pixel)
+        "the patch is {} wide in r, the track {}: repeat = true tiles the patch without a step at the seams, extend = \"statistics\" \
+         makes a surface with the statistics of the patch",
+        Length(*patch), Length(*track)
     )]
     Narrow {
         /// Extent of the patch in r, m.
         patch: f64,
         /// Width of the track, m.
         track: f64,
-        /// Smallest pitch that covers the track, m.
-        pixel: f64,
-        /// Rows of the patch.
-        rows: usize,
     },
     /// The patch does not cover the body along the sliding direction.
     #[error(
         "the patch is {} long, the {body} {} at the mean radius: repeat = true tiles the patch without a step at \
-         the seams",
+         the seams, extend = \"statistics\" makes a surface with the statistics of the patch",
         Length(*patch), Length(*length)
     )]
     Short {
@@ -92,13 +89,43 @@ pub enum PreparationError {
         /// Length of the body, m.
         length: f64,
     },
-    /// Not even one column is covered.
-    #[error("the patch is {} long, one column {} at the mean radius: a larger pixel is needed", Length(*patch), Length(*column))]
-    ShorterThanColumn {
-        /// Length of the patch, m.
-        patch: f64,
-        /// Arc length of a column, m.
-        column: f64,
+    /// Not even one cell is covered.
+    #[error(
+        "the patch is {} by {}, a cell {} by {}: all of its roughness lies within one cell; take smaller cells, or measure a larger area",
+        Length(patch[0]), Length(patch[1]), Length(cell[0]), Length(cell[1])
+    )]
+    SmallerThanCell {
+        /// Extents of the patch along x and y, m.
+        patch: [f64; 2],
+        /// Extents of a cell, m.
+        cell: [f64; 2],
+    },
+    /// Too few cells to tell the statistics.
+    #[error(
+        "the patch covers {columns} by {rows} cells of {} by {}, and its statistics show in {least} by {least} at least: take \
+         smaller cells, or measure a larger area",
+        Length(cell[0]), Length(cell[1])
+    )]
+    FewCells {
+        /// Whole cells along x.
+        columns: usize,
+        /// Whole cells along y.
+        rows: usize,
+        /// Extents of a cell, m.
+        cell: [f64; 2],
+        /// Fewest cells in either direction.
+        least: usize,
+    },
+    /// The field of the extension would be too large.
+    #[error(
+        "extending the patch by its statistics needs a field of {columns} by {rows} cells, more than is made: crop the patch, or take a \
+         smaller ring"
+    )]
+    TooLarge {
+        /// Columns of the field.
+        columns: usize,
+        /// Rows of the field.
+        rows: usize,
     },
     /// Heights that are no numbers.
     #[error("{count} of {points} heights are not finite: the heights or the scale of {scale} are too large")]

@@ -4,6 +4,7 @@ use super::level::{Level, level, mean, rms};
 use super::missing::{Fill, fill, remove_outliers};
 use super::preparation_error::PreparationError;
 use super::resample::resample;
+use super::synthesis::extension::{Extended, extend};
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
@@ -23,6 +24,8 @@ pub struct Preparation {
     pub cutoff: Option<f64>,
     /// Tiles the patch along the sliding direction without a step at the seams.
     pub repeat: bool,
+    /// Makes a surface with the statistics of the patch, in place of tiling it; the number is the seed.
+    pub extend: Option<u64>,
     /// Multiplies the heights.
     pub scale: f64,
 }
@@ -30,7 +33,16 @@ pub struct Preparation {
 impl Default for Preparation {
     /// Nothing is done.
     fn default() -> Self {
-        Self { level: Level::None, outliers: None, fill: None, pixel: None, cutoff: None, repeat: false, scale: 1.0 }
+        Self {
+            level: Level::None,
+            outliers: None,
+            fill: None,
+            pixel: None,
+            cutoff: None,
+            repeat: false,
+            extend: None,
+            scale: 1.0,
+        }
     }
 }
 
@@ -89,7 +101,12 @@ impl Preparation {
             report.push(format!("{step}, {}", change(before, &patch.heights)));
             cut
         });
-        let mut heights = if on_mesh {
+        let mut heights = if let Some(seed) = self.extend {
+            let Extended { heights, report: step, warning } = extend(&patch, seed, body, mesh)?;
+            report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
+            report.extend(warning.map(|warning| format!("warning: {warning}")));
+            heights
+        } else if on_mesh {
             patch.heights
         } else {
             let heights = resample(&patch, self.repeat, body, mesh)?;
@@ -210,9 +227,14 @@ impl Preparation {
         let laid = match (self.repeat, body) {
             (true, Body::Disc) => {
                 let times = body.length(mesh) / patch.length();
-                format!("{size} repeated {times:.2} times round the ring, mirrored at the seams")
+                format!(
+                    "{size} repeated {times:.2} times round the ring{}, mirrored at the seams",
+                    repeated_across(patch, mesh)
+                )
             }
-            (true, Body::Pin) => format!("{size} repeated along the pin, mirrored at the seams"),
+            (true, Body::Pin) => {
+                format!("{size} repeated along the pin{}, mirrored at the seams", repeated_across(patch, mesh))
+            }
             (false, Body::Disc) => format!(
                 "{size} laid round the ring without repeating: a step may be left where the ring closes \
                  (repeat = true leaves none)"
@@ -227,6 +249,12 @@ impl Preparation {
             Length(mesh.row_height())
         )
     }
+}
+
+/// How often a patch that is narrower than the track is repeated across it, in words.
+fn repeated_across(patch: &Patch, mesh: &Mesh) -> String {
+    let times = mesh.rows() as f64 * mesh.row_height() / patch.height();
+    if times > 1.0 + 1e-9 { format!(" and {times:.2} times across the track") } else { String::new() }
 }
 
 /// What a step made of the rms height.

@@ -10,6 +10,8 @@ pub(crate) enum Stream {
     DiscHeight = 1,
     PinHeight = 2,
     PinBase = 3,
+    DiscExtension = 4,
+    PinExtension = 5,
 }
 
 /// One random stream of one seed.
@@ -78,8 +80,9 @@ mod tests {
     fn equal_seeds_in_different_streams_are_uncorrelated() {
         // The correlation of N independent pairs has the standard error 1/√N.
         let count = 100_000;
-        let streams = [Stream::DiscHeight, Stream::PinHeight, Stream::PinBase];
-        for (first, second) in [(0, 1), (0, 2), (1, 2)] {
+        let streams =
+            [Stream::DiscHeight, Stream::PinHeight, Stream::PinBase, Stream::DiscExtension, Stream::PinExtension];
+        for (first, second) in [(0, 1), (0, 2), (1, 2), (0, 3), (3, 4), (1, 4)] {
             let mut one = Random::new(1, streams[first]);
             let mut other = Random::new(1, streams[second]);
             let correlation = (0..count).map(|_| one.normal() * other.normal()).sum::<f64>() / f64::from(count);

@@ -18,50 +18,70 @@ const SAME_LENGTH: f64 = 1e-9;
 /// taken out (a wave of length λ by sin(πw/λ)/(πw/λ), w the cell's width) and the mean over all cells is the mean over
 /// the part of the patch that they cover. Where pixels are coarser it is linear interpolation between their centres.
 ///
-/// With `repeat` the patch is continued by its mirror image, that by the patch, and so on: T(x) with the period of two
-/// patches and no step at a seam. The ring is besides folded about its middle so that it closes without a step:
-/// h(x) = T(min(x, L − x)), L being its circumference.
+/// With `repeat` the patch is continued by its mirror image, that by the patch, and so on, in both directions: T(x, y) with the
+/// period of two patches and no step at a seam. The ring is besides folded about its middle so that it closes without a
+/// step: h(x, y) = T(min(x, L − x), y), L being its circumference.
 pub(super) fn resample(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<Vec<f64>, PreparationError> {
     fits(patch, repeat, body, mesh)?;
-    let (columns, rows) = (body.columns(mesh), mesh.rows());
-    let along_x = Axis { pixels: patch.columns, pitch: patch.column_pitch, cell: mesh.column_width() };
-    let along_y = Axis { pixels: patch.rows, pitch: patch.row_pitch, cell: mesh.row_height() };
-    let fold = (repeat && body == Body::Disc).then(|| 0.5 * body.length(mesh));
     // The middle of the track lies on the middle of the patch.
-    let margin = 0.5 * (patch.height() - rows as f64 * along_y.cell);
-    let row_weights: Vec<Weights> = (0..rows).map(|row| along_y.weights(row, margin, None)).collect();
-
-    let mut heights = Vec::with_capacity(columns * rows);
-    let mut profile = vec![0.0; patch.rows];
-    for column in 0..columns {
-        let column_weights = along_x.weights(column, 0.0, fold);
-        profile.fill(0.0);
-        for (weight, pixels) in column_weights.pairs(patch.heights.chunks_exact(patch.rows)) {
-            profile.iter_mut().zip(pixels).for_each(|(height, pixel)| *height += weight * pixel);
-        }
-        heights.extend(row_weights.iter().map(|row| row.pairs(&profile).map(|(w, z)| w * z).sum::<f64>()));
-    }
-    Ok(heights)
+    let margin = 0.5 * (patch.height() - mesh.rows() as f64 * mesh.row_height());
+    let grid = CellGrid {
+        columns: body.columns(mesh),
+        rows: mesh.rows(),
+        cell: [mesh.column_width(), mesh.row_height()],
+        first: [0.0, margin],
+        fold: (repeat && body == Body::Disc).then(|| 0.5 * body.length(mesh)),
+    };
+    Ok(grid.heights(patch))
 }
 
-/// Refuses a patch that does not cover the body.
-fn fits(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<(), PreparationError> {
-    let track = mesh.rows() as f64 * mesh.row_height();
-    if patch.height() < track * (1.0 - SAME_LENGTH) {
-        return Err(PreparationError::Narrow {
-            patch: patch.height(),
-            track,
-            pixel: track / patch.rows as f64,
-            rows: patch.rows,
-        });
+/// Cells over a patch, which is continued by its mirror images.
+pub(super) struct CellGrid {
+    pub columns: usize,
+    pub rows: usize,
+    /// Width and height of a cell, m.
+    pub cell: [f64; 2],
+    /// Where the first cell begins, from the patch's first corner, m.
+    pub first: [f64; 2],
+    /// Where the line along x is folded, m.
+    pub fold: Option<f64>,
+}
+
+impl CellGrid {
+    /// Heights of the cells, column by column: see [`resample`].
+    pub fn heights(&self, patch: &Patch) -> Vec<f64> {
+        let along_x = Axis { pixels: patch.columns, pitch: patch.column_pitch, cell: self.cell[0] };
+        let along_y = Axis { pixels: patch.rows, pitch: patch.row_pitch, cell: self.cell[1] };
+        let row_weights: Vec<Weights> = (0..self.rows).map(|row| along_y.weights(row, self.first[1], None)).collect();
+        let mut heights = Vec::with_capacity(self.columns * self.rows);
+        let mut profile = vec![0.0; patch.rows];
+        for column in 0..self.columns {
+            let column_weights = along_x.weights(column, self.first[0], self.fold);
+            profile.fill(0.0);
+            for (weight, pixels) in column_weights.pairs(patch.heights.chunks_exact(patch.rows)) {
+                profile.iter_mut().zip(pixels).for_each(|(height, pixel)| *height += weight * pixel);
+            }
+            heights.extend(row_weights.iter().map(|row| row.pairs(&profile).map(|(w, z)| w * z).sum::<f64>()));
+        }
+        heights
     }
-    let needed = if repeat { mesh.column_width() } else { body.length(mesh) };
-    if patch.length() < needed * (1.0 - SAME_LENGTH) {
-        return Err(if repeat {
-            PreparationError::ShorterThanColumn { patch: patch.length(), column: needed }
-        } else {
-            PreparationError::Short { patch: patch.length(), body: body.name(), length: needed }
-        });
+}
+
+/// Refuses a patch that does not cover the body, or with `repeat` not even a cell.
+fn fits(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<(), PreparationError> {
+    let (length, height) = (patch.length(), patch.height());
+    if repeat {
+        let cell = [mesh.column_width(), mesh.row_height()];
+        let covers = length >= cell[0] * (1.0 - SAME_LENGTH) && height >= cell[1] * (1.0 - SAME_LENGTH);
+        return if covers { Ok(()) } else { Err(PreparationError::SmallerThanCell { patch: [length, height], cell }) };
+    }
+    let track = mesh.rows() as f64 * mesh.row_height();
+    if height < track * (1.0 - SAME_LENGTH) {
+        return Err(PreparationError::Narrow { patch: height, track });
+    }
+    let needed = body.length(mesh);
+    if length < needed * (1.0 - SAME_LENGTH) {
+        return Err(PreparationError::Short { patch: length, body: body.name(), length: needed });
     }
     Ok(())
 }

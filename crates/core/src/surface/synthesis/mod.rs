@@ -4,11 +4,14 @@
 //! and its heights are given the distribution of Johnson's system with the skewness and kurtosis asked for, z = T(g).
 //! As that changes the autocorrelation, g is made with the one that becomes the right one (see [`translation`]).
 
+mod autocovariance;
 mod error;
+pub(super) mod extension;
 mod grid;
 mod johnson;
 mod planar;
 mod quadrature;
+mod quantiles;
 mod separable;
 mod spectrum;
 mod translation;
@@ -193,11 +196,15 @@ impl HeightSynthesis {
     }
 }
 
+/// Cells of the largest field that is made for a body.
+fn most_cells(grid: &Grid) -> usize {
+    MOST_CELLS.max(8 * grid.columns * grid.rows)
+}
+
 fn refuse_too_large(grid: &Grid) -> Result<(), SynthesisError> {
     let (columns, rows) = (grid.padded_columns, grid.padded_rows);
-    let most = MOST_CELLS.max(8 * grid.columns * grid.rows);
     match columns.checked_mul(rows) {
-        Some(cells) if cells <= most => Ok(()),
+        Some(cells) if cells <= most_cells(grid) => Ok(()),
         _ => Err(SynthesisError::TooLarge { columns, rows }),
     }
 }

@@ -26,14 +26,19 @@ pub(super) struct Translation {
 
 impl Translation {
     pub(super) fn new(distribution: Johnson) -> Self {
-        // The product of He_k and the normal density falls as exp(−x²/4) beyond 2√k; T grows as exp(x/δ).
-        let reach = 12.0 + 2.0 * (MOST_TERMS as f64).sqrt() + 2.0 / distribution.delta();
         let step = (0.5 * distribution.delta()).min(0.0625);
+        Self::of(|x| distribution.height(x), step, 2.0 / distribution.delta())
+    }
+
+    /// That of any increasing T, by the rule for means with this step, whose reach is longer by `excess` where T grows fast.
+    pub(super) fn of(height_of: impl Fn(f64) -> f64, step: f64, excess: f64) -> Self {
+        // The product of He_k and the normal density falls as exp(−x²/4) beyond 2√k; T may grow as exp(2x/excess).
+        let reach = 12.0 + 2.0 * (MOST_TERMS as f64).sqrt() + excess;
         let (mut mean, mut square, mut coefficients) = (0.0, 0.0, [0.0; MOST_TERMS]);
         for (x, weight) in normal_nodes(step, reach) {
-            let height = weight * distribution.height(x);
+            let height = weight * height_of(x);
             mean += height;
-            square += height * distribution.height(x);
+            square += height * height_of(x);
             // He_k/√k! by its recurrence.
             let (mut before, mut hermite) = (1.0, x);
             for (k, coefficient) in coefficients.iter_mut().enumerate() {
