@@ -23,6 +23,7 @@ FORM_IS_GOOD = {
     "black-is-white",
     "companion-alone",
     "contact-temperature-without-heat",
+    "crop-backwards",
     "extends-a-folder",
     "extends-a-newer",
     "extends-in-a-circle",
@@ -30,6 +31,7 @@ FORM_IS_GOOD = {
     "extends-itself",
     "extends-what-is-not-there",
     "fibre-wider-than-long",
+    "filters-crossed",
     "heat-incomplete",
     "heat-without-friction",
     "image-without-pixel",
@@ -41,6 +43,8 @@ FORM_IS_GOOD = {
     "radii-exchanged",
     "steps-beyond-counting",
     "texture-missing",
+    "unroll-radii-exchanged",
+    "unroll-without-centre",
 }
 WRONG_TYPES = ["1979-05-27", "[true]", "[[1]]", '""', '" "', "-7"]
 # Numbers of any sign.
@@ -125,6 +129,7 @@ def good_value(path, key):
             lists = {"maps": '["pressure", "pin_status"]', "maps_at": '["0 s", "2 min"]', "height_range": '["2 um", "2 um"]'}
             lists["points"] = '[["0 s", "4 N", "9 rpm"], ["1 min", "0 N", "0 rpm"]]'
             lists |= dict.fromkeys(("wear_rate_factor", "friction_factor", "number_factor"), '[["-9.5 degC", 2.5], ["300 K", 0]]')
+            lists |= dict.fromkeys(("along", "across", "radii"), '["1.5 mm", "4 mm"]') | {"centre": '["4 mm", "-20 mm"]'}
             return lists[path.split(".")[-1]]
         case {"type": "boolean"}:
             return "true"

@@ -1,8 +1,12 @@
 //! The preparation chain against hand computation and closed forms.
 
 mod filling;
+mod filtering;
 mod levelling;
 mod resampling;
+mod slope_outliers;
+mod straightening;
+mod unrolling;
 
 use std::f64::consts::TAU;
 
@@ -144,6 +148,14 @@ fn refuses_numbers_that_make_no_sense() {
     assert_eq!(error(preparation, alike), PreparationError::NoDeviation);
     let preparation = Preparation { cutoff: Some(f64::NAN), ..nothing };
     assert!(matches!(error(preparation, good()), PreparationError::Value { key: "cutoff", .. }));
+    for rotate in [f64::NAN, f64::INFINITY] {
+        let preparation = Preparation { rotate, ..nothing };
+        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "rotate", .. }));
+    }
+    for slope in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        let preparation = Preparation { outlier_slope: Some(slope), ..nothing };
+        assert!(matches!(error(preparation, good()), PreparationError::Value { key: "outlier_slope", .. }));
+    }
     let preparation = Preparation { scale: f64::INFINITY, ..nothing };
     assert!(matches!(error(preparation, good()), PreparationError::Value { key: "scale", .. }));
     for level in [Level::None, Level::Plane] {

@@ -1,6 +1,6 @@
 //! Scenes that are accepted: the values they give, how layers combine, and that a resolved scene reads back alike.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
-use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Preparation, Texture};
+use plateau_core::surface::{Crop, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll};
 use plateau_io::scene::{self, memory_estimate};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::ReadOptions;
@@ -33,10 +33,17 @@ fn input(name: &str) -> PathBuf {
 }
 
 const NO_PREPARATION: Preparation = Preparation {
+    crop: None,
+    unroll: None,
+    rotate: 0.0,
+    flip: None,
     level: Level::None,
+    outlier_slope: None,
     outliers: None,
     fill: None,
     pixel: None,
+    s_filter: None,
+    l_filter: None,
     cutoff: None,
     repeat: false,
     scale: 1.0,
@@ -313,6 +320,49 @@ fn the_preparation_is_read() {
     let expected =
         Preparation { level: Level::Quadratic, outliers: Some(6.0), fill: Some(Fill::Interpolate), ..NO_PREPARATION };
     assert_eq!(found, expected);
+}
+
+#[test]
+fn the_steps_that_straighten_and_filter_a_surface_are_read() {
+    let sets = [
+        "pin.prepare.crop={ along = [\"1 mm\", \"9 mm\"] }",
+        "pin.prepare.unroll.centre=[\"4 mm\", \"-20 mm\"]",
+        "pin.prepare.unroll.radii=[\"20 mm\", \"24 mm\"]",
+        "pin.prepare.rotate=90 deg",
+        "pin.prepare.flip=across",
+        "pin.prepare.outlier_slope=1.5",
+        "pin.prepare.s_filter=25 um",
+        "pin.prepare.l_filter=2 mm",
+    ];
+    let scene = load("minimal.toml", &sets);
+    let expected = Preparation {
+        crop: Some(Crop { along: Some([1e-3, 9e-3]), across: None }),
+        unroll: Some(Unroll { centre: [4e-3, -20e-3], radii: Some([20e-3, 24e-3]) }),
+        rotate: FRAC_PI_2,
+        flip: Some(Flip::Across),
+        outlier_slope: Some(1.5),
+        s_filter: Some(25e-6),
+        l_filter: Some(2e-3),
+        ..NO_PREPARATION
+    };
+    assert_eq!(scene.pin_surface.preparation, expected);
+    assert_eq!(scene.disc_surface.preparation.crop, None);
+    // The resolved scene has them in the order in which they are done, and reads back as the same.
+    let names = [
+        "crop.along",
+        "unroll.centre",
+        "unroll.radii",
+        "rotate",
+        "flip",
+        "level",
+        "outlier_slope",
+        "s_filter",
+        "l_filter",
+    ];
+    let of_pin = scene.resolved.split("[pin.prepare]").nth(1).unwrap();
+    let places = names.map(|name| of_pin.find(&format!("\n{name} = ")).unwrap_or_else(|| panic!("{name}: {of_pin}")));
+    assert!(places.is_sorted(), "{of_pin}");
+    assert!(of_pin.contains("\nrotate = \"90 deg\"\n"), "{of_pin}");
 }
 
 #[test]

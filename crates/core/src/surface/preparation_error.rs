@@ -63,6 +63,95 @@ pub enum PreparationError {
         /// What can be.
         expected: &'static str,
     },
+    /// A part of the patch that it does not have.
+    #[error(
+        "{key} goes from {} to {}, expected two lengths from 0 m to the patch's {}, the smaller one first",
+        Length(*from), Length(*to), Length(*length)
+    )]
+    Crop {
+        /// Key of the preparation table.
+        key: &'static str,
+        /// Where the part begins, m.
+        from: f64,
+        /// Where it ends, m.
+        to: f64,
+        /// Extent of the patch, m.
+        length: f64,
+    },
+    /// A part of the patch that is narrower than a pixel.
+    #[error(
+        "{key} from {} to {} has no point of the patch, whose points are {} apart, the first at half of that",
+        Length(*from), Length(*to), Length(*pitch)
+    )]
+    CropWithoutPoint {
+        /// Key of the preparation table.
+        key: &'static str,
+        /// Where the part begins, m.
+        from: f64,
+        /// Where it ends, m.
+        to: f64,
+        /// Distance of the points, m.
+        pitch: f64,
+    },
+    /// Radii that are none, or not in order.
+    #[error(
+        "unroll.radii are {} and {}, expected the inner radius, not negative, and then a larger outer one",
+        Length(*inner), Length(*outer)
+    )]
+    Radii {
+        /// The first, m.
+        inner: f64,
+        /// The second, m.
+        outer: f64,
+    },
+    /// A ring of which next to nothing was measured.
+    #[error(
+        "the ring round unroll.centre would have {points:.0} points, the patch has {patch}, at radii from {} to {}: check \
+         the centre, which counts from the patch's first corner, or give unroll.radii",
+        Length(radii[0]), Length(radii[1])
+    )]
+    UnrollTooLarge {
+        /// Points of the ring.
+        points: f64,
+        /// Points of the patch.
+        patch: usize,
+        /// Smallest and largest radius of a measured point, m.
+        radii: [f64; 2],
+    },
+    /// No sector of a ring was measured.
+    #[error("{}, measured are radii from {} to {}: check unroll.centre", Wanted(*wanted), Length(found[0]), Length(found[1]))]
+    UnrollNothing {
+        /// Inner and outer radius that were asked for, m.
+        wanted: Option<[f64; 2]>,
+        /// Smallest and largest radius of a measured point, m.
+        found: [f64; 2],
+    },
+    /// A filter that is too short or too long for the patch.
+    #[error(
+        "{key} is {}, expected at least two pixels, {}, and at most the shorter side of the heights, {}",
+        Length(*found), Length(*shortest), Length(*longest)
+    )]
+    NestingIndex {
+        /// Key of the preparation table.
+        key: &'static str,
+        /// What was asked for, m.
+        found: f64,
+        /// Two pixels, m.
+        shortest: f64,
+        /// The shorter side, m.
+        longest: f64,
+    },
+    /// Filters that leave nothing between them.
+    #[error(
+        "s_filter is {}, l_filter {}: waves between the two are kept, so s_filter is to be the shorter one",
+        Length(*s_filter), Length(*l_filter)
+    )]
+    Filters {
+        /// Nesting index of the S-filter, m.
+        s_filter: f64,
+        /// Nesting index of the L-filter, m.
+        l_filter: f64,
+    },
     /// The patch does not cover the track.
     #[error(
         "the patch is {} wide in r, the track {}: repeat = true tiles the patch without a step at the seams, extend = \"statistics\" \
@@ -145,5 +234,19 @@ struct AsOutliers(usize);
 impl fmt::Display for AsOutliers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.0 == 0 { Ok(()) } else { write!(f, ", {} of them as outliers", self.0) }
+    }
+}
+
+/// What part of a ring was not found, in words.
+struct Wanted(Option<[f64; 2]>);
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some([inner, outer]) => {
+                write!(f, "in no direction the heights reach over unroll.radii, {} to {}", Length(inner), Length(outer))
+            }
+            None => write!(f, "no four neighbouring points of a ring were measured"),
+        }
     }
 }

@@ -1,18 +1,36 @@
 //! The preparation chain of a surface.
 
+use super::crop::Crop;
+use super::flip::{Flip, reverse_along};
+use super::gaussian_filter::filter;
 use super::level::{Level, level, mean, rms};
 use super::missing::{Fill, fill, remove_outliers};
 use super::preparation_error::PreparationError;
+use super::report::{change, laid};
 use super::resample::resample;
+use super::rotate::Turn;
+use super::slope_outliers::remove_slope_outliers;
+use super::straighten::straighten;
 use super::synthesis::extension::{Extended, extend};
+use super::unroll::Unroll;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
 /// The preparation chain; a step that is absent is not done. Applied in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Preparation {
+    /// The part of the patch that is kept.
+    pub crop: Option<Crop>,
+    /// Takes the patch as a sector of a ring measured in x and y, and makes arc length and radius of it.
+    pub unroll: Option<Unroll>,
+    /// Turns the patch counterclockwise, x to the right and y up, rad. Quarters of a turn are exact, else it is interpolated.
+    pub rotate: f64,
+    /// Reverses the patch.
+    pub flip: Option<Flip>,
     /// Levelling; missing points do not take part.
     pub level: Level,
+    /// Takes out points of spikes and pits with slopes beyond this; what is left is levelled once more.
+    pub outlier_slope: Option<f64>,
     /// Takes out points further than this many robust standard deviations from the median of the levelled surface,
     /// which then is levelled once more without them.
     pub outliers: Option<f64>,
@@ -20,6 +38,10 @@ pub struct Preparation {
     pub fill: Option<Fill>,
     /// Reinterprets the distance of the points, m.
     pub pixel: Option<f64>,
+    /// Takes out waves that are shorter: nesting index of an areal Gaussian filter, m (S-filter).
+    pub s_filter: Option<f64>,
+    /// Takes out waves that are longer, in the same way, m (L-filter).
+    pub l_filter: Option<f64>,
     /// Cuts what stands higher than this above the mean, m (along the Abbott-Firestone curve).
     pub cutoff: Option<f64>,
     /// Tiles the patch along the sliding direction without a step at the seams.
@@ -34,10 +56,17 @@ impl Default for Preparation {
     /// Nothing is done.
     fn default() -> Self {
         Self {
+            crop: None,
+            unroll: None,
+            rotate: 0.0,
+            flip: None,
             level: Level::None,
+            outlier_slope: None,
             outliers: None,
             fill: None,
             pixel: None,
+            s_filter: None,
+            l_filter: None,
             cutoff: None,
             repeat: false,
             extend: None,
@@ -67,11 +96,12 @@ pub struct Prepared {
 }
 
 impl Preparation {
-    /// Brings heights onto every cell of `body`: mirrored along x if asked for, levelled, freed of outliers, filled,
-    /// read with another pitch, cut, brought onto the mesh, repeated, scaled.
+    /// Brings heights onto every cell of `body`: mirrored along x if asked for, cropped, unrolled, turned, flipped,
+    /// levelled, freed of outliers, filled, read with another pitch, filtered, cut, brought onto the mesh, repeated, scaled.
     ///
     /// Heights that are already on the mesh come through bit for bit when nothing is asked for. With `pixel` they are
-    /// taken as a patch of that pitch; `repeat` alone leaves them alone, for they cover the whole body.
+    /// taken as a patch of that pitch, and as one of the cells' pitch where they are cropped, unrolled or turned by other
+    /// than half a turn; `repeat` alone leaves them alone, for they cover the whole body.
     ///
     /// # Errors
     /// [`PreparationError`] when points are missing and not filled, the patch does not cover the body, or a number
@@ -85,15 +115,17 @@ impl Preparation {
         self.refuse_heights(&patch.heights, |height| height.is_infinite())?;
         let closed = on_mesh && body == Body::Disc;
         if mirror {
-            let columns: Vec<&[f64]> = patch.heights.chunks_exact(patch.rows).rev().collect();
-            patch.heights = columns.concat();
+            reverse_along(&mut patch);
             report.push("mirrored along the sliding direction".to_owned());
         }
+        let Self { crop, unroll, flip, .. } = *self;
+        report.extend(straighten(&mut patch, crop, unroll, Turn::new(self.rotate), flip)?);
         self.level_and_fill(&mut patch, closed, &mut report)?;
         if let Some(pixel) = self.pixel {
             (patch.column_pitch, patch.row_pitch) = (pixel, pixel);
             report.push(format!("pixel pitch taken as {}", Length(pixel)));
         }
+        report.extend(filter(&mut patch, self.s_filter, self.l_filter, closed)?);
         let cut = self.cutoff.map(|cutoff| {
             let before = rms(&patch.heights);
             let cut = cut(&mut patch.heights, cutoff);
@@ -110,7 +142,7 @@ impl Preparation {
             patch.heights
         } else {
             let heights = resample(&patch, self.repeat, body, mesh)?;
-            let step = self.describe_resampling(&patch, body, mesh);
+            let step = laid(&patch, self.repeat, body, mesh);
             report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
             heights
         };
@@ -126,13 +158,22 @@ impl Preparation {
     fn check(&self) -> Result<(), PreparationError> {
         let positive = |number: f64| number > 0.0 && number.is_finite();
         let checks = [
+            ("rotate", Some(self.rotate), self.rotate.is_finite(), "a finite angle in rad"),
+            ("outlier_slope", self.outlier_slope, self.outlier_slope.is_none_or(positive), "a positive, finite number"),
+            ("s_filter", self.s_filter, self.s_filter.is_none_or(positive), "a positive, finite length in m"),
+            ("l_filter", self.l_filter, self.l_filter.is_none_or(positive), "a positive, finite length in m"),
             ("outliers", self.outliers, self.outliers.is_none_or(positive), "a positive, finite number"),
             ("pixel", self.pixel, self.pixel.is_none_or(positive), "a positive, finite length in m"),
             ("cutoff", self.cutoff, self.cutoff.is_none_or(f64::is_finite), "a finite length in m"),
             ("scale", Some(self.scale), self.scale.is_finite(), "a finite number"),
         ];
-        match checks.into_iter().find(|(_, _, good, _)| !good) {
-            Some((key, Some(found), _, expected)) => Err(PreparationError::Value { key, found, expected }),
+        if let Some((key, Some(found), _, expected)) = checks.into_iter().find(|(_, _, good, _)| !good) {
+            return Err(PreparationError::Value { key, found, expected });
+        }
+        match (self.s_filter, self.l_filter) {
+            (Some(s_filter), Some(l_filter)) if s_filter >= l_filter => {
+                Err(PreparationError::Filters { s_filter, l_filter })
+            }
             _ => Ok(()),
         }
     }
@@ -156,7 +197,9 @@ impl Preparation {
                     row_pitch: mesh.row_height(),
                     heights,
                 };
-                (patch, self.pixel.is_none())
+                let turn = Turn::new(self.rotate);
+                let keeps_its_points = self.crop.is_none() && self.unroll.is_none() && turn.is_half_turns();
+                (patch, self.pixel.is_none() && keeps_its_points)
             }
         }
     }
@@ -173,17 +216,28 @@ impl Preparation {
         }
         self.level(patch, closed, report);
         let mut outliers = 0;
+        if let Some(limit) = self.outlier_slope {
+            let before = rms(&patch.heights);
+            outliers = remove_slope_outliers(patch, limit, closed);
+            report.push(format!(
+                "outliers by slope: {outliers} of {points} points are on spikes or in pits with slopes above {limit}: {}",
+                change(before, &patch.heights)
+            ));
+            if outliers > 0 {
+                self.level(patch, closed, report);
+            }
+        }
         if let Some(limit) = self.outliers {
             let before = rms(&patch.heights);
             let (count, distance) = remove_outliers(&mut patch.heights, limit).ok_or(PreparationError::NoDeviation)?;
-            outliers = count;
+            outliers += count;
             report.push(format!(
                 "outliers: {count} of {points} points lie more than {} from the median ({limit} robust standard \
                  deviations): {}",
                 Length(distance),
                 change(before, &patch.heights)
             ));
-            if outliers > 0 {
+            if count > 0 {
                 self.level(patch, closed, report);
             }
         }
@@ -216,50 +270,6 @@ impl Preparation {
         level(&mut patch.heights, patch.rows, self.level, closed);
         report.push(format!("levelled by {what}: {}", change(before, &patch.heights)));
     }
-
-    /// How the patch came onto the mesh, in words.
-    fn describe_resampling(&self, patch: &Patch, body: Body, mesh: &Mesh) -> String {
-        let way = |pitch: f64, cell: f64| if pitch > cell { "interpolated" } else { "averaged" };
-        let along = way(patch.column_pitch, mesh.column_width());
-        let across = way(patch.row_pitch, mesh.row_height());
-        let ways = if along == across { along.to_owned() } else { format!("{along} along, {across} across sliding") };
-        let size = format!("patch of {} by {}", Length(patch.length()), Length(patch.height()));
-        let laid = match (self.repeat, body) {
-            (true, Body::Disc) => {
-                let times = body.length(mesh) / patch.length();
-                format!(
-                    "{size} repeated {times:.2} times round the ring{}, mirrored at the seams",
-                    repeated_across(patch, mesh)
-                )
-            }
-            (true, Body::Pin) => {
-                format!("{size} repeated along the pin{}, mirrored at the seams", repeated_across(patch, mesh))
-            }
-            (false, Body::Disc) => format!(
-                "{size} laid round the ring without repeating: a step may be left where the ring closes \
-                 (repeat = true leaves none)"
-            ),
-            (false, Body::Pin) => format!("{size} laid over the pin"),
-        };
-        format!(
-            "{laid}; {ways} from pixels of {} by {} to cells of {} by {}",
-            Length(patch.column_pitch),
-            Length(patch.row_pitch),
-            Length(mesh.column_width()),
-            Length(mesh.row_height())
-        )
-    }
-}
-
-/// How often a patch that is narrower than the track is repeated across it, in words.
-fn repeated_across(patch: &Patch, mesh: &Mesh) -> String {
-    let times = mesh.rows() as f64 * mesh.row_height() / patch.height();
-    if times > 1.0 + 1e-9 { format!(" and {times:.2} times across the track") } else { String::new() }
-}
-
-/// What a step made of the rms height.
-fn change(before: f64, heights: &[f64]) -> String {
-    format!("rms {} -> {}", Length(before), Length(rms(heights)))
 }
 
 fn check_grid(patch: &Patch) -> Result<(), PreparationError> {

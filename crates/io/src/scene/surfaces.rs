@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plateau_core::surface::micrograph::{Micrograph, Threshold};
-use plateau_core::surface::{FibreSynthesis, HeightSynthesis, Preparation, Texture};
+use plateau_core::surface::{Crop, FibreSynthesis, HeightSynthesis, Preparation, Texture, Unroll};
 
 use super::contents::{BaseSource, HeightSettings, HeightSource};
 use super::error::Problem;
@@ -15,7 +15,6 @@ use crate::surface::ReadOptions;
 /// Heights of disc or pin, and how they are prepared.
 pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightSettings, Problem> {
     let surface = |name: &str| format!("{body}.surface.{name}");
-    let prepare = |name: &str| format!("{body}.prepare.{name}");
     let source = if let Some((path, dataset)) = file(settings, &format!("{body}.surface")) {
         HeightSource::File { path, options: read_options(settings, &surface, dataset)? }
     } else if settings.get(&surface("flat")).is_some() {
@@ -23,16 +22,50 @@ pub(super) fn heights(settings: &Settings, body: &str) -> Result<HeightSettings,
     } else {
         HeightSource::Synthetic(synthesis(settings, &surface("synthetic"))?)
     };
-    let preparation = Preparation {
-        level: settings.choice(&prepare("level"), &choices::LEVEL)?,
-        outliers: settings.optional_number(&prepare("outliers"))?,
-        fill: settings.get(&prepare("fill")).map(|_| settings.choice(&prepare("fill"), &choices::FILL)).transpose()?,
-        pixel: settings.optional_number(&prepare("pixel"))?,
-        cutoff: settings.optional_number(&prepare("cutoff"))?,
-        repeat: settings.bool(&prepare("repeat"))?,
-        scale: settings.number(&prepare("scale"))?,
-    };
+    let preparation = preparation(settings, &format!("{body}.prepare"))?;
     Ok(HeightSettings { source, mirror: settings.bool(&surface("mirror"))?, preparation })
+}
+
+/// The preparation chain of this table.
+fn preparation(settings: &Settings, table: &str) -> Result<Preparation, Problem> {
+    let key = |name: &str| format!("{table}.{name}");
+    let number = |name: &str| settings.optional_number(&key(name));
+    let range = |name: &str| range(settings, &key(name));
+    let crop = Crop { along: range("crop.along")?, across: range("crop.across")? };
+    let (centre, radii) = (settings.optional_pair(&key("unroll.centre"))?, range("unroll.radii")?);
+    let (s_filter, l_filter) = (number("s_filter")?, number("l_filter")?);
+    if let (Some(short), Some(long)) = (s_filter, l_filter)
+        && short >= long
+    {
+        let message = "it is not shorter than l_filter; waves between the two are kept, expected a shorter one";
+        return Err(Problem::new(&settings.origin(&key("s_filter")), &key("s_filter"), message));
+    }
+    Ok(Preparation {
+        crop: Some(crop).filter(|crop| crop.along.is_some() || crop.across.is_some()),
+        unroll: centre.map(|centre| Unroll { centre, radii }),
+        rotate: number("rotate")?.unwrap_or(0.0),
+        flip: settings.get(&key("flip")).map(|_| settings.choice(&key("flip"), &choices::FLIP)).transpose()?,
+        level: settings.choice(&key("level"), &choices::LEVEL)?,
+        outlier_slope: number("outlier_slope")?,
+        outliers: number("outliers")?,
+        fill: settings.get(&key("fill")).map(|_| settings.choice(&key("fill"), &choices::FILL)).transpose()?,
+        pixel: number("pixel")?,
+        s_filter,
+        l_filter,
+        cutoff: number("cutoff")?,
+        repeat: settings.bool(&key("repeat"))?,
+        scale: settings.number(&key("scale"))?,
+    })
+}
+
+/// Two lengths that may be absent, of which the second is the larger one.
+fn range(settings: &Settings, path: &str) -> Result<Option<[f64; 2]>, Problem> {
+    let pair = settings.optional_pair(path)?;
+    if pair.is_some_and(|[from, to]| from >= to) {
+        let message = "the second length is not larger than the first, expected from where to where";
+        return Err(Problem::new(&settings.origin(path), path, message));
+    }
+    Ok(pair)
 }
 
 /// The settings of synthetic heights in this inline table.

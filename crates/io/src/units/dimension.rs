@@ -37,6 +37,8 @@ pub enum Dimension {
     CoolingPerSpeed,
     /// 1/kg.
     NumberPerMass,
+    /// rad.
+    Angle,
 }
 
 /// What is known of a kind of quantity.
@@ -101,6 +103,7 @@ impl Dimension {
             Self::Cooling => facts([2, 1, -3, 0, -1], "W/K", "0.4 W/K", "W/K, mW/K"),
             Self::CoolingPerSpeed => facts([2, 1, -2, -1, -1], "J/(K rad)", "0.002 J/(K rad)", "J/(K rad), J/K/rad"),
             Self::NumberPerMass => facts([0, -1, 0, 0, 0], "1/kg", "1e15 1/kg", "1/kg, 1/g, 1/mg"),
+            Self::Angle => facts([0, 0, 0, 1, 0], "rad", "90 deg", "deg, rad"),
         }
     }
 

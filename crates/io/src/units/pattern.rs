@@ -94,6 +94,7 @@ impl Units {
             Dimension::Time => time.clone(),
             Dimension::Speed => format!("{length}{OVER}{time}"),
             Dimension::RotationalSpeed => format!("rpm|(rad|rev|deg){OVER}{time}"),
+            Dimension::Angle => "deg|rad|rev".to_owned(),
             Dimension::Area => format!("{length}{SQUARED}"),
             Dimension::Temperature => "K".to_owned(),
             Dimension::ThermalConductivity => format!("{power}({OVER}{length}{OVER}K|{OVER}\\({length}{TIMES}K\\))"),
@@ -123,7 +124,7 @@ mod tests {
     use super::*;
     use crate::units::parse;
 
-    const DIMENSIONS: [Dimension; 15] = [
+    const DIMENSIONS: [Dimension; 16] = [
         Dimension::Length,
         Dimension::Force,
         Dimension::Pressure,
@@ -139,6 +140,7 @@ mod tests {
         Dimension::Cooling,
         Dimension::CoolingPerSpeed,
         Dimension::NumberPerMass,
+        Dimension::Angle,
     ];
 
     /// Without the anchors, which the generator of strings does not know.

@@ -50,6 +50,8 @@ fn other_factors_follow_their_definition() {
     let turns = 850.0 * std::f64::consts::TAU / 60.0;
     assert_eq!(parse("850 rpm", RotationalSpeed), Ok(turns));
     assert_eq!(parse("850 rev/min", RotationalSpeed), Ok(turns));
+    assert_eq!(parse("-90 deg", Angle), Ok(-std::f64::consts::FRAC_PI_2));
+    assert_eq!(parse("0.25 rev", Angle), Ok(std::f64::consts::FRAC_PI_2));
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Gaussian smoothing.
 
+use super::super::mirrored::mirrored;
 use super::Picture;
 
 /// The kernel ends after this many standard deviations.
@@ -47,23 +48,9 @@ fn kernel(sigma: f64, reach: usize) -> Vec<f64> {
     weights.iter().map(|weight| weight / sum).collect()
 }
 
-/// Index of the pixel that lies `at` - `reach` pixels after the first of `count`, mirrored at either end.
-fn mirrored(at: usize, reach: usize, count: usize) -> usize {
-    // A whole number of periods is added so that the difference is not negative.
-    let period = 2 * count;
-    let place = (at + reach.div_ceil(period) * period - reach) % period;
-    place.min(period - 1 - place)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn mirrors_at_the_edges() {
-        let places: Vec<usize> = (0..13).map(|at| mirrored(at, 5, 3)).collect();
-        assert_eq!(places, [1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0, 1]);
-    }
 
     const SMOOTHED: &[(f64, [f64; 35])] = &[
         (

@@ -4,7 +4,7 @@ use plateau_core::model::cycle::Interpolation;
 use plateau_core::model::parameters::{DebrisRule, Integrator};
 use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::Fibres;
-use plateau_core::surface::{Fill, Level};
+use plateau_core::surface::{Fill, Flip, Level};
 
 /// Words, each with its meaning.
 pub type Choices<T, const COUNT: usize> = [(&'static str, T); COUNT];
@@ -20,6 +20,8 @@ pub const INTEGRATOR: Choices<Integrator, 2> =
 /// `operation.cycle.interpolation`.
 pub(crate) const INTERPOLATION: Choices<Interpolation, 2> =
     [("linear", Interpolation::Linear), ("hold", Interpolation::Hold)];
+/// `flip` of a preparation.
+pub(crate) const FLIP: Choices<Flip, 3> = [("along", Flip::Along), ("across", Flip::Across), ("both", Flip::Both)];
 /// `level` of a preparation.
 pub(crate) const LEVEL: Choices<Level, 4> =
     [("quadratic", Level::Quadratic), ("plane", Level::Plane), ("mean", Level::Mean), ("none", Level::None)];

@@ -16,6 +16,8 @@ const USUAL: &[(&str, &str)] = &[
     ("short_cutoff", "20 um"),
     ("patch", "8 mm"),
     ("pixel", "10 um"),
+    ("s_filter", "25 um"),
+    ("l_filter", "2 mm"),
     ("cutoff", "3 um"),
     ("fibre_length", "400 um"),
     ("fibre_width", "100 um"),
@@ -30,10 +32,21 @@ const USUAL: &[(&str, &str)] = &[
     ("area", "31 cm^2"),
 ];
 
+/// Pairs of lengths, by the last name of the key.
+const PAIRS: &[(&str, &str)] = &[
+    ("along", "[\"1 mm\", \"9 mm\"]"),
+    ("across", "[\"0.5 mm\", \"5 mm\"]"),
+    ("centre", "[\"4 mm\", \"-20 mm\"]"),
+    ("radii", "[\"20 mm\", \"24 mm\"]"),
+];
+
 /// A value that the key may have, in TOML; `None` where its form is plain.
 pub(super) fn of(key: &Key) -> Option<String> {
     let name = key.name.rsplit('.').next().unwrap_or(key.name);
     let usual = USUAL.iter().find(|(known, _)| *known == name).map(|(_, example)| *example);
+    if let Some((_, pair)) = PAIRS.iter().find(|(known, _)| *known == name) {
+        return Some((*pair).to_owned());
+    }
     match key.kind {
         Kind::Quantity { dimension, .. } => Some(format!("\"{}\"", usual.unwrap_or(dimension.example()))),
         Kind::Lengths { single: true, .. } => usual.map(|length| format!("\"{length}\"")),

@@ -306,13 +306,29 @@ impl Table {
     }
 
     fn preparation(&mut self) {
+        self.straightening();
         let levels = Choice(&const { words(&choices::LEVEL) });
-        self.key("level", levels, Default("\"none\""), "form that is taken out first");
+        self.key(
+            "level",
+            levels,
+            Default("\"none\""),
+            "form that is taken out: none, the mean, the plane, second order",
+        );
+        let slope = "slope beyond which points of spikes and pits are taken out";
+        self.key("outlier_slope", Number(Range::POSITIVE), Optional, slope);
         let outliers = "robust standard deviations from the median beyond which points are taken out";
         self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
         let fills = Choice(&const { words(&choices::FILL) });
         self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
         self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
+        let nesting_index = length("um", Range::POSITIVE);
+        self.key(
+            "s_filter",
+            nesting_index,
+            Optional,
+            "nesting index of a Gaussian filter that takes out shorter waves",
+        );
+        self.key("l_filter", nesting_index, Optional, "nesting index of a Gaussian filter that takes out longer waves");
         self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
         self.key(
             "repeat",

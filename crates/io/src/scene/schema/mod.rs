@@ -8,6 +8,7 @@ mod example;
 mod json_schema;
 mod keys;
 mod optional_parts;
+mod straightening;
 mod suggest;
 mod table;
 mod tables;

@@ -1,0 +1,176 @@
+//! A patch turned in its plane.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use rayon::prelude::*;
+
+use super::Patch;
+use super::interpolation::height_at;
+use super::level::rms;
+use super::report::change;
+
+/// Angles that differ by less than this are the same, rad: what rounding makes of degrees.
+const SAME_ANGLE: f64 = 1e-12;
+/// A length that is shorter than a whole number of pitches by less than this part of a pitch is that many.
+const ROUNDING: f64 = 1e-9;
+
+/// A turn as quarters of a turn, 0 to 3, and what is left, −π/4 to π/4 rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Turn {
+    pub(super) quarters: u8,
+    pub(super) rest: f64,
+}
+
+impl Turn {
+    /// The turn by an angle, rad, counterclockwise.
+    pub(super) fn new(angle: f64) -> Self {
+        let angle = angle % TAU;
+        let quarters = libm::round(angle / FRAC_PI_2);
+        let rest = angle - quarters * FRAC_PI_2;
+        let rest = if rest.abs() < SAME_ANGLE { 0.0 } else { rest };
+        Self { quarters: (quarters + 4.0) as u8 % 4, rest }
+    }
+
+    /// Whether every point stays one of the grid, which keeps its shape.
+    pub(super) fn is_half_turns(self) -> bool {
+        self.rest == 0.0 && self.quarters.is_multiple_of(2)
+    }
+
+    /// Turns the patch counterclockwise, x to the right and y up; says what was done, if anything.
+    ///
+    /// Quarters of a turn move points and exchange the pitches: no height changes. What is left of the angle is done by
+    /// interpolation onto points of the same pitches about the middle of the patch, of which those in the largest
+    /// rectangle are kept that lies within the turned patch.
+    pub(super) fn turn(self, patch: &mut Patch) -> Option<String> {
+        let before = rms(&patch.heights);
+        let whole = [patch.columns, patch.rows];
+        match self.quarters {
+            1 => *patch = quarter(patch, |x, y, _, rows| y * rows + (rows - 1 - x)),
+            2 => patch.heights.reverse(),
+            3 => *patch = quarter(patch, |x, y, columns, rows| (columns - 1 - y) * rows + x),
+            _ => {}
+        }
+        let degrees = 90.0 * f64::from(self.quarters) + libm::round(1e4 * self.rest.to_degrees()) / 1e4;
+        if self.rest != 0.0 {
+            let missing = patch.missing();
+            *patch = interpolated(patch, self.rest);
+            return Some(format!(
+                "turned counterclockwise by {degrees} deg, interpolated: the largest rectangle within has {} x {} of {} x \
+                 {} points, {} missing ({missing} before), {}",
+                patch.columns,
+                patch.rows,
+                whole[0],
+                whole[1],
+                patch.missing(),
+                change(before, &patch.heights)
+            ));
+        }
+        let exchanged = if self.quarters % 2 == 1 { ", along and across exchanged" } else { "" };
+        (self.quarters != 0).then(|| format!("turned counterclockwise by {degrees} deg{exchanged}"))
+    }
+}
+
+/// A patch with columns and rows exchanged; `from` gives the old index of the new column x and row y from the old numbers
+/// of columns and rows.
+fn quarter(patch: &Patch, from: impl Fn(usize, usize, usize, usize) -> usize) -> Patch {
+    let Patch { columns, rows, column_pitch, row_pitch, ref heights } = *patch;
+    let places = (0..rows).flat_map(|x| (0..columns).map(move |y| (x, y)));
+    Patch {
+        columns: rows,
+        rows: columns,
+        column_pitch: row_pitch,
+        row_pitch: column_pitch,
+        heights: places.map(|(x, y)| heights[from(x, y, columns, rows)]).collect(),
+    }
+}
+
+/// The largest rectangle within a patch turned by less than a quarter.
+fn interpolated(patch: &Patch, angle: f64) -> Patch {
+    let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+    let middle = [0.5 * (patch.columns - 1) as f64, 0.5 * (patch.rows - 1) as f64];
+    // Heights are known between the outermost points.
+    let sides = [2.0 * middle[0] * patch.column_pitch, 2.0 * middle[1] * patch.row_pitch];
+    let inner = largest_within(sides, sine.abs(), cosine);
+    let points = |side: f64, pitch: f64, most: usize| ((side / pitch + ROUNDING) as usize + 1).min(most);
+    let columns = points(inner[0], patch.column_pitch, patch.columns);
+    let rows = points(inner[1], patch.row_pitch, patch.rows);
+    let offset = |index: usize, count: usize, pitch: f64| (index as f64 - 0.5 * (count - 1) as f64) * pitch;
+    let heights = (0..columns)
+        .into_par_iter()
+        .flat_map_iter(|column| {
+            let x = offset(column, columns, patch.column_pitch);
+            (0..rows).map(move |row| {
+                let y = offset(row, rows, patch.row_pitch);
+                let old = [cosine * x + sine * y, cosine * y - sine * x];
+                height_at(patch, middle[0] + old[0] / patch.column_pitch, middle[1] + old[1] / patch.row_pitch)
+            })
+        })
+        .collect();
+    Patch { columns, rows, heights, ..*patch }
+}
+
+/// Sides of the largest upright rectangle within a rectangle of these sides that is turned by an angle of at most a right
+/// one, of which sine and cosine are given.
+///
+/// A corner of the inner one at (u, v) from the middle lies within for u c + v s ≤ W/2 and u s + v c ≤ H/2. The product
+/// u v is largest where both hold as equations, or, where the outer one is so slender that one of them is met at its best
+/// point before the other matters, at that point.
+fn largest_within([width, height]: [f64; 2], sine: f64, cosine: f64) -> [f64; 2] {
+    // At half a right angle the last form is 0/0 for a square; where two forms meet they agree.
+    let twice = 2.0 * sine * cosine * (1.0 + ROUNDING);
+    if height <= width * twice {
+        [0.5 * height / sine, 0.5 * height / cosine]
+    } else if width <= height * twice {
+        [0.5 * width / cosine, 0.5 * width / sine]
+    } else {
+        let double = (cosine - sine) * (cosine + sine);
+        [(width * cosine - height * sine) / double, (height * cosine - width * sine) / double]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_is_quarters_and_a_rest() {
+        for (degrees, quarters, rest) in [
+            (0.0, 0, 0.0),
+            (90.0, 1, 0.0),
+            (-90.0, 3, 0.0),
+            (180.0, 2, 0.0),
+            (-180.0, 2, 0.0),
+            (270.0, 3, 0.0),
+            (360.0, 0, 0.0),
+            (450.0, 1, 0.0),
+            (-3600.0, 0, 0.0),
+            (30.0, 0, 30.0),
+            (80.0, 1, -10.0),
+            (-50.0, 3, 40.0),
+            (359.0, 0, -1.0),
+        ] {
+            let turn = Turn::new(f64::to_radians(degrees));
+            assert_eq!(turn.quarters, quarters, "{degrees}");
+            assert!((turn.rest.to_degrees() - rest).abs() < 1e-11, "{degrees} {turn:?}");
+            assert_eq!(turn.rest == 0.0, rest == 0.0, "{degrees}");
+        }
+    }
+
+    #[test]
+    fn no_rectangle_within_is_larger() {
+        // Corners on a fine arc of directions, each as far out as it may be.
+        for (sides, degrees) in
+            [([8.0, 5.0], 3.0), ([8.0, 5.0], 30.0), ([5.0, 8.0], 30.0), ([8.0, 1.0], 20.0), ([3.0, 3.0], 45.0)]
+        {
+            let (sine, cosine) = f64::to_radians(degrees).sin_cos();
+            let area = |direction: f64| {
+                let (v, u) = direction.sin_cos();
+                let reach = (0.5 * sides[0] / (u * cosine + v * sine)).min(0.5 * sides[1] / (u * sine + v * cosine));
+                4.0 * u * v * reach * reach
+            };
+            let best = (1..100_000).map(|i| area(f64::from(i) * FRAC_PI_2 / 1e5)).fold(0.0, f64::max);
+            let [width, height] = largest_within(sides, sine, cosine);
+            assert!((width * height / best - 1.0).abs() < 1e-4, "{sides:?} {degrees}: {width} {height} {best}");
+        }
+    }
+}
