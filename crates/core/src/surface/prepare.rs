@@ -93,6 +93,8 @@ pub struct Prepared {
     pub cut: Option<f64>,
     /// What was done, one step a line, for people, with the rms height (about the mean) that it left.
     pub report: Vec<String>,
+    /// The patch as it was brought onto the mesh; none where the heights were on the mesh from the beginning.
+    pub patch: Option<Patch>,
 }
 
 impl Preparation {
@@ -133,18 +135,18 @@ impl Preparation {
             report.push(format!("{step}, {}", change(before, &patch.heights)));
             cut
         });
-        let mut heights = if let Some(seed) = self.extend {
+        let (mut heights, patch) = if let Some(seed) = self.extend {
             let Extended { heights, report: step, warning } = extend(&patch, seed, body, mesh)?;
             report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
             report.extend(warning.map(|warning| format!("warning: {warning}")));
-            heights
+            (heights, Some(patch))
         } else if on_mesh {
-            patch.heights
+            (patch.heights, None)
         } else {
             let heights = resample(&patch, self.repeat, body, mesh)?;
             let step = laid(&patch, self.repeat, body, mesh);
             report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
-            heights
+            (heights, Some(patch))
         };
         if self.scale != 1.0 {
             let before = rms(&heights);
@@ -152,7 +154,7 @@ impl Preparation {
             report.push(format!("heights times {}: {}", self.scale, change(before, &heights)));
         }
         self.refuse_heights(&heights, |height| !height.is_finite())?;
-        Ok(Prepared { heights, cut, report })
+        Ok(Prepared { heights, cut, report, patch })
     }
 
     fn check(&self) -> Result<(), PreparationError> {

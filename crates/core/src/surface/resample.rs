@@ -67,6 +67,16 @@ impl CellGrid {
     }
 }
 
+impl Patch {
+    /// The patch in cells of this width and height, m, as far as whole ones fit: what a mesh sees of it.
+    pub fn in_cells(&self, cell: [f64; 2]) -> Self {
+        let whole = |length: f64, cell: f64| libm::floor(length / cell * (1.0 + SAME_LENGTH)) as usize;
+        let [columns, rows] = [whole(self.length(), cell[0]), whole(self.height(), cell[1])];
+        let heights = CellGrid { columns, rows, cell, first: [0.0; 2], fold: None }.heights(self);
+        Self { columns, rows, column_pitch: cell[0], row_pitch: cell[1], heights }
+    }
+}
+
 /// Refuses a patch that does not cover the body, or with `repeat` not even a cell.
 fn fits(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<(), PreparationError> {
     let (length, height) = (patch.length(), patch.height());

@@ -54,6 +54,7 @@ fn preparation(settings: &Settings, table: &str) -> Result<Preparation, Problem>
         l_filter,
         cutoff: number("cutoff")?,
         repeat: settings.bool(&key("repeat"))?,
+        extend: settings.get(&key("extend")).map(|_| settings.integer(&key("extend_seed"))).transpose()?,
         scale: settings.number(&key("scale"))?,
     })
 }

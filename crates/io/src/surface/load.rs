@@ -32,6 +32,8 @@ pub struct Loaded {
     pub inputs: Vec<(PathBuf, String)>,
     /// What was read, made and done, one step a line, for people.
     pub report: Vec<String>,
+    /// The patches of disc and pin as they were brought onto the mesh, peaks positive; none where there was none.
+    pub patches: [Option<Patch>; 2],
 }
 
 /// Reads or makes the initial surfaces of a scene and prepares them.
@@ -44,15 +46,16 @@ pub struct Loaded {
 /// [`SurfaceError`], which names the scene's table and the file.
 pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
     let mut loader = Loader { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new() };
-    let (disc_height, disc_cut) = loader.heights(&scene.disc_surface, Body::Disc)?;
-    let (mut pin_height, pin_cut) = loader.heights(&scene.pin_surface, Body::Pin)?;
+    let (disc_height, disc_cut, disc_patch) = loader.heights(&scene.disc_surface, Body::Disc)?;
+    let (mut pin_height, pin_cut, pin_patch) = loader.heights(&scene.pin_surface, Body::Pin)?;
     let pin_base = loader.base(&scene.pin_base, scene.pin_base_mirror)?;
     if scene.resin_recess != 0.0 {
         set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
         loader.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
     }
     let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
-    Ok(Loaded { surfaces, disc_cut, pin_cut, inputs: loader.inputs.0, report: loader.report })
+    let patches = [disc_patch, pin_patch];
+    Ok(Loaded { surfaces, disc_cut, pin_cut, inputs: loader.inputs.0, report: loader.report, patches })
 }
 
 /// Table of the scene that says where a body's heights come from.
@@ -71,6 +74,9 @@ fn prepare_key(body: Body) -> &'static str {
     }
 }
 
+/// Heights of a body, m; the fraction of their points that a cutoff cut; the patch from which they come.
+type BodyHeights = (Vec<f64>, Option<f64>, Option<Patch>);
+
 struct Loader<'a> {
     mesh: &'a Mesh,
     inputs: Inputs,
@@ -87,8 +93,8 @@ fn source_name(source: &HeightSource) -> String {
 }
 
 impl Loader<'_> {
-    /// Heights of a body, and the fraction of its points that a cutoff cut.
-    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
+    /// Heights of a body, the fraction of its points that a cutoff cut, and the patch from which they come.
+    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<BodyHeights, SurfaceError> {
         let (surface, prepare) = (surface_key(body), prepare_key(body));
         let (raw, negate) = match &settings.source {
             HeightSource::Flat => {
@@ -120,7 +126,11 @@ impl Loader<'_> {
             self.report.push(format!("{surface}: negated, for the pin's z grows away from the disc"));
         }
         self.report.push(format!("{surface}: {}", spread(&heights)));
-        Ok((heights, prepared.cut))
+        let mut patch = prepared.patch;
+        if body == Body::Pin && !negate {
+            patch.iter_mut().flat_map(|patch| &mut patch.heights).for_each(|height| *height = -*height);
+        }
+        Ok((heights, prepared.cut, patch))
     }
 
     /// Heights of a file. Heights of the model with the shape of the body's fields are those of its cells; any other

@@ -58,6 +58,9 @@ impl Serialize for Document<'_> {
         if let Some(spatial) = subject.description.autocorrelation {
             map.serialize_entry("Str_below", &spatial.aspect_ratio_below)?;
         }
+        if let Some(comparison) = &subject.comparison {
+            map.serialize_entry("patch", comparison)?;
+        }
         map.serialize_entry("units", &Units)?;
         map.end()
     }

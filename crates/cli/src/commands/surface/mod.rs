@@ -1,5 +1,6 @@
 //! `plateau surface`: what measured and prepared surfaces are like.
 
+mod comparison;
 mod document;
 mod subject;
 mod text;
@@ -50,7 +51,7 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     if to.is_some() && (files.len() != 1 || prepare.is_some()) {
         return Err(Failure::input("--to converts one FILE: leave out the others and --prepare"));
     }
-    let surfaces = files.len() + 2 * usize::from(prepare.is_some());
+    let surfaces = files.len() + 4 * usize::from(prepare.is_some());
     if plot.is_some() && surfaces > MOST_PLOTTED {
         return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
     }
@@ -102,12 +103,12 @@ fn convert(path: &Path, measured: &mut Measured, to: &Path, force: bool) -> Resu
 }
 
 /// What a scene makes of its disc and pin.
-fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], Failure> {
+fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Vec<Subject>, Failure> {
     let scene = scene::load(path, &[]).map_err(Failure::input)?;
     for warning in &scene.warnings {
         message::warning(warning);
     }
-    let Loaded { surfaces, report, inputs, .. } = surface::load(&scene).map_err(Failure::input)?;
+    let Loaded { surfaces, report, inputs, patches, .. } = surface::load(&scene).map_err(Failure::input)?;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
     for picture in arguments.plot.iter().chain(&arguments.preview) {
         output::check(picture, arguments.force, &inputs)?;
@@ -119,7 +120,13 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
         draw(&figure, preview, arguments.force)?;
     }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
-    Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))
+    let bodies = Subject::of_scene(path, mesh, surfaces, &report, &patches, level, draws(arguments))?;
+    let mut subjects = Vec::new();
+    for (body, patch) in bodies.into_iter().zip(patches) {
+        subjects.extend(patch.and_then(|patch| Subject::of_patch(path, patch, &body.name, draws(arguments))));
+        subjects.push(body);
+    }
+    Ok(subjects)
 }
 
 /// An error of a file.

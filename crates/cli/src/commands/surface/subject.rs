@@ -5,10 +5,11 @@ use std::path::Path;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
-use plateau_core::surface::{Body, Level, level};
+use plateau_core::surface::{Body, Level, Patch, level};
 use plateau_io::surface::Measured;
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
+use super::comparison::Comparison;
 use super::named;
 use crate::failure::Failure;
 
@@ -32,6 +33,8 @@ pub struct Subject {
     pub warnings: Vec<String>,
     /// Its parameters.
     pub description: Description,
+    /// How it differs from the patch from which it was made.
+    pub comparison: Option<Comparison>,
     /// Its heights as a picture shows them; none unless one is drawn.
     drawn: Option<Drawn>,
 }
@@ -56,6 +59,7 @@ impl Subject {
             warnings,
             drawn: draws.then(|| Drawn::of(&grid, &description)),
             description,
+            comparison: None,
         })
     }
 
@@ -65,6 +69,7 @@ impl Subject {
         mesh: &Mesh,
         surfaces: InitialSurfaces,
         report: &[String],
+        patches: &[Option<Patch>; 2],
         form: Level,
         draws: bool,
     ) -> Result<[Self; 2], Failure> {
@@ -75,6 +80,8 @@ impl Subject {
             let pitch = Some([mesh.column_width(), mesh.row_height()]);
             let grid = Grid { columns, rows, pitch, heights: &heights };
             let description = Description::of(&grid).ok_or_else(|| Failure::input("the mesh has no cells"))?;
+            let patch = patches[usize::from(body == Body::Pin)].as_ref();
+            let in_cells = patch.map(|patch| patch.in_cells([mesh.column_width(), mesh.row_height()]));
             let own = |line: &&String| line.starts_with(&format!("{name}."));
             Ok(Self {
                 name: name.to_owned(),
@@ -86,12 +93,32 @@ impl Subject {
                 notes: report.iter().filter(own).cloned().collect(),
                 warnings: Vec::new(),
                 drawn: draws.then(|| Drawn::of(&grid, &description)),
+                comparison: in_cells.and_then(|patch| Comparison::of(&patch, &description, &grid)),
                 description,
             })
         };
         // The pin's z grows away from the disc.
         let pin_height = surfaces.pin_height.into_iter().map(|height| -height).collect();
         Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
+    }
+
+    /// The patch from which a scene made this body, as it was brought onto the mesh; none where nothing of it has a height.
+    pub fn of_patch(scene: &Path, patch: Patch, body: &str, draws: bool) -> Option<Self> {
+        let grid = Grid::of(&patch);
+        let description = Description::of(&grid)?;
+        Some(Self {
+            name: format!("{body}'s patch"),
+            origin: format!("prepared by {}, before it was brought onto the mesh", scene.display()),
+            columns: patch.columns,
+            rows: patch.rows,
+            pitch: grid.pitch,
+            level: level_name(Level::None, false),
+            notes: Vec::new(),
+            warnings: Vec::new(),
+            drawn: draws.then(|| Drawn::of(&grid, &description)),
+            description,
+            comparison: None,
+        })
     }
 
     /// Points that the grid has.

@@ -109,6 +109,9 @@ fn remarks(subjects: &[Subject]) -> String {
         for note in &subject.notes {
             text.push_str(&format!("  {note}\n"));
         }
+        if let Some(comparison) = &subject.comparison {
+            text.push_str(&comparison.text());
+        }
         let missing = subject.points() - subject.description.measured;
         if missing > 0 {
             text.push_str(&format!("  {} of {} points are missing and take no part\n", missing, subject.points()));

@@ -11,6 +11,7 @@ mod heights;
 mod material_curve;
 mod parameter;
 mod profile;
+mod sampling_error;
 
 pub use autocorrelation::Autocorrelation;
 pub use gradient::Gradient;
@@ -19,6 +20,7 @@ pub use heights::HeightParameters;
 pub use material_curve::{CoreHeight, MaterialCurve, Volumes};
 pub use parameter::{Group, PARAMETERS, Parameter, Unit};
 pub use profile::{Direction, ProfileParameters};
+pub use sampling_error::sampling_errors;
 
 /// Classes of the Abbott-Firestone curve that a [`Description`] keeps: 0, 0.1, …, 100 %.
 const CURVE_CLASSES: usize = 1000;

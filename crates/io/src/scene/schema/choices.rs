@@ -27,6 +27,8 @@ pub(crate) const LEVEL: Choices<Level, 4> =
     [("quadratic", Level::Quadratic), ("plane", Level::Plane), ("mean", Level::Mean), ("none", Level::None)];
 /// `fill` of a preparation.
 pub(crate) const FILL: Choices<Fill, 2> = [("level", Fill::Level), ("interpolate", Fill::Interpolate)];
+/// `extend` of a preparation.
+pub(crate) const EXTEND: Choices<(), 1> = [("statistics", ())];
 /// `pin.base.rotate`: quarters of a turn.
 pub(crate) const ROTATE: Choices<u8, 4> = [("0 deg", 0), ("90 deg", 1), ("180 deg", 2), ("270 deg", 3)];
 /// `pin.base.fibres`.

@@ -12,6 +12,8 @@ use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, Require
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] =
     &[("file", &["dataset", "unit", "pitch", "height_range"]), ("synthetic", &[]), ("flat", &[])];
+/// How a patch is continued beyond its edges.
+const CONTINUATIONS: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
 const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
 
 const TEXTURES: &[(&str, &[&str])] = &[
@@ -42,6 +44,8 @@ pub const GROUPS: &[Group] = &[
         required: true,
         unless: None,
     },
+    Group { section: "disc.prepare", members: CONTINUATIONS, required: false, unless: None },
+    Group { section: "pin.prepare", members: CONTINUATIONS, required: false, unless: None },
     Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
     Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
     Group {
@@ -334,8 +338,12 @@ impl Table {
             "repeat",
             Bool,
             Default("false"),
-            "whether the patch is tiled round the ring, mirrored from tile to tile",
+            "whether the patch is tiled round the ring and across the track, mirrored from tile to tile",
         );
+        let extensions = Choice(&const { words(&choices::EXTEND) });
+        let extension = "a surface of the size that is needed with the statistics of the patch, in place of tiles";
+        self.key("extend", extensions, Optional, extension);
+        self.key("extend_seed", Integer(0), Default("0"), "seed of that surface");
         self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
     }
 }
