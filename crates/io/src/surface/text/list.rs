@@ -71,7 +71,7 @@ impl Points {
         Ok(Self {
             x: numbers.coordinates(x)?,
             y: numbers.coordinates(y)?,
-            z: numbers.column(z),
+            z: numbers.heights(names, z),
             lines: numbers.lines.clone(),
         })
     }

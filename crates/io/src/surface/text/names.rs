@@ -21,6 +21,8 @@ pub(super) struct Names {
     pub(super) count: usize,
     /// Which are coordinates and heights.
     pub(super) columns: Columns,
+    /// Where 0 stands for points without a height.
+    pub(super) valid: Option<usize>,
     /// What 1 stands for in each column, m.
     pub(super) units: Vec<Option<f64>>,
 }
@@ -49,12 +51,13 @@ impl Names {
             (&[x], &[y], []) => Columns::Profile([x, y]),
             _ => return None,
         };
-        Some(Self { line, count: cells.len(), columns, units: cells.iter().map(|cell| unit(cell)).collect() })
+        let valid = places(&["valid"]).first().copied();
+        Some(Self { line, count: cells.len(), columns, valid, units: cells.iter().map(|cell| unit(cell)).collect() })
     }
 
     /// The first columns of a table that has no names.
     pub(super) fn first(line: usize, count: usize, columns: Columns) -> Self {
-        Self { line, count, columns, units: vec![None; count] }
+        Self { line, count, columns, valid: None, units: vec![None; count] }
     }
 
     /// Takes in a line of units below the names, such as "[mm];[mm];[um]"; tells whether it is one.

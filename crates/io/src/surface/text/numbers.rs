@@ -89,6 +89,16 @@ impl Numbers {
         }
     }
 
+    /// The heights of a column, as the file has them.
+    pub(super) fn heights(&self, names: &Names, place: usize) -> Vec<f64> {
+        let mut heights = self.column(place);
+        if let Some(valid) = names.valid {
+            let invalid = heights.iter_mut().zip(self.column(valid)).filter(|(_, valid)| *valid == 0.0);
+            invalid.for_each(|(height, _)| *height = f64::NAN);
+        }
+        heights
+    }
+
     /// Refuses names that do not fit the columns. Beyond the names columns may be empty.
     pub(super) fn check_names(&self, names: &Names) -> Result<(), TextError> {
         let more = self.values.chunks_exact(self.columns).flat_map(|line| line.iter().skip(names.count));

@@ -67,7 +67,7 @@ fn beside_distances(
     let stated = names.units[distance].or(numbers.header.lateral_unit).map(|unit| [spacing.step * unit; 2]);
     let pitch = agreed_pitch(stated, options.pitch)?.ok_or(TextError::NoDistanceUnit { step: spacing.step })?;
     let mut heights = vec![f64::NAN; spacing.count];
-    spacing.places.iter().zip(numbers.column(height)).for_each(|(place, height)| heights[*place] = height);
+    spacing.places.iter().zip(numbers.heights(names, height)).for_each(|(place, height)| heights[*place] = height);
     numbers.scale(&mut heights, unit)?;
     let mut notes = vec![format!("profile of {} points, 1 stands for {unit:e} m", spacing.count)];
     if let Some(place) = spacing.rounded_to {

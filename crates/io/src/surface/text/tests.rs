@@ -257,6 +257,8 @@ fn profiles_in_every_spelling() {
     let holed: String = (0..20).filter(|n| *n != 3).map(|n| format!("{n} {n}\n")).collect();
     assert!(shape(&profile(&holed, um, Some(1e-6)).unwrap()).starts_with("0 1 2 - 4 5"));
     assert_eq!(shape(&profile("1\n***\n4", um, um).unwrap()), "1 - 4");
+    let valid = "X;Y;valid\n[um];[um];[1/0]\n0;1;1\n1;2;0\n2;4;1\n";
+    assert_eq!(shape(&profile(valid, None, None).unwrap()), "1 - 4");
 }
 
 #[test]
