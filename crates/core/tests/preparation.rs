@@ -1,5 +1,6 @@
 //! The preparation chain against hand computation and closed forms.
 
+mod extension;
 mod filling;
 mod filtering;
 mod levelling;
@@ -112,20 +113,21 @@ fn refuses_patches_that_do_not_cover_the_body() {
     assert_eq!(
         error(patch(30, 10, 1e-3, rough), Body::Disc, false),
         "the patch is 30 mm long, the ring 100 mm at the mean radius: repeat = true tiles the patch without a step at \
-         the seams"
+         the seams, extend = \"statistics\" makes a surface with the statistics of the patch"
     );
     assert_eq!(
         error(patch(10, 10, 1e-3, rough), Body::Pin, false),
         "the patch is 10 mm long, the pin 20 mm at the mean radius: repeat = true tiles the patch without a step at \
-         the seams"
+         the seams, extend = \"statistics\" makes a surface with the statistics of the patch"
     );
     assert_eq!(
-        error(patch(200, 4, 1e-3, rough), Body::Disc, true),
-        "the patch is 4 mm wide in r, the track 8 mm: a pixel of at least 2 mm lets its 4 rows cover the track"
+        error(patch(200, 4, 1e-3, rough), Body::Disc, false),
+        "the patch is 4 mm wide in r, the track 8 mm: repeat = true tiles the patch without a step at the seams, \
+         extend = \"statistics\" makes a surface with the statistics of the patch"
     );
     let mut thin = patch(3, 10, 1e-3, rough);
     thin.column_pitch = 1e-300;
-    assert!(error(thin, Body::Disc, true).contains("one column 1 mm"));
+    assert!(error(thin, Body::Disc, true).contains("a cell 1 mm by 1 mm: all of its roughness lies within one cell"));
 }
 
 #[test]

@@ -11,7 +11,7 @@ use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use plateau_io::surface::{ReadOptions, read};
+use plateau_io::surface::{Decimal, Lay, ReadOptions, read};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{Config, RngAlgorithm, TestError, TestRng, TestRunner};
@@ -120,6 +120,11 @@ fn odd_bytes() -> impl Strategy<Value = Vec<u8>> {
         "NumPoints = 4294967295",
         "<Datum/>",
         "1;2;3",
+        "1,234",
+        "Bad\t",
+        "X Size\t4294967295\n",
+        "\"Horizontal\",\"99999999999\"\n",
+        "#\n",
         "'fortran_order': True, ",
         "'descr': '<f8', ",
     ];
@@ -177,12 +182,14 @@ fn corpus_files() -> Vec<(PathBuf, Vec<u8>)> {
 }
 
 /// Options of which one suits each format: a format refuses what has no meaning for it.
-fn all_options() -> [ReadOptions; 4] {
+fn all_options() -> [ReadOptions; 6] {
     let pitch = Some([1e-6, 2e-6]);
     let images = ReadOptions { pitch, height_range: Some([0.0, 1e-6]), ..ReadOptions::default() };
     let tables = ReadOptions { pitch, unit: Some(1e-6), ..ReadOptions::default() };
     let arrays = ReadOptions { pitch, dataset: Some("a".into()), ..ReadOptions::default() };
-    [ReadOptions::default(), images, tables, arrays]
+    let profiles = ReadOptions { profile_lay: Some(Lay::Along), ..ReadOptions::default() };
+    let skipping = ReadOptions { skip: Some(2), decimal: Some(Decimal::Comma), ..tables.clone() };
+    [ReadOptions::default(), images, tables, arrays, profiles, skipping]
 }
 
 /// Reads a file; what comes out must be an error with a text or a surface. Says which.

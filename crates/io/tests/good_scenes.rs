@@ -16,7 +16,7 @@ use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::surface::{Crop, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll};
 use plateau_io::scene::{self, memory_estimate};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
-use plateau_io::surface::ReadOptions;
+use plateau_io::surface::{Decimal, Lay, ReadOptions};
 
 fn good(name: &str) -> PathBuf {
     Path::new("tests/scenes/good").join(name)
@@ -46,6 +46,7 @@ const NO_PREPARATION: Preparation = Preparation {
     l_filter: None,
     cutoff: None,
     repeat: false,
+    extend: None,
     scale: 1.0,
 };
 
@@ -272,6 +273,7 @@ fn what_a_scene_says_of_a_file_is_kept() {
     let path = folder.path().join("scene.toml");
     let text = format!(
         "extends = {minimal:?}\n[disc.surface]\nfile = \"a.txt\"\nunit = \"nm\"\npitch = [\"50 um\", \"25 um\"]\n\
+         decimal = \",\"\nskip = 3\nprofile_lay = \"across\"\n\
          [pin.surface]\nfile = \"a.png\"\npitch = \"10 um\"\nheight_range = [\"3 um\", \"-0.1 um\"]\n"
     );
     fs::write(&path, text).unwrap();
@@ -281,7 +283,14 @@ fn what_a_scene_says_of_a_file_is_kept() {
         other => panic!("{other:?}"),
     };
     let nothing = ReadOptions::default();
-    let disc = ReadOptions { unit: Some(1e-9), pitch: Some([50e-6, 25e-6]), ..nothing.clone() };
+    let disc = ReadOptions {
+        unit: Some(1e-9),
+        pitch: Some([50e-6, 25e-6]),
+        decimal: Some(Decimal::Comma),
+        skip: Some(3),
+        profile_lay: Some(Lay::Across),
+        ..nothing.clone()
+    };
     let pin = ReadOptions { pitch: Some([1e-5; 2]), height_range: Some([3e-6, -1e-7]), ..nothing };
     assert_eq!(options(&scene.disc_surface.source), disc);
     assert_eq!(options(&scene.pin_surface.source), pin);

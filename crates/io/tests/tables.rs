@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use plateau_core::surface::Patch;
-use plateau_io::surface::{Format, Measured, ReadOptions, hdf5, npy, read};
+use plateau_io::surface::{Decimal, Format, Lay, Measured, ReadOptions, hdf5, npy, read};
 
 fn corpus(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
@@ -68,6 +68,14 @@ fn every_file_of_the_corpus_gives_the_heights_it_was_made_of() {
         ("holographic.txt", options(), Format::Text, &[], Some([5e-5; 2])),
         ("list.csv", options(), Format::Text, &[9], Some([5e-5, 2.5e-5])),
         ("list.xyz", options(), Format::Text, &[9, 3], Some([5e-5, 2.5e-5])),
+        ("comma.csv", options(), Format::Text, &[9], Some([5e-5, 2.5e-5])),
+        ("comma.txt", options(), Format::Text, &[9], None),
+        ("utf16.csv", options(), Format::Text, &[9], Some([5e-5; 2])),
+        ("keyence.csv", options(), Format::Text, &[9], Some([5e-5; 2])),
+        ("wyko.asc", options(), Format::Text, &[9], Some([5e-5, 2.5e-5])),
+        ("zygo.xyz", um(), Format::Text, &[9], Some([5e-5; 2])),
+        ("zygo.asc", options(), Format::Text, &[9], Some([5e-5; 2])),
+        ("spip.asc", options(), Format::Text, &[9], Some([5e-5, 2.5e-5])),
         ("grey8.png", black_to_white(25.5e-6), Format::Png, &[], None),
         ("grey16.png", black_to_white(21.845e-6), Format::Png, &[], None),
         ("grey8.tif", black_to_white(25.5e-6), Format::Tiff, &[], None),
@@ -93,6 +101,62 @@ fn every_file_of_the_corpus_gives_the_heights_it_was_made_of() {
     }
     let levels = read(&corpus("grey1.png"), &black_to_white(1.0)).unwrap().heights;
     assert!(levels.iter().enumerate().all(|(n, level)| *level == (n % 2) as f64));
+}
+
+#[test]
+fn every_profile_of_the_corpus_gives_the_heights_it_was_made_of() {
+    let options = || ReadOptions { profile_lay: Some(Lay::Across), ..options() };
+    // The last coordinate of dektak.csv is 3.2 for 3.1667: half a place over 19 steps is the most that can be off.
+    for (name, pitch, error) in [("dektak.csv", 1e-6 / 6.0, 0.05e-6 / 19.0), ("profile.hfm", 1e-6, 1e-17)] {
+        let measured = read(&corpus(name), &options()).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!((measured.columns, measured.rows, measured.profile_lay), (20, 1, Some(Lay::Across)));
+        let [along, across] = measured.pitch.unwrap();
+        assert!((along - pitch).abs() <= error && along == across, "{name}: {along}");
+        assert!(
+            measured.heights.iter().enumerate().all(|(n, height)| (height * 1e6 - n as f64).abs() < 1e-12),
+            "{name}"
+        );
+        let found = message(&corpus(name), &um());
+        assert!(found.contains("for a profile say profile_lay = \"along\""), "{name}: {found}");
+    }
+    // A line of any format is a profile; more lines are none.
+    let folder = tempfile::tempdir().unwrap();
+    for (columns, rows) in [(20, 1), (1, 20)] {
+        let path = folder.path().join("line.h5");
+        let heights = (0..20).map(f64::from).collect();
+        let (column_pitch, row_pitch) = if rows == 1 { (1e-6, 3e-3) } else { (3e-3, 1e-6) };
+        hdf5::write(&path, &Patch { columns, rows, column_pitch, row_pitch, heights }).unwrap();
+        let profile = read(&path, &options()).unwrap().stylus_profile(None).unwrap().unwrap();
+        assert_eq!((profile.pitch, profile.heights.len(), profile.heights[7]), (1e-6, 20, 7.0));
+        std::fs::remove_file(&path).unwrap();
+    }
+    for (name, more, expected) in [
+        (
+            "pitch.h5",
+            options(),
+            "profile_lay takes the file as a profile, but it has 5 x 4 points: leave out profile_lay",
+        ),
+        ("wyko.asc", options(), "profile_lay takes the file as a profile, but it has 5 x 4 points"),
+        ("matrix.txt", options(), "profile_lay takes the file as a profile, but it has 4 lines of 5 numbers"),
+        (
+            "dektak.csv",
+            ReadOptions { pitch: Some([1e-6, 2e-6]), ..options() },
+            "a profile has one pitch, the scene gives two",
+        ),
+        (
+            "f8.npy",
+            ReadOptions { skip: Some(1), ..options() },
+            "this is a NumPy array file (.npy), for which skip has no meaning",
+        ),
+        (
+            "f8.npy",
+            ReadOptions { decimal: Some(Decimal::Comma), ..options() },
+            "this is a NumPy array file (.npy), for which decimal",
+        ),
+    ] {
+        let found = message(&corpus(name), &more);
+        assert!(found.starts_with(expected), "{name}: {found}\nexpected {expected}");
+    }
 }
 
 #[test]

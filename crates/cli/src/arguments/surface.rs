@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use plateau_core::surface::Level;
+use plateau_io::scene::schema::choices;
+use plateau_io::surface::{Decimal, Lay};
 use plateau_io::units::{self, Dimension};
 
 /// Arguments of `plateau surface`.
@@ -40,6 +42,15 @@ pub struct SurfaceArguments {
     /// Heights of black and white of an image, such as "0 um, 12 um"
     #[arg(long, value_name = "LENGTHS", value_parser = height_range)]
     pub height_range: Option<HeightRange>,
+    /// Decimal mark of a text file whose content does not tell it: "." or ","
+    #[arg(long, value_name = "MARK", value_parser = decimal)]
+    pub decimal: Option<Decimal>,
+    /// Lines of a text file before the table that are not read
+    #[arg(long, value_name = "LINES")]
+    pub skip: Option<u64>,
+    /// Take the file as a profile, of a surface with grooves along or across sliding, or isotropic
+    #[arg(long, value_name = "DIRECTION", value_parser = lay)]
+    pub profile_lay: Option<Lay>,
     /// Dataset of an HDF5 file, or array of an .npz archive
     #[arg(long, value_name = "NAME")]
     pub dataset: Option<String>,
@@ -86,6 +97,18 @@ fn height_range(text: &str) -> Result<HeightRange, String> {
     let (black, white) = text.split_once(',').ok_or("expected two lengths, such as \"0 um, 12 um\"")?;
     let range = [length(black)?, length(white)?];
     if range[0] == range[1] { Err("expected two different heights".to_owned()) } else { Ok(HeightRange(range)) }
+}
+
+/// A value of `--decimal`.
+fn decimal(text: &str) -> Result<Decimal, &'static str> {
+    let known = choices::DECIMAL.iter().find(|(word, _)| *word == text);
+    known.map(|(_, decimal)| *decimal).ok_or("expected \".\" or \",\"")
+}
+
+/// A value of `--profile-lay`.
+fn lay(text: &str) -> Result<Lay, &'static str> {
+    let known = choices::LAY.iter().find(|(word, _)| *word == text);
+    known.map(|(_, lay)| *lay).ok_or("expected along, across or isotropic")
 }
 
 fn length(text: &str) -> Result<f64, String> {

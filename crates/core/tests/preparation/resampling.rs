@@ -151,3 +151,55 @@ fn a_repeated_patch_leaves_no_step() {
         }
     }
 }
+
+#[test]
+fn a_patch_that_is_smaller_than_the_track_is_tiled_in_both_directions() {
+    // Cells of the pixels' size that lie on the pixels: each is one of them, so every step of the result is one of the patch,
+    // and every cell is known. Without the mirror images there would be steps from edge to edge at the seams.
+    for (columns, rows, length, height) in [(50, 12, 7, 4), (49, 12, 10, 6), (60, 14, 60, 2)] {
+        let mesh = ring(columns, rows, columns);
+        let pixels = patch(length, height, 1e-3, |column, row| (10 * column + 7 * row) as f64 * 1e-9);
+        let preparation = Preparation { repeat: true, ..Preparation::default() };
+        let mirrored = |place: usize, length: usize| {
+            let place = place % (2 * length);
+            place.min(2 * length - 1 - place)
+        };
+        for (body, folded) in [(Body::Disc, true), (Body::Pin, false)] {
+            let heights = apply(preparation, RawHeights::Patch(pixels.clone()), body, &mesh).unwrap();
+            // The middle of the patch lies on the middle of the track.
+            let first = 2 * height * rows - (rows - height) / 2;
+            let tiled = patch(columns, rows, 1e-3, |column, row| {
+                let column = if folded && column >= columns / 2 { columns - 1 - column } else { column };
+                (10 * mirrored(column, length) + 7 * mirrored(first + row, height)) as f64 * 1e-9
+            });
+            let is_odd_fold = folded && columns % 2 == 1;
+            for (cell, (found, expected)) in heights.iter().zip(&tiled.heights).enumerate() {
+                // The middle column of an odd ring lies across the fold.
+                let on_fold = is_odd_fold && cell / rows == columns / 2;
+                assert!(
+                    on_fold || (found - expected).abs() < 1e-20,
+                    "{body:?}, cell {cell}: {found}, expected {expected}"
+                );
+            }
+            let steps_across = heights.chunks_exact(rows).flat_map(|column| column.windows(2));
+            let largest = steps_across.map(|pair| (pair[0] - pair[1]).abs()).fold(0.0, f64::max);
+            assert!(largest < 7.001e-9, "{body:?}: a step of {largest} across the track");
+        }
+    }
+}
+
+#[test]
+fn a_narrower_patch_has_the_same_mean_and_no_more_roughness() {
+    // Pixels that are finer than cells and no divisor of them, tiles that begin anywhere: the mean over whole tiles is that of
+    // the patch.
+    let mesh = ring(84, 12, 84);
+    let mut pixels = patch(30, 20, 0.7e-3, rough);
+    pixels.row_pitch = 0.2e-3;
+    let preparation = Preparation { repeat: true, ..Preparation::default() };
+    // 84 mm are four tiles of 21 mm, 12 mm three of 4 mm.
+    let heights = apply(preparation, RawHeights::Patch(pixels.clone()), Body::Pin, &mesh).unwrap();
+    let mean = |heights: &[f64]| heights.iter().sum::<f64>() / heights.len() as f64;
+    assert!((mean(&heights) - mean(&pixels.heights)).abs() < 1e-20);
+    let span = |heights: &[f64]| heights.iter().fold(0.0_f64, |largest, height| largest.max(*height));
+    assert!(span(&heights) <= span(&pixels.heights));
+}

@@ -17,6 +17,7 @@ const BY_SLOPE: Preparation = Preparation {
     l_filter: None,
     cutoff: None,
     repeat: false,
+    extend: None,
     scale: 1.0,
 };
 

@@ -93,6 +93,15 @@ impl Settings {
         known.ok_or_else(|| self.unlike(path, "a word of its choice", self.get(path)))
     }
 
+    /// The same of a choice that may be absent.
+    pub(super) fn optional_choice<T: Copy, const COUNT: usize>(
+        &self,
+        path: &str,
+        choices: &Choices<T, COUNT>,
+    ) -> Result<Option<T>, Problem> {
+        self.get(path).map(|_| self.choice(path, choices)).transpose()
+    }
+
     /// The value of a switch that a checked scene has.
     pub(super) fn bool(&self, path: &str) -> Result<bool, Problem> {
         match self.get(path) {

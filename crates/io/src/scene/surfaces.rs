@@ -139,6 +139,9 @@ fn read_options(
         unit: settings.optional_number(&key("unit"))?,
         pitch: settings.optional_pair(&key("pitch"))?,
         height_range,
+        decimal: settings.optional_choice(&key("decimal"), &choices::DECIMAL)?,
+        skip: settings.get(&key("skip")).map(|_| settings.integer(&key("skip"))).transpose()?,
+        profile_lay: settings.optional_choice(&key("profile_lay"), &choices::LAY)?,
     })
 }
 

@@ -14,6 +14,7 @@ use super::instrument::Instrument;
 use super::npy::NpyError;
 use super::options::Disagreement;
 use super::sdf::SdfError;
+use super::stylus_profile::ProfileError;
 use super::text::TextError;
 use super::x3p::X3pError;
 
@@ -156,6 +157,9 @@ pub enum FileError {
     /// Text that holds no surface.
     #[error(transparent)]
     Text(#[from] TextError),
+    /// A file that is taken as a profile.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
 }
 
 impl From<X3pError> for FileError {

@@ -9,10 +9,11 @@ pub struct Instrument {
     pub conversion: &'static str,
 }
 
-/// For what SurfaceTopography reads; tried with its version 1.27.1, sdfio 2.0.0 and files of Alicona and FRT.
+/// For what SurfaceTopography reads, surfaces and profiles; tests/python/test_surface_conversion.py tries it.
 const BY_SURFACE_TOPOGRAPHY: &str = "pip install SurfaceTopography sdfio; python -c \"import sys, numpy, sdfio, \
-    SurfaceTopography as s; t = s.read_topography(sys.argv[1]).to_unit('m'); x, y = t.pixel_size; \
-    sdfio.write(sys.argv[2], numpy.ma.filled(t.heights().T, numpy.nan), x_scale=x, y_scale=y)\" IN OUT.sdf";
+    SurfaceTopography as s; t = s.read_topography(sys.argv[1]).to_unit('m'); p = t.pixel_size; \
+    sdfio.write(sys.argv[2], numpy.atleast_2d(numpy.ma.filled(t.heights().T, numpy.nan)), x_scale=p[0], y_scale=p[-1])\" \
+    IN OUT.sdf";
 
 /// For what only surfalize reads; tried with its version 0.19.2 and a file of Alicona.
 const BY_SURFALIZE: &str = "pip install surfalize; python -c \"import sys, surfalize; surfalize.Surface.load(sys.argv[1]).save(sys.argv[2])\" \

@@ -92,6 +92,11 @@ fn source_name(source: &HeightSource) -> String {
     }
 }
 
+/// Whether heights come from a file that is taken as a profile.
+fn takes_as_profile(source: &HeightSource) -> bool {
+    matches!(source, HeightSource::File { options, .. } if options.profile_lay.is_some())
+}
+
 impl Loader<'_> {
     /// Heights of a body, the fraction of its points that a cutoff cut, and the patch from which they come.
     fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<BodyHeights, SurfaceError> {
@@ -116,7 +121,12 @@ impl Loader<'_> {
                 (raw, instrument && body == Body::Pin)
             }
         };
-        let prepared = settings.preparation.apply(raw, settings.mirror, body, self.mesh).map_err(|reason| {
+        let mut preparation = settings.preparation;
+        if takes_as_profile(&settings.source) {
+            // It has been taken into the profile, which has a pitch in one direction only.
+            preparation.pixel = None;
+        }
+        let prepared = preparation.apply(raw, settings.mirror, body, self.mesh).map_err(|reason| {
             SurfaceError::Preparation { key: prepare, source_name: source_name(&settings.source), reason }
         })?;
         self.report.extend(prepared.report.iter().map(|step| format!("{prepare}: {step}")));
@@ -151,6 +161,11 @@ impl Loader<'_> {
         let instrument = measured.instrument;
         let mesh = (body.columns(self.mesh), self.mesh.rows());
         let found = (measured.columns, measured.rows);
+        if let Some(profile) = measured.stylus_profile(pixel)? {
+            let pitch = Length(profile.pitch);
+            self.report.push(format!("{surface}: {}, points {pitch} apart", profile.describe()));
+            return Ok((RawHeights::Patch(profile.into_patch(body, self.mesh)?), instrument));
+        }
         let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
         let raw = match pitch {
             Some([column_pitch, row_pitch]) => {

@@ -13,7 +13,8 @@ use super::format::Format;
 use super::instrument::{PLUX, recognise};
 use super::options::{ReadOptions, agreed_pitch};
 use super::sdf::{SdfKind, without_margin};
-use super::text::{TextError, is_utf16};
+use super::stylus_profile::{Lay, ProfileError, StylusProfile};
+use super::text::is_utf16;
 use super::{hdf5, image, npy, sdf, text, x3p};
 
 /// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
@@ -36,6 +37,8 @@ pub struct Measured {
     pub heights: Vec<f64>,
     /// Peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
     pub instrument: bool,
+    /// The heights are a profile, in one row, and its lay has this direction.
+    pub profile_lay: Option<Lay>,
     /// What the file says of itself that a user may want to see, one fact a line.
     pub notes: Vec<String>,
     /// What is wrong with the file but does not change its heights, as a checksum that does not fit.
@@ -48,6 +51,30 @@ impl Measured {
         let Self { columns, rows, heights, .. } = self;
         let [column_pitch, row_pitch] = self.pitch?;
         Some(Patch { columns, rows, column_pitch, row_pitch, heights })
+    }
+
+    /// The heights as a profile; none if they are not taken as one. `pixel` reinterprets the distance of its points, m.
+    ///
+    /// # Errors
+    /// [`ProfileError`] if the distance of its points is unknown.
+    pub fn stylus_profile(&self, pixel: Option<f64>) -> Result<Option<StylusProfile>, ProfileError> {
+        let Some(lay) = self.profile_lay else { return Ok(None) };
+        let pitch = pixel.or(self.pitch.map(|pitch| pitch[0])).ok_or(ProfileError::NoPitch)?;
+        Ok(Some(StylusProfile { pitch, heights: self.heights.clone(), lay }))
+    }
+
+    /// Takes the heights as a profile: in one row, with one pitch.
+    fn take_as_profile(&mut self, lay: Lay) -> Result<(), ProfileError> {
+        let size = (self.columns, self.rows);
+        let along = match size {
+            (2.., 1) => 0,
+            (1, 2..) => 1,
+            _ => return Err(ProfileError::NotALine { size }),
+        };
+        self.pitch = self.pitch.map(|pitch| [pitch[along]; 2]);
+        (self.columns, self.rows) = (self.heights.len(), 1);
+        self.profile_lay = Some(lay);
+        Ok(())
     }
 
     /// Refuses what is far from any surface: a damaged file, or numbers of another unit.
@@ -72,6 +99,9 @@ impl Measured {
             Some([x, y]) if x == y => format!("{} pitch", Length(x)),
             Some([x, y]) => format!("{} by {} pitch", Length(x), Length(y)),
         };
+        if self.profile_lay.is_some() {
+            return format!("profile of {} points, {pitch}", self.columns);
+        }
         format!("{} x {} points, {pitch}", self.columns, self.rows)
     }
 }
@@ -81,7 +111,13 @@ impl Measured {
 /// # Errors
 /// [`FileError`] when the file cannot be read exactly, or holds what no surface has.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Measured, FileError> {
-    let measured = read_format(path, options)?;
+    if options.profile_lay.is_some() && options.pitch.is_some_and(|[x, y]| x != y) {
+        return Err(ProfileError::TwoPitches.into());
+    }
+    let mut measured = read_format(path, options)?;
+    if let Some(lay) = options.profile_lay {
+        measured.take_as_profile(lay)?;
+    }
     measured.check()?;
     Ok(measured)
 }
@@ -95,7 +131,17 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
                 hdf5::heights(path, options.dataset.as_deref())?;
             let notes = vec![format!("dataset {dataset}")];
             let pitch = agreed_pitch(pitch, options.pitch)?;
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings: Vec::new() })
+            Ok(Measured {
+                format,
+                columns,
+                rows,
+                pitch,
+                heights,
+                instrument: false,
+                profile_lay: None,
+                notes,
+                warnings: Vec::new(),
+            })
         }
         Format::Sdf(_) => {
             let file = File::open(path)?;
@@ -119,13 +165,13 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             let image::HeightMap { columns, rows, heights, notes, warnings } =
                 image::heights(&std::fs::read(path)?, format, options)?;
             let pitch = options.pitch;
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings })
         }
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
             let text::Table { columns, rows, pitch, heights, notes, warnings } =
                 text::read(&std::fs::read(path)?, xyz, options)?;
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings })
+            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings })
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
@@ -135,7 +181,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
 fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: Vec<String>) -> Measured {
     let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
     let pitch = Some([column_pitch, row_pitch]);
-    Measured { format, columns, rows, pitch, heights, instrument: true, notes, warnings }
+    Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings }
 }
 
 /// A NumPy array: heights of the model, as those of an HDF5 file.
@@ -146,7 +192,7 @@ fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
         warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
     }
     let (pitch, notes) = (options.pitch, vec![format!("type {descr}")]);
-    Measured { format, columns, rows, pitch, heights, instrument: false, notes, warnings }
+    Measured { format, columns, rows, pitch, heights, instrument: false, profile_lay: None, notes, warnings }
 }
 
 /// Refuses what would silently not be used.
@@ -159,6 +205,8 @@ fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileE
         ("unit", options.unit.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff)),
         ("pitch", options.pitch.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff | Hdf5)),
         ("height_range", options.height_range.is_some(), matches!(format, Png | Tiff)),
+        ("decimal", options.decimal.is_some(), format == Text),
+        ("skip", options.skip.is_some(), format == Text),
     ] {
         if given && !meaningful {
             return Err(FileError::Meaningless { format, key });
@@ -186,7 +234,7 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
         return from_archive(file);
     }
     if is_utf16(&head) {
-        return Err(TextError::Utf16.into());
+        return Ok(Format::Text);
     }
     from_head(&head).ok_or_else(|| FileError::Unknown { found: describe(&head) })
 }

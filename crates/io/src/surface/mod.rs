@@ -1,5 +1,6 @@
 //! Initial surfaces: from what a scene asks for to heights and bases of every cell.
 
+mod decimal;
 mod error;
 mod format;
 pub mod hdf5;
@@ -11,10 +12,12 @@ pub mod npy;
 mod options;
 mod profiles;
 pub mod sdf;
+mod stylus_profile;
 mod text;
 mod writing;
 pub mod x3p;
 
+pub use decimal::Decimal;
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;
@@ -24,5 +27,6 @@ pub use load::{Loaded, load, micrograph};
 pub use measured::{Measured, read};
 pub use npy::NpyError;
 pub use options::{Disagreement, ReadOptions};
+pub use stylus_profile::{Lay, ProfileError, StylusProfile};
 pub use text::TextError;
 pub use writing::{WriteError, WriteOptions, write};

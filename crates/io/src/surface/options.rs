@@ -3,6 +3,9 @@
 use plateau_core::surface::Length;
 use thiserror::Error;
 
+use super::decimal::Decimal;
+use super::stylus_profile::Lay;
+
 /// What a user says of a file that the file itself does not.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadOptions {
@@ -15,6 +18,13 @@ pub struct ReadOptions {
     pub pitch: Option<[f64; 2]>,
     /// Heights of black and white of an image, m.
     pub height_range: Option<[f64; 2]>,
+    /// The decimal mark of a text file, where its content does not tell it.
+    pub decimal: Option<Decimal>,
+    /// Lines of a text file that are not read, from its first. A file of which lines are skipped, also none, is taken as
+    /// a table, whatever its first lines tell.
+    pub skip: Option<u64>,
+    /// The file is a profile, and this is the direction of its lay.
+    pub profile_lay: Option<Lay>,
 }
 
 /// What file and scene state is the same if it differs by no more than this fraction: headers have few digits.

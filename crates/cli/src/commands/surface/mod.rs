@@ -79,6 +79,9 @@ fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> 
         unit: arguments.unit,
         pitch: arguments.pitch.map(|pitch| pitch.0),
         height_range: arguments.height_range.map(|range| range.0),
+        decimal: arguments.decimal,
+        skip: arguments.skip,
+        profile_lay: arguments.profile_lay,
     };
     let measured = surface::read(path, &options).map_err(|reason| named(path, reason))?;
     for warning in &measured.warnings {

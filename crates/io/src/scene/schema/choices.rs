@@ -6,6 +6,8 @@ use plateau_core::model::state::Base;
 use plateau_core::surface::micrograph::Fibres;
 use plateau_core::surface::{Fill, Flip, Level};
 
+use crate::surface::{Decimal, Lay};
+
 /// Words, each with its meaning.
 pub type Choices<T, const COUNT: usize> = [(&'static str, T); COUNT];
 
@@ -29,6 +31,10 @@ pub(crate) const LEVEL: Choices<Level, 4> =
 pub(crate) const FILL: Choices<Fill, 2> = [("level", Fill::Level), ("interpolate", Fill::Interpolate)];
 /// `extend` of a preparation.
 pub(crate) const EXTEND: Choices<(), 1> = [("statistics", ())];
+/// `decimal` of a text file.
+pub const DECIMAL: Choices<Decimal, 2> = [(".", Decimal::Point), (",", Decimal::Comma)];
+/// `profile_lay` of a file.
+pub const LAY: Choices<Lay, 3> = [("along", Lay::Along), ("across", Lay::Across), ("isotropic", Lay::Isotropic)];
 /// `pin.base.rotate`: quarters of a turn.
 pub(crate) const ROTATE: Choices<u8, 4> = [("0 deg", 0), ("90 deg", 1), ("180 deg", 2), ("270 deg", 3)];
 /// `pin.base.fibres`.

@@ -10,8 +10,8 @@ use crate::units::Dimension::{Area, Force, Pressure, RotationalSpeed, SpecificWe
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
 use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
 
-const HEIGHT_SOURCES: &[(&str, &[&str])] =
-    &[("file", &["dataset", "unit", "pitch", "height_range"]), ("synthetic", &[]), ("flat", &[])];
+const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
+const FILE: &[&str] = &["dataset", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
 /// How a patch is continued beyond its edges.
 const CONTINUATIONS: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
 const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
@@ -288,6 +288,16 @@ impl Table {
         );
         let range = Kind::Lengths { count: 2, single: false, unit: "um", range: Range::ANY };
         self.key("height_range", range, Optional, "heights of black and white, for images");
+        let decimal = Choice(&const { words(&choices::DECIMAL) });
+        self.key("decimal", decimal, Optional, "decimal mark of a text file, where its content does not tell it");
+        self.key("skip", Integer(0), Optional, "lines of a text file before the table that are not read");
+        let lay = Choice(&const { words(&choices::LAY) });
+        self.key(
+            "profile_lay",
+            lay,
+            Optional,
+            "the file is a profile: whether its surface has grooves along or across sliding, or no direction",
+        );
         self.key("synthetic.seed", Integer(0), Default("0"), "seed of the random heights");
         self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
         let positive = length("um", Range::POSITIVE);

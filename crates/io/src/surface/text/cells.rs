@@ -1,6 +1,7 @@
 //! Lines of numbers: how they are parted, and what their cells hold.
 
 use super::error::TextError;
+use crate::surface::decimal::Decimal;
 
 /// What parts the cells of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,17 +18,27 @@ impl Separator {
         [';', '\t', ','].into_iter().find(|mark| line.contains(*mark)).map_or(Self::Blanks, Self::Character)
     }
 
-    /// The cells of a line, without blanks around them. One separator after the last cell is taken off if `terminated`.
+    /// The cells of a line, without blanks and quotation marks around them. A separator between quotation marks parts
+    /// nothing. One separator after the last cell is taken off if `terminated`.
     pub(super) fn cells(self, line: &str, terminated: bool) -> impl Iterator<Item = &str> {
         let (characters, blanks) = match self {
             Self::Character(mark) => {
                 let line = line.trim_matches(|c: char| c.is_whitespace() && c != mark);
                 let line = if terminated { line.strip_suffix(mark).unwrap_or(line) } else { line };
-                (Some(line.split(mark)), None)
+                let mut quoted = false;
+                let parts = move |character: char| {
+                    quoted ^= character == '"';
+                    character == mark && !quoted
+                };
+                (Some(line.split(parts)), None)
             }
             Self::Blanks => (None, Some(line.split_whitespace())),
         };
-        characters.into_iter().flatten().chain(blanks.into_iter().flatten()).map(|cell| cell.trim().trim_matches('"'))
+        characters
+            .into_iter()
+            .flatten()
+            .chain(blanks.into_iter().flatten())
+            .map(|cell| cell.trim().trim_matches('"').trim())
     }
 
     /// Whether a line ends with a separator.
@@ -40,7 +51,12 @@ impl Separator {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
     NotANumber,
-    DecimalComma,
+    /// A decimal comma where points are expected.
+    Comma,
+    /// A decimal point where commas are expected.
+    Point,
+    /// Digits in groups of three.
+    Grouped,
     Infinite,
 }
 
@@ -49,31 +65,85 @@ impl Fault {
         let found = shown(cell);
         match self {
             Self::NotANumber => TextError::Number { line, column, found },
-            Self::DecimalComma => TextError::DecimalComma { line, column, found },
+            Self::Comma => TextError::DecimalComma { line, column, found },
+            Self::Point => TextError::DecimalPoint { line, column, found },
+            Self::Grouped => TextError::Grouped { line, column, found },
             Self::Infinite => TextError::Infinite { line, column, found },
         }
     }
 }
 
 /// The number in a cell; NaN where a point is missing.
-pub(super) fn number(cell: &str) -> Result<f64, Fault> {
-    match cell.parse::<f64>() {
-        Ok(number) if number.is_infinite() => Err(Fault::Infinite),
-        Ok(number) => Ok(number),
-        Err(_) if is_missing(cell) => Ok(f64::NAN),
-        Err(_) if cell.matches(',').count() == 1 && cell.replace(',', ".").parse::<f64>().is_ok() => {
-            Err(Fault::DecimalComma)
-        }
-        Err(_) => Err(Fault::NotANumber),
+pub(super) fn number(cell: &str, decimal: Decimal) -> Result<f64, Fault> {
+    let parsed = match decimal {
+        Decimal::Point => cell.parse::<f64>().ok(),
+        Decimal::Comma => with_comma(cell),
+    };
+    match parsed {
+        Some(number) if number.is_infinite() => Err(Fault::Infinite),
+        Some(number) => Ok(number),
+        None => missing(cell).map_or_else(
+            || Err(fault(cell, decimal)),
+            |infinite| {
+                if infinite { Err(Fault::Infinite) } else { Ok(f64::NAN) }
+            },
+        ),
     }
 }
 
-/// Words that programs write for a point that was not measured.
-fn is_missing(cell: &str) -> bool {
-    cell.is_empty()
-        || cell.bytes().all(|byte| byte == b'*')
-        || cell.bytes().all(|byte| byte == b'-')
-        || ["bad", "na", "n/a"].iter().any(|word| cell.eq_ignore_ascii_case(word))
+/// A number with a decimal comma, or with neither comma nor point.
+fn with_comma(cell: &str) -> Option<f64> {
+    let Some((whole, fraction)) = cell.split_once(',') else {
+        return if cell.contains('.') { None } else { cell.parse().ok() };
+    };
+    // "1, 2" without its blanks must not become 1 and 0.2.
+    let between_digits = whole.ends_with(|digit: char| digit.is_ascii_digit())
+        && fraction.starts_with(|digit: char| digit.is_ascii_digit());
+    if between_digits && !cell.contains('.') { cell.replacen(',', ".", 1).parse().ok() } else { None }
+}
+
+/// Why a cell is no number.
+fn fault(cell: &str, decimal: Decimal) -> Fault {
+    if is_grouped(cell) {
+        return Fault::Grouped;
+    }
+    match decimal {
+        Decimal::Point if with_comma(cell).is_some() => Fault::Comma,
+        Decimal::Comma if cell.parse::<f64>().is_ok() => Fault::Point,
+        _ => Fault::NotANumber,
+    }
+}
+
+/// Whether digits stand in groups of three, as in 1,234.5 or 1.234.567: with both marks, or one of them more than once.
+fn is_grouped(cell: &str) -> bool {
+    let digits = cell.strip_prefix(['+', '-']).unwrap_or(cell);
+    let Some(mark) = digits.chars().find(|character| [',', '.'].contains(character)) else { return false };
+    let mut groups: Vec<&str> = digits.split(mark).collect();
+    let last = groups.pop().unwrap_or_default();
+    let other = if mark == ',' { '.' } else { ',' };
+    let (group, fraction) = last.split_once(other).map_or((last, None), |(group, fraction)| (group, Some(fraction)));
+    let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    is_digits(groups[0])
+        && groups[0].len() <= 3
+        && groups[1..].iter().chain([&group]).all(|group| group.len() == 3 && is_digits(group))
+        && (groups.len() > 1 || fraction.is_some_and(is_digits))
+}
+
+/// Whether a cell is what programs write for a point that was not measured: then, whether it is an infinite number.
+fn missing(cell: &str) -> Option<bool> {
+    let all = |mark: u8| cell.bytes().all(|byte| byte == mark);
+    if all(b'*') || all(b'-') || ["bad", "na", "n/a", "no data"].iter().any(|word| cell.eq_ignore_ascii_case(word)) {
+        return Some(false);
+    }
+    // What the C library of Windows prints: 1.#QNAN, -1.#IND00, 1.#INF, -nan(ind).
+    let unsigned = cell.strip_prefix(['+', '-']).unwrap_or(cell).to_ascii_lowercase();
+    if let Some(word) = unsigned.strip_prefix("1.#").or(unsigned.strip_prefix("1,#")) {
+        return ["qnan", "snan", "ind", "inf"]
+            .iter()
+            .find(|known| word.starts_with(**known))
+            .map(|known| *known == "inf");
+    }
+    unsigned.strip_prefix("nan(").filter(|rest| rest.ends_with(')')).map(|_| false)
 }
 
 /// Text of a file as it can stand in a message.
@@ -101,24 +171,52 @@ mod tests {
         assert_eq!(cells("1;2,5; ", true), "1|2,5");
         assert_eq!(cells("\t1\t\t3", false), "|1||3");
         assert_eq!(cells("\"1.5\",\"2\"", false), "1.5|2");
+        assert_eq!(cells("\"1,5\", \"2,5\",\"\"", false), "1,5|2,5|");
     }
 
     #[test]
     fn a_cell_is_a_number_or_missing() {
         for (cell, expected) in [("1.5", 1.5), ("-2e-3", -2e-3), ("+.5", 0.5), ("1E5", 1e5), ("-0", 0.0)] {
-            assert_eq!(number(cell), Ok(expected));
+            assert_eq!(number(cell, Decimal::Point), Ok(expected));
         }
-        for cell in ["", "NaN", "nan", "BAD", "bad", "***", "*", "--", "n/a"] {
-            assert!(number(cell).unwrap().is_nan(), "{cell}");
+        for (cell, expected) in [("1,5", 1.5), ("-2,5e-3", -2.5e-3), ("7", 7.0)] {
+            assert_eq!(number(cell, Decimal::Comma), Ok(expected));
         }
-        for cell in ["inf", "-Infinity", "1e999"] {
-            assert_eq!(number(cell), Err(Fault::Infinite), "{cell}");
+        let words = ["", "NaN", "nan", "BAD", "bad", "***", "*", "--", "n/a", "No Data"];
+        for cell in words.into_iter().chain(["1.#QNAN", "-1.#IND00", "1.#SNAN", "-nan(ind)", "nan", "1,#QNAN"]) {
+            for decimal in [Decimal::Point, Decimal::Comma] {
+                assert!(number(cell, decimal).is_ok_and(f64::is_nan), "{cell}");
+            }
         }
-        for cell in ["1,5", "-0,25", "1,5e-3"] {
-            assert_eq!(number(cell), Err(Fault::DecimalComma), "{cell}");
+        for cell in ["inf", "-Infinity", "1e999", "1.#INF", "-1.#INF00"] {
+            assert_eq!(number(cell, Decimal::Point), Err(Fault::Infinite), "{cell}");
         }
-        for cell in ["1.5.2", "um", "0x10", "1,2,3", "1 2", "\0"] {
-            assert_eq!(number(cell), Err(Fault::NotANumber), "{cell}");
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_cell_is_told() {
+        for (cell, point, comma) in [
+            ("-0,25", Fault::Comma, None),
+            ("1,5e-3", Fault::Comma, None),
+            ("1.5", Fault::NotANumber, Some(Fault::Point)),
+            ("1.234.567", Fault::Grouped, Some(Fault::Grouped)),
+            ("-1,234.5", Fault::Grouped, Some(Fault::Grouped)),
+            ("1.234,5", Fault::Grouped, Some(Fault::Grouped)),
+            ("12,345,678", Fault::Grouped, Some(Fault::Grouped)),
+            ("1,2,3", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("1,", Fault::NotANumber, Some(Fault::NotANumber)),
+            (",5", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("1.5.2", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("um", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("0x10", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("1 2", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("1.#", Fault::NotANumber, Some(Fault::NotANumber)),
+            ("\0", Fault::NotANumber, Some(Fault::NotANumber)),
+        ] {
+            if cell != "1.5" {
+                assert_eq!(number(cell, Decimal::Point), Err(point), "{cell}");
+            }
+            assert_eq!(number(cell, Decimal::Comma).err(), comma, "{cell}");
         }
     }
 }

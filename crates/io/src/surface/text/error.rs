@@ -7,9 +7,6 @@ use crate::surface::options::Disagreement;
 /// Why a text file gives no surface. Lines count from 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TextError {
-    /// Two bytes a character.
-    #[error("this is UTF-16 text, expected UTF-8: save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")]
-    Utf16,
     /// There are no numbers.
     #[error("the file has no line of numbers")]
     NoNumbers,
@@ -22,7 +19,7 @@ pub enum TextError {
     /// A line before the numbers that says nothing.
     #[error(
         "line {line}: found \"{found}\", expected numbers, a comment (#), \"name = value\", or the names of columns \
-         x, y, z"
+         x, y, z: skip = {line} beside file leaves out the lines up to this one"
     )]
     Line {
         /// Where.
@@ -32,8 +29,8 @@ pub enum TextError {
     },
     /// A cell that is no number.
     #[error(
-        "line {line}, column {column}: found \"{found}\", expected a number with a decimal point, or an empty cell, NaN, \
-         BAD or *** for a missing point"
+        "line {line}, column {column}: found \"{found}\", expected a number, or an empty cell, NaN, BAD or *** for a missing \
+         point"
     )]
     Number {
         /// Where.
@@ -44,13 +41,67 @@ pub enum TextError {
         found: String,
     },
     /// A comma where a point should be.
-    #[error("line {line}, column {column}: \"{found}\" has a decimal comma, expected a decimal point")]
+    #[error(
+        "line {line}, column {column}: \"{found}\" has a decimal comma, but numbers of this file have a decimal point (as \
+         others in it show, or decimal = \".\")"
+    )]
     DecimalComma {
         /// Where.
         line: usize,
         /// Which cell, counted from 1.
         column: usize,
         /// The cell.
+        found: String,
+    },
+    /// A point where a comma should be.
+    #[error(
+        "line {line}, column {column}: \"{found}\" has a decimal point, but numbers of this file have a decimal comma (as \
+         others in it show, or decimal = \",\")"
+    )]
+    DecimalPoint {
+        /// Where.
+        line: usize,
+        /// Which cell, counted from 1.
+        column: usize,
+        /// The cell.
+        found: String,
+    },
+    /// A number with thousands separators.
+    #[error(
+        "line {line}, column {column}: \"{found}\" has digits in groups, expected a number without: save the file without \
+         thousands separators"
+    )]
+    Grouped {
+        /// Where.
+        line: usize,
+        /// Which cell, counted from 1.
+        column: usize,
+        /// The cell.
+        found: String,
+    },
+    /// A comma that may be a decimal mark or part digits.
+    #[error(
+        "line {line}, column {column}: \"{found}\" may be {} or {}: decimal = \",\" beside file says the first; of a file with \
+         thousands separators save one without",
+        found.replace(',', "."), found.replace(',', "")
+    )]
+    AmbiguousComma {
+        /// Where.
+        line: usize,
+        /// Which cell, counted from 1.
+        column: usize,
+        /// The cell.
+        found: String,
+    },
+    /// A comma that may be a decimal mark or part columns.
+    #[error(
+        "line {line}: \"{found}\" may be one number with a decimal comma or two numbers: decimal = \",\" beside file says \
+         the first, decimal = \".\" the second"
+    )]
+    CommaOrColumns {
+        /// Where.
+        line: usize,
+        /// The line.
         found: String,
     },
     /// A number that is infinite.
@@ -98,7 +149,10 @@ pub enum TextError {
         lines: usize,
     },
     /// All points on a line.
-    #[error("all points have the same {axis}, expected a surface")]
+    #[error(
+        "all points have the same {axis}, expected a surface; for a profile say profile_lay = \"along\", \"across\" or \
+         \"isotropic\" beside file"
+    )]
     Profile {
         /// x or y.
         axis: char,
@@ -133,4 +187,111 @@ pub enum TextError {
         /// The line before.
         first: usize,
     },
+    /// A line of an instrument's header that cannot be read.
+    #[error("line {line}: found \"{found}\", expected {expected}")]
+    Header {
+        /// Where.
+        line: usize,
+        /// The line.
+        found: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// An export of something else.
+    #[error("line {line}: the file holds \"{found}\", expected heights: export these")]
+    NotHeights {
+        /// Where.
+        line: usize,
+        /// What it holds.
+        found: String,
+    },
+    /// A point outside of what the header states.
+    #[error("line {line}: the point {}, {} lies outside of the {} x {} points that the header states", found[0], found[1], size.0, size.1)]
+    Outside {
+        /// Where.
+        line: usize,
+        /// Its column and row.
+        found: [f64; 2],
+        /// Columns and rows.
+        size: (usize, usize),
+    },
+    /// Every line is skipped.
+    #[error("skip = {skip} leaves no line of the file")]
+    AllSkipped {
+        /// Lines that are skipped.
+        skip: u64,
+    },
+    /// A profile where a surface is expected.
+    #[error(
+        "{lines} lines of {columns} {}: for a profile say profile_lay = \"along\", \"across\" or \"isotropic\" beside file; a \
+         surface needs more columns", if *columns == 1 { "number" } else { "numbers" }
+    )]
+    IsProfile {
+        /// Numbers of a line.
+        columns: usize,
+        /// Lines of numbers.
+        lines: usize,
+    },
+    /// A surface where a profile is expected.
+    #[error(
+        "profile_lay takes the file as a profile, but it has {lines} lines of {columns} numbers: expected heights in one line \
+         or one column, distances and heights in two columns, or columns with names such as x [mm], z [um]"
+    )]
+    NoProfile {
+        /// Numbers of a line.
+        columns: usize,
+        /// Lines of numbers.
+        lines: usize,
+    },
+    /// A profile of one point.
+    #[error("the profile has {points} point, expected two or more")]
+    ShortProfile {
+        /// Its points.
+        points: usize,
+    },
+    /// Distances of a profile without a unit.
+    #[error(
+        "the file does not say the unit of the distances along the profile, which are {} apart: pitch = \"0.5 um\" beside \
+         file, for example, says how far the points are apart, or name the columns, such as x [mm], z [um]",
+        short(*step)
+    )]
+    NoDistanceUnit {
+        /// Distance of neighbours in the unit of the file.
+        step: f64,
+    },
+    /// Distances of a profile that turn back.
+    #[error(
+        "line {line}: the distance {found} comes after {before}: along a profile distances only grow, or only fall"
+    )]
+    Disorder {
+        /// Where.
+        line: usize,
+        /// The distance.
+        found: f64,
+        /// That of the line before.
+        before: f64,
+    },
+    /// Distances of a profile that are not evenly spaced.
+    #[error(
+        "line {line}: the distance {found} is {:.0} % of the spacing {} off its even place {}, neighbours are {} to {} apart: \
+         expected evenly spaced points; have the instrument or another program resample the profile",
+        100.0 * (found - expected).abs() / step, short(*step), short(*expected), short(gaps[0]), short(gaps[1])
+    )]
+    Uneven {
+        /// Where.
+        line: usize,
+        /// The distance.
+        found: f64,
+        /// Where the point would be if all were evenly spaced.
+        expected: f64,
+        /// Mean distance of neighbours.
+        step: f64,
+        /// Smallest and largest distance of neighbours.
+        gaps: [f64; 2],
+    },
+}
+
+/// A number with six digits, which is enough for a message.
+fn short(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }

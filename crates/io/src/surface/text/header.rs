@@ -1,5 +1,8 @@
 //! What stands before the numbers of a text file.
 
+use super::cells::number;
+use super::names::Names;
+use crate::surface::decimal::Decimal;
 use crate::units::{self, Dimension};
 
 /// What a header states.
@@ -7,46 +10,42 @@ use crate::units::{self, Dimension};
 pub(super) struct Header {
     /// What the height 1 stands for, m.
     pub(super) unit: Option<f64>,
+    /// What 1 stands for along x and y, m.
+    pub(super) lateral_unit: Option<f64>,
     /// Distance of points along x and y, m.
     pub(super) pitch: Option<[f64; 2]>,
     /// Extent along x and y, m; every point stands for one pitch.
     pub(super) extent: [Option<f64>; 2],
+    /// The same without their unit.
+    pub(super) lengths: [Option<f64>; 2],
+    /// The header is that of SPIP, whose lengths are in nm.
+    pub(super) is_spip: bool,
     /// Columns and rows.
     pub(super) counts: [Option<u64>; 2],
-    /// The columns of a list.
+    /// The names of the columns.
     pub(super) names: Option<Names>,
-}
-
-/// The names of a list's columns.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Names {
-    /// Line that has them.
-    pub(super) line: usize,
-    /// How many there are.
-    pub(super) count: usize,
-    /// Which are x, y and z.
-    pub(super) columns: [usize; 3],
-    /// What 1 stands for in x, y and z, m.
-    pub(super) units: [Option<f64>; 3],
 }
 
 impl Header {
     /// Takes in a line, with or without its comment mark; tells whether it can be a line of a header.
-    pub(super) fn read(&mut self, line: usize, text: &str) -> bool {
+    pub(super) fn read(&mut self, line: usize, text: &str, decimal: Decimal) -> bool {
         let text = text.trim_start_matches(['#', '%']).trim();
         if let Some(names) = Names::read(line, text) {
             self.names = Some(names);
             return true;
         }
+        if self.names.as_mut().is_some_and(|names| names.read_units(text)) {
+            return true;
+        }
         // "h=305 w=75": several on a line.
         let words = || text.split_whitespace().map(|word| word.split_once('='));
         if words().all(|pair| pair.is_some_and(|(name, value)| !name.is_empty() && !value.is_empty())) {
-            words().flatten().for_each(|(name, value)| self.fact(name, value));
+            words().flatten().for_each(|(name, value)| self.fact(name, value, decimal));
             return !text.is_empty();
         }
-        match text.split_once(['=', ':']) {
+        match text.split_once(['=', ':', '：']) {
             Some((name, value)) if name.starts_with(char::is_alphabetic) => {
-                self.fact(name.trim(), value.trim());
+                self.fact(name.trim(), value.trim(), decimal);
                 true
             }
             _ => false,
@@ -54,73 +53,81 @@ impl Header {
     }
 
     /// A name with its value. What is not known, or not understood, states nothing.
-    fn fact(&mut self, name: &str, value: &str) {
+    fn fact(&mut self, name: &str, value: &str, decimal: Decimal) {
         let count = || value.parse().ok();
+        let number = || positive(number(value, decimal).ok());
         match name.to_lowercase().as_str() {
             // Written by digital holographic microscopes, beside a data unit of rad.
-            "height conversion factor (-> m)" => self.unit = positive(value.parse().ok()),
-            "unit" | "units" | "z unit" | "height unit" | "data unit" | "value units" => {
+            "height conversion factor (-> m)" => self.unit = number(),
+            "unit" | "units" | "z unit" | "z-unit" | "height unit" | "data unit" | "value units" | "einheiten"
+            | "unités" | "unità valore" | "unidades de valor" | "jednotky hodnot" => {
                 self.unit = self.unit.or(length_unit(value));
             }
-            "pitch" | "pixel size" => self.pitch = pitch(value),
-            // Written by Gwyddion.
-            "width" => self.extent[0] = length(value),
-            "height" => self.extent[1] = length(value),
-            "w" | "columns" => self.counts[0] = count(),
-            "h" | "rows" => self.counts[1] = count(),
+            "lateral units" | "x-unit" => self.lateral_unit = length_unit(value),
+            "pitch" | "pixel size" => self.pitch = pitch(value, decimal),
+            // Written by Gwyddion, in the language of its user.
+            "width" | "breite" | "largeur" | "larghezza" | "anchura" | "šířka" => {
+                self.extent[0] = length(value, decimal)
+            }
+            "height" | "höhe" | "hauteur" | "altezza" | "altura" | "výška" => {
+                self.extent[1] = length(value, decimal)
+            }
+            "w" | "columns" | "x-pixels" => self.counts[0] = count(),
+            "h" | "rows" | "y-pixels" => self.counts[1] = count(),
+            // Written by SPIP; other programs give the unit of the lengths.
+            "file format" => self.is_spip = value.eq_ignore_ascii_case("ascii"),
+            "x-length" => self.lengths[0] = number(),
+            "y-length" => self.lengths[1] = number(),
+            "bit2nm" => self.unit = self.unit.or(number().map(|factor| factor * 1e-9)),
             _ => {}
         }
     }
 
     /// Distance of the points of a matrix, m.
     pub(super) fn matrix_pitch(&self, columns: usize, rows: usize) -> Option<[f64; 2]> {
-        let extent = match self.extent {
-            [Some(x), Some(y)] => Some([x / columns as f64, y / rows as f64]),
-            _ => None,
-        };
-        self.pitch.or(extent)
+        let unit = self.lateral_unit.or(self.is_spip.then_some(1e-9));
+        let extent = |axis: usize| self.extent[axis].or_else(|| Some(self.lengths[axis]? * unit?));
+        let from_extent = || Some([extent(0)? / columns as f64, extent(1)? / rows as f64]);
+        self.pitch.or_else(from_extent)
     }
 }
 
-impl Names {
-    /// Reads names such as "x [um]; y [um]; z [nm]"; none if x, y and z are not among them, each once.
-    fn read(line: usize, text: &str) -> Option<Self> {
-        let text = text.replace(" [", "[").replace(" (", "(");
-        let cells: Vec<&str> = text.split([';', '\t', ',', ' ']).filter(|cell| !cell.is_empty()).collect();
-        let parts = |cell: &str| {
-            let (name, rest) = cell.split_once(['[', '(']).unwrap_or((cell, ""));
-            (name.trim_matches('"').to_lowercase(), length_unit(rest.trim_end_matches(['"', ']', ')'])))
-        };
-        let find = |wanted: [&str; 2]| {
-            let mut found = cells.iter().enumerate().filter(|(_, cell)| wanted.contains(&parts(cell).0.as_str()));
-            match (found.next(), found.next()) {
-                (Some((at, cell)), None) => Some((at, parts(cell).1)),
-                _ => None,
-            }
-        };
-        let [x, y, z] = [find(["x", "x"])?, find(["y", "y"])?, find(["z", "height"])?];
-        Some(Self { line, count: cells.len(), columns: [x.0, y.0, z.0], units: [x.1, y.1, z.1] })
-    }
-}
-
-fn positive(number: Option<f64>) -> Option<f64> {
+/// A number that a length can have.
+pub(super) fn positive(number: Option<f64>) -> Option<f64> {
     number.filter(|number| *number > 0.0 && number.is_finite())
 }
 
-fn length(text: &str) -> Option<f64> {
-    positive(units::parse(text, Dimension::Length).ok())
+/// A length, m.
+pub(super) fn length(text: &str, decimal: Decimal) -> Option<f64> {
+    let point = match decimal {
+        Decimal::Point => text.to_owned(),
+        Decimal::Comma if text.contains('.') => return None,
+        Decimal::Comma => text.replacen(',', ".", 1),
+    };
+    positive(units::parse(&point, Dimension::Length).ok())
 }
 
 /// A unit of length, or a length.
-fn length_unit(text: &str) -> Option<f64> {
-    length(text).or_else(|| length(&format!("1 {text}")))
+pub(super) fn length_unit(text: &str) -> Option<f64> {
+    length(text, Decimal::Point).or_else(|| unit_word(text))
 }
 
-/// One or two lengths, parted by a comma or "x".
-fn pitch(text: &str) -> Option<[f64; 2]> {
-    match text.split_once([',', 'x']) {
-        Some((x, y)) => Some([length(x.trim())?, length(y.trim())?]),
-        None => length(text).map(|pitch| [pitch; 2]),
+/// A unit of length by its symbol or name.
+pub(super) fn unit_word(text: &str) -> Option<f64> {
+    match text.to_lowercase().trim_end_matches('s') {
+        "micron" | "micrometer" | "micrometre" => Some(1e-6),
+        "nanometer" | "nanometre" => Some(1e-9),
+        "millimeter" | "millimetre" => Some(1e-3),
+        _ => length(&format!("1 {text}"), Decimal::Point),
+    }
+}
+
+/// One or two lengths, parted by a comma (unless that is the decimal mark), a semicolon or "x".
+fn pitch(text: &str, decimal: Decimal) -> Option<[f64; 2]> {
+    let marks: &[char] = if decimal == Decimal::Point { &[',', ';', 'x'] } else { &[';', 'x'] };
+    match text.split_once(marks) {
+        Some((x, y)) => Some([length(x.trim(), decimal)?, length(y.trim(), decimal)?]),
+        None => length(text, decimal).map(|pitch| [pitch; 2]),
     }
 }
 
@@ -130,7 +137,8 @@ mod tests {
 
     fn header(lines: &[&str]) -> Header {
         let mut header = Header::default();
-        lines.iter().enumerate().for_each(|(line, text)| assert!(header.read(line + 1, text), "{text}"));
+        let read = |(line, text): (usize, &&str)| assert!(header.read(line + 1, text, Decimal::Point), "{text}");
+        lines.iter().enumerate().for_each(read);
         header
     }
 
@@ -149,6 +157,8 @@ mod tests {
         let gwyddion = header(&["# Channel: Height", "# Width: 30 µm", "# Height: 20.0 µm", "# Value units: nm"]);
         assert_eq!(gwyddion.matrix_pitch(300, 100), Some([30e-6 / 300.0, 20e-6 / 100.0]));
         assert_eq!(gwyddion.unit, Some(1e-9));
+        let german = header(&["# Kanal: Höhe", "# Breite: 30 µm", "# Höhe: 20.0 µm", "# Einheiten: nm"]);
+        assert_eq!(german, gwyddion);
         let ours = header(&["# unit: um", "# pitch: 50 um, 25 um"]);
         assert_eq!((ours.unit, ours.pitch), (Some(1e-6), Some([50e-6, 25e-6])));
         assert_eq!(header(&["% pitch = 1 mm x 2 mm"]).pitch, Some([1e-3, 2e-3]));
@@ -158,13 +168,28 @@ mod tests {
     }
 
     #[test]
-    fn reads_the_names_of_columns() {
-        let names = header(&["# X [mm], Y [mm], Intensity, Z [nm]"]).names.unwrap();
-        assert_eq!((names.columns, names.count), ([0, 1, 3], 4));
-        assert_eq!(names.units, [Some(1e-3), Some(1e-3), Some(1e-9)]);
-        assert_eq!(header(&["\"x (µm)\";\"y (µm)\";\"height\""]).names.unwrap().units, [Some(1e-6), Some(1e-6), None]);
-        for none in ["x y", "x y z z", "a b c", "xyz"] {
-            assert_eq!(Names::read(1, none), None, "{none}");
-        }
+    fn reads_the_header_of_spip() {
+        let lines =
+            ["# File Format = ASCII", "# x-pixels = 4", "# y-pixels = 3", "# x-length = 2000", "# y-length = 1500"];
+        let spip = header(&[&lines[..], &["# z-unit = um", "# Start of Data:"]].concat());
+        assert_eq!((spip.counts, spip.unit), ([Some(4), Some(3)], Some(1e-6)));
+        assert_eq!(spip.matrix_pitch(4, 3), Some([2000.0 * 1e-9 / 4.0, 1500.0 * 1e-9 / 3.0]));
+        assert_eq!(header(&[&lines[..], &["# Bit2nm = 0.5"]].concat()).unit, Some(0.5 * 1e-9));
+        // Without the name of the format the unit has to be given.
+        assert_eq!(header(&lines[1..]).matrix_pitch(4, 3), None);
+        let stated = header(&[&lines[1..], &["# x-unit: um"]].concat());
+        assert_eq!(stated.matrix_pitch(4, 3), Some([2000.0 * 1e-6 / 4.0, 1500.0 * 1e-6 / 3.0]));
+    }
+
+    #[test]
+    fn numbers_are_those_of_the_file() {
+        let read = |text: &str| {
+            let mut header = Header::default();
+            assert!(header.read(1, text, Decimal::Comma));
+            header.pitch
+        };
+        assert_eq!(read("pitch: 0,5 um"), Some([0.5e-6; 2]));
+        assert_eq!(read("pitch: 1,25 um; 2 um"), Some([1.25e-6, 2e-6]));
+        assert_eq!(read("pitch: 1.25 um"), None);
     }
 }

@@ -1,6 +1,10 @@
 //! Lists of points: x, y and z of one point a line, in any order, on a regular grid.
 
 use super::error::TextError;
+use super::names::{Columns, Names};
+use super::numbers::Numbers;
+use super::table::Table;
+use crate::surface::options::{ReadOptions, agreed_pitch};
 
 /// A point is off the grid if it is farther from it than this, in steps of the grid; coordinates are printed with few
 /// digits.
@@ -13,25 +17,67 @@ const SPARSEST: usize = 16;
 const SAME: f64 = 1e-9;
 
 /// Points with the lines that they stand in.
-pub(super) struct Points {
-    pub(super) x: Vec<f64>,
-    pub(super) y: Vec<f64>,
-    pub(super) z: Vec<f64>,
-    pub(super) lines: Vec<usize>,
+struct Points {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<f64>,
+    lines: Vec<usize>,
 }
 
 /// Points on a grid, in the file's unit.
-pub(super) struct Gridded {
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    pub(super) steps: [f64; 2],
+struct Gridded {
+    columns: usize,
+    rows: usize,
+    steps: [f64; 2],
     /// Column by column; NaN where the list has no point.
-    pub(super) heights: Vec<f64>,
+    heights: Vec<f64>,
+}
+
+/// The heights of a list, m, on its grid.
+pub(super) fn read(
+    numbers: &Numbers,
+    names: &Names,
+    columns: [usize; 3],
+    options: &ReadOptions,
+) -> Result<Table, TextError> {
+    let gridded = Points::of(numbers, names, columns)?.grid()?;
+    let header = &numbers.header;
+    let [x_unit, y_unit, z_unit] = columns.map(|column| names.units[column]);
+    let unit = numbers.unit(z_unit.or(header.unit), options)?;
+    // A pitch that is given says what x and y of an unstated unit are; else they have that of the heights.
+    let pitch = match (x_unit.or(header.lateral_unit), y_unit.or(header.lateral_unit), options.pitch) {
+        (Some(x), Some(y), given) => agreed_pitch(Some([gridded.steps[0] * x, gridded.steps[1] * y]), given)?,
+        (_, _, Some(given)) => Some(given),
+        _ => Some(gridded.steps.map(|step| step * unit)),
+    };
+    let mut heights = gridded.heights;
+    numbers.scale(&mut heights, unit)?;
+    let notes = vec![format!("list of {} points, 1 stands for {unit:e} m", numbers.lines.len())];
+    Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, heights, notes, warnings: Vec::new() })
+}
+
+/// Whether the first three columns look like a list of points without names.
+pub(super) fn is_likely(numbers: &Numbers) -> bool {
+    let columns = [0, 1, 2];
+    let names = Names::first(numbers.first_line(), 3, Columns::Points(columns));
+    numbers.columns == 3 && Points::of(numbers, &names, columns).is_ok_and(|points| points.look_gridded())
 }
 
 impl Points {
+    /// The columns of a list.
+    fn of(numbers: &Numbers, names: &Names, columns: [usize; 3]) -> Result<Self, TextError> {
+        numbers.check_names(names)?;
+        let [x, y, z] = columns;
+        Ok(Self {
+            x: numbers.coordinates(x)?,
+            y: numbers.coordinates(y)?,
+            z: numbers.heights(names, z),
+            lines: numbers.lines.clone(),
+        })
+    }
+
     /// Whether x and y look like coordinates: their values make a grid of which the points fill at least half.
-    pub(super) fn look_gridded(&self) -> bool {
+    fn look_gridded(&self) -> bool {
         let (columns, rows) = (distinct(&self.x).len(), distinct(&self.y).len());
         let points = self.z.len();
         let grid = columns.saturating_mul(rows);
@@ -39,7 +85,7 @@ impl Points {
     }
 
     /// Puts the points on their grid.
-    pub(super) fn grid(&self) -> Result<Gridded, TextError> {
+    fn grid(&self) -> Result<Gridded, TextError> {
         let x = Axis::find('x', &self.x, &self.lines)?;
         let y = Axis::find('y', &self.y, &self.lines)?;
         let (columns, rows, points) = (x.count, y.count, self.z.len());

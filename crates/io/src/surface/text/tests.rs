@@ -1,6 +1,8 @@
 //! Matrices and lists as programs write them, and what is refused.
 
 use super::*;
+use crate::surface::decimal::Decimal;
+use crate::surface::stylus_profile::Lay;
 
 fn options(unit: Option<f64>, pitch: Option<[f64; 2]>) -> ReadOptions {
     ReadOptions { unit, pitch, ..ReadOptions::default() }
@@ -32,7 +34,12 @@ fn a_matrix_in_every_spelling() {
         "1 2\n3 4\n5 6",
         "1 2\r\n3 4\r\n5 6\r\n",
         "1 2\r3 4\r5 6\r",
-        "\u{feff}1,2\n3,4\n5,6\n\n",
+        "\u{feff}1, 2\n3, 4\n5, 6\n\n",
+        "1.0,2\n3,4\n5,6",
+        "1,0;2\n3;4\n5;6",
+        "1,0 2,0\n3 4\n5,0 6",
+        "1,0\t2,0\n3\t4\n5\t6",
+        "\"1,0\",\"2,0\"\n\"3\",\"4\"\n\"5\",\"6\"",
         "  1   2 \n\n 3 4\n5 6\n",
         "1;2;\n3;4;\n5;6;\n",
         "1\t2\t\n3\t4\t\n5\t6\t\n",
@@ -120,13 +127,56 @@ fn what_the_header_states_needs_no_scene_and_must_not_contradict_it() {
     assert_eq!((shape(&table).as_str(), table.pitch), ("1 2/3 4", Some([1e-6, 2e-6])));
 }
 
+/// Decimal mark and lines that the scene gives.
+fn told(text: &str, decimal: Option<Decimal>, skip: Option<u64>) -> Result<Table, TextError> {
+    read(text.as_bytes(), false, &ReadOptions { decimal, skip, ..options(Some(1e-6), None) })
+}
+
+#[test]
+fn the_scene_says_what_the_file_does_not() {
+    let shape_of =
+        |text, decimal, skip| told(text, decimal, skip).map(|table| shape(&table)).map_err(|error| error.to_string());
+    for (decimal, expected) in [(Decimal::Comma, "1 2/4 3"), (Decimal::Point, "has a decimal comma")] {
+        let found = shape_of("1,234;2,345\n4,321;3,210", Some(decimal), None).unwrap_or_else(|error| error);
+        assert!(found.contains(expected), "{found}");
+    }
+    assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Point), None).unwrap(), "1 2/3 4");
+    assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Comma), None).unwrap(), "1/3");
+    let text = "Sample 7\n12 3 4\nanything\n1 2\n3 4\n";
+    assert!(
+        shape_of(text, None, None).unwrap_err().contains("skip = 1 beside file leaves out the lines up to this one")
+    );
+    assert_eq!(shape_of(text, None, Some(3)).unwrap(), "1 2/3 4");
+    assert_eq!(shape_of(text, None, Some(4)).unwrap(), "3 4");
+    assert!(shape_of(text, None, Some(2)).unwrap_err().starts_with("line 3: found \"anything\""));
+    assert_eq!(shape_of(text, None, Some(5)).unwrap_err(), "skip = 5 leaves no line of the file");
+    assert_eq!(shape_of("1 2\n3 4", None, Some(0)).unwrap(), "1 2/3 4");
+    // A header below the lines that are skipped still counts; numbers in it are written as those of the table.
+    let text = "first\n# unit: nm\n# pitch: 0,5 um\n1000,5;2000\n3000;4000";
+    let table = read(text.as_bytes(), false, &ReadOptions { skip: Some(1), ..options(None, None) }).unwrap();
+    assert_eq!((shape(&table).as_str(), table.pitch), ("1 2/3 4", Some([0.5e-6; 2])));
+}
+
 #[test]
 fn what_is_wrong_is_told_with_its_line() {
     assert_eq!(error("1 2\n\n3 4 5\n"), "line 3 has 3 numbers, expected 2 as in line 1");
     assert_eq!(error("1 2\n3 4a\n").split(',').take(2).collect::<String>(), "line 2 column 2: found \"4a\"");
-    assert_eq!(error("1,5;2\n3;4"), "line 1, column 1: \"1,5\" has a decimal comma, expected a decimal point");
-    assert_eq!(error("1\t2,5"), "line 1, column 2: \"2,5\" has a decimal comma, expected a decimal point");
-    assert!(error("1,5 2,5\n").starts_with("line 1, column 2: found \"5 2\", expected a number with a decimal point"));
+    let comma =
+        "has a decimal comma, but numbers of this file have a decimal point (as others in it show, or decimal = \".\")";
+    assert_eq!(error("1.5;2\n3;4,5"), format!("line 2, column 2: \"4,5\" {comma}"));
+    assert!(
+        error("1,5;2\n3;4.5")
+            .starts_with("line 2, column 2: \"4.5\" has a decimal point, but numbers of this file have")
+    );
+    assert!(
+        error("1;1,234")
+            .starts_with("line 1, column 2: \"1,234\" may be 1.234 or 1234: decimal = \",\" beside file says")
+    );
+    assert!(error("1,2\n3,4").starts_with("line 1: \"1,2\" may be one number with a decimal comma or two numbers: "));
+    assert!(error("1;1.234,5").starts_with("line 1, column 2: \"1.234,5\" has digits in groups"));
+    assert!(
+        error("1,5 2,5\n1,5 x\n").starts_with("line 2, column 2: found \"x\", expected a number, or an empty cell")
+    );
     assert!(error("1 inf\n").starts_with("line 1, column 2: inf is not finite"));
     assert!(error("1 1e999\n").starts_with("line 1, column 2: 1e999 is not finite"));
     assert_eq!(error("columns=3\n1 2\n"), "the header states 3 columns, but the file has 2");
@@ -134,7 +184,10 @@ fn what_is_wrong_is_told_with_its_line() {
     assert!(error("hello\n1 2\n").starts_with("line 1: found \"hello\", expected numbers, a comment (#)"));
     assert_eq!(error("# only words 1\n"), "the file has no line of numbers");
     assert_eq!(error("x y z\n1 2\n"), "line 2 has 2 numbers, expected 3 as in line 1");
-    assert_eq!(error("x y z\n0 0 1\n1 0 1\n"), "all points have the same y, expected a surface");
+    assert_eq!(
+        error("x y z\n0 0 1\n1 0 1\n").split(';').next(),
+        Some("all points have the same y, expected a surface")
+    );
     assert_eq!(error("x y z\n0 0 1\n1 0 1\n0 1 1\n1 0 1\n"), "line 5 has the same x and y as line 3");
     assert!(error("x y z\n0 0 1\nNaN 0 1\n").starts_with("line 3, column 1: found \"NaN\", expected a number"));
     assert_eq!(
@@ -147,7 +200,9 @@ fn what_is_wrong_is_told_with_its_line() {
         "the 100 points lie on a grid of 100 x 100, which they hardly fill: expected a regular grid"
     );
     assert!(read(b"1 2\n3 4", false, &ReadOptions::default()).unwrap_err().to_string().contains("unit = \"um\""));
-    assert_eq!(read(b"\xff\xfe1\0", false, &ReadOptions::default()).unwrap_err(), TextError::Utf16);
+    let numbers: String = (0..200).map(|n| format!("{n}\n")).collect();
+    assert!(error(&numbers).starts_with("200 lines of 1 number: for a profile say profile_lay = \"along\""));
+    assert!(error("x z\n0 0\n1 0\n").starts_with("2 lines of 2 numbers: for a profile say profile_lay"));
 }
 
 #[test]
@@ -169,4 +224,73 @@ fn a_file_cut_anywhere_gets_an_answer() {
         }
         assert!(read(content, false, &options(None, None)).is_ok());
     }
+}
+
+fn profile(text: &str, unit: Option<f64>, pitch: Option<f64>) -> Result<Table, TextError> {
+    let pitch = pitch.map(|pitch| [pitch; 2]);
+    read(text.as_bytes(), false, &ReadOptions { profile_lay: Some(Lay::Across), ..options(unit, pitch) })
+}
+
+#[test]
+fn profiles_in_every_spelling() {
+    let um = Some(1e-6);
+    for (text, unit, pitch) in [
+        ("1\n2\n4\n", um, Some(5e-7)),
+        ("1 2 4", um, Some(5e-7)),
+        ("# unit: um\n# pitch: 0.5 um\n1\n2\n4\n", None, None),
+        ("# unit: um\n# Width: 1.5 um\n1;2;4", None, None),
+        ("0 1\n0.5 2\n1 4\n", um, Some(5e-7)),
+        ("x [um];z [nm]\n0,0;1000\n0,5;2000\n1,0;4000\n", None, None),
+        ("x in µm,y in µm\n1,1.0\n1.5,2\n2,4\n", None, None),
+        ("X;Y;valid\n[mm];[um];[1/0]\n8.0005;1;1\n8.001;2;1\n8.0015;4;1\n", None, None),
+        ("x [um] y [um] z [um]\n7 0 1\n7 0.5 2\n7 1 4\n", None, None),
+        ("# Lateral units: um\n# Value units: um\n0 1\n0.5 2\n1 4\n", None, None),
+    ] {
+        let table = profile(text, unit, pitch).unwrap_or_else(|error| panic!("{text:?}: {error}"));
+        assert_eq!((table.columns, table.rows, shape(&table).as_str()), (3, 1, "1 2 4"), "{text:?}");
+        let [x, y] = table.pitch.unwrap();
+        // Distances from 8 on have fewer digits for their differences.
+        assert!((x - 5e-7).abs() < 1e-18 && x == y, "{text:?}: {x}");
+    }
+    // Distances that fall turn the profile around no more than the file does; a point that is not there is missing.
+    assert_eq!(shape(&profile("2 1\n1 2\n0 4\n", um, Some(1e-6)).unwrap()), "1 2 4");
+    let holed: String = (0..20).filter(|n| *n != 3).map(|n| format!("{n} {n}\n")).collect();
+    assert!(shape(&profile(&holed, um, Some(1e-6)).unwrap()).starts_with("0 1 2 - 4 5"));
+    assert_eq!(shape(&profile("1\n***\n4", um, um).unwrap()), "1 - 4");
+    let valid = "X;Y;valid\n[um];[um];[1/0]\n0;1;1\n1;2;0\n2;4;1\n";
+    assert_eq!(shape(&profile(valid, None, None).unwrap()), "1 - 4");
+}
+
+#[test]
+fn what_is_no_profile_is_refused() {
+    let error = |text: &str| profile(text, Some(1e-6), None).unwrap_err().to_string();
+    assert!(
+        error("1 2 3\n4 5 6\n").starts_with("profile_lay takes the file as a profile, but it has 2 lines of 3 numbers")
+    );
+    assert!(error("x y z\n0 0 1\n1 1 1\n").starts_with("profile_lay takes the file as a profile"));
+    assert!(
+        error("0 1\n1 1\n")
+            .starts_with("the file does not say the unit of the distances along the profile, which are 1 apart")
+    );
+    assert_eq!(error("7"), "the profile has 1 point, expected two or more");
+    assert_eq!(
+        error("0 1\n2 1\n1 1\n"),
+        "line 3: the distance 1 comes after 2: along a profile distances only grow, or only fall"
+    );
+    assert!(error("0 1\n1 1\n2 1\n3.5 1\n4 1\n").starts_with(
+        "line 4: the distance 3.5 is 50 % of the spacing 1 off its even place 3, neighbours are 0.5 to 1.5 apart"
+    ));
+    let found = profile("x [mm],z [um]\n0.0,1\n0.5,1\n", None, Some(1e-3)).unwrap_err().to_string();
+    assert!(found.starts_with("the file states a pitch of 500 um, the scene 1 mm"), "{found}");
+    assert!(error("0 1\nNaN 1\n").starts_with("line 2, column 1: found \"NaN\", expected a number"));
+}
+
+#[test]
+fn a_profile_of_dektak_has_its_columns_below_what_was_set() {
+    let text = "Scan Parameters\r\r\nScan Type,Standard Scan\r\nResolution,0.156 um/sample\r\n\r\r\nScan Data\r\r\n\
+                Lateral um,Raw Micrometer,\r\n0.0,1.0,,\r\n0.2,2.0,,\r\n0.3,4.0,,\r\n0.5,4.0,,\r\n\r\r\n";
+    let table = profile(text, None, None).unwrap();
+    assert_eq!((shape(&table).as_str(), table.notes[0].as_str()), ("1 2 4 4", "Dektak CSV"));
+    assert!((table.pitch.unwrap()[0] - 0.5e-6 / 3.0).abs() < 1e-20);
+    assert!(um(text).unwrap_err().to_string().starts_with("4 lines of 3 numbers: for a profile say profile_lay"));
 }

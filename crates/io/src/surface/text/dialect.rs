@@ -1,0 +1,209 @@
+//! What parts the numbers of a file, and whether they have a decimal point or a decimal comma: told from the lines of
+//! numbers, or refused where these can be read in two ways.
+
+use super::cells::{Fault, Separator, number, shown};
+use super::error::TextError;
+use crate::surface::decimal::Decimal;
+
+/// How the numbers of a file are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Dialect {
+    pub(super) separator: Separator,
+    pub(super) decimal: Decimal,
+}
+
+impl Dialect {
+    /// The dialect of these lines of numbers. The scene may give the decimal mark; the header may name so many `columns`.
+    ///
+    /// # Errors
+    /// [`TextError`] where two readings fit, or digits stand in groups.
+    pub(super) fn find<'a>(
+        lines: impl Iterator<Item = (usize, &'a str)> + Clone,
+        given: Option<Decimal>,
+        columns: Option<usize>,
+    ) -> Result<Self, TextError> {
+        let separator = separator(lines.clone(), given, columns)?;
+        let decimal = match given {
+            Some(decimal) => decimal,
+            // Between commas a number has a comma only if it is quoted.
+            None if lines.clone().any(|(_, line)| is_mark_in_cells(separator, line)) => decimal(lines, separator)?,
+            None => Decimal::Point,
+        };
+        Ok(Self { separator, decimal })
+    }
+}
+
+/// Whether a comma can be part of a cell of the line.
+fn is_mark_in_cells(separator: Separator, line: &str) -> bool {
+    line.contains(',') && (separator != Separator::Character(',') || line.contains('"'))
+}
+
+/// What parts the numbers: what the first line has, where that cannot be a decimal comma.
+fn separator<'a>(
+    lines: impl Iterator<Item = (usize, &'a str)> + Clone,
+    given: Option<Decimal>,
+    columns: Option<usize>,
+) -> Result<Separator, TextError> {
+    const COMMA: Separator = Separator::Character(',');
+    let Some((line, first)) = lines.clone().next() else { return Ok(Separator::Blanks) };
+    let separator = Separator::of(first);
+    if separator != COMMA || first.contains('"') {
+        return Ok(separator);
+    }
+    match given {
+        Some(Decimal::Point) => return Ok(COMMA),
+        Some(Decimal::Comma) => return Ok(Separator::Blanks),
+        None => {}
+    }
+    if lines.clone().any(|(_, line)| line.contains('.')) || !fits(Separator::Blanks, first) {
+        return Ok(COMMA);
+    }
+    let all_fit = |separator: Separator| {
+        let count = separator.cells(first, false).count();
+        lines.clone().all(|(_, line)| fits(separator, line) && separator.cells(line, false).count() == count)
+    };
+    if !fits(COMMA, first) || !all_fit(COMMA) {
+        return Ok(Separator::Blanks);
+    }
+    if !all_fit(Separator::Blanks) {
+        return Ok(COMMA);
+    }
+    let named = |separator: &Separator| Some(separator.cells(first, false).count()) == columns;
+    [COMMA, Separator::Blanks]
+        .into_iter()
+        .find(named)
+        .ok_or_else(|| TextError::CommaOrColumns { line, found: shown(first.trim()) })
+}
+
+/// Whether every cell of a line is a number, with a decimal comma unless commas part them.
+fn fits(separator: Separator, line: &str) -> bool {
+    separator.cells(line, false).all(|cell| matches!(number(cell, Decimal::Comma), Ok(_) | Err(Fault::Infinite)))
+}
+
+/// The decimal mark, from the first number that can have only one of them.
+fn decimal<'a>(lines: impl Iterator<Item = (usize, &'a str)>, separator: Separator) -> Result<Decimal, TextError> {
+    // The first number such as 1,234, which may have a fraction or a group of digits.
+    let mut ambiguous = None;
+    let mut has_long_number = false;
+    for (line, text) in lines {
+        for (column, cell) in separator.cells(text, false).enumerate() {
+            if cell.contains('#') || number(cell, Decimal::Point).is_ok_and(f64::is_nan) {
+                continue;
+            }
+            if number(cell, Decimal::Point) == Err(Fault::Grouped) {
+                return Err(Fault::Grouped.at(line, column + 1, cell));
+            }
+            if cell.contains('.') && number(cell, Decimal::Point).is_ok() {
+                return Ok(Decimal::Point);
+            }
+            has_long_number |= is_long(cell);
+            if cell.contains(',') && number(cell, Decimal::Comma).is_ok() {
+                if !may_be_group(cell) {
+                    return Ok(Decimal::Comma);
+                }
+                ambiguous.get_or_insert((line, column + 1, cell));
+            }
+        }
+    }
+    match ambiguous {
+        Some((line, column, cell)) if !has_long_number => {
+            Err(TextError::AmbiguousComma { line, column, found: shown(cell) })
+        }
+        Some(_) => Ok(Decimal::Comma),
+        None => Ok(Decimal::Point),
+    }
+}
+
+/// Whether the comma of a number may part a group of digits, as in 1,234: one to three digits, of which the first is not
+/// 0, before it and three after it.
+fn may_be_group(cell: &str) -> bool {
+    let digits = cell.strip_prefix(['+', '-']).unwrap_or(cell);
+    digits.split_once(',').is_some_and(|(whole, group)| {
+        whole.len() <= 3
+            && !whole.starts_with('0')
+            && group.len() == 3
+            && group.bytes().all(|byte| byte.is_ascii_digit())
+    })
+}
+
+/// Whether a number has more than three digits before a comma, which shows that digits are not grouped.
+fn is_long(cell: &str) -> bool {
+    let digits = cell.strip_prefix(['+', '-']).unwrap_or(cell);
+    digits.bytes().take_while(u8::is_ascii_digit).count() > 3
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::text::decode::lines;
+
+    fn find(text: &str) -> Result<(char, char), String> {
+        named(text, None, None)
+    }
+
+    /// Separator, blank for blanks, and decimal mark.
+    fn named(text: &str, given: Option<Decimal>, columns: Option<usize>) -> Result<(char, char), String> {
+        let dialect = Dialect::find(lines(text), given, columns).map_err(|error| error.to_string())?;
+        let separator = match dialect.separator {
+            Separator::Character(mark) => mark,
+            Separator::Blanks => ' ',
+        };
+        Ok((separator, if dialect.decimal == Decimal::Comma { ',' } else { '.' }))
+    }
+
+    #[test]
+    fn what_can_be_read_in_one_way_is_told() {
+        for (text, expected) in [
+            ("1,5;2,5\n3;4", (';', ',')),
+            ("1;2\n3;4,25", (';', ',')),
+            ("0,123;0,456", (';', ',')),
+            ("1,234;12345", (';', ',')),
+            ("1,234;1234,567", (';', ',')),
+            ("1.234;2.345", (';', '.')),
+            ("1;2\n3;4", (';', '.')),
+            ("1,5\t***\t2", ('\t', ',')),
+            ("1,5 2,5\n3 4", (' ', ',')),
+            ("0 1\n0,5 2", (' ', ',')),
+            ("1,5e-3 NaN", (' ', ',')),
+            ("\"1,5\",\"2\"", (',', ',')),
+            ("\"1.5\",\"2\"", (',', '.')),
+            ("1.5,2.5", (',', '.')),
+            ("1, 2\n3, 4", (',', '.')),
+            ("1,2,3\n4,5,6", (',', '.')),
+            ("1,2,3\n4,5", (',', '.')),
+            ("1,2\n3,", (',', '.')),
+            ("1,5\n2\n3,25", (' ', ',')),
+            ("1 2 3", (' ', '.')),
+            ("1,#QNAN 2,5", (' ', ',')),
+            ("1.#QNAN;2,5", (';', ',')),
+            ("hello", (' ', '.')),
+            ("", (' ', '.')),
+        ] {
+            assert_eq!(find(text), Ok(expected), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn what_can_be_read_in_two_ways_is_refused_unless_told() {
+        let group = "line 1, column 2: \"1,234\" may be 1.234 or 1234: ";
+        for text in ["7;1,234\n5;-12,345", "7\t1,234", "7 1,234\n5 1,234", "\"7\",\"1,234\""] {
+            assert!(find(text).is_err_and(|error| error.starts_with(group)), "{text:?}");
+        }
+        let columns = "line 1: \"1,5\" may be one number with a decimal comma or two numbers: ";
+        for text in ["1,5\n2,7", "1,5", "1,5\n12,345"] {
+            assert!(find(text).is_err_and(|error| error.starts_with(columns)), "{text:?}");
+        }
+        assert_eq!(named("1,5\n2,7", None, Some(2)), Ok((',', '.')));
+        assert_eq!(named("1,5\n2,7", None, Some(1)), Ok((' ', ',')));
+        for (given, mark) in [(Decimal::Point, '.'), (Decimal::Comma, ',')] {
+            assert_eq!(named("7;1,234", Some(given), None), Ok((';', mark)));
+            assert_eq!(named("7 1,234", Some(given), None).map(|(_, decimal)| decimal), Ok(mark));
+        }
+        assert_eq!(named("1,5\n2,7", Some(Decimal::Comma), None), Ok((' ', ',')));
+        assert_eq!(named("1,5\n2,7", Some(Decimal::Point), None), Ok((',', '.')));
+        for text in ["1;1.234,5", "1\t1,234.5", "5 1.234.567"] {
+            let found = find(&format!("{text}\n1,5")).unwrap_err();
+            assert!(found.contains("has digits in groups"), "{text:?}: {found}");
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The numbers of a file as they stand in it.
+
+use super::cells::{Fault, Separator, number, shown};
+use super::dialect::Dialect;
+use super::error::TextError;
+use super::header::Header;
+use super::names::Names;
+use crate::surface::decimal::Decimal;
+use crate::surface::options::{ReadOptions, agreed};
+
+/// The numbers of a file as they stand in it, with what its header states.
+pub(super) struct Numbers {
+    pub(super) header: Header,
+    /// Numbers of a line.
+    pub(super) columns: usize,
+    /// Line by line; NaN where a point is missing.
+    pub(super) values: Vec<f64>,
+    /// Line of the file of every line of numbers.
+    pub(super) lines: Vec<usize>,
+}
+
+impl Numbers {
+    /// Reads a header and the numbers below it.
+    pub(super) fn read<'a>(
+        lines: impl Iterator<Item = (usize, &'a str)> + Clone,
+        options: &ReadOptions,
+    ) -> Result<Self, TextError> {
+        let in_header = |text: &str| is_comment(text) || !starts_numbers(text);
+        let header_lines = lines.clone().take_while(|(_, text)| in_header(text));
+        let mut header = Header::default();
+        for (line, text) in header_lines.clone() {
+            if !header.read(line, text, Decimal::Point) && !is_comment(text) {
+                return Err(TextError::Line { line, found: shown(text.trim()) });
+            }
+        }
+        let numbers = lines.skip_while(|(_, text)| in_header(text)).filter(|(_, text)| !is_comment(text));
+        let named = header.names.as_ref().map(|names| names.count);
+        let dialect = Dialect::find(numbers.clone(), options.decimal, named)?;
+        if dialect.decimal == Decimal::Comma {
+            header = Header::default();
+            header_lines.for_each(|(line, text)| _ = header.read(line, text, Decimal::Comma));
+        }
+        Self::table(header, numbers, dialect)
+    }
+
+    /// Reads lines of numbers, each as long as the first.
+    pub(super) fn table<'a>(
+        header: Header,
+        lines: impl Iterator<Item = (usize, &'a str)> + Clone,
+        dialect: Dialect,
+    ) -> Result<Self, TextError> {
+        let Some((first, _)) = lines.clone().next() else { return Err(TextError::NoNumbers) };
+        let Dialect { separator, decimal } = dialect;
+        let terminated = lines.clone().all(|(_, text)| separator.ends(text));
+        let mut numbers = Self { header, columns: 0, values: Vec::new(), lines: Vec::new() };
+        for (line, text) in lines {
+            let before = numbers.values.len();
+            for (column, cell) in separator.cells(text, terminated).enumerate() {
+                numbers.values.push(number(cell, decimal).map_err(|fault| fault.at(line, column + 1, cell))?);
+            }
+            let found = numbers.values.len() - before;
+            if line == first {
+                numbers.columns = found;
+            }
+            if found != numbers.columns {
+                return Err(TextError::Ragged { line, found, expected: numbers.columns, first });
+            }
+            numbers.lines.push(line);
+        }
+        Ok(numbers)
+    }
+
+    /// The first line of numbers.
+    pub(super) fn first_line(&self) -> usize {
+        self.lines.first().copied().unwrap_or(1)
+    }
+
+    /// The numbers of a column.
+    pub(super) fn column(&self, place: usize) -> Vec<f64> {
+        self.values.iter().skip(place).step_by(self.columns).copied().collect()
+    }
+
+    /// The numbers of a column of coordinates, none of which may be missing.
+    pub(super) fn coordinates(&self, place: usize) -> Result<Vec<f64>, TextError> {
+        let values = self.column(place);
+        match values.iter().position(|value| value.is_nan()) {
+            None => Ok(values),
+            Some(at) => Err(TextError::Number { line: self.lines[at], column: place + 1, found: "NaN".to_owned() }),
+        }
+    }
+
+    /// The heights of a column, as the file has them.
+    pub(super) fn heights(&self, names: &Names, place: usize) -> Vec<f64> {
+        let mut heights = self.column(place);
+        if let Some(valid) = names.valid {
+            let invalid = heights.iter_mut().zip(self.column(valid)).filter(|(_, valid)| *valid == 0.0);
+            invalid.for_each(|(height, _)| *height = f64::NAN);
+        }
+        heights
+    }
+
+    /// Refuses names that do not fit the columns. Beyond the names columns may be empty.
+    pub(super) fn check_names(&self, names: &Names) -> Result<(), TextError> {
+        let more = self.values.chunks_exact(self.columns).flat_map(|line| line.iter().skip(names.count));
+        if self.columns == names.count || self.columns > names.count && more.into_iter().all(|value| value.is_nan()) {
+            return Ok(());
+        }
+        let (line, found) = (self.first_line(), self.columns);
+        Err(TextError::Ragged { line, found, expected: names.count, first: names.line })
+    }
+
+    /// The unit of heights that file or scene state, m.
+    pub(super) fn unit(&self, stated: Option<f64>, options: &ReadOptions) -> Result<f64, TextError> {
+        agreed("unit", stated, options.unit)?.ok_or(TextError::NoUnit)
+    }
+
+    /// Turns numbers into heights, m.
+    pub(super) fn scale(&self, heights: &mut [f64], unit: f64) -> Result<(), TextError> {
+        scale(heights, unit, self.first_line())
+    }
+}
+
+/// Turns numbers into heights, m; `line` is where they begin.
+pub(super) fn scale(heights: &mut [f64], unit: f64, line: usize) -> Result<(), TextError> {
+    heights.iter_mut().for_each(|height| *height *= unit);
+    match heights.iter().find(|height| height.is_infinite()) {
+        Some(height) => Err(TextError::Infinite { line, column: 1, found: format!("a height of {height} m") }),
+        None => Ok(()),
+    }
+}
+
+fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with(['#', '%'])
+}
+
+/// Whether a line has numbers: a number in its first cell that is not empty, or nothing but missing points.
+fn starts_numbers(line: &str) -> bool {
+    let separator = Separator::of(line);
+    let mut cells = separator.cells(line, false).filter(|cell| !cell.is_empty());
+    // An infinite number and the like are told as such.
+    cells.next().is_none_or(|cell| !matches!(number(cell, Decimal::Point), Err(Fault::NotANumber)))
+}
