@@ -1,5 +1,6 @@
 //! The autocorrelation of a measured patch at whole cells.
 
+use super::SMALLEST_RMS;
 use crate::surface::fft::Complex;
 use crate::surface::fft2d::Fft2d;
 
@@ -38,8 +39,11 @@ impl Autocovariance {
         }
         let mut sums: Vec<Complex> = power.iter().map(|power| Complex { re: *power, im: 0.0 }).collect();
         plane.forward(&mut sums);
+        // The sum over the transform is that over the heights times the points of the plane.
         let variance = sums[0].re / (columns * rows) as f64;
-        if !(variance > 0.0 && variance.is_finite()) {
+        let rms = (variance / (power.len() * grids.len()) as f64).sqrt();
+        let largest = grids.iter().flatten().fold(0.0_f64, |largest, height| largest.max(height.abs()));
+        if !(rms > SMALLEST_RMS * largest && rms.is_finite()) {
             return None;
         }
         let mut values = Vec::with_capacity((2 * columns - 1) * (2 * rows - 1));

@@ -292,6 +292,6 @@ pub enum TextError {
 }
 
 /// A number with six digits, which is enough for a message.
-fn short(number: f64) -> f64 {
+pub(super) fn short(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

@@ -1,6 +1,6 @@
 //! Profiles: heights along one line, with their pitch stated, or beside the distance along the line.
 
-use super::error::TextError;
+use super::error::{TextError, short};
 use super::names::{Columns, Names};
 use super::numbers::Numbers;
 use super::spacing::Spacing;
@@ -50,7 +50,7 @@ fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
     let pitch = agreed_pitch(stated.map(|pitch| [pitch; 2]), options.pitch)?;
     let mut heights = numbers.values.clone();
     numbers.scale(&mut heights, unit)?;
-    let notes = vec![format!("profile of {count} points, 1 stands for {unit:e} m")];
+    let notes = vec![format!("1 stands for {unit:e} m")];
     Ok(Table { columns: count, rows: 1, pitch, heights, notes, warnings: Vec::new() })
 }
 
@@ -69,9 +69,9 @@ fn beside_distances(
     let mut heights = vec![f64::NAN; spacing.count];
     spacing.places.iter().zip(numbers.heights(names, height)).for_each(|(place, height)| heights[*place] = height);
     numbers.scale(&mut heights, unit)?;
-    let mut notes = vec![format!("profile of {} points, 1 stands for {unit:e} m", spacing.count)];
+    let mut notes = vec![format!("1 stands for {unit:e} m")];
     if let Some(place) = spacing.rounded_to {
-        notes.push(format!("distances rounded to {place} are taken as evenly spaced, {} apart", spacing.step));
+        notes.push(format!("distances rounded to {place} are taken as evenly spaced, {} apart", short(spacing.step)));
     }
     Ok(Table { columns: spacing.count, rows: 1, pitch: Some(pitch), heights, notes, warnings: Vec::new() })
 }
