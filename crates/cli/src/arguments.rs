@@ -1,6 +1,7 @@
 //! The command line.
 
 mod accuracy;
+mod new;
 mod surface;
 mod sweep;
 
@@ -15,6 +16,7 @@ use plateau_present::figure::Format;
 use plateau_run::ExecutionOptions;
 
 pub use accuracy::AccuracyArguments;
+pub use new::NewArguments;
 pub use surface::SurfaceArguments;
 pub use sweep::{CollectArguments, EffectsArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
 
@@ -30,6 +32,12 @@ pub struct Arguments {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a commented scene to begin with, from a measured surface and the rig's numbers
+    #[command(
+        after_help = "Example:\n  plateau new mine.toml --disc data/surfaces/afm_256x256.sdf --pin-width \"6 mm\" \\\n    \
+                      --pin-length \"6 mm\" --radius \"30 mm\" --load \"30 N\" --speed \"600 rpm\" --duration \"60 s\""
+    )]
+    New(NewArguments),
     /// Run a scene and write a run file
     #[command(
         after_help = "Example:\n  plateau run data/scenes/quick.toml -o quick.h5 --set operation.normal_force=\"20 N\""

@@ -6,6 +6,7 @@ mod check_cycle;
 mod completions;
 mod export;
 mod man;
+mod new;
 mod plot;
 mod repair;
 mod report;
@@ -28,6 +29,7 @@ use runs::{figures, named_like, open_run, open_runs};
 /// Does what the command line asks for.
 pub fn perform(arguments: Arguments) -> Result<(), Failure> {
     match arguments.command {
+        Command::New(arguments) => new::new(&arguments),
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Plot(arguments) => plot::plot(&arguments),
