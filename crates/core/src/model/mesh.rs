@@ -34,19 +34,29 @@ pub enum MeshError {
         /// Outer radius, m.
         outer: f64,
     },
-    /// The outline of the pin goes beyond its rows or columns.
-    #[error("a round pin of {diameter} m in diameter goes beyond {beyond}")]
-    OutlineTooLarge {
+    /// The pin is wider than the track.
+    #[error("a round pin of {diameter} m in diameter is wider than the track of {track} m")]
+    RoundPinWiderThanTrack {
         /// Its diameter, m.
         diameter: f64,
-        /// What it goes beyond, in words.
-        beyond: String,
+        /// Width of the track, m.
+        track: f64,
+    },
+    /// The pin is longer than its columns.
+    #[error("a round pin of {diameter} m in diameter goes beyond its {pin_columns} columns at the radius {radius} m")]
+    RoundPinLongerThanColumns {
+        /// Its diameter, m.
+        diameter: f64,
+        /// Columns asked for the pin.
+        pin_columns: usize,
+        /// Radius of a row that is too short, m.
+        radius: f64,
     },
     /// No cell lies within the outline of the pin.
     #[error(
         "no cell of the pin has its centre within a circle of {diameter} m in diameter about the middle of the track"
     )]
-    OutlineEmpty {
+    RoundPinWithoutCells {
         /// Its diameter, m.
         diameter: f64,
     },
@@ -126,19 +136,16 @@ impl Mesh {
         };
         let (diameter, width) = (2.0 * radius, self.outer_radius - self.inner_radius);
         if !(diameter > 0.0 && diameter <= width * (1.0 + ROUNDING)) {
-            return Err(MeshError::OutlineTooLarge { diameter, beyond: format!("the track, which is {width} m wide") });
+            return Err(MeshError::RoundPinWiderThanTrack { diameter, track: width });
         }
-        let chord = |row_radius: &f64| {
-            outline
-                .chord(self.pin_columns, self.column_angle(), *row_radius, row_radius - self.mean_radius())
-                .ok_or_else(|| {
-                    let beyond = format!("the pin's {} columns at the radius {row_radius} m", self.pin_columns);
-                    MeshError::OutlineTooLarge { diameter, beyond }
-                })
+        let chord = |radius: &f64| {
+            let chord = outline.chord(self.pin_columns, self.column_angle(), *radius, radius - self.mean_radius());
+            let pin_columns = self.pin_columns;
+            chord.ok_or(MeshError::RoundPinLongerThanColumns { diameter, pin_columns, radius: *radius })
         };
         let chords = self.radius.iter().map(chord).collect::<Result<Vec<_>, _>>()?;
         if chords.iter().all(Range::is_empty) {
-            return Err(MeshError::OutlineEmpty { diameter });
+            return Err(MeshError::RoundPinWithoutCells { diameter });
         }
         Ok(Self { outline, chords, ..self })
     }

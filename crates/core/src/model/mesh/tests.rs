@@ -51,11 +51,11 @@ fn refuses_a_round_pin_that_does_not_fit() {
         mesh.with_outline(Outline::Disc { radius }).map(|mesh| mesh.present_cells())
     };
     assert!(of(80, 2e-3).is_ok());
-    assert!(matches!(of(78, 2e-3), Err(MeshError::OutlineTooLarge { beyond, .. }) if beyond.contains("78 columns")));
-    assert!(matches!(of(161, 2.001e-3), Err(MeshError::OutlineTooLarge { beyond, .. }) if beyond.contains("wide")));
+    assert!(matches!(of(78, 2e-3), Err(MeshError::RoundPinLongerThanColumns { pin_columns: 78, .. })));
+    assert!(matches!(of(161, 2.001e-3), Err(MeshError::RoundPinWiderThanTrack { .. })));
     // Four centres lie nearest to the middle where both counts are even.
     assert_eq!(of(80, 36e-6), Ok(4));
-    assert_eq!(of(80, 35e-6), Err(MeshError::OutlineEmpty { diameter: 70e-6 }));
+    assert_eq!(of(80, 35e-6), Err(MeshError::RoundPinWithoutCells { diameter: 70e-6 }));
 }
 
 #[test]
