@@ -124,6 +124,11 @@ impl RunFile {
         self.dataset(dataset).read_raw().unwrap_or_else(|error| panic!("{dataset}: {error}"))
     }
 
+    /// All statuses of a dataset as numbers, also those of cells beyond the outline of a round pin.
+    pub fn bytes(&self, dataset: &str) -> Vec<u8> {
+        self.dataset(dataset).read_raw().unwrap_or_else(|error| panic!("{dataset}: {error}"))
+    }
+
     /// The map of one moment, counted from 0.
     pub fn map(&self, dataset: &str, moment: usize) -> Vec<f64> {
         let cells = self.shape(dataset)[1..].iter().product::<usize>();
@@ -145,6 +150,12 @@ impl RunFile {
     pub fn text(&self, attribute: &str) -> String {
         let read = self.file.attr(attribute).and_then(|attribute| attribute.read_scalar::<VarLenUnicode>());
         read.unwrap_or_else(|error| panic!("{attribute}: {error}")).to_string()
+    }
+
+    /// A text among the attributes of a dataset.
+    pub fn text_of(&self, dataset: &str, attribute: &str) -> String {
+        let read = self.dataset(dataset).attr(attribute).and_then(|attribute| attribute.read_scalar::<VarLenUnicode>());
+        read.unwrap_or_else(|error| panic!("{dataset}: {attribute}: {error}")).to_string()
     }
 
     /// Every attribute of the root by its name, as text.
@@ -178,7 +189,7 @@ impl RunFile {
                     TypeDescriptor::Enum(_)
                 );
                 let bits = if is_status {
-                    self.statuses(&path).into_iter().map(|status| status as u64).collect()
+                    self.bytes(&path).into_iter().map(u64::from).collect()
                 } else {
                     self.floats(&path).into_iter().map(f64::to_bits).collect()
                 };

@@ -140,6 +140,24 @@ fn one_pool_per_track() {
     Scene::quick(1500, &TRACK).agrees_for_all(plateaus_form_and_fall);
 }
 
+/// A round pin, whose rows begin and end in other columns, on the cells of the quick scene.
+const ROUND: [&str; 4] = ["mesh.shape=disc", "mesh.pin_width=4 mm", "mesh.cell_size=200 um", "mesh.mean_radius=22 mm"];
+
+#[test]
+fn a_round_pin() {
+    Scene::quick(1500, &[&ROUND[..], &[FAST]].concat()).agrees_for_all(plateaus_form_of_local_debris);
+}
+
+#[test]
+fn a_round_pin_with_a_pool() {
+    Scene::quick(1500, &[&ROUND[..], &POOLED].concat()).agrees_for_all(plateaus_form_and_fall);
+}
+
+#[test]
+fn a_round_pin_with_materials_of_their_own_and_one_pool_per_track() {
+    Scene::quick(1500, &[&ROUND[..], &TRACK, &OWN_MATERIALS].concat()).agrees_for_all(the_disc_wears_too);
+}
+
 #[test]
 fn exponential_wear_with_materials_of_their_own() {
     let sets = [&POOLED[..], &OWN_MATERIALS, &["numerics.integrator=exponential"]].concat();

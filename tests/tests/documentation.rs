@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity};
-use plateau_io::scene::schema::{self, Key, Kind, Need, Range};
+use plateau_io::scene::schema::{self, Key, Kind, Need, Range, WAYS};
 
 /// The text between the two marks of a table in a document is this, or is made so.
 fn expect_table(document: &str, name: &str, table: &str) {
@@ -122,6 +122,20 @@ fn need(key: &Key) -> String {
             format!("required; `{default}` with `{key} = \"{}\"`", choose.value)
         }
         Need::RequiredWithout(table) => format!("required without `[{table}]`"),
+        Need::OfWay(unless) => {
+            let ways = WAYS.iter().find(|ways| ways.section == key.section).expect("ways of the table");
+            let set = ways.sets.into_iter().find(|set| set.contains(&key.name)).expect("a way of the key");
+            let always = |name: &&str| {
+                schema::find(&format!("{}.{name}", key.section)).is_some_and(|key| key.need == Need::OfWay(None))
+            };
+            let beside: Vec<_> = set.iter().filter(|name| **name != key.name).filter(|name| always(name)).collect();
+            let beside: Vec<_> = beside.into_iter().map(|name| format!("`{name}`")).collect();
+            let but = unless.map(|choose| {
+                let (_, key) = choose.key.rsplit_once('.').expect("a key of a table");
+                format!(", but for `{key} = \"{}\"`", choose.value)
+            });
+            format!("required beside {}{}", beside.join(", "), but.unwrap_or_default())
+        }
         Need::Optional => "–".into(),
     }
 }

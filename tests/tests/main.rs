@@ -27,6 +27,7 @@ mod replaced;
 mod report;
 mod resources;
 mod resume;
+mod round_pin;
 mod schedule;
 mod shell;
 mod surface_command;

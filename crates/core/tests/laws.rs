@@ -1,7 +1,7 @@
 //! Laws of the model over random small scenes.
 
 use crate::scenes::few_or_all;
-use crate::scenes::{primary_stiffness, random_surfaces, wear_only};
+use crate::scenes::{primary_stiffness, random_surfaces, round_mesh, wear_only};
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
@@ -18,9 +18,13 @@ fn scenes() -> impl Strategy<Value = (Parameters, u64)> {
     let debris = prop_oneof![Just(DebrisRule::Local), Just(DebrisRule::Contact), Just(DebrisRule::Track)];
     let rules = (fractions, 0.0..=1.0, debris, any::<bool>(), any::<bool>());
     let wear = (0.0..1e-13, 0.0..1e-13, 0.0..1e-14, 0.0..1e-14);
-    (mesh, rules, wear, 0.01..100.0, 1.0..500.0, any::<bool>(), any::<u64>()).prop_map(
-        |((rows, columns, pin), rules, wear, force, acceleration, exponential, seed)| {
+    let round = option::weighted(0.3, (4..14_usize, 1.0..2.0, 0.6..1.0));
+    (mesh, round, rules, wear, 0.01..100.0, 1.0..500.0, any::<bool>(), any::<u64>()).prop_map(
+        |((rows, columns, pin), round, rules, wear, force, acceleration, exponential, seed)| {
             let mut parameters = wear_only(rows, columns, pin);
+            if let Some((rows, per_row, part)) = round {
+                parameters.mesh = round_mesh(rows, per_row, part);
+            }
             parameters.normal_force = force;
             parameters.time_acceleration = acceleration;
             parameters.plateaus = PlateauRules {

@@ -7,6 +7,7 @@ mod heat;
 mod laws;
 mod model;
 mod preparation;
+mod round_pin;
 mod scenes;
 mod synthesis;
 mod synthesis_bits;

@@ -1,5 +1,6 @@
 //! Small simulations whose outcome is known, and random ones whose outcome must obey the model's laws.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use plateau_core::model::cycle::{Cycle, Interpolation, Node};
@@ -8,6 +9,7 @@ use plateau_core::model::friction::{Friction, FrictionLaw};
 use plateau_core::model::heat::factor::Factor;
 use plateau_core::model::heat::{Coating, Disc, Pin as ThermalPin, Substance, Thermal};
 use plateau_core::model::mesh::Mesh;
+use plateau_core::model::outline::{Outline, columns_of_disc};
 use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::simulation::Simulation;
@@ -112,6 +114,30 @@ pub fn random_scene(seed: u64, debris: DebrisRule) -> Parameters {
         add_dissipation(&mut parameters, &mut between);
     }
     parameters
+}
+
+/// Any scene of the model under a round pin: on a mesh of its own, with the other options of [`random_scene`].
+pub fn random_round_scene(seed: u64, debris: DebrisRule) -> Parameters {
+    let mut stream = Stream(seed ^ 0x0DD0_0DD0_1234_4321);
+    let rectangle = random_scene(seed, debris);
+    let rows = 4 + (14.0 * stream.uniform()) as usize;
+    let mesh = round_mesh(rows, 1.0 + stream.uniform(), 0.6 + 0.4 * stream.uniform());
+    let normal_force = rectangle.normal_force * mesh.present_cells() as f64 / rectangle.mesh.present_cells() as f64;
+    // Steps are of another length on this mesh, so that a cycle would no longer fit.
+    Parameters { mesh, normal_force, cycle: None, ..rectangle }
+}
+
+/// A short ring of so many rows of 50 µm, with columns `per_row` times as wide as rows are high, under a round pin that takes
+/// this part of the track's width.
+pub fn round_mesh(rows: usize, per_row: f64, part: f64) -> Mesh {
+    let width = rows as f64 * 50e-6;
+    // Near the axis.
+    let (mean_radius, radius) = (0.8 * width, 0.5 * part * width);
+    let disc_columns = (TAU * mean_radius / (per_row * 50e-6)).round();
+    let pin_columns = columns_of_disc(radius, mean_radius, TAU / disc_columns).expect("a circle beside the axis");
+    let [inner, outer] = [mean_radius - 0.5 * width, mean_radius + 0.5 * width];
+    let mesh = Mesh::new(rows, disc_columns as usize, pin_columns as usize, inner, outer).expect("a valid mesh");
+    mesh.with_outline(Outline::Disc { radius }).expect("an outline that fits")
 }
 
 /// Friction, by one law or by one for each status; often with heat, whose factors change much from revolution to

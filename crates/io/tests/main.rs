@@ -7,6 +7,7 @@ mod fuzz_surfaces;
 mod good_scenes;
 mod heights;
 mod hostile_tables;
+mod mesh_scenes;
 mod micrograph;
 mod plausibility;
 mod profiles;

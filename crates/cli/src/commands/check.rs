@@ -20,6 +20,7 @@ use plateau_run::{idle_warning, stiffness_warning};
 use serde::Serialize;
 
 use super::check_cycle::CycleReport;
+use super::check_outline::OutlineReport;
 use super::load_scene;
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
@@ -79,6 +80,9 @@ struct Check {
     pin_columns: usize,
     cell_height: f64,
     cell_width: f64,
+    /// Of a pin that is no rectangle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outline: Option<OutlineReport>,
     nominal_pressure: f64,
     steps: u64,
     step_time: f64,
@@ -207,6 +211,7 @@ impl Check {
             pin_columns: mesh.pin_columns(),
             cell_height: mesh.row_height(),
             cell_width: mesh.column_width(),
+            outline: OutlineReport::of(mesh),
             nominal_pressure: parameters.normal_force / mesh.pin_area(),
             steps: scene.steps,
             step_time: parameters.step_time(),
@@ -295,6 +300,10 @@ impl Check {
         if let Some(cycle) = &self.cycle {
             // Behind the steps.
             rows.splice(3..3, cycle.rows());
+        }
+        if let Some(outline) = &self.outline {
+            // Behind the mesh.
+            rows.insert(1, ("outline of the pin", outline.text()));
         }
         let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
         // Writing to a String cannot fail.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod check;
 mod check_cycle;
+mod check_outline;
 mod completions;
 mod export;
 mod man;

@@ -33,14 +33,14 @@ impl Smoothness {
     /// That of a pin; none where no resin wears, its debris is not compacted, or debris is local.
     pub fn of(parameters: &Parameters, pin_base: &[Base]) -> Option<Self> {
         let Parameters { mesh, materials, .. } = parameters;
-        let wears = materials.wear_height > 0.0 && pin_base.contains(&Base::None);
+        let base = || pin_base.iter().zip(mesh.pin_areas()).filter(|(_, area)| *area > 0.0);
+        let wears = materials.wear_height > 0.0 && base().any(|(base, _)| base.is_resin());
         let needs = Needs::of(parameters);
         let pooled = needs.forms && !needs.local && parameters.plateaus.captured_of_resin() > 0.0;
         if !(wears && pooled) {
             return None;
         }
-        let cells = pin_base.iter().zip(mesh.area().iter().cycle());
-        let fibre: f64 = cells.filter(|(base, _)| !base.is_resin()).map(|(_, area)| area).sum();
+        let fibre: f64 = base().filter(|(base, _)| !base.is_resin()).map(|(_, area)| area).sum();
         let radius = mesh.radius().iter().sum::<f64>() / mesh.rows() as f64;
         let pressure = parameters.normal_force / fibre;
         Some(Self { recession: materials.pin_primary.specific_wear_rate * pressure * TAU * radius })

@@ -112,9 +112,11 @@ impl Debris {
     /// Empty pools.
     pub fn new(parameters: &Parameters, coefficients: &Coefficients, weights: &RowWeights) -> Self {
         let Parameters { mesh, plateaus: rules, .. } = parameters;
-        let columns = mesh.pin_columns() as i128;
-        let area_of =
-            |pool| weights.area.rows(weights.rows_of(pool)).iter().map(|area| columns * i128::from(*area)).sum();
+        let area_of = |pool| {
+            let rows = weights.rows_of(pool);
+            let areas = weights.area.rows(rows.clone()).iter().map(|area| i128::from(*area));
+            rows.zip(areas).map(|(row, area)| mesh.chord(row).len() as i128 * area).sum()
+        };
         Self {
             local: rules.debris == DebrisRule::Local,
             captured_fraction: rules.captured_fraction,

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `lanes` | what the kernels ask of a processor |
 //! | `quantum`, `exact`, `sums` | sums as integers, so that the order of cells does not show |
-//! | `strips`, `pin_strips`, `sector` | heights as the kernels read them; the ring in sectors and bands |
+//! | `strips`, `pin_strips`, `presence`, `sector` | heights as the kernels read them, and which cells of the pin are there; the ring in sectors and bands |
 //! | [`parts`] | which parts of the model a scene needs |
 //! | `pair`, `wear`, `plateau`, `debris` | the rules, one for each file |
 //! | `contact`, `forecast` | the displacement, and where it is expected next |
@@ -32,6 +32,7 @@ pub(crate) mod pair;
 pub mod parts;
 pub(crate) mod pin_strips;
 pub(crate) mod plateau;
+pub(crate) mod presence;
 pub(crate) mod quantum;
 pub(crate) mod sector;
 pub(crate) mod strips;

@@ -55,7 +55,8 @@ impl Needs {
 /// The optional parts of the model, each with whether a scene needs it.
 pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
     let materials = &parameters.materials;
-    let has = |base| pin_base.contains(&base);
+    let mesh = &parameters.mesh;
+    let has = |base| pin_base.iter().enumerate().any(|(cell, found)| *found == base && mesh.is_present(cell));
     let Needs { distinct, disc_wears, forms, local, destroys } = Needs::of(parameters);
     let pin_wears = (has(Base::Primary) && materials.pin_primary.specific_wear_rate > 0.0)
         || (forms && materials.pin_secondary.specific_wear_rate > 0.0);

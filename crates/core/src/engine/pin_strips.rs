@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::engine::lanes::{Chunk, LANES};
 use crate::engine::parts::Needs;
+use crate::engine::presence::{Extent, Presence};
 use crate::engine::strips::{OUT_OF_REACH, Strips, strips};
 use crate::model::mesh::Mesh;
 use crate::model::state::Base;
@@ -23,6 +24,8 @@ pub struct PinStrips {
     plateau: Vec<u8>,
     /// With local debris: which touch in the coming step; from the last reading.
     touches: Vec<u8>,
+    /// Which cells are there; none where all are. The others are resin out of reach.
+    presence: Option<Presence>,
     columns: usize,
 }
 
@@ -39,6 +42,8 @@ pub struct PinStrip<'a> {
     pub plateau: &'a mut [u8],
     /// Which rows touch in the coming step, one bit each; empty but with local debris.
     pub touches: &'a mut [u8],
+    /// Which rows are there, one bit each; empty where all are.
+    pub present: &'a [u8],
 }
 
 impl PinStrips {
@@ -47,19 +52,38 @@ impl PinStrips {
         let (rows, columns) = (own.len(), mesh.pin_columns() + 1);
         let mut height = Strips::new(rows, columns, OUT_OF_REACH);
         let mut resin = vec![0; strips(rows) * columns];
+        let presence = Presence::of(mesh, own.clone());
         for column in 0..columns - 1 {
             let cells = mesh.column(column).start + own.start..mesh.column(column).start + own.end;
             height.set_column(column, &heights[cells.clone()]);
             for (row, base) in base[cells].iter().enumerate() {
-                resin[row / LANES * columns + column] |= u8::from(base.is_resin()) << (row % LANES);
+                let is_absent = presence.as_ref().is_some_and(|presence| !presence.has(row, column));
+                resin[row / LANES * columns + column] |= u8::from(base.is_resin() || is_absent) << (row % LANES);
             }
+        }
+        if let Some(presence) = &presence {
+            (0..columns - 1).for_each(|column| put_out_of_reach(presence, &mut height, column));
         }
         for strip in resin.chunks_exact_mut(columns) {
             strip[columns - 1] = u8::MAX;
         }
         let plateau = resin.iter().map(|resin| !resin).collect();
         let touches = vec![0; if needs.local { resin.len() } else { 0 }];
-        Self { substrate: needs.forms.then(|| height.clone()), height, resin, plateau, touches, columns }
+        Self { substrate: needs.forms.then(|| height.clone()), height, resin, plateau, touches, presence, columns }
+    }
+
+    /// What of a strip is there in some of its columns, counted from their first.
+    #[inline]
+    pub fn extent(&self, strip: usize, columns: Range<usize>) -> Extent {
+        match &self.presence {
+            Some(presence) => presence.extent(strip, &columns),
+            None => Extent::all(columns.len()),
+        }
+    }
+
+    /// Whether a cell is there.
+    pub fn is_present(&self, row: usize, column: usize) -> bool {
+        self.presence.as_ref().is_none_or(|presence| presence.has(row, column))
     }
 
     /// Which rows of a strip are resin, column by column.
@@ -83,12 +107,14 @@ impl PinStrips {
     #[inline]
     pub fn strip_mut(&mut self, strip: usize, columns: Range<usize>) -> PinStrip<'_> {
         let bytes = strip * self.columns + columns.start..strip * self.columns + columns.end;
+        let there = columns.start..columns.end.min(self.columns - 1);
         PinStrip {
             substrate: match &mut self.substrate {
                 Some(substrate) => &mut substrate.strip_mut(strip)[columns.clone()],
                 None => &mut [],
             },
             height: &mut self.height.strip_mut(strip)[columns],
+            present: self.presence.as_ref().map_or(&[], |presence| presence.cells(strip, &there)),
             resin: &self.resin[bytes.clone()],
             plateau: &mut self.plateau[bytes.clone()],
             touches: if self.touches.is_empty() { &mut [] } else { &mut self.touches[bytes] },
@@ -116,6 +142,11 @@ impl PinStrips {
         self.height.set_column(column, heights);
         if let Some(substrate) = &mut self.substrate {
             substrate.set_column(column, substrates);
+        }
+        if let Some(presence) = &self.presence {
+            for field in [Some(&mut self.height), self.substrate.as_mut()].into_iter().flatten() {
+                put_out_of_reach(presence, field, column);
+            }
         }
         for strip in 0..self.height.strips() {
             let (height, substrate) = (self.height.chunk(strip, column), self.substrate().chunk(strip, column));
@@ -155,6 +186,15 @@ impl PinStrips {
             let plateau = &mut self.plateau[strip * self.columns + column..][..2];
             plateau.copy_from_slice(&words[2 * LANES].to_le_bytes()[..2]);
         }
+    }
+}
+
+/// Gives the cells of a column that are not there a height that nothing reaches.
+fn put_out_of_reach(presence: &Presence, field: &mut Strips, column: usize) {
+    for strip in 0..field.strips() {
+        let there = presence.cells(strip, &(column..column + 1))[0];
+        let chunk = &mut field.strip_mut(strip)[column].0;
+        (0..LANES).filter(|lane| there >> lane & 1 == 0).for_each(|lane| chunk[lane] = OUT_OF_REACH);
     }
 }
 

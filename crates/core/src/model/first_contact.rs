@@ -63,7 +63,7 @@ fn pairs(parameters: &Parameters, surfaces: &InitialSurfaces) -> Vec<Pair> {
     let mut pairs = Vec::with_capacity(mesh.pin_cells());
     for column in 0..mesh.pin_columns() {
         let pin = mesh.column(column).zip(mesh.column(mesh.disc_column(column, 0)));
-        for ((cell, under), area) in pin.zip(mesh.area()) {
+        for ((cell, under), area) in pin.zip(mesh.area()).filter(|((cell, _), _)| mesh.is_present(*cell)) {
             let stiffness = if surfaces.pin_base[cell] == Base::None { resin } else { fibre };
             let gap = surfaces.pin_height[cell] - surfaces.disc_height[under];
             pairs.push(Pair { gap, stiffness: stiffness * area, area: *area });

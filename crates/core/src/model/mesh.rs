@@ -5,6 +5,8 @@ use std::ops::Range;
 
 use thiserror::Error;
 
+use super::outline::Outline;
+
 /// Why a mesh cannot be made.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
@@ -32,6 +34,32 @@ pub enum MeshError {
         /// Outer radius, m.
         outer: f64,
     },
+    /// The pin is wider than the track.
+    #[error("a round pin of {diameter} m in diameter is wider than the track of {track} m")]
+    RoundPinWiderThanTrack {
+        /// Its diameter, m.
+        diameter: f64,
+        /// Width of the track, m.
+        track: f64,
+    },
+    /// The pin is longer than its columns.
+    #[error("a round pin of {diameter} m in diameter goes beyond its {pin_columns} columns at the radius {radius} m")]
+    RoundPinLongerThanColumns {
+        /// Its diameter, m.
+        diameter: f64,
+        /// Columns asked for the pin.
+        pin_columns: usize,
+        /// Radius of a row that is too short, m.
+        radius: f64,
+    },
+    /// No cell lies within the outline of the pin.
+    #[error(
+        "no cell of the pin has its centre within a circle of {diameter} m in diameter about the middle of the track"
+    )]
+    RoundPinWithoutCells {
+        /// Its diameter, m.
+        diameter: f64,
+    },
     /// The number of cells does not fit the address space.
     #[error("{rows} rows times {columns} columns are more cells than this machine can address")]
     TooLarge {
@@ -55,7 +83,13 @@ pub struct Mesh {
     outer_radius: f64,
     radius: Vec<f64>,
     area: Vec<f64>,
+    outline: Outline,
+    /// Columns of the pin that are there, by row; empty for a rectangle.
+    chords: Vec<Range<usize>>,
 }
+
+/// What rounding may add to a diameter that is as large as the track is wide.
+const ROUNDING: f64 = 1e-9;
 
 impl Mesh {
     /// Divides the ring between the two radii (m) into cells.
@@ -88,7 +122,69 @@ impl Mesh {
         let column_angle = TAU / disc_columns as f64;
         let radius: Vec<f64> = (0..rows).map(|i| inner_radius + (i as f64 + 0.5) * row_height).collect();
         let area = radius.iter().map(|r| r * row_height * column_angle).collect();
-        Ok(Self { rows, disc_columns, pin_columns, inner_radius, outer_radius, radius, area })
+        let (outline, chords) = (Outline::Rectangle, Vec::new());
+        Ok(Self { rows, disc_columns, pin_columns, inner_radius, outer_radius, radius, area, outline, chords })
+    }
+
+    /// The same under a pin of this outline.
+    ///
+    /// # Errors
+    /// [`MeshError`] when the outline goes beyond the pin's rows or columns, or no cell lies within it.
+    pub fn with_outline(self, outline: Outline) -> Result<Self, MeshError> {
+        let Outline::Disc { radius } = outline else {
+            return Ok(Self { outline, chords: Vec::new(), ..self });
+        };
+        let (diameter, width) = (2.0 * radius, self.outer_radius - self.inner_radius);
+        if !(diameter > 0.0 && diameter <= width * (1.0 + ROUNDING)) {
+            return Err(MeshError::RoundPinWiderThanTrack { diameter, track: width });
+        }
+        let chord = |radius: &f64| {
+            let chord = outline.chord(self.pin_columns, self.column_angle(), *radius, radius - self.mean_radius());
+            let pin_columns = self.pin_columns;
+            chord.ok_or(MeshError::RoundPinLongerThanColumns { diameter, pin_columns, radius: *radius })
+        };
+        let chords = self.radius.iter().map(chord).collect::<Result<Vec<_>, _>>()?;
+        if chords.iter().all(Range::is_empty) {
+            return Err(MeshError::RoundPinWithoutCells { diameter });
+        }
+        Ok(Self { outline, chords, ..self })
+    }
+
+    /// Outline of the pin.
+    pub fn outline(&self) -> Outline {
+        self.outline
+    }
+
+    /// Whether all cells of the pin's rows and columns are there.
+    pub fn is_rectangle(&self) -> bool {
+        self.chords.is_empty()
+    }
+
+    /// The columns of the pin that are there in a row.
+    pub fn chord(&self, row: usize) -> Range<usize> {
+        self.chords.get(row).cloned().unwrap_or(0..self.pin_columns)
+    }
+
+    /// Whether a cell of the pin is there, by its number.
+    pub fn is_present(&self, cell: usize) -> bool {
+        self.is_rectangle() || self.chord(cell % self.rows).contains(&(cell / self.rows))
+    }
+
+    /// Numbers of the cells within the pin's rows and columns that are not there.
+    pub fn absent_cells(&self) -> impl Iterator<Item = usize> + '_ {
+        let cells = if self.is_rectangle() { 0 } else { self.pin_cells() };
+        (0..cells).filter(|cell| !self.is_present(*cell))
+    }
+
+    /// Area of every cell of the pin, m², column by column; 0 where it is not there.
+    pub fn pin_areas(&self) -> impl Iterator<Item = f64> + '_ {
+        let areas = (0..self.pin_columns).flat_map(|_| &self.area);
+        areas.enumerate().map(|(cell, area)| if self.is_present(cell) { *area } else { 0.0 })
+    }
+
+    /// Cells of the pin that are there.
+    pub fn present_cells(&self) -> usize {
+        (0..self.rows).map(|row| self.chord(row).len()).sum()
     }
 
     /// Cells in r.
@@ -106,7 +202,7 @@ impl Mesh {
         self.pin_columns
     }
 
-    /// Cells of the pin.
+    /// Cells of the pin's rows and columns, whether they are there or not.
     pub fn pin_cells(&self) -> usize {
         self.rows * self.pin_columns
     }
@@ -156,9 +252,12 @@ impl Mesh {
         self.area.iter().sum()
     }
 
-    /// Area of all cells of the pin, m².
+    /// Area of all cells of the pin that are there, m².
     pub fn pin_area(&self) -> f64 {
-        self.pin_columns as f64 * self.column_area()
+        if self.is_rectangle() {
+            return self.pin_columns as f64 * self.column_area();
+        }
+        self.chords.iter().zip(&self.area).map(|(chord, area)| chord.len() as f64 * area).sum()
     }
 
     /// Area of all cells of the disc ring, m².
@@ -174,40 +273,4 @@ impl Mesh {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn paper() -> Mesh {
-        Mesh::new(80, 2764, 161, 20e-3, 24e-3).unwrap()
-    }
-
-    #[test]
-    fn cells_tile_the_annulus() {
-        // Closed form: the cells add up to π (r_outer² − r_inner²), for the midpoint rule is exact for r dr.
-        let mesh = paper();
-        let annulus = std::f64::consts::PI * (24e-3_f64.powi(2) - 20e-3_f64.powi(2));
-        assert!((mesh.disc_area() / annulus - 1.0).abs() < 1e-13);
-        assert!((mesh.row_height() - 50e-6).abs() < 1e-18);
-    }
-
-    #[test]
-    fn a_disc_cell_enters_at_the_leading_edge_and_moves_toward_plus_j() {
-        let mesh = paper();
-        assert_eq!(mesh.disc_column(0, 0), 0);
-        assert_eq!(mesh.disc_column(0, 1), 2763);
-        for step in [0, 1, 160, 2763, 2764, 1_000_003] {
-            for column in 0..160 {
-                assert_eq!(mesh.disc_column(column, step), mesh.disc_column(column + 1, step + 1));
-            }
-        }
-    }
-
-    #[test]
-    fn refuses_what_is_no_ring() {
-        assert!(matches!(Mesh::new(0, 10, 5, 1.0, 2.0), Err(MeshError::Empty { name: "rows" })));
-        assert!(matches!(Mesh::new(1, 10, 11, 1.0, 2.0), Err(MeshError::PinWiderThanRing { .. })));
-        assert!(matches!(Mesh::new(1, 10, 5, 2.0, 1.0), Err(MeshError::Radii { .. })));
-        assert!(matches!(Mesh::new(1, 10, 5, f64::NAN, 1.0), Err(MeshError::Radii { .. })));
-        assert!(matches!(Mesh::new(1 << 40, 1 << 40, 5, 1.0, 2.0), Err(MeshError::TooLarge { .. })));
-    }
-}
+mod tests;

@@ -27,6 +27,7 @@ pub mod friction;
 pub mod heat;
 pub mod material;
 pub mod mesh;
+pub mod outline;
 pub mod parameters;
 pub(crate) mod revolution;
 pub(crate) mod running_sum;

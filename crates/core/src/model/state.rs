@@ -76,7 +76,7 @@ pub fn pin_status(height: f64, substrate: f64, is_resin: bool) -> Status {
 pub struct InitialSurfaces {
     /// z_d of every disc cell, m.
     pub disc_height: Vec<f64>,
-    /// z_p of every pin cell, m.
+    /// z_p of every pin cell, m; beyond the pin's outline of no meaning, also of what follows.
     pub pin_height: Vec<f64>,
     /// Base of every pin cell.
     pub pin_base: Vec<Base>,

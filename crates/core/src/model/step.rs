@@ -1,7 +1,7 @@
 //! One step (model 4).
 //!
 //! Fields are column by column: the pin cell in row i and column j is number j · rows + i, and its neighbour in the sliding
-//! direction is number (j + 1) · rows + i.
+//! direction is number (j + 1) · rows + i. Pairs are in the same order; a cell beyond the pin's outline has none.
 
 use super::{ContactError, State, Step, Volumes};
 use crate::model::material::Status;
@@ -11,6 +11,8 @@ use crate::model::state::disc_status;
 /// A pin cell and the disc cell under it, as they are at the start of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Pair {
+    /// Number of the pin cell.
+    pub pin: usize,
     /// i.
     pub row: usize,
     /// A_i, m².
@@ -25,8 +27,10 @@ pub struct Pair {
     pub gap: f64,
     /// k, Pa/m.
     pub stiffness: f64,
-    /// Whether the neighbour in the sliding direction is a plateau; the last column has none.
+    /// Whether the neighbour in the sliding direction is a plateau; where there is none it is not.
     pub plateau_ahead: bool,
+    /// Place of the neighbour's pair among the pairs, if there is one.
+    pub ahead: Option<usize>,
 }
 
 /// What a pair really loses in a step, m.
@@ -48,34 +52,44 @@ pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, Conta
     let pairs = pairs(parameters, state);
     let load = parameters.load_of(state.steps + 1);
     let displacement = balance(load, &pairs)?;
-    let overlaps = pairs.iter().map(|pair| (displacement - pair.gap).max(0.0));
+    let overlaps: Vec<f64> = pairs.iter().map(|pair| (displacement - pair.gap).max(0.0)).collect();
     let losses: Vec<Loss> =
-        overlaps.clone().enumerate().map(|(pin, overlap)| wear(parameters, state, pin, &pairs[pin], overlap)).collect();
-    let step = Step {
+        pairs.iter().zip(&overlaps).map(|(pair, overlap)| wear(parameters, state, pair, *overlap)).collect();
+    let cells = parameters.mesh.pin_cells();
+    let mut step = Step {
         load,
         displacement,
-        pressure: overlaps.clone().zip(&pairs).map(|(overlap, pair)| pair.stiffness * overlap).collect(),
-        contact: overlaps.map(|overlap| overlap > 0.0).collect(),
-        pin_status: pairs.iter().map(|pair| pair.pin_status).collect(),
+        pressure: vec![0.0; cells],
+        contact: vec![false; cells],
+        pin_status: vec![Status::None; cells],
         moved: match parameters.plateaus.debris {
             DebrisRule::Local => deposit_locally(parameters, state, &pairs, displacement, &losses),
             DebrisRule::Contact | DebrisRule::Track => pool(parameters, state, &pairs, displacement, &losses),
         },
     };
+    for (pair, overlap) in pairs.iter().zip(overlaps) {
+        step.pressure[pair.pin] = pair.stiffness * overlap;
+        step.contact[pair.pin] = overlap > 0.0;
+        step.pin_status[pair.pin] = pair.pin_status;
+    }
     state.steps += 1;
     Ok(step)
 }
 
-/// Model 1 and 2: each pin cell with the disc cell that the coming step turns under it, and their statuses.
+/// Model 1 and 2: each pin cell with the disc cell that the coming step turns under it, and their statuses; cells beyond the
+/// pin's outline are left out.
 pub fn pairs(parameters: &Parameters, state: &State) -> Vec<Pair> {
     let Parameters { mesh, materials, foundation_height, .. } = parameters;
     let State { disc, pin, steps, turned, .. } = state;
     let statuses: Vec<Status> = pin.statuses().collect();
+    let present: Vec<usize> = (0..mesh.pin_cells()).filter(|cell| mesh.is_present(*cell)).collect();
     let pair = |cell: usize| {
         let (column, row) = (cell / mesh.rows(), cell % mesh.rows());
         let below = mesh.column(mesh.disc_column(column, turned + steps)).start + row;
         let (pin_status, disc_status) = (statuses[cell], disc_status(disc.height[below], disc.substrate[below]));
+        let ahead = present.binary_search(&(cell + mesh.rows())).ok();
         Pair {
+            pin: cell,
             row,
             area: mesh.area()[row],
             disc: below,
@@ -83,10 +97,11 @@ pub fn pairs(parameters: &Parameters, state: &State) -> Vec<Pair> {
             disc_status,
             gap: pin.height[cell] - disc.height[below],
             stiffness: materials.combined_modulus(pin_status, disc_status == Status::Secondary) / foundation_height,
-            plateau_ahead: statuses.get(cell + mesh.rows()).is_some_and(|ahead| *ahead != Status::None),
+            plateau_ahead: ahead.is_some_and(|ahead| statuses[present[ahead]] != Status::None),
+            ahead,
         }
     };
-    (0..mesh.pin_cells()).map(pair).collect()
+    present.iter().map(|cell| pair(*cell)).collect()
 }
 
 /// Model 4.1: δ, m, with Σ k A (δ − g)₊ = F_N.
@@ -118,10 +133,11 @@ pub fn balance(normal_force: f64, pairs: &[Pair]) -> Result<f64, ContactError> {
 }
 
 /// Model 4.2: wears a pair, if it overlaps, and tells what its two cells lost.
-pub fn wear(parameters: &Parameters, state: &mut State, cell: usize, pair: &Pair, overlap: f64) -> Loss {
+pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f64) -> Loss {
     if overlap == 0.0 {
         return Loss::default();
     }
+    let cell = pair.pin;
     let Parameters { mesh, materials, time_acceleration, .. } = parameters;
     let sliding = time_acceleration * mesh.radius()[pair.row] * mesh.column_angle();
     // Δh, m, of a cell with the wear rate `own` that faces one with `other`.
@@ -205,20 +221,17 @@ pub fn deposit_locally(
 ) -> Volumes {
     let State { disc, pin, reference_height, .. } = state;
     let mut moved = worn(pairs.iter().zip(losses));
-    let rows = parameters.mesh.rows();
-    for (cell, pair) in pairs.iter().enumerate() {
-        // The neighbour's own deposit comes after: columns are in order, so its height is that after wear.
-        let (ahead, touches) = (cell + rows, displacement > pair.gap);
-        if !parameters.plateaus.formation || ahead >= pairs.len() || touches {
-            continue;
-        }
-        let (z_p, z_d) = (pin.height[cell], disc.height[pair.disc]);
+    for pair in pairs {
+        // The neighbour's own deposit comes after: pairs are in order, so its height is that after wear.
+        let touches = displacement > pair.gap;
+        let Some(ahead) = pair.ahead.filter(|_| parameters.plateaus.formation && !touches) else { continue };
+        let (z_p, z_d) = (pin.height[pair.pin], disc.height[pair.disc]);
         let clearance = z_p - z_d - displacement;
-        let to_plateau = if pair.plateau_ahead { (z_p - pin.height[ahead]).max(0.0) } else { 0.0 };
+        let to_plateau = if pair.plateau_ahead { (z_p - pin.height[pairs[ahead].pin]).max(0.0) } else { 0.0 };
         let to_reference = (*reference_height - z_d).max(0.0);
         let deposit = clearance.min(to_plateau + to_reference).min(captured(parameters, &losses[ahead]));
         let on_pin = deposit.min(to_plateau);
-        pin.height[cell] -= on_pin;
+        pin.height[pair.pin] -= on_pin;
         disc.height[pair.disc] += deposit - on_pin;
         moved.deposited_pin += pair.area * on_pin;
         moved.deposited_disc += pair.area * (deposit - on_pin);
@@ -232,17 +245,18 @@ pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displace
     let mut all = Volumes::default();
     for pool in 0..state.pools.len() {
         let is_of_pool = |row| parameters.plateaus.debris == DebrisRule::Contact || row == pool;
-        let cells: Vec<usize> = (0..pairs.len()).filter(|cell| is_of_pool(pairs[*cell].row)).collect();
-        let mut moved = worn(cells.iter().map(|cell| (&pairs[*cell], &losses[*cell])));
-        let captured = cells.iter().map(|cell| pairs[*cell].area * captured(parameters, &losses[*cell])).sum::<f64>();
+        let of_pool = || pairs.iter().zip(losses).filter(|(pair, _)| is_of_pool(pair.row));
+        let mut moved = worn(of_pool());
+        let captured = of_pool().map(|(pair, loss)| pair.area * captured(parameters, loss)).sum::<f64>();
+        let pairs: Vec<&Pair> = of_pool().map(|(pair, _)| pair).collect();
         if parameters.plateaus.destruction {
-            moved.returned = destroy(state, pairs, &cells);
+            moved.returned = destroy(state, &pairs);
         }
         let mut is_emptied = false;
         if parameters.plateaus.formation {
             let volume = state.pools[pool];
             ([moved.deposited_pin, moved.deposited_disc], is_emptied) =
-                form(parameters.plateaus.pad_share, volume, state, pairs, &cells, displacement);
+                form(parameters.plateaus.pad_share, volume, state, &pairs, displacement);
         }
         let rest = if is_emptied { 0.0 } else { state.pools[pool] - moved.deposited_pin - moved.deposited_disc };
         state.pools[pool] = rest + captured + moved.returned;
@@ -253,10 +267,11 @@ pub fn pool(parameters: &Parameters, state: &mut State, pairs: &[Pair], displace
 }
 
 /// Model 4P, destruction: build-up on resin that no plateau ahead supported falls; its volume, m³.
-pub fn destroy(state: &mut State, pairs: &[Pair], cells: &[usize]) -> f64 {
+pub fn destroy(state: &mut State, pairs: &[&Pair]) -> f64 {
     let pin = &mut state.pin;
     let mut returned = 0.0;
-    for (cell, pair) in cells.iter().map(|cell| (*cell, &pairs[*cell])) {
+    for pair in pairs {
+        let cell = pair.pin;
         if pin.base[cell].is_resin() && pin.height[cell] < pin.substrate[cell] && !pair.plateau_ahead {
             returned += pair.area * (pin.substrate[cell] - pin.height[cell]);
             pin.height[cell] = pin.substrate[cell];
@@ -267,28 +282,21 @@ pub fn destroy(state: &mut State, pairs: &[Pair], cells: &[usize]) -> f64 {
 
 /// Model 4P, formation: spreads a pool (m³) evenly over the cells that do not touch; the volumes on pin and disc, m³, and
 /// whether every cell got its whole share.
-pub fn form(
-    pad_share: f64,
-    pool: f64,
-    state: &mut State,
-    pairs: &[Pair],
-    cells: &[usize],
-    displacement: f64,
-) -> ([f64; 2], bool) {
+pub fn form(pad_share: f64, pool: f64, state: &mut State, pairs: &[&Pair], displacement: f64) -> ([f64; 2], bool) {
     let State { disc, pin, .. } = state;
-    let open = || cells.iter().map(|cell| (*cell, &pairs[*cell])).filter(|(_, pair)| displacement <= pair.gap);
-    let open_area: f64 = open().map(|(_, pair)| pair.area).sum();
+    let open = || pairs.iter().filter(|pair| displacement <= pair.gap);
+    let open_area: f64 = open().map(|pair| pair.area).sum();
     if open_area == 0.0 {
         return ([0.0, 0.0], false);
     }
     // Rounding may leave a trace of debt in a pool that has given nearly all.
     let share = (pool / open_area).max(0.0);
     let (mut deposited, mut is_emptied) = ([0.0, 0.0], true);
-    for (cell, pair) in open() {
-        let clearance = pin.height[cell] - disc.height[pair.disc] - displacement;
+    for pair in open() {
+        let clearance = pin.height[pair.pin] - disc.height[pair.disc] - displacement;
         let deposit = clearance.max(0.0).min(share);
         let on_pin = if pair.plateau_ahead { pad_share * deposit } else { 0.0 };
-        pin.height[cell] -= on_pin;
+        pin.height[pair.pin] -= on_pin;
         disc.height[pair.disc] += deposit - on_pin;
         deposited = [deposited[0] + pair.area * on_pin, deposited[1] + pair.area * (deposit - on_pin)];
         is_emptied &= deposit == share;

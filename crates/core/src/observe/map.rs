@@ -65,12 +65,15 @@ impl Map {
     }
 }
 
+/// Status and base of a cell beyond the pin's outline in maps and files; in scenes whose pin is a rectangle there is none.
+pub const ABSENT: u8 = 3;
+
 /// The values of one map, column by column; disc columns in the disc's own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MapValues {
     /// Heights, pressures or temperatures.
     Float(Vec<f64>),
-    /// Statuses, as the discriminants of [`crate::model::material::Status`].
+    /// Statuses, as the discriminants of [`crate::model::material::Status`], or [`ABSENT`].
     Status(Vec<u8>),
 }
 

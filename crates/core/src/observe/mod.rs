@@ -25,7 +25,7 @@ pub mod schedule;
 pub mod window_mean;
 
 use self::extra::Extra;
-pub use self::map::{Map, MapValues, Snapshot};
+pub use self::map::{ABSENT, Map, MapValues, Snapshot};
 pub use self::sample::{QUANTITIES, Quantity, Sample};
 
 /// The table of series that not every run has, in the order of a run file. Scenes (`output.NAME`), run files, exports,

@@ -37,16 +37,19 @@ pub const EXTRA: Extra = Extra {
 /// last two are NaN.
 ///
 /// A cell counts with its area, which differs from row to row, and heights are measured from the mean so weighted;
-/// nothing else is taken out: that the track runs in as a groove is part of it. The sums are taken in the order of the mesh,
+/// nothing else is taken out: that the track runs in as a groove is part of it. Cells beyond the pin's outline, whose height is
+/// NaN, do not count. The sums are taken in the order of the mesh,
 /// column by column: their bits do not depend on how a simulation is carried out.
 fn height_parameters(mesh: &Mesh, heights: &[f64]) -> [f64; 4] {
     let columns = heights.len() / mesh.rows();
-    let area = columns as f64 * mesh.column_area();
+    let is_there = |height: &f64| !height.is_nan();
+    let is_whole = mesh.is_rectangle() || heights.iter().all(is_there);
+    let area = if is_whole { columns as f64 * mesh.column_area() } else { mesh.pin_area() };
     let mean_of = |terms: &dyn Fn(f64) -> [f64; 4]| {
         let mut sums = [0.0; 4];
         for column in heights.chunks_exact(mesh.rows()) {
             let mut own = [0.0; 4];
-            for (height, area) in column.iter().zip(mesh.area()) {
+            for (height, area) in column.iter().zip(mesh.area()).filter(|(height, _)| is_there(height)) {
                 own.iter_mut().zip(terms(*height)).for_each(|(sum, term)| *sum += area * term);
             }
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
@@ -61,7 +64,8 @@ fn height_parameters(mesh: &Mesh, heights: &[f64]) -> [f64; 4] {
         [z.abs(), z * z, z * z * z, z * z * z * z]
     });
     let root_mean_square_height = square.sqrt();
-    let flat = heights.iter().all(|height| *height == heights[0]);
+    let mut there = heights.iter().filter(|height| is_there(height));
+    let flat = there.next().is_none_or(|first| there.all(|height| height == first));
     let relative = |moment: f64| if flat { f64::NAN } else { moment };
     [
         absolute,
@@ -90,6 +94,7 @@ pub(crate) fn root_mean_square_along_tracks(mesh: &Mesh, heights: &[f64]) -> f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::outline::Outline;
 
     #[test]
     fn cells_count_with_their_areas() {
@@ -102,6 +107,20 @@ mod tests {
         for (found, expected) in height_parameters(&mesh, &heights).into_iter().zip(expected) {
             assert!((found / expected - 1.0).abs() < 1e-14, "{found}, {expected}");
         }
+    }
+
+    #[test]
+    fn cells_beyond_the_outline_do_not_count() {
+        // One row, so that all areas are equal, of which the middle two cells are there: heights 1 and 3.
+        let mesh = Mesh::new(1, 1000, 4, 20.0, 20.2).unwrap();
+        let mesh = mesh.with_outline(Outline::Disc { radius: 0.1 }).unwrap();
+        let [sa, sq, ssk, sku] = height_parameters(&mesh, &[f64::NAN, 1.0, 3.0, f64::NAN]);
+        assert_eq!(mesh.present_cells(), 2);
+        assert!(
+            [sa, sq, sku].iter().all(|one| (one - 1.0).abs() < 1e-12) && ssk.abs() < 1e-12,
+            "{sa} {sq} {ssk} {sku}"
+        );
+        assert!(height_parameters(&mesh, &[f64::NAN, 2.0, 2.0, f64::NAN])[2].is_nan());
     }
 
     #[test]

@@ -178,8 +178,10 @@ fn check(mesh: &Mesh, surfaces: &InitialSurfaces) -> Result<(), SimulationError>
     if !surfaces.fits(mesh) {
         return Err(SimulationError::Size { disc: mesh.disc_cells(), pin: mesh.pin_cells() });
     }
+    let is_absent = |surface: &str, cell: usize| surface == "pin" && !mesh.is_present(cell);
     for (surface, heights) in [("disc", &surfaces.disc_height), ("pin", &surfaces.pin_height)] {
-        let count = heights.iter().filter(|height| !height.is_finite()).count();
+        let refused = heights.iter().enumerate().filter(|(_, height)| !height.is_finite());
+        let count = refused.filter(|(cell, _)| !is_absent(surface, *cell)).count();
         if count > 0 {
             return Err(SimulationError::Height { surface, count });
         }

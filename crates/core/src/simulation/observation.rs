@@ -11,7 +11,7 @@ use crate::model::heat::map;
 use crate::model::state::{Disc, Pin};
 use crate::observe::extra::Extra;
 use crate::observe::schedule::Moment;
-use crate::observe::{Map, MapValues, QUANTITIES, Sample, Snapshot};
+use crate::observe::{ABSENT, Map, MapValues, QUANTITIES, Sample, Snapshot};
 
 impl Simulation {
     /// The reported quantities after the last step.
@@ -101,7 +101,7 @@ impl Simulation {
         Ok(accounts.as_ref().map(report).unwrap_or_default())
     }
 
-    /// The maps asked for, as they are now.
+    /// The maps asked for, as they are now. Cells beyond the pin's outline are NaN, and have the status [`ABSENT`].
     ///
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed, [`SimulationError::NotWatched`] for pressures after
@@ -118,19 +118,30 @@ impl Simulation {
     pub fn snapshot_at(&mut self, moment: &Moment, maps: &[Map]) -> Result<Snapshot, SimulationError> {
         let mut values = Vec::with_capacity(maps.len());
         for map in maps {
-            values.push((
-                *map,
-                match map {
-                    Map::Pressure => MapValues::Float(self.pressures_at(moment)?),
-                    Map::Temperature => MapValues::Float(self.temperatures_at(moment)?),
-                    map => self.field(*map)?,
-                },
-            ));
+            let found = match map {
+                Map::Pressure => MapValues::Float(self.pressures_at(moment)?),
+                Map::Temperature => MapValues::Float(self.temperatures_at(moment)?),
+                map => self.field(*map)?,
+            };
+            values.push((*map, self.outlined(*map, found)));
         }
         Ok(Snapshot { time: moment.time, maps: values })
     }
 
-    /// p of every pin cell at a moment, Pa.
+    /// A map in which the cells beyond the pin's outline are told from the others.
+    fn outlined(&self, map: Map, mut values: MapValues) -> MapValues {
+        if !map.on_disc() {
+            for cell in self.parameters.mesh.absent_cells() {
+                match &mut values {
+                    MapValues::Float(values) => values[cell] = f64::NAN,
+                    MapValues::Status(statuses) => statuses[cell] = ABSENT,
+                }
+            }
+        }
+        values
+    }
+
+    /// p of every pin cell at a moment, Pa; 0 beyond the pin's outline.
     fn pressures_at(&mut self, moment: &Moment) -> Result<Vec<f64>, SimulationError> {
         if moment.pause == Some(Kind::Lifted) {
             return Ok(vec![0.0; self.parameters.mesh.pin_cells()]);
@@ -155,10 +166,19 @@ impl Simulation {
         Ok(map::temperatures(model.passing(), &self.parameters.mesh, &pressure, flux, heat.face, speed))
     }
 
-    /// One map that the workers have.
+    /// One map that the workers have; 0 beyond the pin's outline.
     fn field(&mut self, map: Map) -> Result<MapValues, SimulationError> {
         let found = self.workers.snapshot(&[map])?.maps.into_iter().next();
-        let values = found.map_or(MapValues::Float(Vec::new()), |(_, values)| values);
+        let mut values = found.map_or(MapValues::Float(Vec::new()), |(_, values)| values);
+        if !map.on_disc() {
+            // What the workers keep there is their own affair.
+            for cell in self.parameters.mesh.absent_cells() {
+                match &mut values {
+                    MapValues::Float(values) => values[cell] = 0.0,
+                    MapValues::Status(statuses) => statuses[cell] = 0,
+                }
+            }
+        }
         if let MapValues::Float(values) = &values {
             let name = |place| format!("cell {place} of {}", map.name());
             self.refuse_not_finite(values.iter().copied(), name)?;
@@ -184,7 +204,7 @@ impl Simulation {
         Ok(height)
     }
 
-    /// The pin as it is now.
+    /// The pin as it is now; heights beyond its outline are 0.
     ///
     /// # Errors
     /// [`SimulationError::Worker`] when a worker failed.
@@ -194,8 +214,11 @@ impl Simulation {
     }
 
     fn fields<const COUNT: usize>(&mut self, maps: [Map; COUNT]) -> Result<[Vec<f64>; COUNT], SimulationError> {
-        let mut fields = self.snapshot(&maps)?.maps.into_iter().map(|(_, values)| values.into_numbers());
-        Ok(std::array::from_fn(|_| fields.next().unwrap_or_default()))
+        let mut fields = [const { Vec::new() }; COUNT];
+        for (field, map) in fields.iter_mut().zip(maps) {
+            *field = self.field(map)?.into_numbers();
+        }
+        Ok(fields)
     }
 
     /// The complete state, to go on from later.

@@ -189,7 +189,7 @@ impl Plain {
         let step = self.watched()?;
         let areas = || mesh.area().iter().copied().cycle();
         let pin_share = |status: Status| {
-            let cells = self.state.pin.statuses().zip(areas()).filter(|(each, _)| *each == status);
+            let cells = self.state.pin.statuses().zip(mesh.pin_areas()).filter(|(each, _)| *each == status);
             cells.map(|(_, area)| area).sum::<f64>() / mesh.pin_area()
         };
         let disc_secondary = self.state.disc.statuses().zip(areas()).filter(|(each, _)| *each == Status::Secondary);

@@ -6,7 +6,7 @@ use crate::model::state::Base;
 /// Area fraction of the pin that is fibre.
 pub fn fibre_fraction(base: &[Base], mesh: &Mesh) -> f64 {
     let fibre: f64 =
-        base.iter().zip(mesh.area().iter().cycle()).filter(|(base, _)| **base == Base::Primary).map(|(_, a)| a).sum();
+        base.iter().zip(mesh.pin_areas()).filter(|(base, _)| **base == Base::Primary).map(|(_, area)| area).sum();
     fibre / mesh.pin_area()
 }
 

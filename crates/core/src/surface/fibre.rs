@@ -15,7 +15,7 @@ use crate::model::state::Base;
 pub struct FibreSynthesis {
     /// Seed of the random stream.
     pub seed: u64,
-    /// Area fraction of the pin that is fibre.
+    /// Area fraction of the pin, within its outline, that is fibre.
     pub fibre_fraction: f64,
     /// Length of a fibre from end to end, m.
     pub fibre_length: f64,
@@ -88,10 +88,11 @@ impl FibreSynthesis {
         let (area, total) = (mesh.area(), mesh.pin_area());
         let mut random = Random::new(self.seed, Stream::PinBase);
         let mut covered = 0.0;
-        let mut open_cells = base.len();
+        let mut open_cells = mesh.present_cells();
         for _ in 0..MOST_FIBRES {
             let capsule = self.draw(&mut random, width, height);
-            let new_cells: Vec<usize> = capsule.cells(mesh).filter(|cell| base[*cell] == Base::None).collect();
+            let is_new = |cell: &usize| base[*cell] == Base::None && mesh.is_present(*cell);
+            let new_cells: Vec<usize> = capsule.cells(mesh).filter(is_new).collect();
             let before = covered / total;
             covered += new_cells.iter().map(|cell| area[cell % mesh.rows()]).sum::<f64>();
             let after = covered / total;

@@ -113,6 +113,9 @@ impl Preparation {
         let mut report = Vec::new();
         let (mut patch, on_mesh) = self.as_patch(raw, body, mesh);
         check_grid(&patch)?;
+        // Cells beyond the pin's outline take no part: they are as missing points that nobody misses.
+        let beyond: Vec<usize> = if on_mesh && body == Body::Pin { mesh.absent_cells().collect() } else { Vec::new() };
+        beyond.iter().for_each(|cell| patch.heights[*cell] = f64::NAN);
         // Missing points are told and filled; what is infinite was never measured.
         self.refuse_heights(&patch.heights, |height| height.is_infinite())?;
         let closed = on_mesh && body == Body::Disc;
@@ -122,10 +125,14 @@ impl Preparation {
         }
         let Self { crop, unroll, flip, .. } = *self;
         report.extend(straighten(&mut patch, crop, unroll, Turn::new(self.rotate), flip)?);
-        self.level_and_fill(&mut patch, closed, &mut report)?;
+        self.level_and_fill(&mut patch, closed, &beyond, &mut report)?;
         if let Some(pixel) = self.pixel {
             (patch.column_pitch, patch.row_pitch) = (pixel, pixel);
             report.push(format!("pixel pitch taken as {}", Length(pixel)));
+        }
+        if !beyond.is_empty() && (self.s_filter.is_some() || self.l_filter.is_some()) {
+            // A filter at the pin's rim looks beyond it.
+            fill(&mut patch, Fill::Interpolate, closed);
         }
         report.extend(filter(&mut patch, self.s_filter, self.l_filter, closed)?);
         let cut = self.cutoff.map(|cutoff| {
@@ -152,6 +159,9 @@ impl Preparation {
             let before = rms(&heights);
             heights.iter_mut().for_each(|height| *height *= self.scale);
             report.push(format!("heights times {}: {}", self.scale, change(before, &heights)));
+        }
+        if body == Body::Pin {
+            mesh.absent_cells().for_each(|cell| heights[cell] = 0.0);
         }
         self.refuse_heights(&heights, |height| !height.is_finite())?;
         Ok(Prepared { heights, cut, report, patch })
@@ -210,10 +220,11 @@ impl Preparation {
         &self,
         patch: &mut Patch,
         closed: bool,
+        beyond: &[usize],
         report: &mut Vec<String>,
     ) -> Result<(), PreparationError> {
-        let points = patch.heights.len();
-        if patch.missing() == points {
+        let points = patch.heights.len() - beyond.len();
+        if patch.missing() - beyond.len() == points {
             return Err(PreparationError::AllMissing { points });
         }
         self.level(patch, closed, report);
@@ -243,13 +254,14 @@ impl Preparation {
                 self.level(patch, closed, report);
             }
         }
-        let missing = patch.missing();
+        let missing = patch.missing() - beyond.len();
         if missing == 0 {
             return Ok(());
         }
         let how = self.fill.ok_or(PreparationError::Missing { missing, outliers, points })?;
         let before = rms(&patch.heights);
         fill(patch, how, closed);
+        beyond.iter().for_each(|cell| patch.heights[*cell] = f64::NAN);
         let what = match how {
             Fill::Level => "got the mean of the others",
             Fill::Interpolate => "were interpolated from those around them",
@@ -289,10 +301,11 @@ fn check_grid(patch: &Patch) -> Result<(), PreparationError> {
 /// the material ratio of the Abbott-Firestone curve at that level.
 fn cut(heights: &mut [f64], cutoff: f64) -> f64 {
     let ceiling = mean(heights) + cutoff;
+    let points = heights.iter().filter(|height| !height.is_nan()).count();
     let mut count = 0usize;
     for height in heights.iter_mut().filter(|height| **height > ceiling) {
         *height = ceiling;
         count += 1;
     }
-    count as f64 / heights.len() as f64
+    count as f64 / points as f64
 }

@@ -7,7 +7,7 @@ use plateau_core::observe::{Map, MapValues, Quantity, Sample, Snapshot, quantiti
 use super::digest::{self, Digests};
 use super::error::not_anew;
 use super::layout::{MAP_TIME, TIME, map_path, series_path};
-use super::status::StoredStatus;
+use super::status::Statuses;
 use super::{Earlier, Header, ReadError, RunFile, RunFileError};
 
 /// The datasets that grow, and the digests of what they hold.
@@ -18,6 +18,7 @@ pub(super) struct Datasets {
     map_time: Option<Dataset>,
     maps: Vec<(Map, Dataset)>,
     rows: usize,
+    statuses: Statuses,
     digests: Digests,
     pub(super) samples: usize,
     pub(super) snapshots: usize,
@@ -41,6 +42,7 @@ impl Datasets {
             map_time: if header.maps.is_empty() { None } else { Some(file.dataset(MAP_TIME)?) },
             maps: maps.map(|map| Ok((map, file.dataset(map_path(map))?))).collect::<hdf5::Result<_>>()?,
             rows: header.mesh.rows(),
+            statuses: Statuses::of(&header.mesh),
             digests,
             samples: 0,
             snapshots: 0,
@@ -113,9 +115,8 @@ impl Datasets {
                     digest::of_floats(values)
                 }
                 Some((_, MapValues::Status(values))) => {
-                    let statuses: Option<Vec<_>> = values.iter().map(|v| StoredStatus::from_discriminant(*v)).collect();
-                    let statuses = statuses.ok_or_else(|| format!("a value of {} is no status", map.name()))?;
-                    write_level(dataset, level, &statuses, self.rows)?;
+                    dataset.resize((level + 1, values.len() / self.rows, self.rows))?;
+                    self.statuses.write_level(dataset, level, values, self.rows)?;
                     digest::of_bytes(values)
                 }
                 None => return Err(format!("the snapshot lacks {}", map.name()).into()),

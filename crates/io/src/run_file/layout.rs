@@ -4,7 +4,6 @@ use std::time::SystemTime;
 
 use hdf5::plist::file_create::LinkCreationOrder;
 use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
-use ndarray::s;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::{EventRecord, event_quantities};
 use plateau_core::observe::extra::Extra;
@@ -14,7 +13,7 @@ use plateau_core::observe::{Map, quantities};
 use super::Header;
 use super::digest::{self, DIGEST};
 use super::dimension::{DIMENSION_LIST, Dimensions};
-use super::status::StoredStatus;
+use super::status::{Statuses, stored_base};
 use crate::hdf5_file::writing::{write_number, write_text};
 use crate::timestamp::iso_8601;
 
@@ -174,7 +173,7 @@ struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     fn new(file: &'a File, header: &'a Header, source: Option<&'a File>) -> hdf5::Result<Self> {
-        let status = Datatype::from_type::<StoredStatus>()?;
+        let status = Statuses::of(&header.mesh).datatype()?;
         let dimensions = Dimensions::new(file)?;
         file.commit_datatype("status", &status)?;
         for group in ["series", "disc", "pin"] {
@@ -242,16 +241,10 @@ impl<'a> Layout<'a> {
         let datatype = if map.is_status() { &self.status } else { &self.float };
         let dataset = self.dataset(map_path(map), datatype, &dimensions, map_unit(map), map_long_name(map))?;
         if map.is_status() {
-            write_flags(&dataset)?;
+            Statuses::of(self.mesh).write_flags(&dataset, map.on_disc())?;
         }
         if let Some(source) = self.source {
-            let statuses = source.dataset(map_path(map))?;
-            dataset.resize(statuses.shape())?;
-            // One moment after the other: in memory they are not small.
-            for moment in 0..statuses.shape()[0] {
-                let level = statuses.read_slice_2d::<StoredStatus, _>(s![moment, .., ..])?;
-                dataset.write_slice(&level, s![moment, .., ..])?;
-            }
+            Statuses::of(self.mesh).copy(&source.dataset(map_path(map))?, &dataset)?;
             self.file.flush()?;
         }
         self.dimensions.attach(&dataset, &dimensions)
@@ -271,13 +264,10 @@ impl<'a> Layout<'a> {
         let dimensions = ["pin_angle", "radius"];
         let dataset =
             self.dataset(PIN_BASE, &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
-        write_flags(&dataset)?;
+        Statuses::of(self.mesh).write_flags(&dataset, false)?;
         self.dimensions.attach(&dataset, &dimensions)?;
-        let base: Vec<StoredStatus> = header.pin_base.iter().copied().map(StoredStatus::from).collect();
-        let shape = (self.mesh.pin_columns(), self.mesh.rows());
-        let bytes: Vec<u8> = base.iter().map(|status| *status as u8).collect();
-        let base = ndarray::ArrayView2::from_shape(shape, &base).map_err(hdf5::Error::from)?;
-        dataset.write(base)?;
+        let bytes = stored_base(self.mesh, &header.pin_base);
+        Statuses::of(self.mesh).write_base(&dataset, &bytes, self.mesh.rows())?;
         write_text(&dataset, DIGEST, &digest::of_bytes(&bytes))?;
         self.file.flush()
     }
@@ -352,12 +342,6 @@ fn fixed(dataset: &Dataset, values: &[f64]) -> hdf5::Result<()> {
     }
     dataset.write_raw(values)?;
     write_text(dataset, DIGEST, &digest::of_floats(values))
-}
-
-/// The CF way to say what a status means, for readers that do not show enumerations.
-fn write_flags(dataset: &Dataset) -> hdf5::Result<()> {
-    dataset.new_attr_builder().with_data(&StoredStatus::FLAG_VALUES).create("flag_values")?;
-    write_text(dataset, "flag_meanings", StoredStatus::FLAG_MEANINGS)
 }
 
 /// Bytes of names, attributes and pages that are not full, at most, unless texts are long.

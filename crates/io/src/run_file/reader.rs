@@ -5,14 +5,16 @@ use std::time::SystemTime;
 
 use hdf5::{Dataset, H5Type};
 use ndarray::s;
-use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{EXTRAS, Map, MapValues, quantities};
 
 use super::error::ReadError;
 use super::header::InputFile;
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
+use super::status::Statuses;
 use crate::hdf5_file::{self, OpenError};
+use crate::scene::mesh::{Geometry, Refused};
+use crate::scene::schema::choices::{SHAPE, Shape};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
 
@@ -204,7 +206,8 @@ impl RunFile {
         let shape = (columns, self.mesh.rows());
         if map.is_status() {
             let values = opening.level::<u8>(map_path(map), index, shape)?;
-            match values.iter().find(|value| **value > Status::Secondary as u8) {
+            let largest = Statuses::of(&self.mesh).largest(map);
+            match values.iter().find(|value| **value > largest) {
                 Some(value) => Err(opening.damaged(format!("{} has {value}, which is no status", map_path(map)))),
                 None => Ok(Some(MapValues::Status(values))),
             }
@@ -213,7 +216,8 @@ impl RunFile {
         }
     }
 
-    /// Base of every pin cell, column by column: 0 where it is resin, 1 where it is fibre; nothing if it was not recorded.
+    /// Base of every pin cell, column by column: 0 where it is resin, 1 where it is fibre,
+    /// [`ABSENT`](plateau_core::observe::ABSENT) beyond the pin's outline; nothing if it was not recorded.
     ///
     /// # Errors
     /// [`ReadError::Damaged`] when it cannot be read or does not fit the mesh.
@@ -277,23 +281,31 @@ impl Opening<'_> {
     fn mesh(&self, scene: &toml::Table) -> Result<Mesh, ReadError> {
         let value = |key: &str| scene.get("mesh").and_then(|mesh| mesh.get(key));
         let incomplete = |key: &str| self.damaged(format!("its scene has no usable mesh.{key}"));
-        let length = |key: &str| {
-            let text = value(key).and_then(toml::Value::as_str);
-            text.and_then(|text| units::parse(text, Dimension::Length).ok()).ok_or_else(|| incomplete(key))
+        let length = |key: &'static str| {
+            let usable = |text: &toml::Value| units::parse(text.as_str()?, Dimension::Length).ok();
+            value(key).map(|value| usable(value).ok_or_else(|| incomplete(key))).transpose()
         };
-        let count = |key: &str| {
-            let number = value(key).and_then(toml::Value::as_integer);
-            number.and_then(|number| usize::try_from(number).ok()).ok_or_else(|| incomplete(key))
+        let count = |key: &'static str| {
+            let usable = |number: &toml::Value| u64::try_from(number.as_integer()?).ok();
+            value(key).map(|value| usable(value).ok_or_else(|| incomplete(key))).transpose()
         };
-        let (rows, disc_columns, pin_columns) = (count("rows")?, count("disc_columns")?, count("pin_columns")?);
-        for (name, expected) in [("radius", rows), ("disc_angle", disc_columns), ("pin_angle", pin_columns)] {
+        let shape = match value("shape") {
+            // Files of before there was a choice have none.
+            None => Shape::Rectangle,
+            Some(word) => {
+                let known = SHAPE.iter().find(|(known, _)| word.as_str() == Some(*known));
+                known.ok_or_else(|| incomplete("shape"))?.1
+            }
+        };
+        let refused = |Refused { message, .. }: Refused| self.damaged(format!("its mesh: {message}"));
+        let cells = Geometry::read(shape, length, count, incomplete)?.cells().map_err(refused)?;
+        for (name, expected) in ["radius", "disc_angle", "pin_angle"].into_iter().zip(cells.counts) {
             let found = self.dataset(name)?.size();
-            if found != expected {
+            if found as u64 != expected {
                 return Err(self.damaged(format!("/{name} has {found} values, expected {expected} as in its scene")));
             }
         }
-        Mesh::new(rows, disc_columns, pin_columns, length("inner_radius")?, length("outer_radius")?)
-            .map_err(|error| self.damaged(format!("its mesh: {error}")))
+        cells.mesh().map_err(refused)
     }
 
     fn series(&self) -> Result<Vec<Series>, ReadError> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::acceleration::Adaptive;
 use plateau_core::model::material::{Material, Materials};
-use plateau_core::model::mesh::{Mesh, MeshError};
+use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{Parameters, PlateauRules};
 use plateau_core::observe::dissipation::CONTACT_TEMPERATURE;
 use plateau_core::observe::extra::Extra;
@@ -16,6 +16,8 @@ use super::cycle::{constants_without_effect, operation, refuse_choice, short_eve
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
 use super::length::{Length, length};
+use super::mesh::{Geometry, Refused};
+use super::schema::choices::Shape;
 use super::schema::{ACCELERATION, choices, join};
 use super::settings::Settings;
 use super::surfaces::{base, heights};
@@ -38,6 +40,12 @@ pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path
     // From here on it is `debris`.
     settings.remove("plateaus.debris_pool");
     let end = if operation.is_some() { duration } else { parameters.clock().time_at(steps) };
+    // Of a mesh in lengths this is not known before.
+    let samples = ["output.sample_every", "output.sample_every_steps"];
+    if samples.iter().all(|key| settings.get(key).is_none()) {
+        let revolution = Setting::Integer(parameters.mesh.disc_columns() as u64);
+        settings.insert(samples[1], revolution, &Origin::Default);
+    }
     let output = output(&mut settings, end, &mut warnings)?;
     let workers = match settings.get("numerics.workers") {
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
@@ -128,42 +136,46 @@ fn parameters(settings: &Settings) -> Result<(Parameters, Option<OperationCycle>
 }
 
 fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
-    let keys = ["mesh.rows", "mesh.disc_columns", "mesh.pin_columns"];
-    let counts = [settings.integer(keys[0])?, settings.integer(keys[1])?, settings.integer(keys[2])?];
-    let problem = |key: &str, message: String| Problem::new(&settings.origin(key), key, message);
+    let path = |name: &str| join("mesh", name);
+    let problem = |name: &str, message: String| Problem::new(&settings.origin(&path(name)), &path(name), message);
+    let refused = |Refused { key, message }: Refused| problem(key, message);
+    // A scene that says nothing of it resolves to one that says nothing, as before there was a choice.
+    let shape = settings.get("mesh.shape").map(|_| settings.choice("mesh.shape", &choices::SHAPE));
+    let geometry = Geometry::read(
+        shape.transpose()?.unwrap_or(Shape::Rectangle),
+        |name| settings.optional_number(&path(name)),
+        |name| settings.get(&path(name)).map(|_| settings.integer(&path(name))).transpose(),
+        |name| problem(name, "it is not given".to_owned()),
+    )?;
+    let cells = geometry.cells().map_err(refused)?;
     // The mesh itself takes memory, so this comes first. A pin wider than the ring is a clearer message.
-    if counts[2] <= counts[1] {
+    let [rows, disc_columns, pin_columns] = cells.counts;
+    if pin_columns <= disc_columns {
         let maps = match settings.get("output.maps") {
             Some(Setting::Maps(maps)) => maps.as_slice(),
             _ => &[],
         };
-        let needed = memory::estimate(counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
+        let needed = memory::estimate(cells.counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
         if let Some(available) = memory::available().filter(|available| needed > *available) {
             let message = format!(
-                "{} rows and {} columns need {} of memory and {} are available; make the mesh smaller",
-                counts[0],
-                counts[1],
+                "{rows} rows and {disc_columns} columns need {} of memory and {} are available; make the mesh smaller",
                 memory::in_words(needed),
                 memory::in_words(available),
             );
-            return Err(problem(if counts[0] > counts[1] { keys[0] } else { keys[1] }, message));
+            let key = if settings.get("mesh.cell_size").is_some() {
+                "cell_size"
+            } else if rows > disc_columns {
+                "rows"
+            } else {
+                "disc_columns"
+            };
+            return Err(problem(key, message));
         }
     }
-    let [rows, disc_columns, pin_columns] = counts.map(address);
-    let (inner, outer) = (settings.number("mesh.inner_radius")?, settings.number("mesh.outer_radius")?);
-    let mesh = Mesh::new(rows, disc_columns, pin_columns, inner, outer).map_err(|error| {
-        let key = match error {
-            MeshError::PinWiderThanRing { .. } => "mesh.pin_columns",
-            MeshError::Radii { .. } => "mesh.outer_radius",
-            MeshError::Empty { .. } | MeshError::TooLarge { .. } => "mesh.rows",
-        };
-        problem(key, error.to_string())
-    })?;
+    let mesh = cells.mesh().map_err(refused)?;
     if !mesh.area().first().is_some_and(|area| area.is_normal()) || !mesh.disc_area().is_finite() {
-        return Err(problem(
-            "mesh.outer_radius",
-            "the area of the cells cannot be computed with these radii".to_owned(),
-        ));
+        let key = if settings.get("mesh.cell_size").is_some() { "mean_radius" } else { "outer_radius" };
+        return Err(problem(key, "the area of the cells cannot be computed with these radii".to_owned()));
     }
     Ok(mesh)
 }

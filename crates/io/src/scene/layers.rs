@@ -43,6 +43,7 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
     layers.insert(0, set);
     for layer in &layers {
         refuse_two_of_a_group(layer, &mut problems);
+        refuse_two_ways(layer, &mut problems);
     }
 
     let mut entries = Entries::new();
@@ -52,6 +53,11 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
             if let Some((chosen, _)) = chosen {
                 remove_others(group, chosen, &mut entries);
             }
+        }
+        for ways in schema::WAYS {
+            let given = |path: &str| layer.contains_key(path);
+            let others = ways.chosen(given).and_then(|set| ways.other(set[0])).unwrap_or_default();
+            others.iter().for_each(|name| remove(&schema::join(ways.section, name), &mut entries));
         }
         for meaningless in schema::MEANINGLESS.iter().filter(|each| document::chooses(&layer, each.beside)) {
             remove(meaningless.key, &mut entries);
@@ -152,6 +158,32 @@ fn refuse_two_of_a_group(layer: &Entries, problems: &mut Vec<Problem>) {
             let message = format!("{} are given together, keep one of {}", names.join(" and "), group.names());
             problems.push(Problem::new(origin, &schema::join(group.section, last), message));
         }
+    }
+}
+
+/// A mesh is given in cells or in lengths.
+fn refuse_two_ways(layer: &Entries, problems: &mut Vec<Problem>) {
+    for ways in schema::WAYS {
+        let given = ways.sets.map(|set| -> Vec<_> {
+            let entry = |name: &'static str| Some((name, &layer.get(&schema::join(ways.section, name))?.origin));
+            set.iter().filter_map(|name| entry(name)).collect()
+        });
+        if given.iter().any(Vec::is_empty) {
+            continue;
+        }
+        let list = |set: &[(&'static str, &Origin)]| set.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+        let [first, second] = &given;
+        // Of the way of which less is given, or which comes last.
+        let last = |set: &[(&'static str, &Origin)]| set.iter().map(|(_, origin)| (*origin).clone()).max();
+        let keep = if (first.len(), last(second)) >= (second.len(), last(first)) { 0 } else { 1 };
+        let (kept, left_out) = (&given[keep], &given[1 - keep]);
+        let (name, origin) = left_out[0];
+        let message = format!(
+            "these are two ways to say the same: leave out {} and keep {}, or the other way round",
+            list(left_out),
+            list(kept)
+        );
+        problems.push(Problem::new(origin, &schema::join(ways.section, name), message));
     }
 }
 

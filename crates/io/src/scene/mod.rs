@@ -19,6 +19,7 @@ mod interpret;
 mod layers;
 mod length;
 mod memory;
+pub(crate) mod mesh;
 mod quantity;
 mod resolved;
 mod rows;

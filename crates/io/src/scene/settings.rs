@@ -156,9 +156,12 @@ impl Settings {
                 }
                 Need::SameAs(table) => self.get(&schema::join(table, key.name)).cloned(),
                 Need::Computed(_) => self.computed(&path, entries, scene),
-                Need::Required | Need::RequiredUnless(..) | Need::RequiredWithout(_) | Need::OneOf | Need::Optional => {
-                    None
-                }
+                Need::Required
+                | Need::RequiredUnless(..)
+                | Need::RequiredWithout(_)
+                | Need::OneOf
+                | Need::OfWay(_)
+                | Need::Optional => None,
             };
             if let Some(setting) = setting {
                 self.insert(&path, setting, &Origin::Default);
@@ -246,6 +249,9 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
         let is_required = |key: &Key| match key.need {
             Need::RequiredUnless(choose, _) => !document::chooses(entries, choose),
             Need::RequiredWithout(table) => !entries.contains_key(table),
+            Need::OfWay(unless) => {
+                is_of_chosen_way(key, entries) && !unless.is_some_and(|choose| document::chooses(entries, choose))
+            }
             need => need == Need::Required,
         };
         let keys = schema::keys().iter().filter(|key| key.section == section && is_required(key));
@@ -255,8 +261,15 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
         let groups = groups.filter(|group| group.is_required(is_there) && group.applies(is_there));
         let groups = groups.filter(|group| !group.members.iter().any(|(name, _)| given(section, name)));
 
+        let ways = schema::WAYS.iter().filter(|ways| ways.section == section && ways.chosen(is_there).is_none());
+        let ways = ways.map(|ways| {
+            let [one, other] = ways.sets.map(|set| ways.required(set).collect::<Vec<_>>().join(", "));
+            format!("either {one}, or {other}")
+        });
+
         let names: Vec<String> = keys
             .map(|key| key.name.to_owned())
+            .chain(ways)
             .chain(groups.map(|group| format!("one of {{{}}}", group.names())))
             .collect();
         if !names.is_empty() {
@@ -268,6 +281,13 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
         let message = format!("required keys are missing:{message}");
         problems.push(Problem::without_key(&Origin::File(scene.into()), message));
     }
+}
+
+/// Whether the key belongs to the way of saying the same that the scene has chosen.
+fn is_of_chosen_way(key: &Key, entries: &Entries) -> bool {
+    let chosen = |ways: &schema::Ways| ways.chosen(|path| entries.contains_key(path));
+    let of_table = schema::WAYS.iter().filter(|ways| ways.section == key.section);
+    of_table.filter_map(chosen).any(|set| set.contains(&key.name))
 }
 
 #[cfg(test)]

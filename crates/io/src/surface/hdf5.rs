@@ -228,7 +228,8 @@ pub fn write(path: &Path, patch: &Patch) -> Result<(), Hdf5Error> {
     Ok(())
 }
 
-/// Reads a fibre map: integers of shape (columns, rows), 0 = none and 1 = primary. Gives the dataset's name too.
+/// Reads a fibre map: integers of shape (columns, rows), 0 = none and 1 = primary; what stands where `is_there` says that there
+/// is no cell, does not matter. Gives the dataset's name too.
 ///
 /// # Errors
 /// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or holds another number.
@@ -236,6 +237,7 @@ pub(super) fn base(
     path: &Path,
     dataset: Option<&str>,
     shape: (usize, usize),
+    is_there: impl Fn(usize) -> bool,
 ) -> Result<(String, Vec<Base>), Hdf5Error> {
     let dataset = hdf5_file::guarded(0, || find(path, dataset, Wanted::Base(shape)))?;
     hdf5_file::refuse_hollow(&dataset)?;
@@ -244,6 +246,7 @@ pub(super) fn base(
     let base = numbers.into_iter().enumerate().map(|(cell, number)| match number {
         0 => Ok(Base::None),
         1 => Ok(Base::Primary),
+        _ if !is_there(cell) => Ok(Base::None),
         found => Err(Hdf5Error::Base { dataset: name.clone(), found, column: cell / shape.1, row: cell % shape.1 }),
     });
     let base = base.collect::<Result<_, _>>()?;

@@ -135,7 +135,7 @@ impl Loader<'_> {
             heights.iter_mut().for_each(|height| *height = -*height);
             self.report.push(format!("{surface}: negated, for the pin's z grows away from the disc"));
         }
-        self.report.push(format!("{surface}: {}", spread(&heights)));
+        self.report.push(format!("{surface}: {}", self.spread(&heights, body)));
         let mut patch = prepared.patch;
         if body == Body::Pin && !negate {
             patch.iter_mut().flat_map(|patch| &mut patch.heights).for_each(|height| *height = -*height);
@@ -177,6 +177,16 @@ impl Loader<'_> {
             None => return Err(FileError::NoPitch { what: notes, found, mesh }),
         };
         Ok((raw, instrument))
+    }
+
+    /// What the heights of a body are like, within the pin's outline.
+    fn spread(&self, heights: &[f64], body: Body) -> String {
+        if body == Body::Disc || self.mesh.is_rectangle() {
+            return spread(heights);
+        }
+        let mut within = heights.to_vec();
+        self.mesh.absent_cells().for_each(|cell| within[cell] = f64::NAN);
+        spread(&within)
     }
 
     fn base(&mut self, source: &BaseSource, mirror: bool) -> Result<Vec<Base>, SurfaceError> {
@@ -230,7 +240,8 @@ impl Loader<'_> {
         if format != Format::Hdf5 {
             return Err(FileError::NotABase(format));
         }
-        let (name, base) = hdf5::base(path, dataset, (self.mesh.pin_columns(), self.mesh.rows()))?;
+        let shape = (self.mesh.pin_columns(), self.mesh.rows());
+        let (name, base) = hdf5::base(path, dataset, shape, |cell| self.mesh.is_present(cell))?;
         self.inputs.add(path)?;
         self.report.push(format!("pin.base: {}, dataset {name}", path.display()));
         Ok(base)

@@ -47,7 +47,8 @@ pub fn figure(mesh: &Mesh, base: &[Base], micrograph: Option<Micrograph>) -> Fig
     let extent = micrograph.map_or([2.0 * half.0, 2.0 * half.1], |micrograph| micrograph.extent());
     let scale = LONGEST / extent[0].max(extent[1]);
     let size = extent.map(|length| (length * scale).round().max(1.0));
-    let cell = |x: f64, y: f64| match plane.cell(x, y).and_then(|cell| base.get(cell)) {
+    let within = |x: f64, y: f64| plane.cell(x, y).filter(|cell| mesh.is_present(*cell));
+    let cell = |x: f64, y: f64| match within(x, y).and_then(|cell| base.get(cell)) {
         Some(Base::Primary) => FIBROUS,
         Some(Base::None) => RESINOUS,
         None => NOTHING,

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use plateau_core::model::outline::Outline;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_io::run_file::{RunFile, State};
 
@@ -90,10 +91,15 @@ pub fn facts(run: &RunFile, contact_area: Option<WindowMean>) -> Vec<(&'static s
         (
             "Mesh",
             format!(
-                "{} rows, {} columns of the disc, {} of the pin",
+                "{} rows, {} columns of the disc, {} of the pin{}",
                 mesh.rows(),
                 mesh.disc_columns(),
-                mesh.pin_columns()
+                mesh.pin_columns(),
+                match mesh.outline() {
+                    Outline::Rectangle => String::new(),
+                    Outline::Disc { radius } =>
+                        format!(" within a circle of {} mm in diameter", number::significant(2e3 * radius, 6)),
+                }
             ),
         ),
         ("Wall time", run.number("wall_time").map_or_else(|| UNKNOWN.into(), number::duration)),

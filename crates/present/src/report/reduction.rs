@@ -1,6 +1,6 @@
 //! Fewer cells and times of maps, so that a page does not become too large.
 
-use plateau_core::observe::MapValues;
+use plateau_core::observe::{ABSENT, MapValues};
 
 /// Limits of what the maps of a run hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -114,16 +114,21 @@ impl Blocks {
     }
 }
 
+/// Mean of the values that are there: cells beyond the pin's outline have none.
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+    let (sum, count) =
+        values.filter(|value| !value.is_nan()).fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
     sum / count
 }
 
-/// The status of most cells; of statuses with equally many the highest, which is the rarer one.
+/// The status of most cells; of statuses with equally many the highest, which is the rarer one. Cells beyond the pin's outline
+/// count only where there are no others.
 fn most_frequent(statuses: impl Iterator<Item = u8>) -> u8 {
     let mut counts = [0_usize; 256];
     statuses.for_each(|status| counts[usize::from(status)] += 1);
-    (0..=u8::MAX).max_by_key(|status| counts[usize::from(*status)]).unwrap_or(0)
+    let absent = std::mem::take(&mut counts[usize::from(ABSENT)]);
+    let most = (0..=u8::MAX).max_by_key(|status| counts[usize::from(*status)]).unwrap_or(0);
+    if absent > 0 && counts[usize::from(most)] == 0 { ABSENT } else { most }
 }
 
 #[cfg(test)]
@@ -169,6 +174,12 @@ mod tests {
         assert_eq!(blocks.coarsen(&values), Coarse::Float(vec![3.0, 4.5, 7.5, 9.0]));
         let statuses = MapValues::Status(vec![1, 1, 0, 1, 2, 2, 0, 0, 1]);
         assert_eq!(blocks.coarsen(&statuses), Coarse::Status(vec![1, 2, 0, 1]));
+        // Beyond the outline of a pin there is nothing to take part.
+        let values = MapValues::Float([f64::NAN, 2.0, 3.0, f64::NAN, 5.0, f64::NAN, 7.0, 8.0, f64::NAN].to_vec());
+        let Coarse::Float(found) = blocks.coarsen(&values) else { panic!("means") };
+        assert_eq!((&found[..3], found[3].is_nan()), (&[3.5, 3.0, 7.5][..], true));
+        let statuses = MapValues::Status(vec![3, 3, 0, 3, 1, 3, 3, 3, 2]);
+        assert_eq!(blocks.coarsen(&statuses), Coarse::Status(vec![1, 0, 3, 2]));
     }
 
     #[test]

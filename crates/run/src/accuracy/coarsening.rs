@@ -1,6 +1,9 @@
 //! A scene's surfaces on a coarser mesh.
 
+use std::f64::consts::TAU;
+
 use plateau_core::model::mesh::{Mesh, MeshError};
+use plateau_core::model::outline::{Outline, columns_of_disc};
 use plateau_core::model::state::{Base, InitialSurfaces};
 
 /// Fewest columns of the pin on a coarse mesh.
@@ -17,14 +20,15 @@ pub struct Coarsening {
     pin_columns: Overlap,
     /// Base of every coarse cell of the pin.
     base: Vec<Base>,
-    fine_base: Vec<Base>,
+    /// Of the fine cells; none beyond the pin's outline.
+    fine_base: Vec<Option<Base>>,
 }
 
 impl Coarsening {
     /// A mesh with about one cell where `fine` has `factor` by `factor`; none where that leaves too few cells.
     ///
     /// The pin has a whole number of columns, and so many are given to the ring that the pin stays as wide as it was, as
-    /// nearly as whole numbers allow. Fibre and resin: see [`coarse_base`].
+    /// nearly as whole numbers allow; its outline is the same circle, if it is one. Fibre and resin: see [`coarse_base`].
     ///
     /// # Errors
     /// [`MeshError`] when the coarse mesh is none.
@@ -37,22 +41,34 @@ impl Coarsening {
         }
         let wider = fine.pin_columns() as f64 / pin_columns as f64;
         let disc_columns = coarse(fine.disc_columns(), wider).max(pin_columns);
+        let pin_columns = match fine.outline() {
+            Outline::Rectangle => pin_columns,
+            Outline::Disc { radius } => {
+                let angle = TAU / disc_columns as f64;
+                let columns = columns_of_disc(radius, fine.mean_radius(), angle).unwrap_or(pin_columns as f64);
+                (columns as usize).min(disc_columns)
+            }
+        };
         let half = 0.5 * fine.rows() as f64 * fine.row_height();
         let radii = [fine.mean_radius() - half, fine.mean_radius() + half];
-        let mesh = Mesh::new(rows, disc_columns, pin_columns, radii[0], radii[1])?;
+        let mesh = Mesh::new(rows, disc_columns, pin_columns, radii[0], radii[1])?.with_outline(fine.outline())?;
+        let fine_base: Vec<Option<Base>> =
+            fine_base.iter().enumerate().map(|(cell, base)| fine.is_present(cell).then_some(*base)).collect();
         let mut coarsening = Self {
             fine_rows: fine.rows(),
             rows: Overlap::of_rings(radii, fine.rows(), rows),
             disc_columns: Overlap::of_lengths(fine.disc_columns(), disc_columns),
             pin_columns: Overlap::of_lengths(fine.pin_columns(), pin_columns),
             base: Vec::new(),
-            fine_base: fine_base.to_vec(),
+            fine_base,
             mesh,
         };
-        let fibre =
-            coarsening.integrals(&coarsening.pin_columns, |cell| f64::from(u8::from(!fine_base[cell].is_resin())));
-        let whole = coarsening.integrals(&coarsening.pin_columns, |_| 1.0);
-        coarsening.base = coarse_base(&fibre, &whole);
+        let part_of = |is_counted: fn(Option<Base>) -> bool| {
+            let part = |cell: usize| f64::from(u8::from(is_counted(coarsening.fine_base[cell])));
+            coarsening.integrals(&coarsening.pin_columns, part)
+        };
+        let fibre = part_of(|base| base == Some(Base::Primary));
+        coarsening.base = coarse_base(&fibre, &part_of(|base| base.is_some()));
         Ok(Some(coarsening))
     }
 
@@ -73,19 +89,24 @@ impl Coarsening {
     }
 
     /// Heights of the pin: the mean over the part of a coarse cell that has the cell's base, for resin lies deeper than
-    /// fibres, and a mean over both would be the height of neither.
+    /// fibres, and a mean over both would be the height of neither. Cells that are beyond the outline of one of both pins do
+    /// not count; one without any other has the mean height of its base.
     pub fn pin(&self, heights: &[f64]) -> Vec<f64> {
         let of = |base: Base| {
-            let part = |cell: usize| f64::from(u8::from(self.fine_base[cell] == base));
-            let sums = self.integrals(&self.pin_columns, |cell| part(cell) * heights[cell]);
-            (sums, self.integrals(&self.pin_columns, part))
+            let is_it = |cell: usize| self.fine_base[cell] == Some(base);
+            let sums = self.integrals(&self.pin_columns, |cell| if is_it(cell) { heights[cell] } else { 0.0 });
+            (sums, self.integrals(&self.pin_columns, |cell| f64::from(u8::from(is_it(cell)))))
         };
         let (fibre, resin) = (of(Base::Primary), of(Base::None));
         let height = |(cell, base): (usize, &Base)| {
             let (sums, parts) = if base.is_resin() { &resin } else { &fibre };
             match parts[cell] {
                 part if part > 0.0 => sums[cell] / part,
-                _ => (fibre.0[cell] + resin.0[cell]) / (fibre.1[cell] + resin.1[cell]),
+                _ if fibre.1[cell] + resin.1[cell] > 0.0 => {
+                    (fibre.0[cell] + resin.0[cell]) / (fibre.1[cell] + resin.1[cell])
+                }
+                _ if self.mesh.is_present(cell) => sums.iter().sum::<f64>() / parts.iter().sum::<f64>(),
+                _ => 0.0,
             }
         };
         self.base.iter().enumerate().map(height).collect()
@@ -116,7 +137,7 @@ fn coarse_base(fibre: &[f64], whole: &[f64]) -> Vec<Base> {
     // Of cells with equal parts some are taken, spread evenly over the pin.
     let spread = |cell: usize| (cell as f64 * GOLDEN).fract();
     let mut cells: Vec<usize> = (0..fibre.len()).collect();
-    let part = |cell: usize| fibre[cell] / whole[cell];
+    let part = |cell: usize| if whole[cell] > 0.0 { fibre[cell] / whole[cell] } else { 0.0 };
     // Parts that differ by rounding only are equal.
     let rank = |cell: usize| ((1.0 - part(cell)) * 1e9).round() + spread(cell);
     cells.sort_by(|one, other| rank(*one).total_cmp(&rank(*other)));
@@ -229,6 +250,36 @@ mod tests {
         // Half a cell more or less; the coarse pin itself is a little wider or narrower.
         let wider = coarsening.mesh.pin_area() / mesh.pin_area();
         assert!((after - before * wider).abs() < 0.51 * coarsening.mesh.area()[2], "{after} and {before}");
+    }
+
+    #[test]
+    fn a_round_pin_stays_round_and_keeps_its_heights() {
+        let mesh = Mesh::new(60, 1400, 64, 20e-3, 24e-3).unwrap();
+        let mesh = mesh.with_outline(Outline::Disc { radius: 2e-3 }).unwrap();
+        // What is beyond the outline must not be seen.
+        let of = |cell: usize, fibre: f64, resin: f64| match (mesh.is_present(cell), (cell / 60).is_multiple_of(3)) {
+            (false, _) => f64::NAN,
+            (_, true) => fibre,
+            (_, false) => resin,
+        };
+        let heights: Vec<f64> = (0..mesh.pin_cells()).map(|cell| of(cell, -1e-6, 8e-6)).collect();
+        let base: Vec<Base> = (0..mesh.pin_cells())
+            .map(|cell| if of(cell, 1.0, 0.0) == 1.0 { Base::Primary } else { Base::None })
+            .collect();
+        for factor in [2, 4, 8] {
+            let coarsening = Coarsening::new(&mesh, &base, factor).unwrap().unwrap();
+            let coarse = &coarsening.mesh;
+            assert_eq!(coarse.outline(), mesh.outline());
+            // Either counts centres in the circle: each misses its area by a cell's half diagonal along the edge at most.
+            let edge = TAU * 2e-3 * 0.5 * coarse.row_height().hypot(coarse.column_width());
+            assert!((coarse.pin_area() - mesh.pin_area()).abs() < 2.0 * edge, "{factor}");
+            let found = coarsening.pin(&heights);
+            for (cell, base) in coarsening.base.iter().enumerate().filter(|(cell, _)| coarse.is_present(*cell)) {
+                let expected = if base.is_resin() { 8e-6 } else { -1e-6 };
+                assert!((found[cell] - expected).abs() < 1e-18 || factor > 2, "{factor}: {}", found[cell]);
+                assert!((-1e-6 - 1e-18..=8e-6 + 1e-18).contains(&found[cell]), "{factor}: {}", found[cell]);
+            }
+        }
     }
 
     #[test]

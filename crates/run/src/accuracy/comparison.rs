@@ -125,7 +125,8 @@ fn relative(value: f64, reference: f64) -> f64 {
 }
 
 fn topography(run: &Heights, reference: &Heights, mesh: &Mesh, coarsening: Option<&Coarsening>) -> [f64; 2] {
-    let areas = coarsening.map_or(mesh, |coarsening| &coarsening.mesh).area();
+    let mesh = coarsening.map_or(mesh, |coarsening| &coarsening.mesh);
+    let areas = mesh.area();
     let on_mesh = |heights: &Vec<f64>, coarse: fn(&Coarsening, &[f64]) -> Vec<f64>| match coarsening {
         Some(coarsening) => coarse(coarsening, heights),
         None => heights.clone(),
@@ -135,7 +136,8 @@ fn topography(run: &Heights, reference: &Heights, mesh: &Mesh, coarsening: Optio
     [
         disc.map_or(f64::NAN, |(run, expected)| rms_difference(run, &on_mesh(expected, Coarsening::disc), areas)),
         pin.map_or(f64::NAN, |(run, expected)| {
-            rms_difference_about_mean(run, &on_mesh(expected, Coarsening::pin), areas)
+            let areas: Vec<f64> = mesh.pin_areas().collect();
+            rms_difference_about_mean(run, &on_mesh(expected, Coarsening::pin), &areas)
         }),
     ]
 }
@@ -169,7 +171,8 @@ fn greatest(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.fold(0.0, |most, number| if number.is_nan() || number > most { number } else { most })
 }
 
-/// Area-weighted rms of the difference of two fields, m; `areas` are those of the cells of a column.
+/// Area-weighted rms of the difference of two fields, m; `areas` are those of the cells, or of the cells of a column. Cells
+/// without area, as beyond the pin's outline, do not count.
 fn rms_difference(heights: &[f64], reference: &[f64], areas: &[f64]) -> f64 {
     about(0.0, heights, reference, areas)
 }
@@ -187,6 +190,7 @@ fn about(level: f64, heights: &[f64], reference: &[f64], areas: &[f64]) -> f64 {
 fn weighted_mean(values: impl Iterator<Item = f64>, areas: &[f64]) -> f64 {
     let (sum, area) = values
         .zip(areas.iter().cycle())
+        .filter(|(_, weight)| **weight > 0.0)
         .fold((0.0, 0.0), |(sum, area), (value, weight)| (sum + value * weight, area + weight));
     sum / area
 }

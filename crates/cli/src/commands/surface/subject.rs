@@ -98,7 +98,8 @@ impl Subject {
             })
         };
         // The pin's z grows away from the disc.
-        let pin_height = surfaces.pin_height.into_iter().map(|height| -height).collect();
+        let mut pin_height: Vec<f64> = surfaces.pin_height.into_iter().map(|height| -height).collect();
+        mesh.absent_cells().for_each(|cell| pin_height[cell] = f64::NAN);
         Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
     }
 

@@ -11,6 +11,7 @@ use super::worn::{Cells, Worn, wear};
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
 use crate::engine::pin_strips::{PinStrip, PinStrips};
 use crate::engine::plateau;
+use crate::engine::presence::Extent;
 use crate::engine::strips::DiscSector;
 
 /// Columns of a strip with something out of the ordinary after which it is not looked for any more.
@@ -30,6 +31,8 @@ pub(super) struct Strip<'a> {
     pub first: usize,
     /// The pin, with the column that is ahead of the last.
     pub pin: PinStrip<'a>,
+    /// Which of the columns have cells of the pin.
+    pub extent: Extent,
     /// z_d, m.
     pub disc_height: &'a mut [Chunk],
     /// b_d, m; empty where it is not kept.
@@ -61,6 +64,7 @@ impl<'a> Strip<'a> {
         let mut strip = Self {
             index,
             first,
+            extent: pin.extent(index, first..first + columns),
             pin: pin.strip_mut(index, first..first + columns + 1),
             behind_height: if joined { disc_height[over - 1] } else { Chunk([f64::NEG_INFINITY; LANES]) },
             behind_secondary: 0,
@@ -138,16 +142,20 @@ pub(super) fn update<
         b_p = b_p.greater(z_p);
 
         // 4P Debris at hand fills the clearance of open cells, wholly or in part.
-        let filled = plateau::fill(clearance, rules.share).only(!touches);
-        moved.limited = moved.limited | (filled.below(rules.share) & !touches);
+        let open = match strip.pin.present.get(column) {
+            Some(present) => !touches & L::Mask::of_byte(*present),
+            None => !touches,
+        };
+        let filled = plateau::fill(clearance, rules.share).only(open);
+        moved.limited = moved.limited | (filled.below(rules.share) & open);
         let on_pin = plateau::on_pin(filled, supported, rules.pad_share());
         let on_disc = filled - on_pin;
         z_p = z_p - on_pin;
         z_d = z_d + on_disc;
         let (beyond_pin, beyond_disc) =
             (rules.beyond(on_pin, rules.even_on_pin), rules.beyond(on_disc, rules.even_on_disc));
-        moved.deposited_pin = moved.deposited_pin.plus_where(!touches, beyond_pin);
-        moved.deposited_disc = moved.deposited_disc.plus_where(!touches, beyond_disc);
+        moved.deposited_pin = moved.deposited_pin.plus_where(open, beyond_pin);
+        moved.deposited_disc = moved.deposited_disc.plus_where(open, beyond_disc);
         b_p.store(&mut strip.pin.substrate[column]);
         if DISC_WEARS {
             b_d.store(&mut strip.disc_substrate[column]);

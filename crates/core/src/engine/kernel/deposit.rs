@@ -25,6 +25,9 @@ pub(super) fn deposit<const DISTINCT: bool, const DISC_WEARS: bool>(
     moved: &mut Moved,
 ) {
     let mut receivers = !word(strip.pin.touches, first) & word(strip.pin.touches, first + 1);
+    if !strip.pin.present.is_empty() {
+        receivers &= word(strip.pin.present, first);
+    }
     if receivers == 0 {
         return;
     }
@@ -48,7 +51,7 @@ pub(super) fn deposit<const DISTINCT: bool, const DISC_WEARS: bool>(
     }
 }
 
-/// The bytes of eight columns from `first` on; where there are none, nothing touches.
+/// The bytes of eight columns from `first` on; where there are none, nothing touches and no cell is there.
 #[inline(always)]
 fn word(touches: &[u8], first: usize) -> u64 {
     let touches = touches.get(first..).unwrap_or_default();

@@ -62,11 +62,12 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
         let (mut strip_moved, mut next) = (StripMoved::<L>::new(), StripReading::<L, DISTINCT>::new());
         let edge = Edge::strip(conditions.ahead, index);
         strip.pin.touches[span.columns] = edge.touches;
-        let mut behind = strip.behind::<L, DISTINCT>(0);
+        let some = strip.extent.some.clone();
+        let mut behind = strip.behind::<L, DISTINCT>(some.start);
         let mut unusual = 0;
-        for first in (0..span.columns).step_by(COLUMNS) {
+        for first in some.clone().step_by(COLUMNS) {
             deposit::<DISTINCT, DISC_WEARS>(rules, conditions, &edge, &mut strip, first, moved);
-            let (mut column, end) = (first, span.columns.min(first + COLUMNS));
+            let (mut column, end) = (first, some.end.min(first + COLUMNS));
             while column < end {
                 if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
                     column = sweep_plain_locally::<L, DISTINCT, DISC_WEARS>(

@@ -8,23 +8,24 @@
 //!
 //! This takes a third of the instructions of [`super::cells`], and gives the same bits.
 
+use std::ops::Range;
+
 use super::cells::Strip;
 use super::moved::{Moved, StripMoved};
 use super::reading::{Reading, StripReading};
 use super::rules::StripRules;
 use crate::engine::lanes::{Chunk, Integers, Lanes, Mask};
 
-/// Sweeps the columns of a strip from `start` on, up to the first with a cell to which anything else happens; returns
-/// that column.
+/// Sweeps some columns of a strip, all cells of which are there, up to the first with a cell to which anything else happens;
+/// returns that column.
 #[inline(always)]
 pub(super) fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
     rules: &StripRules<L>,
     strip: &mut Strip,
-    start: usize,
+    Range { start, end: columns }: Range<usize>,
     moved: &mut Moved,
     reading: &mut Reading,
 ) -> usize {
-    let columns = strip.disc_height.len();
     let z_behind = strip.behind::<L, false>(start).height;
     let mut plain = Plain {
         pin_height: &mut strip.pin.height[..columns],

@@ -21,6 +21,7 @@ use super::rules::{Conditions, Rules, StripRules};
 use crate::engine::lanes::Lanes;
 use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
+use crate::engine::presence::Extent;
 use crate::engine::strips::DiscSector;
 
 /// The sweep that does what a scene needs and nothing else; chosen once per run.
@@ -70,17 +71,21 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
     moved: &mut Moved,
     reading: &mut Reading,
 ) {
-    let columns = span.columns;
     for index in 0..pin.height.strips() {
         let mut strip = Strip::new::<L, DISTINCT, FORMS>(index, pin, disc, span, joined);
         let strip_rules = StripRules::<L>::new(rules, conditions, index);
-        let (mut column, mut unusual) = (0, 0);
-        while column < columns {
-            let mut end = columns;
-            if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
-                let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
-                column = plain(&strip_rules, &mut strip, column, moved, reading);
-                end = columns.min(column + 1);
+        let Extent { some, whole } = strip.extent.clone();
+        let (mut column, mut unusual) = (some.start, 0);
+        while column < some.end {
+            // Where not all cells are there, before and behind those columns where they are.
+            let mut end = if column < whole.start { whole.start } else { some.end };
+            if whole.contains(&column) {
+                end = whole.end;
+                if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
+                    let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
+                    column = plain(&strip_rules, &mut strip, column..end, moved, reading);
+                    end = end.min(column + 1);
+                }
             }
             sweep_any::<L, DISTINCT, DISC_WEARS, FORMS, DESTROYS>(
                 &strip_rules,

@@ -74,8 +74,9 @@ impl<C: Communicator> Worker<C> {
             pin: vec![0; 3 * rows],
         };
         for column in self.own_pin_columns() {
-            for (row, status) in self.rows.clone().zip(self.pin_statuses(column)) {
-                part.pin[status as usize * rows + row] += 1;
+            for (own, status) in self.pin_statuses(column).enumerate() {
+                let is_there = self.pin.is_present(own, column);
+                part.pin[status as usize * rows + self.rows.start + own] += u64::from(is_there);
             }
             let cells = self.pressure.get(self.own_cells(column)).unwrap_or(&[]);
             part.largest_pressure = cells.iter().copied().fold(part.largest_pressure, f64::max);

@@ -6,6 +6,7 @@ use super::Thermal;
 use super::chain::{Chain, ChainReport, ChainState, Link, sub_steps};
 use super::passing::Passing;
 use crate::model::cycle::{Kind, Pause};
+use crate::model::mesh::Mesh;
 use crate::model::parameters::Parameters;
 
 /// What heat needs of a scene, made once.
@@ -16,6 +17,8 @@ pub struct HeatModel {
     passing: Passing,
     /// Columns of the pin.
     columns: usize,
+    /// Where the pin is no rectangle: areas of its cells by their place in their row, m²; else empty.
+    chords: Vec<f64>,
     /// Δθ, rad.
     column_angle: f64,
     /// ΣA of the pin's mesh, m².
@@ -32,6 +35,7 @@ impl HeatModel {
             chain: Chain::new(thermal),
             passing: Passing::of(&thermal.disc),
             columns: mesh.pin_columns(),
+            chords: chords(mesh),
             column_angle: mesh.column_angle(),
             area: mesh.pin_area(),
         })
@@ -39,13 +43,25 @@ impl HeatModel {
 
     /// R, K/W, at a speed (rad/s).
     fn resistance(&self, speed: f64) -> f64 {
-        self.passing.resistance(self.columns, self.column_angle, self.area, speed)
+        if self.chords.is_empty() {
+            return self.passing.resistance(self.columns, self.column_angle, self.area, speed);
+        }
+        self.passing.resistance_of_chords(&self.chords, self.column_angle, speed)
     }
 
     /// How the surface of the disc answers a flux.
     pub fn passing(&self) -> &Passing {
         &self.passing
     }
+}
+
+/// Areas of the cells of a pin that are the first, second, … of their row, m²; none for a rectangle.
+fn chords(mesh: &Mesh) -> Vec<f64> {
+    let longest =
+        if mesh.is_rectangle() { 0 } else { (0..mesh.rows()).map(|row| mesh.chord(row).len()).max().unwrap_or(0) };
+    let area =
+        |place: usize| (0..mesh.rows()).filter(|row| mesh.chord(*row).len() > place).map(|row| mesh.area()[row]).sum();
+    (0..longest).map(area).collect()
 }
 
 /// The steps of an interval that has not ended.

@@ -42,13 +42,32 @@ impl Passing {
         sum / columns as f64 / area
     }
 
+    /// The same under a pin that is no rectangle: `areas` (m²) are those of its cells that are the first, second, … of their
+    /// row, counted from where the disc enters.
+    pub fn moving_resistance_of_chords(&self, areas: &[f64], column_time: f64) -> f64 {
+        let cells = areas.iter().zip(1..);
+        let sum: f64 = cells.map(|(area, column)| area * self.response(f64::from(column) * column_time)).sum();
+        let area: f64 = areas.iter().sum();
+        sum / area / area
+    }
+
     /// R, K/W, at a rotational speed (rad/s): 1/R² = 1/R_v² + 1/R₀² with R₀ = 0.479/(λ_d √ΣA) at rest.
     pub fn resistance(&self, columns: usize, column_angle: f64, area: f64, speed: f64) -> f64 {
+        self.of_both(area, speed, || self.moving_resistance(columns, column_angle / speed, area))
+    }
+
+    /// The same under a pin that is no rectangle, see [`Passing::moving_resistance_of_chords`].
+    pub fn resistance_of_chords(&self, areas: &[f64], column_angle: f64, speed: f64) -> f64 {
+        self.of_both(areas.iter().sum(), speed, || self.moving_resistance_of_chords(areas, column_angle / speed))
+    }
+
+    /// R of a pin of this area (m²) from R_v, if it moves.
+    fn of_both(&self, area: f64, speed: f64, moving: impl Fn() -> f64) -> f64 {
         let at_rest = 0.479 / (self.substrate.conductivity * area.sqrt());
         if speed == 0.0 {
             return at_rest;
         }
-        let moving = self.moving_resistance(columns, column_angle / speed, area);
+        let moving = moving();
         if !moving.is_finite() {
             return at_rest;
         }
@@ -108,6 +127,20 @@ mod tests {
         // Jaeger's band at high Péclet number; the sum over columns comes to the integral as 1/columns.
         let mean = BARE.moving_resistance(100_000, 1e-8, 1.0);
         assert!((mean / (2.0 / 3.0 * BARE.response(1e-3)) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn chords_of_different_lengths_take_part_with_their_areas() {
+        // By hand: rows of 3 m² and 5 m² a cell, with one and three columns. Of the four cells, the first of both rows are
+        // under the pin for one column time, and so on.
+        let rises = [1.0, 2.0, 3.0].map(|time| coated(60e-6).response(time * 1e-4));
+        let expected = (8.0 * rises[0] + 5.0 * rises[1] + 5.0 * rises[2]) / 18.0 / 18.0;
+        let found = coated(60e-6).moving_resistance_of_chords(&[8.0, 5.0, 5.0], 1e-4);
+        assert!((found / expected - 1.0).abs() < 1e-14);
+        // Rows of equal chords are a rectangle.
+        let rectangle = coated(60e-6).resistance(20, 2e-3, 4e-5, 90.0);
+        let same = coated(60e-6).resistance_of_chords(&[2e-6; 20], 2e-3, 90.0);
+        assert!((same / rectangle - 1.0).abs() < 1e-14);
     }
 
     #[test]

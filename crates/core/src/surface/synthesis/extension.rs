@@ -7,10 +7,10 @@
 
 use super::autocovariance::{Autocovariance, wrapped};
 use super::grid::Grid;
+use super::most_cells;
 use super::planar;
 use super::quantiles::Quantiles;
 use super::translation::Translation;
-use super::{most_cells, normalise};
 use crate::model::mesh::Mesh;
 use crate::surface::fft::Complex;
 use crate::surface::fft2d::Fft2d;
@@ -65,9 +65,7 @@ pub fn extend(patch: &Patch, seed: u64, body: Body, mesh: &Mesh) -> Result<Exten
     let translation = Translation::of(|x| quantiles.of_normal(x), NORMAL_STEP, 0.0);
     let power = spectrum(&measured, &translation, [columns, rows]);
     let mut heights = planar::field(&grid, power, None, &mut Random::new(seed, stream));
-    if normalise(&mut heights, 1.0).is_some() {
-        quantiles.impose(&mut heights);
-    }
+    quantiles.impose(&mut heights);
     let [along, across] = cells;
     let report = format!(
         "{size}, averaged over {along} by {across} cells of {} by {} in {} positions, extended by its statistics, seed {seed}",

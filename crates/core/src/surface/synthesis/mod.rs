@@ -92,8 +92,8 @@ impl HeightSynthesis {
         Self { seed, rms_height, texture, skewness: 0.0, kurtosis: 3.0, patch: None }
     }
 
-    /// Heights of every cell of `body`, m, column by column: mean 0 and rms height as asked (both over the cells, up to
-    /// rounding), on the disc periodic round the ring.
+    /// Heights of every cell of `body`, m, column by column: mean 0 and rms height as asked (both over the cells that are
+    /// there, up to rounding), on the disc periodic round the ring.
     ///
     /// Autocorrelation, skewness and kurtosis are those of the population from which a seed draws one field: those of
     /// a single field differ from them by its sampling error.
@@ -136,11 +136,12 @@ impl HeightSynthesis {
         };
         let (key, length) = self.texture.length();
         let only_mean = SynthesisError::OnlyMean { columns: grid.columns, rows: grid.rows, key, length };
+        let is_there = |cell: usize| body == Body::Disc || mesh.is_present(cell);
         if translation.is_some() {
-            normalise(&mut field, 1.0).ok_or_else(|| only_mean.clone())?;
+            normalise(&mut field, 1.0, is_there).ok_or_else(|| only_mean.clone())?;
             field.iter_mut().for_each(|value| *value = distribution.height(*value));
         }
-        normalise(&mut field, self.rms_height).ok_or(only_mean)?;
+        normalise(&mut field, self.rms_height, is_there).ok_or(only_mean)?;
         Ok(field)
     }
 
@@ -209,23 +210,28 @@ fn refuse_too_large(grid: &Grid) -> Result<(), SynthesisError> {
     }
 }
 
-/// Takes out the mean and scales to the rms height; `None` when nothing but the mean is there.
-fn normalise(field: &mut [f64], rms_height: f64) -> Option<()> {
-    let largest = field.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    centre(field);
-    let count = field.len() as f64;
-    let rms = (field.iter().map(|value| value * value).sum::<f64>() / count).sqrt();
+/// Takes out the mean and scales to the rms height, both of the cells that are there; `None` when nothing but the mean is.
+fn normalise(field: &mut [f64], rms_height: f64, is_there: impl Fn(usize) -> bool) -> Option<()> {
+    let largest = there(field, &is_there).fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let count = there(field, &is_there).count() as f64;
+    centre(field, count, &is_there);
+    let rms = (there(field, &is_there).map(|value| value * value).sum::<f64>() / count).sqrt();
     if rms <= SMALLEST_RMS * largest {
         return None;
     }
     let factor = rms_height / rms;
     field.iter_mut().for_each(|value| *value *= factor);
     // What rounding left of the mean the first time.
-    centre(field);
+    centre(field, count, &is_there);
     Some(())
 }
 
-fn centre(field: &mut [f64]) {
-    let mean = field.iter().sum::<f64>() / field.len() as f64;
+fn centre(field: &mut [f64], count: f64, is_there: impl Fn(usize) -> bool) {
+    let mean = there(field, &is_there).sum::<f64>() / count;
     field.iter_mut().for_each(|value| *value -= mean);
+}
+
+/// The values of the cells that are there.
+fn there<'a>(field: &'a [f64], is_there: &'a impl Fn(usize) -> bool) -> impl Iterator<Item = f64> + 'a {
+    field.iter().enumerate().filter(|(cell, _)| is_there(*cell)).map(|(_, value)| *value)
 }

@@ -42,6 +42,18 @@ pub(crate) const FIBRES: Choices<Fibres, 2> = [("bright", Fibres::Bright), ("dar
 /// `pin.base.uniform`.
 pub(crate) const UNIFORM: Choices<Base, 2> = [("primary", Base::Primary), ("none", Base::None)];
 
+/// `mesh.shape`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// All cells of the pin's rows and columns.
+    Rectangle,
+    /// Those within a circle.
+    Disc,
+}
+
+/// `mesh.shape`.
+pub(crate) const SHAPE: Choices<Shape, 2> = [("rectangle", Shape::Rectangle), ("disc", Shape::Disc)];
+
 /// The words alone.
 pub(super) const fn words<T, const COUNT: usize>(choices: &Choices<T, COUNT>) -> [&'static str; COUNT] {
     let mut words = [""; COUNT];

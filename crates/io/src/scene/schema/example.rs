@@ -6,6 +6,11 @@ use super::{Key, Kind};
 const USUAL: &[(&str, &str)] = &[
     ("inner_radius", "20 mm"),
     ("outer_radius", "24 mm"),
+    ("pin_diameter", "3 mm"),
+    ("pin_width", "4 mm"),
+    ("pin_length", "8 mm"),
+    ("cell_size", "50 um"),
+    ("mean_radius", "22 mm"),
     ("wear_height", "5 um"),
     ("pitch", "0.5 um"),
     ("height_range", "12 um"),

@@ -3,9 +3,9 @@
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
-use super::optional_parts;
 use super::table::{Table, length};
 use super::{CYCLE, Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
+use super::{mesh, optional_parts};
 use crate::units::Dimension::{Area, Force, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
 use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
 use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
@@ -61,6 +61,12 @@ const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" 
 
 /// Keys that have no meaning beside a value of another key.
 pub const MEANINGLESS: &[Meaningless] = &[
+    Meaningless { beside: mesh::PIN_IS_ROUND, key: "mesh.pin_length", reason: "a round pin is as long as it is wide" },
+    Meaningless {
+        beside: mesh::PIN_IS_A_RECTANGLE,
+        key: "mesh.pin_diameter",
+        reason: "a rectangle covers all rows and pin_columns",
+    },
     Meaningless {
         beside: DEBRIS_IS_LOCAL,
         key: "plateaus.pad_share",
@@ -89,12 +95,7 @@ pub(super) fn all() -> Vec<Key> {
     table.key("extends", Text, Optional, "scene that this one takes as its base, relative to this file");
 
     table.role = Role::Physics;
-    table.section = "mesh";
-    table.key("inner_radius", length("mm", Range::POSITIVE), Required, "inner radius of the ring");
-    table.key("outer_radius", length("mm", Range::POSITIVE), Required, "outer radius of the ring");
-    table.key("rows", Integer(1), Required, "cells along the radius");
-    table.key("disc_columns", Integer(1), Required, "cells around the ring");
-    table.key("pin_columns", Integer(1), Required, "cells that the pin covers along the ring, at most disc_columns");
+    mesh::add(&mut table);
 
     table.section = "operation";
     let force = Kind::Quantity { dimension: Force, unit: "N", range: Range::POSITIVE };

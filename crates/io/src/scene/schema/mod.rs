@@ -7,11 +7,13 @@ pub mod choices;
 mod example;
 mod json_schema;
 mod keys;
+mod mesh;
 mod optional_parts;
 mod straightening;
 mod suggest;
 mod table;
 mod tables;
+mod ways;
 
 use std::fmt;
 use std::sync::LazyLock;
@@ -22,6 +24,7 @@ pub use json_schema::document as json_schema;
 pub use keys::{GROUPS, MEANINGLESS};
 pub(crate) use suggest::{nearest, unknown};
 pub use tables::table_meaning;
+pub use ways::{WAYS, Ways};
 
 /// Full path of the key of m: a number, or a table with how the run chooses it.
 pub(crate) const ACCELERATION: &str = "numerics.time_acceleration";
@@ -156,6 +159,8 @@ pub enum Need {
     Required,
     /// The key is one of a group of which one is chosen (see [`GROUPS`]).
     OneOf,
+    /// It is an error where the key's way of saying the same is chosen (see [`WAYS`]), unless another key has a certain value.
+    OfWay(Option<Choose>),
     /// This value is taken, in TOML; for a key of an inline table, if that table is there.
     Default(&'static str),
     /// The value of the same name in this table is taken.

@@ -4,7 +4,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
-use super::moments::{floats, moment};
+use super::moments::{floats, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -17,6 +17,8 @@ use plateau_io::number;
 const NAME: &str = "contact-temperature";
 /// Number of the colour of cells without a temperature.
 const NONE: u8 = COLOURS as u8;
+/// Number of the colour of what is no cell.
+const NO_CELL: u8 = NONE + 1;
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
@@ -55,7 +57,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             let largest = number::rounded(look.unit.value(temperatures.iter().copied().fold(0.0, f64::max)), 3);
             let title = format!("{}, {}", look.body(), moment(subject.run, index));
             let remark = format!("at most {}", look.unit.with_symbol(&largest));
-            let cells: Vec<u8> = temperatures.iter().map(colour).collect();
+            let mut cells: Vec<u8> = temperatures.iter().map(colour).collect();
+            leave_blank(subject.run, Map::Temperature, &mut cells, NO_CELL);
             has_none |= cells.contains(&NONE);
             Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
         })?;

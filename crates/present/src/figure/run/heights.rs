@@ -71,9 +71,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     Ok(())
 }
 
-/// Heights of a body in the unit that they are shown in.
+/// Heights of a body, within its outline, in the unit that they are shown in.
 fn scaled(subject: &Subject, look: &MapLook, index: usize) -> Result<Vec<f64>, ReadError> {
     let (mut heights, _) = heights(subject.run, look.map, index)?;
+    heights.retain(|height| !height.is_nan());
     heights.iter_mut().for_each(|height| *height = look.unit.value(*height));
     Ok(heights)
 }

@@ -30,6 +30,13 @@ pub fn floats(run: &RunFile, map: Map, index: usize) -> Result<Vec<f64>, ReadErr
     }
 }
 
+/// Gives the cells beyond the pin's outline the colour of what is no cell.
+pub fn leave_blank(run: &RunFile, map: Map, cells: &mut [u8], ground: u8) {
+    if !map.on_disc() && cells.len() == run.mesh().pin_cells() {
+        run.mesh().absent_cells().for_each(|cell| cells[cell] = ground);
+    }
+}
+
 /// Statuses of a map, column by column; nothing if there are none.
 pub fn statuses(run: &RunFile, map: Map, index: usize) -> Result<Vec<u8>, ReadError> {
     match run.map(map, index)? {

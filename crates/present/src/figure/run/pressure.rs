@@ -4,7 +4,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
-use super::moments::{floats, moment};
+use super::moments::{floats, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -19,6 +19,8 @@ const NAME: &str = "pressure";
 const MOST_LINEAR: f64 = 100.0;
 /// Number of the colour of cells without contact.
 const NO_CONTACT: u8 = COLOURS as u8;
+/// Number of the colour of what is no cell.
+const NO_CELL: u8 = NO_CONTACT + 1;
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
@@ -48,7 +50,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             let largest = number::rounded(unit.value(pressures.iter().copied().fold(0.0, f64::max)), 3);
             let title = format!("{}, {}", look.body(), moment(subject.run, index));
             let remark = format!("at most {}", unit.with_symbol(&largest));
-            let cells: Vec<u8> = pressures.iter().map(colour).collect();
+            let mut cells: Vec<u8> = pressures.iter().map(colour).collect();
+            leave_blank(subject.run, Map::Pressure, &mut cells, NO_CELL);
             Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
         })?;
         blocks.push(MapBlock {

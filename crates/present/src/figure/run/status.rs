@@ -5,7 +5,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
-use super::moments::{ends, moment, statuses};
+use super::moments::{ends, leave_blank, moment, statuses};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
 use crate::colour::GROUND;
@@ -60,22 +60,25 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
 }
 
 fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>, ReadError> {
-    let cells = statuses(subject.run, map, index)?;
+    let mut cells = statuses(subject.run, map, index)?;
     if cells.is_empty() {
         return Ok(None);
     }
     let [none, primary, secondary] = area_fractions(subject.run.mesh(), &cells).map(percent);
     let title = format!("{}, {}", MapLook::of(map).body(), moment(subject.run, index));
     let remark = format!("none {none}, primary {primary}, secondary {secondary} %");
+    leave_blank(subject.run, map, &mut cells, STATUS_LOOKS.len() as u8);
     Ok(Some(Painted { title, remark, cells }))
 }
 
-/// Parts of the area that are none, primary and secondary.
+/// Parts of the area that are none, primary and secondary; cells beyond the pin's outline do not count.
 fn area_fractions(mesh: &Mesh, cells: &[u8]) -> [f64; 3] {
     let mut areas = [0.0; 3];
     for column in cells.chunks(mesh.rows()) {
         for (status, area) in column.iter().zip(mesh.area()) {
-            areas[usize::from(*status)] += area;
+            if let Some(sum) = areas.get_mut(usize::from(*status)) {
+                *sum += area;
+            }
         }
     }
     let all: f64 = areas.iter().sum();
@@ -95,6 +98,7 @@ mod tests {
         // By hand: rows at r = 1.5 and 2.5, two columns; 1.5 + 1.5 + 2.5 + 2.5 = 8.
         let mesh = Mesh::new(2, 10, 2, 1.0, 3.0).unwrap();
         let [none, primary, secondary] = area_fractions(&mesh, &[0, 2, 1, 2]);
+        assert_eq!(area_fractions(&mesh, &[0, 3, 3, 3]), [1.0, 0.0, 0.0]);
         for (fraction, expected) in [(none, 1.5 / 8.0), (primary, 1.5 / 8.0), (secondary, 5.0 / 8.0)] {
             assert!((fraction - expected).abs() < 1e-15);
         }

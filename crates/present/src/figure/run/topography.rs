@@ -4,10 +4,10 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
-use super::moments::{ends, heights, moment};
+use super::moments::{ends, heights, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
-use crate::colour::{GROUND, colour_index, colour_map};
+use crate::colour::{COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
 use crate::quantity::{BEYOND, MapLook, RobustRange};
 use plateau_io::number;
@@ -65,10 +65,12 @@ fn painted(subject: &Subject, map: Map, index: usize, scale: &Axis) -> Result<Op
     let look = MapLook::of(map);
     let (heights, zero) = heights(subject.run, map, index)?;
     let colour = |height: &f64| colour_index(scale.part(look.unit.value(*height)));
+    let mut cells: Vec<u8> = heights.iter().map(colour).collect();
+    leave_blank(subject.run, map, &mut cells, COLOURS as u8);
     let zero = look.unit.with_symbol(&number::rounded(look.unit.value(zero), 4));
     Ok((!heights.is_empty()).then(|| Painted {
         title: format!("{}, {}", look.body(), moment(subject.run, index)),
         remark: if look.about_mean { format!("about its mean, z = {zero}") } else { String::new() },
-        cells: heights.iter().map(colour).collect(),
+        cells,
     }))
 }

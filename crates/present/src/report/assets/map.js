@@ -4,6 +4,9 @@
 /** Times closer than this part of the longest are one stop of the slider. */
 const sameTime = 1e-3;
 
+/** Status of a place beyond the outline of the pin. */
+const absent = 3;
+
 /** Height over width of a strip of the unrolled ring: it is cut into pieces that are not flatter. */
 const flattest = () => (document.documentElement.clientWidth < 640 ? 1 / 7 : 1 / 12);
 
@@ -208,7 +211,7 @@ class MapView {
         const [column, row] = this.place;
         const code = this.codes[(this.time * map.shape[0] + column) * map.shape[1] + row];
         const status = report.statuses.find((status) => status.code === code);
-        const value = map.is_status ? (status?.name ?? `status ${code}`) : this.value(code);
+        const value = map.is_status ? (status?.name ?? (code === absent ? "no cell" : `status ${code}`)) : this.value(code);
         const middle = (index, direction, cells) => 0.5 * (index * map.block[direction] + Math.min(cells, (index + 1) * map.block[direction]));
         const cells = map.on_disc ? mesh.disc_columns : mesh.pin_columns;
         const along = middle(column, 0, cells) * mesh.column_width;
@@ -250,11 +253,13 @@ class MapView {
     /** Part of the cells with a status. */
     share(code) {
         const cells = this.map.shape[0] * this.map.shape[1];
-        let count = 0;
+        let [count, all] = [0, 0];
         for (let cell = 0; cell < cells; cell++) {
-            if (this.codes[this.time * cells + cell] === code) count++;
+            const found = this.codes[this.time * cells + cell];
+            if (found === code) count++;
+            if (found !== absent) all++;
         }
-        return `${readable((100 * count) / cells, 3)} % of the cells`;
+        return `${readable((100 * count) / all, 3)} % of the cells`;
     }
 }
 

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::super::suggest::children;
-use super::super::{GROUPS, Group, Key, Need, find, is_below, is_table, join, keys, optional_table};
+use super::super::{GROUPS, Group, Key, Need, WAYS, Ways, find, is_below, is_table, join, keys, optional_table};
 use super::exclusion::{chooses, members, name_in};
 
 /// What must be in a table, and in the tables in it.
@@ -34,6 +34,7 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
     }
     let mut choices = choices(path);
     choices.extend(unless(path));
+    choices.extend(WAYS.iter().filter(|ways| ways.section == path).map(one_way));
     if !choices.is_empty() {
         schema.insert("allOf".into(), choices.into());
     }
@@ -47,8 +48,9 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
 /// Whether a table holds anything that is required, but for tables that are themselves a choice.
 fn is_needed(path: &str) -> bool {
     let in_it = |section: &str| section == path || is_below(section, path);
-    let is_required =
-        |key: &Key| matches!(key.need, Need::Required | Need::RequiredUnless(..) | Need::RequiredWithout(_));
+    let is_required = |key: &Key| {
+        matches!(key.need, Need::Required | Need::RequiredUnless(..) | Need::RequiredWithout(_) | Need::OfWay(_))
+    };
     let is_asked_for =
         |key: &Key| optional_table(key.section).is_none_or(|table| in_it(table) || is_below(path, table));
     let key = |key: &Key| is_required(key) && key.inline_table().is_none() && in_it(key.section) && is_asked_for(key);
@@ -83,6 +85,20 @@ fn unless(path: &str) -> Vec<Value> {
         _ => None,
     });
     alternatives.collect()
+}
+
+/// All that one of several ways needs is given.
+fn one_way(ways: &Ways) -> Value {
+    let all = |set| {
+        let each = ways.required(set).map(|name| match find(&join(ways.section, name)).map(|key| key.need) {
+            Some(Need::OfWay(Some(choose))) => {
+                json!({ "anyOf": [{ "required": [name] }, chooses(ways.section, choose)] })
+            }
+            _ => json!({ "required": [name] }),
+        });
+        json!({ "allOf": each.collect::<Vec<_>>() })
+    };
+    json!({ "anyOf": ways.sets.map(all) })
 }
 
 /// Keys that have a meaning only beside an alternative, each with that alternative.

@@ -47,6 +47,10 @@ fn absent(key: &Key) -> Option<String> {
             };
             format!("{count} {}", group.names())
         }),
+        Need::OfWay(unless) => {
+            let but = unless.map(|choose| format!(", but for {} = \"{}\"", choose.key, choose.value));
+            Some(format!("Required with the keys beside which it stands{}", but.unwrap_or_default()))
+        }
         Need::Optional => None,
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::{Choose, GROUPS, Group, MEANINGLESS, Meaningless, join};
+use super::super::{Choose, GROUPS, Group, MEANINGLESS, Meaningless, WAYS, join};
 
 /// For each alternative of a table: the others are not there. An editor so marks the key that is one too many.
 pub(super) fn table(path: &str) -> Map<String, Value> {
@@ -12,6 +12,13 @@ pub(super) fn table(path: &str) -> Map<String, Value> {
             let others = names.iter().filter(|other| *other != name);
             let absent: Map<_, _> = others.map(|other| ((*other).to_owned(), Value::Bool(false))).collect();
             dependencies.insert((*name).to_owned(), json!({ "properties": absent }));
+        }
+    }
+    for ways in WAYS.iter().filter(|ways| ways.section == path) {
+        for name in ways.sets.concat() {
+            let others = ways.other(name).unwrap_or_default().iter();
+            let absent: Map<_, _> = others.map(|other| ((*other).to_owned(), Value::Bool(false))).collect();
+            dependencies.insert(name.to_owned(), json!({ "properties": absent }));
         }
     }
     dependencies

@@ -1,0 +1,158 @@
+//! The mesh in lengths and the round pin through the whole program: the same bits, kills, files, figures and exports.
+
+use plateau_tests::program::{WorkingDirectory, go_on_through_kills, scene};
+use plateau_tests::run_file::{RunFile, differences};
+use plateau_tests::scenes::{Stream, few_or_all};
+
+/// `quick.toml` in lengths: by hand 2π · 22 mm/200 µm = 691.2 columns.
+const LENGTHS: [&str; 4] =
+    ["mesh.pin_width=4 mm", "mesh.pin_length=8 mm", "mesh.cell_size=200 um", "mesh.mean_radius=22 mm"];
+/// The same in cells.
+const CELLS: [&str; 5] = [
+    "mesh.inner_radius=20 mm",
+    "mesh.outer_radius=24 mm",
+    "mesh.rows=20",
+    "mesh.disc_columns=691",
+    "mesh.pin_columns=40",
+];
+/// A round pin of 4 mm, and so much acceleration that resin touches.
+const ROUND: [&str; 6] = [
+    "mesh.shape=disc",
+    "mesh.pin_width=4 mm",
+    "mesh.cell_size=200 um",
+    "mesh.mean_radius=22 mm",
+    "numerics.time_acceleration=400",
+    "output.roughness=true",
+];
+
+fn arguments(file: &str, sets: &[&str], more: &[&str]) -> Vec<String> {
+    let mut arguments = ["run", &scene("quick.toml"), "-o", file].map(str::to_owned).to_vec();
+    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+    arguments.extend(more.iter().map(|word| (*word).to_owned()));
+    arguments
+}
+
+/// Runs `quick.toml` with changes.
+fn run(directory: &WorkingDirectory, file: &str, sets: &[&str], more: &[&str]) -> RunFile {
+    let outcome = directory.plateau(arguments(file, sets, more));
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    RunFile::open(directory.path(file))
+}
+
+#[test]
+fn a_rectangle_in_lengths_gives_the_bits_of_that_in_cells() {
+    let directory = WorkingDirectory::new();
+    let steps = ["operation.steps=700"];
+    let in_lengths = run(&directory, "lengths.h5", &[&LENGTHS[..], &steps].concat(), &[]).content();
+    let in_cells = run(&directory, "cells.h5", &[&CELLS[..], &steps].concat(), &[]).content();
+    assert_eq!(differences(&in_lengths, &in_cells), [""; 0]);
+}
+
+/// Whether a cell is within the circle of 2 mm about the middle, by the definition.
+fn is_within(file: &RunFile, column: usize, row: usize) -> bool {
+    let (radius, angle) = (file.floats("radius")[row], file.floats("pin_angle"));
+    let middle = 0.5 * (angle[0] + angle[angle.len() - 1]);
+    (radius * (angle[column] - middle)).hypot(radius - 22e-3) <= 2e-3
+}
+
+#[test]
+fn the_file_of_a_round_pin_has_its_outline_and_any_worker_and_engine_gives_it() {
+    let directory = WorkingDirectory::new();
+    for debris in [
+        &["operation.steps=400"][..],
+        &["operation.steps=400", "plateaus.debris=track", "plateaus.captured_fraction=0.5"],
+    ] {
+        let sets = [&ROUND[..], debris].concat();
+        let one = run(&directory, "one.h5", &sets, &["--force"]);
+        let content = one.content();
+        for workers in ["2", "3"] {
+            let other = run(&directory, "other.h5", &sets, &["--force", "--workers", workers]).content();
+            assert_eq!(differences(&content, &other), [""; 0], "{workers} workers, {debris:?}");
+        }
+        let plain = run(&directory, "plain.h5", &sets, &["--force", "--engine", "plain"]);
+        for series in
+            ["contact_area", "worn_pin", "worn_resin", "emitted", "pin_secondary", "pin_sq", "filled_fraction"]
+        {
+            let [fast, plain] = [&one, &plain].map(|file| file.floats(&format!("series/{series}")));
+            for (fast, plain) in fast.iter().zip(&plain) {
+                assert!(
+                    (fast - plain).abs() <= 1e-9 * plain.abs().max(fast.abs()) + 1e-24,
+                    "{series}: {fast:e} {plain:e}"
+                );
+            }
+        }
+        let [columns, rows] = one.shape("pin/base")[..] else { panic!("two dimensions") };
+        let base = one.bytes("pin/base");
+        let status = one.bytes("pin/status");
+        let last = status.len() - columns * rows;
+        for (cell, height) in one.last_map("pin/height").into_iter().enumerate() {
+            let is_absent = !is_within(&one, cell / rows, cell % rows);
+            assert_eq!([base[cell] == 3, status[last + cell] == 3, height.is_nan()], [is_absent; 3], "cell {cell}");
+        }
+        assert!(one.bytes("disc/status").iter().all(|status| *status < 3));
+        // Σ A over the cells that are there: what a ratio of contact is of.
+        let area = one.floats("series/contact_area")[0] / one.floats("series/contact_ratio")[0];
+        let mean = std::f64::consts::PI * 4e-6;
+        assert!((area / mean - 1.0).abs() < 0.05, "{area:e}");
+        directory.plateau(["verify", "one.h5"]).quiet_success();
+    }
+}
+
+#[test]
+fn flags_of_absent_cells_are_in_files_of_round_pins_alone() {
+    let directory = WorkingDirectory::new();
+    let steps = "operation.steps=30";
+    let round = run(&directory, "round.h5", &[&ROUND[..], &[steps]].concat(), &[]);
+    let rectangle = run(&directory, "rectangle.h5", &[steps], &[]);
+    for (file, dataset, meanings) in [
+        (&round, "pin/status", "none primary secondary absent"),
+        (&round, "pin/base", "none primary secondary absent"),
+        (&round, "disc/status", "none primary secondary"),
+        (&rectangle, "pin/status", "none primary secondary"),
+        (&rectangle, "pin/base", "none primary secondary"),
+    ] {
+        assert_eq!(file.text_of(dataset, "flag_meanings"), meanings, "{dataset}");
+    }
+}
+
+#[test]
+fn a_killed_run_of_a_round_pin_ends_as_an_undisturbed_one() {
+    let directory = WorkingDirectory::new();
+    let more = ["operation.steps=4000", "output.sample_every_steps=50", "output.checkpoint_every=0.03 s"];
+    let sets = [&ROUND[..], &more].concat();
+    let whole = run(&directory, "whole.h5", &sets, &[]).content();
+    let killed =
+        go_on_through_kills(&directory, &arguments("run.h5", &sets, &["--resume"]), few_or_all(2, 6), 1.0, Stream(3));
+    assert!(killed > 0);
+    assert_eq!(differences(&RunFile::open(directory.path("run.h5")).content(), &whole), [""; 0]);
+}
+
+#[test]
+fn files_of_a_round_pin_are_read_drawn_and_exported() {
+    let directory = WorkingDirectory::new();
+    let sets = [&ROUND[..], &["operation.steps=60"]].concat();
+    run(&directory, "one.h5", &sets, &[]);
+    // The fibres of one run as those of the next: what stands beyond the outline is not looked at.
+    let (file, dataset) =
+        (format!("pin.base.file={}", directory.path("one.h5").display()), "pin.base.dataset=/pin/base");
+    let second = run(&directory, "two.h5", &[&sets[..], &[&file, dataset]].concat(), &[]);
+    assert_eq!(second.bytes("pin/base"), RunFile::open(directory.path("one.h5")).bytes("pin/base"));
+
+    directory.plateau(["plot", "one.h5", "-o", "figures", "--format", "svg"]).quiet_success();
+    directory.plateau(["report", "one.h5", "-o", "one.html"]).quiet_success();
+    directory.plateau(["export", "one.h5", "--to", "csv", "--maps"]).quiet_success();
+    directory.plateau(["export", "one.h5", "--to", "npz"]).quiet_success();
+    directory.plateau(["export", "one.h5", "--to", "vtk"]).quiet_success();
+    let names = directory.names();
+    assert!(names.iter().any(|name| name.ends_with(".npz")), "{names:?}");
+}
+
+#[test]
+fn check_tells_the_mesh_and_the_circle() {
+    let directory = WorkingDirectory::new();
+    let base = scene("quick.toml");
+    let sets = ROUND.iter().flat_map(|set| ["--set", *set]);
+    let text = directory.plateau(["check", &base].into_iter().chain(sets)).stdout;
+    assert!(text.contains("20 rows, 691 columns round the ring, 20 under the pin"), "{text}");
+    assert!(text.contains("a circle of 4.000 mm in diameter: "), "{text}");
+}
