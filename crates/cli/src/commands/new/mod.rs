@@ -54,16 +54,21 @@ fn text(arguments: &NewArguments) -> Result<String, Failure> {
     let radius = [("mean_radius", radius.as_str(), "<- where the middle of the pin slides")];
     let mesh: Vec<String> = mesh.iter().chain(&radius).map(|(key, value, remark)| line(key, value, remark)).collect();
     let disc = disc.as_ref().map_or_else(|| Ok(SYNTHETIC.to_owned()), |disc| measured(scene, disc))?;
-    let name = scene.file_name().unwrap_or_default().to_string_lossy();
+    let operation = [
+        line("normal_force", load, "<- on the whole pin"),
+        line("rotational_speed", speed, "<- or sliding_speed = \"2 m/s\", at the mean radius"),
+        line("duration", duration, "<-"),
+    ];
+    let name = scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let run = format!("{stem}.h5");
     let places = [
-        ("{name}", &*name),
-        ("{title}", &*stem),
-        ("{run}", &format!("{stem}.h5")),
-        ("{mesh}", &mesh.join("\n")),
-        ("{load}", load),
-        ("{speed}", speed),
-        ("{duration}", duration),
-        ("{disc}", &disc),
+        ("{title}", line("title", &stem, "<-")),
+        ("{mesh}", mesh.join("\n")),
+        ("{operation}", operation.join("\n")),
+        ("{disc}", disc),
+        ("{file}", line("file", &run, "in the folder in which the program is called")),
+        ("{name}", name),
+        ("{run}", run),
     ];
     Ok(places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value)))
 }
