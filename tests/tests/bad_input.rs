@@ -186,6 +186,23 @@ fn surfaces() -> Vec<Case> {
             heights(directory, (40, 20), |cell| if cell == 25 { 2_u8 } else { 1 });
         }),
         disc_file("points are missing in SDF", SDF_SOURCE, |directory| drop(directory.write("surface.sdf", sdf(17)))),
+        disc_file("patch shorter than the ring", SDF_SOURCE, |directory| drop(directory.write("surface.sdf", sdf(0)))),
+        case(
+            "patch narrower than the track",
+            &["check", "scene.toml", "--set", "disc.prepare.pixel=20 um"],
+            move |directory| {
+                directory.write("scene.toml", quick_scene_with(&[(DISC, SDF_SOURCE)]));
+                directory.write("surface.sdf", sdf(0));
+            },
+        ),
+        case(
+            "patch of three cells",
+            &["check", "scene.toml", "--set", "disc.prepare.pixel=7 um", "--set", "disc.prepare.extend=statistics"],
+            move |directory| {
+                directory.write("scene.toml", quick_scene_with(&[(DISC, SDF_SOURCE)]));
+                directory.write("surface.sdf", sdf(0));
+            },
+        ),
         disc_file("truncated SDF", SDF_SOURCE, |directory| {
             let text = sdf(0);
             directory.write("surface.sdf", &text[..text.len() / 2]);

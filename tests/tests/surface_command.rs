@@ -338,6 +338,43 @@ fn a_scene_shows_what_it_makes_of_its_surfaces() {
 }
 
 #[test]
+fn a_patch_is_shown_beside_what_a_scene_makes_of_it() {
+    let directory = WorkingDirectory::new();
+    let source = "synthetic = { seed = 1, rms_height = \"3 um\", correlation_length = \"200 um\" }";
+    let file = format!("file = \"{}\"", afm());
+    // 256 pixels of 3 um are 0.768 mm: narrower than the track of 1 mm.
+    let prepare = |way: &str| format!("level = \"plane\"\npixel = \"3 um\"\nscale = 300\n{way}");
+    for way in ["repeat = true", "extend = \"statistics\"\nextend_seed = 5"] {
+        directory.write("scene.toml", quick_scene_with(&[(source, &file), ("cutoff = \"3 um\"", &prepare(way))]));
+        let bodies = json(directory.plateau(["surface", "--prepare", "scene.toml", "--json"]));
+        let [disc, comparison] = [&bodies[0], &bodies[0]["comparison"]];
+        assert!(bodies[1].get("comparison").is_none(), "the pin is of no patch");
+        // 0.768 mm hold 4 cells of 186.7 um along (128.8 mm of ring have 690) and 15 of 50 um.
+        assert_eq!((comparison["cells"][0].as_u64(), comparison["cells"][1].as_u64()), (Some(4), Some(15)));
+        let of = |what: &str, symbol: &str| comparison[what][symbol].as_f64().unwrap_or(f64::NAN);
+        // The patch is the whole scan, 300 times as high; form and pixel change no height.
+        assert!((of("patch", "Sq") / (300.0 * 0.010084618656752626) - 1.0).abs() < 1e-6, "{comparison}");
+        for symbol in ["Sa", "Sq", "Sdq", "Rq_y"] {
+            let found = disc[symbol].as_f64().unwrap() - of("patch_in_cells", symbol);
+            assert!((of("difference", symbol) - found).abs() < 1e-12, "{symbol}: {comparison}");
+            assert!(of("sampling_error", symbol) > 0.0, "{symbol}: {comparison}");
+        }
+        // Averages over cells are no rougher than the patch.
+        assert!(of("patch_in_cells", "Sq") < of("patch", "Sq"));
+        assert!(comparison["sampling_error"]["Sz"].is_null());
+        // Means over cells are within the heights of the patch.
+        assert!(disc["Sz"].as_f64().unwrap() < of("patch", "Sz"));
+        let picture = ["surface", "--prepare", "scene.toml", "--plot", "both.png", "--force"];
+        let table = directory.plateau(picture).quiet_success();
+        assert!(table.contains("averaged over 4 x 15 cells of 186.7 um x 50 um"), "{table}");
+        let header = ["patch", "in", "cells", "+-", "disc", "difference"];
+        assert!(table.lines().any(|line| line.split_whitespace().eq(header)), "{table}");
+        // Patch, disc and pin: two beside each other, two rows.
+        assert!(self::picture(&directory, "both.png").height() > 2000);
+    }
+}
+
+#[test]
 fn roughness_is_in_the_run_file_on_request() {
     let directory = WorkingDirectory::new();
     let edits = [

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod description;
+mod extension;
 mod extremes;
 mod heat;
 mod laws;

@@ -1,12 +1,12 @@
 //! The preparation chain against hand computation and closed forms.
 
-mod extension;
 mod filling;
 mod filtering;
 mod levelling;
 mod resampling;
 mod slope_outliers;
 mod straightening;
+mod tiling;
 mod unrolling;
 
 use std::f64::consts::TAU;
@@ -106,28 +106,17 @@ fn missing_points_are_an_error_that_says_how_many() {
 #[test]
 fn refuses_patches_that_do_not_cover_the_body() {
     let mesh = ring(100, 8, 20);
-    let error = |pixels, body, repeat| {
-        let preparation = Preparation { repeat, ..Preparation::default() };
-        apply(preparation, RawHeights::Patch(pixels), body, &mesh).unwrap_err().to_string()
-    };
-    assert_eq!(
-        error(patch(30, 10, 1e-3, rough), Body::Disc, false),
-        "the patch is 30 mm long, the ring 100 mm at the mean radius: repeat = true tiles the patch without a step at \
-         the seams, extend = \"statistics\" makes a surface with the statistics of the patch"
-    );
-    assert_eq!(
-        error(patch(10, 10, 1e-3, rough), Body::Pin, false),
-        "the patch is 10 mm long, the pin 20 mm at the mean radius: repeat = true tiles the patch without a step at \
-         the seams, extend = \"statistics\" makes a surface with the statistics of the patch"
-    );
-    assert_eq!(
-        error(patch(200, 4, 1e-3, rough), Body::Disc, false),
-        "the patch is 4 mm wide in r, the track 8 mm: repeat = true tiles the patch without a step at the seams, \
-         extend = \"statistics\" makes a surface with the statistics of the patch"
-    );
-    let mut thin = patch(3, 10, 1e-3, rough);
-    thin.column_pitch = 1e-300;
-    assert!(error(thin, Body::Disc, true).contains("a cell 1 mm by 1 mm: all of its roughness lies within one cell"));
+    let error =
+        |pixels, body| apply(Preparation::default(), RawHeights::Patch(pixels), body, &mesh).unwrap_err().to_string();
+    let advice = "repeat = true tiles the patch at its own scale without a step at the seams, extend = \"statistics\" \
+                  makes heights with its statistics";
+    for (pixels, body, found) in [
+        (patch(30, 10, 1e-3, rough), Body::Disc, "the patch is 30 mm long, the ring 100 mm at the mean radius"),
+        (patch(10, 10, 1e-3, rough), Body::Pin, "the patch is 10 mm long, the pin 20 mm at the mean radius"),
+        (patch(200, 4, 1e-3, rough), Body::Disc, "the patch is 4 mm wide in r, the track 8 mm"),
+    ] {
+        assert_eq!(error(pixels, body), format!("{found}: {advice}"));
+    }
 }
 
 #[test]

@@ -13,7 +13,9 @@ use plateau_core::model::parameters::{DebrisRule, Integrator, Parameters};
 use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::observe::Map;
 use plateau_core::observe::schedule::SampleEvery;
-use plateau_core::surface::{Crop, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll};
+use plateau_core::surface::{
+    Crop, Extension, FibreSynthesis, Fill, Flip, HeightSynthesis, Level, Preparation, Texture, Unroll,
+};
 use plateau_io::scene::{self, memory_estimate};
 use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
 use plateau_io::surface::{Decimal, Lay, ReadOptions};
@@ -389,6 +391,18 @@ fn a_duration_of_whole_steps_is_not_rounded_up() {
 }
 
 #[test]
+fn tiling_and_extending_replace_each_other() {
+    // full.toml tiles its disc.
+    let extended = load("full.toml", &["disc.prepare.extend=statistics"]);
+    let Preparation { repeat, extend, .. } = extended.disc_surface.preparation;
+    assert_eq!((repeat, extend), (false, Some(Extension::Statistics { seed: 0 })));
+    assert_eq!(extended.seeds[0], ("disc.prepare.extend_seed".to_owned(), 0));
+    let seeded = load("full.toml", &["disc.prepare.extend=statistics", "disc.prepare.extend_seed=12"]);
+    assert_eq!(seeded.disc_surface.preparation.extend, Some(Extension::Statistics { seed: 12 }));
+    assert_eq!(load("full.toml", &["pin.prepare.repeat=true"]).pin_surface.preparation.extend, None);
+}
+
+#[test]
 fn a_resolved_scene_reads_back_alike() {
     let folder = tempfile::tempdir().unwrap();
     for (name, sets) in [
@@ -404,6 +418,10 @@ fn a_resolved_scene_reads_back_alike() {
                 "pin.surface.synthetic={ rms_height = '1 um', roll_off = '0.3 mm', hurst = 1, short_cutoff = '0.2 mm' }",
                 "pin.surface.synthetic.skewness=-0.5",
             ],
+        ),
+        (
+            "full.toml",
+            &["disc.prepare.extend=statistics", "pin.prepare.extend=statistics", "pin.prepare.extend_seed=7"],
         ),
         ("hot.toml", &["thermal.ambient=0 degC", "thermal.wear_rate_factor=[['100.1 degC', 0.3]]"]),
         ("vector-flat.toml", &[]),

@@ -16,6 +16,7 @@ mod run_file;
 mod run_file_processes;
 mod sdf;
 mod sdf_dialects;
+mod small_patches;
 mod surfaces;
 mod tables;
 mod writing;

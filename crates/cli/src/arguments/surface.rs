@@ -27,7 +27,7 @@ pub struct SurfaceArguments {
     /// Write the heights as they are, not levelled, in the format of the ending
     #[arg(long, value_name = "FILE")]
     pub to: Option<PathBuf>,
-    /// Describe what a scene makes of its disc and pin surfaces, too
+    /// Describe what a scene makes of its disc and pin surfaces, too, beside the patches that they are made of
     #[arg(long, value_name = "SCENE")]
     pub prepare: Option<PathBuf>,
     /// Draw the pin's fibre map that the scene makes, beside the micrograph that it comes from, in the same formats

@@ -153,11 +153,7 @@ pub enum PreparationError {
         l_filter: f64,
     },
     /// The patch does not cover the track.
-    #[error(
-        "the patch is {} wide in r, the track {}: repeat = true tiles the patch without a step at the seams, extend = \"statistics\" \
-         makes a surface with the statistics of the patch",
-        Length(*patch), Length(*track)
-    )]
+    #[error("the patch is {} wide in r, the track {}: {LARGER}", Length(*patch), Length(*track))]
     Narrow {
         /// Extent of the patch in r, m.
         patch: f64,
@@ -165,11 +161,7 @@ pub enum PreparationError {
         track: f64,
     },
     /// The patch does not cover the body along the sliding direction.
-    #[error(
-        "the patch is {} long, the {body} {} at the mean radius: repeat = true tiles the patch without a step at \
-         the seams, extend = \"statistics\" makes a surface with the statistics of the patch",
-        Length(*patch), Length(*length)
-    )]
+    #[error("the patch is {} long, the {body} {} at the mean radius: {LARGER}", Length(*patch), Length(*length))]
     Short {
         /// Length of the patch, m.
         patch: f64,
@@ -178,43 +170,29 @@ pub enum PreparationError {
         /// Length of the body, m.
         length: f64,
     },
-    /// Not even one cell is covered.
+    /// The patch has too few cells for statistics.
     #[error(
-        "the patch is {} by {}, a cell {} by {}: all of its roughness lies within one cell; take smaller cells, or measure a larger area",
-        Length(patch[0]), Length(patch[1]), Length(cell[0]), Length(cell[1])
-    )]
-    SmallerThanCell {
-        /// Extents of the patch along x and y, m.
-        patch: [f64; 2],
-        /// Extents of a cell, m.
-        cell: [f64; 2],
-    },
-    /// Too few cells to tell the statistics.
-    #[error(
-        "the patch covers {columns} by {rows} cells of {} by {}, and its statistics show in {least} by {least} at least: take \
-         smaller cells, or measure a larger area",
-        Length(cell[0]), Length(cell[1])
+        "{} by {} whole cells lie in the patch, expected at least {least} by {least} for its statistics: measure a larger \
+         patch, take smaller cells, or tile it with repeat = true in place of extend",
+        cells[0], cells[1]
     )]
     FewCells {
-        /// Whole cells along x.
-        columns: usize,
-        /// Whole cells along y.
-        rows: usize,
-        /// Extents of a cell, m.
-        cell: [f64; 2],
-        /// Fewest cells in either direction.
+        /// Cells along and across sliding.
+        cells: [usize; 2],
+        /// Fewest of them in either direction.
         least: usize,
     },
-    /// The field of the extension would be too large.
+    /// The field from which the heights are taken would be too large.
     #[error(
-        "extending the patch by its statistics needs a field of {columns} by {rows} cells, more than is made: crop the patch, or take a \
-         smaller ring"
+        "statistics of {} by {} cells of the patch ask for a field of {} by {} cells: crop the patch, take a smaller pixel, \
+         or tile it with repeat = true in place of extend",
+        cells[0], cells[1], field[0], field[1]
     )]
-    TooLarge {
-        /// Columns of the field.
-        columns: usize,
-        /// Rows of the field.
-        rows: usize,
+    LargeField {
+        /// Cells of the patch, along and across sliding.
+        cells: [usize; 2],
+        /// Cells of the field.
+        field: [usize; 2],
     },
     /// Heights that are no numbers.
     #[error("{count} of {points} heights are not finite: the heights or the scale of {scale} are too large")]
@@ -227,6 +205,10 @@ pub enum PreparationError {
         scale: f64,
     },
 }
+
+/// What to do about a patch that is smaller than the body.
+const LARGER: &str = "repeat = true tiles the patch at its own scale without a step at the seams, extend = \"statistics\" makes \
+                      heights with its statistics";
 
 /// How many of the missing points are outliers, in words.
 struct AsOutliers(usize);

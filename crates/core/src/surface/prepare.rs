@@ -1,17 +1,17 @@
 //! The preparation chain of a surface.
 
 use super::crop::Crop;
+use super::extend::{Extension, extend};
 use super::flip::{Flip, reverse_along};
 use super::gaussian_filter::filter;
 use super::level::{Level, level, mean, rms};
 use super::missing::{Fill, fill, remove_outliers};
 use super::preparation_error::PreparationError;
-use super::report::{change, laid};
+use super::report::change;
 use super::resample::resample;
 use super::rotate::Turn;
 use super::slope_outliers::remove_slope_outliers;
 use super::straighten::straighten;
-use super::synthesis::extension::{Extended, extend};
 use super::unroll::Unroll;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
@@ -44,10 +44,10 @@ pub struct Preparation {
     pub l_filter: Option<f64>,
     /// Cuts what stands higher than this above the mean, m (along the Abbott-Firestone curve).
     pub cutoff: Option<f64>,
-    /// Tiles the patch along the sliding direction without a step at the seams.
+    /// Tiles the patch along and across the sliding direction without a step at the seams.
     pub repeat: bool,
-    /// Makes a surface with the statistics of the patch, in place of tiling it; the number is the seed.
-    pub extend: Option<u64>,
+    /// Makes random heights with the statistics of the patch, in place of it; `repeat` then has no meaning.
+    pub extend: Option<Extension>,
     /// Multiplies the heights.
     pub scale: f64,
 }
@@ -93,17 +93,19 @@ pub struct Prepared {
     pub cut: Option<f64>,
     /// What was done, one step a line, for people, with the rms height (about the mean) that it left.
     pub report: Vec<String>,
-    /// The patch as it was brought onto the mesh; none where the heights were on the mesh from the beginning.
+    /// The patch from which the heights come, prepared, before it was brought onto the mesh and scaled; none if they were on
+    /// the mesh.
     pub patch: Option<Patch>,
 }
 
 impl Preparation {
     /// Brings heights onto every cell of `body`: mirrored along x if asked for, cropped, unrolled, turned, flipped,
-    /// levelled, freed of outliers, filled, read with another pitch, filtered, cut, brought onto the mesh, repeated, scaled.
+    /// levelled, freed of outliers, filled, read with another pitch, filtered, cut, brought onto the mesh, repeated or extended,
+    /// scaled.
     ///
     /// Heights that are already on the mesh come through bit for bit when nothing is asked for. With `pixel` they are
     /// taken as a patch of that pitch, and as one of the cells' pitch where they are cropped, unrolled or turned by other
-    /// than half a turn; `repeat` alone leaves them alone, for they cover the whole body.
+    /// than half a turn; `repeat` or `extend` alone leave them alone, for they cover the whole body.
     ///
     /// # Errors
     /// [`PreparationError`] when points are missing and not filled, the patch does not cover the body, or a number
@@ -142,18 +144,10 @@ impl Preparation {
             report.push(format!("{step}, {}", change(before, &patch.heights)));
             cut
         });
-        let (mut heights, patch) = if let Some(seed) = self.extend {
-            let Extended { heights, report: step, warning } = extend(&patch, seed, body, mesh)?;
-            report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
-            report.extend(warning.map(|warning| format!("warning: {warning}")));
-            (heights, Some(patch))
-        } else if on_mesh {
+        let (mut heights, patch) = if on_mesh {
             (patch.heights, None)
         } else {
-            let heights = resample(&patch, self.repeat, body, mesh)?;
-            let step = laid(&patch, self.repeat, body, mesh);
-            report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
-            (heights, Some(patch))
+            (self.onto_mesh(&patch, body, mesh, &mut report)?, Some(patch))
         };
         if self.scale != 1.0 {
             let before = rms(&heights);
@@ -165,6 +159,25 @@ impl Preparation {
         }
         self.refuse_heights(&heights, |height| !height.is_finite())?;
         Ok(Prepared { heights, cut, report, patch })
+    }
+
+    /// Heights of every cell from a patch that is ready.
+    fn onto_mesh(
+        &self,
+        patch: &Patch,
+        body: Body,
+        mesh: &Mesh,
+        report: &mut Vec<String>,
+    ) -> Result<Vec<f64>, PreparationError> {
+        let (heights, step) = match self.extend {
+            Some(extension) => {
+                let heights = extend(patch.clone(), self.level, extension, body, mesh, report)?;
+                (heights, format!("from the patch to the {}", body.name()))
+            }
+            None => (resample(patch, self.repeat, body, mesh)?, self.describe_resampling(patch, body, mesh)),
+        };
+        report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
+        Ok(heights)
     }
 
     fn check(&self) -> Result<(), PreparationError> {
@@ -283,6 +296,37 @@ impl Preparation {
         let before = rms(&patch.heights);
         level(&mut patch.heights, patch.rows, self.level, closed);
         report.push(format!("levelled by {what}: {}", change(before, &patch.heights)));
+    }
+
+    /// How the patch came onto the mesh, in words.
+    fn describe_resampling(&self, patch: &Patch, body: Body, mesh: &Mesh) -> String {
+        let way = |pitch: f64, cell: f64| if pitch > cell { "interpolated" } else { "averaged" };
+        let along = way(patch.column_pitch, mesh.column_width());
+        let across = way(patch.row_pitch, mesh.row_height());
+        let ways = if along == across { along.to_owned() } else { format!("{along} along, {across} across sliding") };
+        let size = format!("patch of {} by {}", Length(patch.length()), Length(patch.height()));
+        let across = mesh.rows() as f64 * mesh.row_height() / patch.height();
+        let across =
+            if across > 1.0 + 1e-9 { format!(" and {across:.2} times across the track") } else { String::new() };
+        let laid = match (self.repeat, body) {
+            (true, Body::Disc) => {
+                let times = body.length(mesh) / patch.length();
+                format!("{size} repeated {times:.2} times round the ring{across}, mirrored at the seams")
+            }
+            (true, Body::Pin) => format!("{size} repeated along the pin{across}, mirrored at the seams"),
+            (false, Body::Disc) => format!(
+                "{size} laid round the ring without repeating: a step may be left where the ring closes \
+                 (repeat = true leaves none)"
+            ),
+            (false, Body::Pin) => format!("{size} laid over the pin"),
+        };
+        format!(
+            "{laid}; {ways} from pixels of {} by {} to cells of {} by {}",
+            Length(patch.column_pitch),
+            Length(patch.row_pitch),
+            Length(mesh.column_width()),
+            Length(mesh.row_height())
+        )
     }
 }
 

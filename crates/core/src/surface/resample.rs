@@ -18,80 +18,86 @@ const SAME_LENGTH: f64 = 1e-9;
 /// taken out (a wave of length λ by sin(πw/λ)/(πw/λ), w the cell's width) and the mean over all cells is the mean over
 /// the part of the patch that they cover. Where pixels are coarser it is linear interpolation between their centres.
 ///
-/// With `repeat` the patch is continued by its mirror image, that by the patch, and so on, in both directions: T(x, y) with the
-/// period of two patches and no step at a seam. The ring is besides folded about its middle so that it closes without a
-/// step: h(x, y) = T(min(x, L − x), y), L being its circumference.
+/// With `repeat` the patch is continued by its mirror image, that by the patch, and so on, along and across sliding:
+/// T(x, y) with the period of two patches and no step at a seam. The ring is besides folded about its middle so that it
+/// closes without a step: h(x) = T(min(x, L − x)), L being its circumference. A window may be wider than the patch: it
+/// then has the patch and its images in it as often as they fit.
 pub(super) fn resample(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<Vec<f64>, PreparationError> {
     fits(patch, repeat, body, mesh)?;
+    let (columns, rows) = (body.columns(mesh), mesh.rows());
+    let [along_x, along_y] = axes(patch, mesh);
+    let fold = (repeat && body == Body::Disc).then(|| 0.5 * body.length(mesh));
     // The middle of the track lies on the middle of the patch.
-    let margin = 0.5 * (patch.height() - mesh.rows() as f64 * mesh.row_height());
-    let grid = CellGrid {
-        columns: body.columns(mesh),
-        rows: mesh.rows(),
-        cell: [mesh.column_width(), mesh.row_height()],
-        first: [0.0, margin],
-        fold: (repeat && body == Body::Disc).then(|| 0.5 * body.length(mesh)),
+    let margin = 0.5 * (patch.height() - rows as f64 * along_y.cell);
+    let row_weights: Vec<Weights> = (0..rows).map(|row| along_y.weights(row, margin, None)).collect();
+    let column_weights = (0..columns).map(|column| along_x.weights(column, 0.0, fold));
+    // Of many pixels for each cell the rows are averaged once and not for every column.
+    if margin < 0.0 && rows <= patch.rows {
+        let columns = patch.heights.chunks_exact(patch.rows);
+        let averaged: Vec<f64> = columns.flat_map(|pixels| row_weights.iter().map(|row| row.mean(pixels))).collect();
+        let same: Vec<Weights> = (0..rows).map(Weights::one).collect();
+        return Ok(weighed(&averaged, rows, column_weights, &same));
+    }
+    Ok(weighed(&patch.heights, patch.rows, column_weights, &row_weights))
+}
+
+/// The mean of the patch in every cell of the mesh's size that lies in it whole, the cells in the middle of the patch; as
+/// for [`resample`]. The number of cells along or across may be 0.
+pub(super) fn cell_averages(patch: &Patch, mesh: &Mesh) -> Patch {
+    let [along_x, along_y] = axes(patch, mesh);
+    let weights = |axis: &Axis| -> Vec<Weights> {
+        let (count, length) = (axis.whole_cells(), axis.pixels as f64 * axis.pitch);
+        let margin = 0.5 * (length - count as f64 * axis.cell);
+        (0..count).map(|index| axis.weights(index, margin, None)).collect()
     };
-    Ok(grid.heights(patch))
+    let [columns, rows] = [weights(&along_x), weights(&along_y)];
+    Patch {
+        columns: columns.len(),
+        rows: rows.len(),
+        column_pitch: along_x.cell,
+        row_pitch: along_y.cell,
+        heights: weighed(&patch.heights, patch.rows, columns.into_iter(), &rows),
+    }
 }
 
-/// Cells over a patch, which is continued by its mirror images.
-pub(super) struct CellGrid {
-    pub columns: usize,
-    pub rows: usize,
-    /// Width and height of a cell, m.
-    pub cell: [f64; 2],
-    /// Where the first cell begins, from the patch's first corner, m.
-    pub first: [f64; 2],
-    /// Where the line along x is folded, m.
-    pub fold: Option<f64>,
+/// How many cells of the mesh lie in the patch whole, along and across sliding.
+pub(super) fn whole_cells(patch: &Patch, mesh: &Mesh) -> [usize; 2] {
+    axes(patch, mesh).map(|axis| axis.whole_cells())
 }
 
-impl CellGrid {
-    /// Heights of the cells, column by column: see [`resample`].
-    pub fn heights(&self, patch: &Patch) -> Vec<f64> {
-        let along_x = Axis { pixels: patch.columns, pitch: patch.column_pitch, cell: self.cell[0] };
-        let along_y = Axis { pixels: patch.rows, pitch: patch.row_pitch, cell: self.cell[1] };
-        let row_weights: Vec<Weights> = (0..self.rows).map(|row| along_y.weights(row, self.first[1], None)).collect();
-        let mut heights = Vec::with_capacity(self.columns * self.rows);
-        let mut profile = vec![0.0; patch.rows];
-        for column in 0..self.columns {
-            let column_weights = along_x.weights(column, self.first[0], self.fold);
-            profile.fill(0.0);
-            for (weight, pixels) in column_weights.pairs(patch.heights.chunks_exact(patch.rows)) {
-                profile.iter_mut().zip(pixels).for_each(|(height, pixel)| *height += weight * pixel);
-            }
-            heights.extend(row_weights.iter().map(|row| row.pairs(&profile).map(|(w, z)| w * z).sum::<f64>()));
+/// Both directions, along and across sliding.
+fn axes(patch: &Patch, mesh: &Mesh) -> [Axis; 2] {
+    [
+        Axis { pixels: patch.columns, pitch: patch.column_pitch, cell: mesh.column_width() },
+        Axis { pixels: patch.rows, pitch: patch.row_pitch, cell: mesh.row_height() },
+    ]
+}
+
+/// Sums of heights, `rows` to a column, with these weights.
+fn weighed(heights: &[f64], rows: usize, columns: impl Iterator<Item = Weights>, row_weights: &[Weights]) -> Vec<f64> {
+    let mut sums = Vec::with_capacity(columns.size_hint().0 * row_weights.len());
+    let mut profile = vec![0.0; rows];
+    for column in columns {
+        profile.fill(0.0);
+        for (weight, pixels) in column.pairs(heights.chunks_exact(rows)) {
+            profile.iter_mut().zip(pixels).for_each(|(height, pixel)| *height += weight * pixel);
         }
-        heights
+        sums.extend(row_weights.iter().map(|row| row.mean(&profile)));
     }
+    sums
 }
 
-impl Patch {
-    /// The patch in cells of this width and height, m, as far as whole ones fit: what a mesh sees of it.
-    pub fn in_cells(&self, cell: [f64; 2]) -> Self {
-        let whole = |length: f64, cell: f64| libm::floor(length / cell * (1.0 + SAME_LENGTH)) as usize;
-        let [columns, rows] = [whole(self.length(), cell[0]), whole(self.height(), cell[1])];
-        let heights = CellGrid { columns, rows, cell, first: [0.0; 2], fold: None }.heights(self);
-        Self { columns, rows, column_pitch: cell[0], row_pitch: cell[1], heights }
-    }
-}
-
-/// Refuses a patch that does not cover the body, or with `repeat` not even a cell.
+/// Refuses a patch that does not cover the body and is not repeated.
 fn fits(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> Result<(), PreparationError> {
-    let (length, height) = (patch.length(), patch.height());
+    let (track, length) = (mesh.rows() as f64 * mesh.row_height(), body.length(mesh));
     if repeat {
-        let cell = [mesh.column_width(), mesh.row_height()];
-        let covers = length >= cell[0] * (1.0 - SAME_LENGTH) && height >= cell[1] * (1.0 - SAME_LENGTH);
-        return if covers { Ok(()) } else { Err(PreparationError::SmallerThanCell { patch: [length, height], cell }) };
+        return Ok(());
     }
-    let track = mesh.rows() as f64 * mesh.row_height();
-    if height < track * (1.0 - SAME_LENGTH) {
-        return Err(PreparationError::Narrow { patch: height, track });
+    if patch.height() < track * (1.0 - SAME_LENGTH) {
+        return Err(PreparationError::Narrow { patch: patch.height(), track });
     }
-    let needed = body.length(mesh);
-    if length < needed * (1.0 - SAME_LENGTH) {
-        return Err(PreparationError::Short { patch: length, body: body.name(), length: needed });
+    if patch.length() < length * (1.0 - SAME_LENGTH) {
+        return Err(PreparationError::Short { patch: patch.length(), body: body.name(), length });
     }
     Ok(())
 }
@@ -104,12 +110,17 @@ struct Axis {
 }
 
 impl Axis {
+    /// How many cells lie in the patch whole.
+    fn whole_cells(&self) -> usize {
+        (self.pixels as f64 * self.pitch / self.cell * (1.0 + SAME_LENGTH)) as usize
+    }
+
     /// Weights of the pixels in cell number `index`, the first cell beginning at `margin`; with `fold` the line is
     /// first reflected there and at 0.
     fn weights(&self, index: usize, margin: f64, fold: Option<f64>) -> Weights {
         let window = self.cell.max(self.pitch);
         let start = (index as f64 + 0.5) * self.cell - 0.5 * window + margin;
-        let mut pieces = vec![(start, start + window)];
+        let mut pieces = vec![Piece { start, end: start + window, times: 1.0 }];
         if let Some(fold) = fold {
             pieces = pieces.into_iter().flat_map(|piece| reflected(piece, fold)).collect();
         }
@@ -119,21 +130,39 @@ impl Axis {
     }
 }
 
+/// A part of a line, and how many times it counts.
+#[derive(Debug, Clone, Copy)]
+struct Piece {
+    start: f64,
+    end: f64,
+    times: f64,
+}
+
 /// The pieces of a line between 0 and `length` onto which an interval falls, the line being reflected at both ends over
-/// and over.
-fn reflected((start, end): (f64, f64), length: f64) -> Vec<(f64, f64)> {
+/// and over: a first and a last one, and the whole line as often as it fits between them.
+fn reflected(Piece { start, end, times }: Piece, length: f64) -> Vec<Piece> {
     let first = libm::floor(start / length);
     let last = libm::floor(end / length);
-    let mut pieces = Vec::with_capacity(2);
-    let mut turn = first;
-    while turn <= last {
+    let mut pieces = Vec::with_capacity(3);
+    let mut part_of = |turn: f64| {
         let (low, high) = (turn * length, (turn + 1.0) * length);
         let (low_cut, high_cut) = (start.max(low), end.min(high));
         if low_cut < high_cut {
             let even = turn % 2.0 == 0.0;
-            pieces.push(if even { (low_cut - low, high_cut - low) } else { (high - high_cut, high - low_cut) });
+            let (start, end) = if even { (low_cut - low, high_cut - low) } else { (high - high_cut, high - low_cut) };
+            pieces.push(Piece { start, end, times });
         }
-        turn += 1.0;
+    };
+    if last - first <= 2.0 {
+        let mut turn = first;
+        while turn <= last {
+            part_of(turn);
+            turn += 1.0;
+        }
+    } else {
+        part_of(first);
+        part_of(last);
+        pieces.push(Piece { start: 0.0, end: length, times: times * (last - first - 1.0) });
     }
     pieces
 }
@@ -146,19 +175,29 @@ struct Weights {
 
 impl Weights {
     /// The share of each pixel of `axis` in pieces that together are as long as `window`.
-    fn new(pieces: &[(f64, f64)], axis: &Axis, window: f64) -> Self {
+    fn new(pieces: &[Piece], axis: &Axis, window: f64) -> Self {
         let last_pixel = axis.pixels - 1;
         let pixel = |place: f64| ((place / axis.pitch) as usize).min(last_pixel);
-        let first = pieces.iter().map(|(start, _)| pixel(*start)).min().unwrap_or(0);
-        let last = pieces.iter().map(|(_, end)| pixel(*end)).max().unwrap_or(0);
+        let first = pieces.iter().map(|piece| pixel(piece.start)).min().unwrap_or(0);
+        let last = pieces.iter().map(|piece| pixel(piece.end)).max().unwrap_or(0);
         let mut weights = vec![0.0; last - first + 1];
-        for (start, end) in pieces {
+        for Piece { start, end, times } in pieces {
             for index in pixel(*start)..=pixel(*end) {
                 let (low, high) = (index as f64 * axis.pitch, (index + 1) as f64 * axis.pitch);
-                weights[index - first] += (end.min(high) - start.max(low)).max(0.0) / window;
+                weights[index - first] += times * ((end.min(high) - start.max(low)).max(0.0) / window);
             }
         }
         Self { first, weights }
+    }
+
+    /// All weight on one pixel.
+    fn one(pixel: usize) -> Self {
+        Self { first: pixel, weights: vec![1.0] }
+    }
+
+    /// The weighted mean of the pixels of a line.
+    fn mean(&self, pixels: &[f64]) -> f64 {
+        self.pairs(pixels).map(|(weight, height)| weight * height).sum()
     }
 
     /// The weights with what they weigh.

@@ -51,7 +51,13 @@ pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path
         Some(Setting::Integer(count)) => Workers::Count(address(*count)),
         _ => Workers::Auto,
     };
-    let seeds = ["disc.surface.synthetic.seed", "pin.base.synthetic.seed", "pin.surface.synthetic.seed"];
+    let seeds = [
+        "disc.surface.synthetic.seed",
+        "disc.prepare.extend_seed",
+        "pin.base.synthetic.seed",
+        "pin.surface.synthetic.seed",
+        "pin.prepare.extend_seed",
+    ];
     let seeds = seeds.into_iter().filter_map(|key| Some((key.to_owned(), settings.integer(key).ok()?)));
     Ok(Scene {
         title: settings.text("title")?.to_owned(),

@@ -185,6 +185,15 @@ impl Settings {
             "pin.base.rotate" => Some(Setting::Text("0 deg".to_owned())),
             "pin.base.threshold" => Some(Setting::Text("otsu".to_owned())),
             "pin.base.fibres" => Some(Setting::Text("bright".to_owned())),
+            // Of these two a scene has one.
+            "disc.prepare.repeat" | "pin.prepare.repeat" | "disc.prepare.extend_seed" | "pin.prepare.extend_seed" => {
+                let (table, name) = path.rsplit_once('.').unwrap_or_default();
+                let extends = entries.contains_key(&schema::join(table, "extend"));
+                match name {
+                    "repeat" => (!extends).then_some(Setting::Bool(false)),
+                    _ => extends.then_some(Setting::Integer(0)),
+                }
+            }
             path if path.starts_with("friction.") => {
                 self.get(&schema::join("friction", path.rsplit('.').next().unwrap_or_default())).cloned()
             }

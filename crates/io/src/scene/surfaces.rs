@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use plateau_core::surface::micrograph::{Micrograph, Threshold};
-use plateau_core::surface::{Crop, FibreSynthesis, HeightSynthesis, Preparation, Texture, Unroll};
+use plateau_core::surface::{Crop, Extension, FibreSynthesis, HeightSynthesis, Preparation, Texture, Unroll};
 
 use super::contents::{BaseSource, HeightSettings, HeightSource};
 use super::error::Problem;
@@ -53,8 +53,8 @@ fn preparation(settings: &Settings, table: &str) -> Result<Preparation, Problem>
         s_filter,
         l_filter,
         cutoff: number("cutoff")?,
-        repeat: settings.bool(&key("repeat"))?,
-        extend: settings.get(&key("extend")).map(|_| settings.integer(&key("extend_seed"))).transpose()?,
+        repeat: settings.get(&key("repeat")).is_some_and(|repeat| *repeat == Setting::Bool(true)),
+        extend: extension(settings, &key)?,
         scale: settings.number(&key("scale"))?,
     })
 }
@@ -67,6 +67,15 @@ fn range(settings: &Settings, path: &str) -> Result<Option<[f64; 2]>, Problem> {
         return Err(Problem::new(&settings.origin(path), path, message));
     }
     Ok(pair)
+}
+
+/// What is made of a patch that is smaller than the body, besides tiling it.
+fn extension(settings: &Settings, key: &impl Fn(&str) -> String) -> Result<Option<Extension>, Problem> {
+    if settings.get(&key("extend")).is_none() {
+        return Ok(None);
+    }
+    settings.choice(&key("extend"), &choices::EXTEND)?;
+    Ok(Some(Extension::Statistics { seed: settings.integer(&key("extend_seed"))? }))
 }
 
 /// The settings of synthetic heights in this inline table.

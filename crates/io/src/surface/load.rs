@@ -32,8 +32,6 @@ pub struct Loaded {
     pub inputs: Vec<(PathBuf, String)>,
     /// What was read, made and done, one step a line, for people.
     pub report: Vec<String>,
-    /// The patches of disc and pin as they were brought onto the mesh, peaks positive; none where there was none.
-    pub patches: [Option<Patch>; 2],
 }
 
 /// Reads or makes the initial surfaces of a scene and prepares them.
@@ -45,17 +43,27 @@ pub struct Loaded {
 /// # Errors
 /// [`SurfaceError`], which names the scene's table and the file.
 pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
-    let mut loader = Loader { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new() };
-    let (disc_height, disc_cut, disc_patch) = loader.heights(&scene.disc_surface, Body::Disc)?;
-    let (mut pin_height, pin_cut, pin_patch) = loader.heights(&scene.pin_surface, Body::Pin)?;
-    let pin_base = loader.base(&scene.pin_base, scene.pin_base_mirror)?;
-    if scene.resin_recess != 0.0 {
-        set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
-        loader.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
-    }
-    let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
-    let patches = [disc_patch, pin_patch];
-    Ok(Loaded { surfaces, disc_cut, pin_cut, inputs: loader.inputs.0, report: loader.report, patches })
+    Loader::new(scene).load(scene)
+}
+
+/// As [`load`], with the patches from which the heights of disc and pin come: prepared, scaled and with the sign that the
+/// heights have, at their own pitch; none for a body whose heights come from no patch.
+///
+/// # Errors
+/// [`SurfaceError`] as for [`load`].
+pub fn load_with_patches(scene: &Scene) -> Result<(Loaded, Patches), SurfaceError> {
+    let mut loader = Loader { patches: Some(Patches::default()), ..Loader::new(scene) };
+    let loaded = loader.load(scene)?;
+    Ok((loaded, loader.patches.unwrap_or_default()))
+}
+
+/// The patches from which the heights of a scene come.
+#[derive(Debug, Clone, Default)]
+pub struct Patches {
+    /// That of the disc.
+    pub disc: Option<Patch>,
+    /// That of the pin.
+    pub pin: Option<Patch>,
 }
 
 /// Table of the scene that says where a body's heights come from.
@@ -74,13 +82,12 @@ fn prepare_key(body: Body) -> &'static str {
     }
 }
 
-/// Heights of a body, m; the fraction of their points that a cutoff cut; the patch from which they come.
-type BodyHeights = (Vec<f64>, Option<f64>, Option<Patch>);
-
 struct Loader<'a> {
     mesh: &'a Mesh,
     inputs: Inputs,
     report: Vec<String>,
+    /// The patches from which heights come, where they are asked for.
+    patches: Option<Patches>,
 }
 
 /// What heights are called in an error of their preparation.
@@ -97,9 +104,26 @@ fn takes_as_profile(source: &HeightSource) -> bool {
     matches!(source, HeightSource::File { options, .. } if options.profile_lay.is_some())
 }
 
-impl Loader<'_> {
-    /// Heights of a body, the fraction of its points that a cutoff cut, and the patch from which they come.
-    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<BodyHeights, SurfaceError> {
+impl<'a> Loader<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        Self { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new(), patches: None }
+    }
+
+    fn load(&mut self, scene: &Scene) -> Result<Loaded, SurfaceError> {
+        let (disc_height, disc_cut) = self.heights(&scene.disc_surface, Body::Disc)?;
+        let (mut pin_height, pin_cut) = self.heights(&scene.pin_surface, Body::Pin)?;
+        let pin_base = self.base(&scene.pin_base, scene.pin_base_mirror)?;
+        if scene.resin_recess != 0.0 {
+            set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
+            self.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
+        }
+        let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
+        let (inputs, report) = (std::mem::take(&mut self.inputs).0, std::mem::take(&mut self.report));
+        Ok(Loaded { surfaces, disc_cut, pin_cut, inputs, report })
+    }
+
+    /// Heights of a body, and the fraction of its points that a cutoff cut.
+    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
         let (surface, prepare) = (surface_key(body), prepare_key(body));
         let (raw, negate) = match &settings.source {
             HeightSource::Flat => {
@@ -130,17 +154,21 @@ impl Loader<'_> {
             SurfaceError::Preparation { key: prepare, source_name: source_name(&settings.source), reason }
         })?;
         self.report.extend(prepared.report.iter().map(|step| format!("{prepare}: {step}")));
+        if let Some(patches) = &mut self.patches {
+            let factor = if negate { -settings.preparation.scale } else { settings.preparation.scale };
+            let patch = prepared.patch.map(|mut patch| {
+                patch.heights.iter_mut().for_each(|height| *height *= factor);
+                patch
+            });
+            *(if body == Body::Disc { &mut patches.disc } else { &mut patches.pin }) = patch;
+        }
         let mut heights = prepared.heights;
         if negate {
             heights.iter_mut().for_each(|height| *height = -*height);
             self.report.push(format!("{surface}: negated, for the pin's z grows away from the disc"));
         }
         self.report.push(format!("{surface}: {}", self.spread(&heights, body)));
-        let mut patch = prepared.patch;
-        if body == Body::Pin && !negate {
-            patch.iter_mut().flat_map(|patch| &mut patch.heights).for_each(|height| *height = -*height);
-        }
-        Ok((heights, prepared.cut, patch))
+        Ok((heights, prepared.cut))
     }
 
     /// Heights of a file. Heights of the model with the shape of the body's fields are those of its cells; any other

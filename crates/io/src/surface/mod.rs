@@ -23,7 +23,7 @@ pub use format::Format;
 pub use hdf5::Hdf5Error;
 pub use image::ImageError;
 pub use instrument::Instrument;
-pub use load::{Loaded, load, micrograph};
+pub use load::{Loaded, Patches, load, load_with_patches, micrograph};
 pub use measured::{Measured, read};
 pub use npy::NpyError;
 pub use options::{Disagreement, ReadOptions};

@@ -1,79 +1,102 @@
-//! A surface beside the patch from which it was made.
+//! What a scene makes of a patch beside the patch itself.
 
-use plateau_core::surface::Patch;
+use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, sampling_errors};
-use serde::ser::{Serialize, SerializeMap as _, Serializer};
+use plateau_core::surface::{Body, Level, Patch, level};
+use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
-use super::document::scale;
-use crate::number;
-
-/// The parameters that are compared.
-const COMPARED: [&str; 8] = ["Sa", "Sq", "Ssk", "Sku", "Sk", "Sdq", "Sal", "Str"];
-
-/// Parameters of a patch in cells of the mesh, and of what was made of it; with the scatter of cut-outs of the patch's size out of
-/// that.
-#[derive(Debug)]
+/// A prepared patch, described at its own pitch and averaged over cells of the mesh, as the heights of the body are.
 pub struct Comparison {
-    /// Cells of the patch along and across sliding.
-    cells: [usize; 2],
-    lines: Vec<Line>,
+    /// What the patch is called.
+    name: String,
+    /// Columns and rows of the patch.
+    points: [usize; 2],
+    /// Their distances, m.
+    pitch: [f64; 2],
+    /// Parameters of the patch.
+    pub patch: Description,
+    /// Those of its averages over cells; none if no cell lies in it.
+    pub cells: Option<Cells>,
+    /// Its heights as a picture shows them; none unless one is drawn.
+    drawn: Option<Drawn>,
 }
 
-/// A parameter, in SI units.
-#[derive(Debug)]
-struct Line {
-    parameter: &'static Parameter,
-    patch: f64,
-    error: f64,
-    made: f64,
+/// A patch averaged over cells.
+pub struct Cells {
+    /// Columns and rows.
+    pub counts: [usize; 2],
+    /// Size of a cell, m.
+    pub size: [f64; 2],
+    /// Parameters.
+    pub description: Description,
+    /// Standard error of each, in the order of the parameters.
+    pub errors: Vec<f64>,
 }
 
 impl Comparison {
-    /// Of a patch in cells with a surface; none where the patch has no whole cell.
-    pub fn of(patch: &Patch, made: &Description, surface: &Grid) -> Option<Self> {
-        let description = Description::of(&Grid::of(patch))?;
-        let errors = sampling_errors(surface, [patch.columns, patch.rows]);
-        let line = |(parameter, error): (&'static Parameter, f64)| {
-            let patch = (parameter.value)(&description)?;
-            let made = (parameter.value)(made)?;
-            Some(Line { parameter, patch, error, made })
-        };
-        let lines = PARAMETERS.iter().zip(errors).filter(|(parameter, _)| COMPARED.contains(&parameter.symbol));
-        Some(Self { cells: [patch.columns, patch.rows], lines: lines.filter_map(line).collect() })
+    /// Describes the patch of a body, peaks positive; none if it has no heights.
+    pub fn of(body: Body, name: &str, mut patch: Patch, mesh: &Mesh, form: Level, draws: bool) -> Option<Self> {
+        if body == Body::Pin {
+            // The pin's z grows away from the disc.
+            patch.heights.iter_mut().for_each(|height| *height = -*height);
+        }
+        level(&mut patch.heights, patch.rows, form, false);
+        let grid = Grid::of(&patch);
+        let description = Description::of(&grid)?;
+        let cells = patch.cell_averages(mesh).and_then(|cells| {
+            let grid = Grid::of(&cells);
+            Some(Cells {
+                counts: [cells.columns, cells.rows],
+                size: [cells.column_pitch, cells.row_pitch],
+                description: Description::of(&grid)?,
+                errors: sampling_errors(&grid),
+            })
+        });
+        Some(Self {
+            name: format!("{name} patch"),
+            points: [patch.columns, patch.rows],
+            pitch: [patch.column_pitch, patch.row_pitch],
+            drawn: draws.then(|| Drawn::of(&grid, &description)),
+            patch: description,
+            cells,
+        })
     }
 
-    /// A table for people.
-    pub fn text(&self) -> String {
-        let [columns, rows] = self.cells;
-        let mut text =
-            format!("  against its patch in {columns} x {rows} cells (± what cut-outs of that size scatter):\n");
-        for Line { parameter, patch, error, made } in &self.lines {
-            let (unit, factor) = scale(parameter);
-            let show = |value: f64, digits| {
-                if value.is_nan() { "-".to_owned() } else { number::significant(value * factor, digits) }
-            };
-            text.push_str(&format!(
-                "    {:4} {unit:3}  {:>10} ± {:<8}  {:>10}  {:>+8.1} %\n",
-                parameter.symbol,
-                show(*patch, 4),
-                show(*error, 2),
-                show(*made, 4),
-                100.0 * (made / patch - 1.0),
-            ));
-        }
-        text
+    /// What is drawn of the patch, if anything is.
+    pub fn described(&self) -> Option<DescribedSurface<'_>> {
+        Some(DescribedSurface {
+            title: self.name.clone(),
+            points: self.points,
+            pitch: Some(self.pitch),
+            drawn: self.drawn.as_ref()?,
+            description: &self.patch,
+        })
+    }
+
+    /// The values of every parameter, SI units, NaN where there is none.
+    pub fn rows<'a>(&'a self, body: &'a Description) -> impl Iterator<Item = Row> + 'a {
+        PARAMETERS.iter().enumerate().map(move |(place, parameter)| {
+            let value = |description: &Description| (parameter.value)(description).unwrap_or(f64::NAN);
+            let cells = self.cells.as_ref().map_or(f64::NAN, |cells| value(&cells.description));
+            let error = self.cells.as_ref().and_then(|cells| cells.errors.get(place)).copied().unwrap_or(f64::NAN);
+            let body = value(body);
+            Row { parameter, patch: value(&self.patch), cells, error, body, difference: body - cells }
+        })
     }
 }
 
-impl Serialize for Comparison {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("cells", &self.cells)?;
-        for Line { parameter, patch, error, .. } in &self.lines {
-            let (_, factor) = scale(parameter);
-            map.serialize_entry(parameter.symbol, &(patch * factor))?;
-            map.serialize_entry(&format!("{}_error", parameter.symbol), &(error * factor))?;
-        }
-        map.end()
-    }
+/// A parameter of a patch and of what was made of it.
+pub struct Row {
+    /// Which.
+    pub parameter: &'static Parameter,
+    /// Of the patch as it was measured and prepared.
+    pub patch: f64,
+    /// Of its averages over cells.
+    pub cells: f64,
+    /// Standard error of that: what it varies by from one such patch to another.
+    pub error: f64,
+    /// Of disc or pin.
+    pub body: f64,
+    /// Of disc or pin less that of the averages.
+    pub difference: f64,
 }

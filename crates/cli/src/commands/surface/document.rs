@@ -4,6 +4,7 @@ use plateau_core::surface::describe::{PARAMETERS, Parameter, Unit};
 use serde::Serialize;
 use serde::ser::{SerializeMap as _, Serializer};
 
+use super::comparison::{Comparison, Row};
 use super::subject::Subject;
 use crate::failure::Failure;
 
@@ -59,10 +60,43 @@ impl Serialize for Document<'_> {
             map.serialize_entry("Str_below", &spatial.aspect_ratio_below)?;
         }
         if let Some(comparison) = &subject.comparison {
-            map.serialize_entry("patch", comparison)?;
+            map.serialize_entry("comparison", &Compared { subject, comparison })?;
         }
         map.serialize_entry("units", &Units)?;
         map.end()
+    }
+}
+
+/// A body beside the patch that it was made of, parameter by parameter.
+struct Compared<'a> {
+    subject: &'a Subject,
+    comparison: &'a Comparison,
+}
+
+impl Serialize for Compared<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rows: Vec<Row> = self.comparison.rows(&self.subject.description).collect();
+        let values = |of: fn(&Row) -> f64| Values { rows: &rows, of };
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("cells", &self.comparison.cells.as_ref().map(|cells| cells.counts))?;
+        map.serialize_entry("patch", &values(|row| row.patch))?;
+        map.serialize_entry("patch_in_cells", &values(|row| row.cells))?;
+        map.serialize_entry("sampling_error", &values(|row| row.error))?;
+        map.serialize_entry("difference", &values(|row| row.difference))?;
+        map.end()
+    }
+}
+
+/// One value of every parameter, by its symbol.
+struct Values<'a> {
+    rows: &'a [Row],
+    of: fn(&Row) -> f64,
+}
+
+impl Serialize for Values<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer
+            .collect_map(self.rows.iter().map(|row| (row.parameter.symbol, (self.of)(row) * scale(row.parameter).1)))
     }
 }
 

@@ -7,7 +7,7 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use plateau_core::surface::{Level, Patch};
+use plateau_core::surface::{Body, Level, Patch};
 use plateau_io::scene;
 use plateau_io::surface::{self, Loaded, Measured, ReadOptions, WriteError, WriteOptions};
 use plateau_present::figure::fibre_map::{self, Micrograph};
@@ -19,6 +19,7 @@ use crate::failure::Failure;
 use crate::message;
 use crate::output;
 use crate::table::print;
+use comparison::Comparison;
 use subject::Subject;
 
 /// More surfaces make no legible picture.
@@ -51,7 +52,7 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     if to.is_some() && (files.len() != 1 || prepare.is_some()) {
         return Err(Failure::input("--to converts one FILE: leave out the others and --prepare"));
     }
-    let surfaces = files.len() + 4 * usize::from(prepare.is_some());
+    let surfaces = files.len() + 2 * usize::from(prepare.is_some());
     if plot.is_some() && surfaces > MOST_PLOTTED {
         return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
     }
@@ -106,12 +107,13 @@ fn convert(path: &Path, measured: &mut Measured, to: &Path, force: bool) -> Resu
 }
 
 /// What a scene makes of its disc and pin.
-fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Vec<Subject>, Failure> {
+fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], Failure> {
     let scene = scene::load(path, &[]).map_err(Failure::input)?;
     for warning in &scene.warnings {
         message::warning(warning);
     }
-    let Loaded { surfaces, report, inputs, patches, .. } = surface::load(&scene).map_err(Failure::input)?;
+    let (Loaded { surfaces, report, inputs, .. }, patches) =
+        surface::load_with_patches(&scene).map_err(Failure::input)?;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
     for picture in arguments.plot.iter().chain(&arguments.preview) {
         output::check(picture, arguments.force, &inputs)?;
@@ -123,11 +125,11 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Vec<Subject>, F
         draw(&figure, preview, arguments.force)?;
     }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
-    let bodies = Subject::of_scene(path, mesh, surfaces, &report, &patches, level, draws(arguments))?;
-    let mut subjects = Vec::new();
-    for (body, patch) in bodies.into_iter().zip(patches) {
-        subjects.extend(patch.and_then(|patch| Subject::of_patch(path, patch, &body.name, draws(arguments))));
-        subjects.push(body);
+    let mut subjects = Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))?;
+    let patches = [(Body::Disc, patches.disc), (Body::Pin, patches.pin)];
+    for (subject, (body, patch)) in subjects.iter_mut().zip(patches) {
+        let compare = |patch| Comparison::of(body, &subject.name, patch, mesh, level, draws(arguments));
+        subject.comparison = patch.and_then(compare);
     }
     Ok(subjects)
 }
@@ -147,7 +149,7 @@ fn draw(figure: &Figure, path: &Path, force: bool) -> Result<(), Failure> {
 /// Draws and prints.
 fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failure> {
     if let Some(plot) = &arguments.plot {
-        let described: Vec<DescribedSurface> = subjects.iter().filter_map(Subject::described).collect();
+        let described: Vec<DescribedSurface> = subjects.iter().flat_map(Subject::described).collect();
         draw(&surface_description::figure(&described), plot, arguments.force)?;
     }
     if arguments.json {

@@ -5,7 +5,7 @@ use std::path::Path;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
-use plateau_core::surface::{Body, Level, Patch, level};
+use plateau_core::surface::{Body, Level, level};
 use plateau_io::surface::Measured;
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
@@ -33,7 +33,7 @@ pub struct Subject {
     pub warnings: Vec<String>,
     /// Its parameters.
     pub description: Description,
-    /// How it differs from the patch from which it was made.
+    /// The patch that the scene made it of, if it did of one.
     pub comparison: Option<Comparison>,
     /// Its heights as a picture shows them; none unless one is drawn.
     drawn: Option<Drawn>,
@@ -57,9 +57,9 @@ impl Subject {
             level: level_name(form, false),
             notes,
             warnings,
+            comparison: None,
             drawn: draws.then(|| Drawn::of(&grid, &description)),
             description,
-            comparison: None,
         })
     }
 
@@ -69,7 +69,6 @@ impl Subject {
         mesh: &Mesh,
         surfaces: InitialSurfaces,
         report: &[String],
-        patches: &[Option<Patch>; 2],
         form: Level,
         draws: bool,
     ) -> Result<[Self; 2], Failure> {
@@ -80,8 +79,6 @@ impl Subject {
             let pitch = Some([mesh.column_width(), mesh.row_height()]);
             let grid = Grid { columns, rows, pitch, heights: &heights };
             let description = Description::of(&grid).ok_or_else(|| Failure::input("the mesh has no cells"))?;
-            let patch = patches[usize::from(body == Body::Pin)].as_ref();
-            let in_cells = patch.map(|patch| patch.in_cells([mesh.column_width(), mesh.row_height()]));
             let own = |line: &&String| line.starts_with(&format!("{name}."));
             Ok(Self {
                 name: name.to_owned(),
@@ -92,8 +89,8 @@ impl Subject {
                 level: level_name(form, closed),
                 notes: report.iter().filter(own).cloned().collect(),
                 warnings: Vec::new(),
+                comparison: None,
                 drawn: draws.then(|| Drawn::of(&grid, &description)),
-                comparison: in_cells.and_then(|patch| Comparison::of(&patch, &description, &grid)),
                 description,
             })
         };
@@ -101,25 +98,6 @@ impl Subject {
         let mut pin_height: Vec<f64> = surfaces.pin_height.into_iter().map(|height| -height).collect();
         mesh.absent_cells().for_each(|cell| pin_height[cell] = f64::NAN);
         Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
-    }
-
-    /// The patch from which a scene made this body, as it was brought onto the mesh; none where nothing of it has a height.
-    pub fn of_patch(scene: &Path, patch: Patch, body: &str, draws: bool) -> Option<Self> {
-        let grid = Grid::of(&patch);
-        let description = Description::of(&grid)?;
-        Some(Self {
-            name: format!("{body}'s patch"),
-            origin: format!("prepared by {}, before it was brought onto the mesh", scene.display()),
-            columns: patch.columns,
-            rows: patch.rows,
-            pitch: grid.pitch,
-            level: level_name(Level::None, false),
-            notes: Vec::new(),
-            warnings: Vec::new(),
-            drawn: draws.then(|| Drawn::of(&grid, &description)),
-            description,
-            comparison: None,
-        })
     }
 
     /// Points that the grid has.
@@ -132,16 +110,17 @@ impl Subject {
         self.description.measured as f64 / self.points() as f64
     }
 
-    /// What is drawn of it, if anything is.
-    pub fn described(&self) -> Option<DescribedSurface<'_>> {
+    /// What is drawn of it, if anything is: the patch that it was made of first.
+    pub fn described(&self) -> impl Iterator<Item = DescribedSurface<'_>> {
         let title = Path::new(&self.name).file_name().map_or(self.name.clone(), |name| name.to_string_lossy().into());
-        Some(DescribedSurface {
+        let own = self.drawn.as_ref().map(|drawn| DescribedSurface {
             title,
             points: [self.columns, self.rows],
             pitch: self.pitch,
-            drawn: self.drawn.as_ref()?,
+            drawn,
             description: &self.description,
-        })
+        });
+        self.comparison.as_ref().and_then(Comparison::described).into_iter().chain(own)
     }
 }
 

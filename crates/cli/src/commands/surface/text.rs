@@ -3,6 +3,7 @@
 use plateau_core::surface::Length;
 use plateau_core::surface::describe::{PARAMETERS, Parameter};
 
+use super::comparison::{Cells, Comparison, Row};
 use super::document::scale;
 use super::subject::Subject;
 use crate::number;
@@ -35,8 +36,38 @@ pub fn text(subjects: &[Subject]) -> String {
         lines.push(Line::new(&name, scale(parameter).0, cells(&|subject| value(parameter, subject))));
     }
     let mut text = aligned(&lines);
+    for subject in subjects {
+        text.extend(subject.comparison.as_ref().map(|comparison| beside(subject, comparison)));
+    }
     text.push_str(&remarks(subjects));
     text
+}
+
+/// A body beside the patch that it was made of.
+fn beside(subject: &Subject, comparison: &Comparison) -> String {
+    let heading = match &comparison.cells {
+        Some(Cells { counts, size, .. }) => format!(
+            "\n{}: its patch, the same averaged over {} x {} cells of {} x {} with its sampling error, and the difference to \
+             these averages\n",
+            subject.name,
+            counts[0],
+            counts[1],
+            Length(size[0]),
+            Length(size[1])
+        ),
+        None => format!("\n{}: its patch, in which no whole cell lies\n", subject.name),
+    };
+    let names = ["patch", "in cells", "+-", &subject.name, "difference"].map(str::to_owned);
+    let mut lines = vec![Line::new("", "", names.into())];
+    for Row { parameter, patch, cells, error, body, difference } in comparison.rows(&subject.description) {
+        let (unit, factor) = scale(parameter);
+        let cell = |value: f64, digits| {
+            if value.is_nan() { NONE.to_owned() } else { number::significant(value * factor, digits) }
+        };
+        let cells = [cell(patch, 5), cell(cells, 5), cell(error, 2), cell(body, 5), cell(difference, 2)];
+        lines.push(Line::new(parameter.symbol, unit, cells.into()));
+    }
+    heading + &aligned(&lines)
 }
 
 /// A line of the table.
@@ -108,9 +139,6 @@ fn remarks(subjects: &[Subject]) -> String {
         text.push_str(&format!("\n{}: {}\n", subject.name, subject.origin));
         for note in &subject.notes {
             text.push_str(&format!("  {note}\n"));
-        }
-        if let Some(comparison) = &subject.comparison {
-            text.push_str(&comparison.text());
         }
         let missing = subject.points() - subject.description.measured;
         if missing > 0 {

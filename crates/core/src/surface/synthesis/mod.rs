@@ -4,17 +4,14 @@
 //! and its heights are given the distribution of Johnson's system with the skewness and kurtosis asked for, z = T(g).
 //! As that changes the autocorrelation, g is made with the one that becomes the right one (see [`translation`]).
 
-mod autocovariance;
 mod error;
-pub(super) mod extension;
-mod grid;
+pub(super) mod grid;
 mod johnson;
-mod planar;
+pub(super) mod planar;
 mod quadrature;
-mod quantiles;
 mod separable;
 mod spectrum;
-mod translation;
+pub(super) mod translation;
 
 pub use error::SynthesisError;
 
@@ -80,8 +77,6 @@ const REACH: f64 = 4.0;
 const POWER_LAW_REACH: f64 = 2.0;
 /// Longest correlation length or roll-off in cells.
 const LONGEST: f64 = (1 << 20) as f64;
-/// Largest padded field, unless the body is larger than an eighth of it.
-const MOST_CELLS: usize = 1 << 26;
 /// Smallest rms height, relative to the largest height before the mean is removed, that is more than rounding.
 const SMALLEST_RMS: f64 = 1e-9;
 
@@ -197,17 +192,9 @@ impl HeightSynthesis {
     }
 }
 
-/// Cells of the largest field that is made for a body.
-fn most_cells(grid: &Grid) -> usize {
-    MOST_CELLS.max(8 * grid.columns * grid.rows)
-}
-
 fn refuse_too_large(grid: &Grid) -> Result<(), SynthesisError> {
     let (columns, rows) = (grid.padded_columns, grid.padded_rows);
-    match columns.checked_mul(rows) {
-        Some(cells) if cells <= most_cells(grid) => Ok(()),
-        _ => Err(SynthesisError::TooLarge { columns, rows }),
-    }
+    if grid.is_too_large() { Err(SynthesisError::TooLarge { columns, rows }) } else { Ok(()) }
 }
 
 /// Takes out the mean and scales to the rms height, both of the cells that are there; `None` when nothing but the mean is.

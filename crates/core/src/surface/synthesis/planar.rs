@@ -2,8 +2,7 @@
 
 use super::grid::Grid;
 use super::translation::Translation;
-use crate::surface::fft::Complex;
-use crate::surface::fft2d::Fft2d;
+use crate::surface::fft::{Complex, Fft};
 use crate::surface::random::Random;
 
 /// A harmonic with less than this of the strongest one's power has none: what is left there is rounding.
@@ -11,15 +10,15 @@ const WEAKEST: f64 = 1e-12;
 
 /// Field with this power at every harmonic of the padded grid, on the cells that belong to the body, column by column.
 /// With a translation it is the field that has the spectrum after the translation.
-pub(super) fn field(
+pub(in crate::surface) fn field(
     grid: &Grid,
     mut power: Vec<f64>,
     translation: Option<&Translation>,
     random: &mut Random,
 ) -> Vec<f64> {
-    let mut plane = Fft2d::new(grid.padded_columns, grid.padded_rows);
+    let mut plane = Plane::new(grid);
     if let Some(translation) = translation {
-        distort(&mut power, translation, &mut plane, grid.repeats);
+        distort(&mut power, translation, &mut plane);
     }
     let strongest = power.iter().copied().fold(0.0, f64::max);
     let gain = power.iter().map(|power| if *power > WEAKEST * strongest { power.sqrt() } else { 0.0 });
@@ -35,29 +34,69 @@ pub(super) fn field(
 ///
 /// The inverse of the translation need not be an autocorrelation: where its spectrum is negative, no Gaussian field has
 /// it, and the nearest that one has is 0 there.
-fn distort(power: &mut [f64], translation: &Translation, plane: &mut Fft2d, repeats: usize) {
+fn distort(power: &mut [f64], translation: &Translation, plane: &mut Plane) {
     let mut values: Vec<Complex> = power.iter().map(|power| Complex { re: *power, im: 0.0 }).collect();
     plane.forward(&mut values);
     let variance = values.first().map_or(1.0, |value| value.re);
     values.iter_mut().for_each(|value| *value = Complex { re: value.re / variance, im: 0.0 });
-    map_symmetric(plane, &mut values, |autocorrelation| translation.inverse(autocorrelation));
+    plane.map_symmetric(&mut values, |autocorrelation| translation.inverse(autocorrelation));
     plane.forward(&mut values);
-    for (column, (power, values)) in power.chunks_mut(plane.rows()).zip(values.chunks(plane.rows())).enumerate() {
-        let kept = column.min(plane.columns() - column).is_multiple_of(repeats);
+    let repeats = plane.repeats;
+    for (column, (power, values)) in power.chunks_mut(plane.rows).zip(values.chunks(plane.rows)).enumerate() {
+        let kept = column.min(plane.columns - column).is_multiple_of(repeats);
         power.iter_mut().zip(values).for_each(|(power, value)| *power = if kept { value.re.max(0.0) } else { 0.0 });
     }
 }
 
-/// Maps the real parts of what is symmetric in either direction.
-fn map_symmetric(plane: &Fft2d, values: &mut [Complex], map: impl Fn(f64) -> f64) {
-    let (columns, rows) = (plane.columns(), plane.rows());
-    for column in 0..columns {
-        let mirrored_column = (columns - column) % columns;
-        for row in 0..rows {
-            let mirrored_row = (rows - row) % rows;
-            let first = column.min(mirrored_column) * rows + row.min(mirrored_row);
-            let here = column * rows + row;
-            values[here].re = if here == first { map(values[here].re) } else { values[first].re };
+/// Transform in the plane, column by column and then row by row.
+pub(in crate::surface) struct Plane {
+    columns: usize,
+    rows: usize,
+    repeats: usize,
+    along_y: Fft,
+    along_x: Fft,
+}
+
+impl Plane {
+    pub(in crate::surface) fn new(grid: &Grid) -> Self {
+        let (columns, rows) = (grid.padded_columns, grid.padded_rows);
+        Self { columns, rows, repeats: grid.repeats, along_y: Fft::new(rows), along_x: Fft::new(columns) }
+    }
+
+    /// Columns and rows of the plane.
+    pub(in crate::surface) fn size(&self) -> [usize; 2] {
+        [self.columns, self.rows]
+    }
+
+    /// Transforms in place.
+    pub(in crate::surface) fn forward(&mut self, values: &mut [Complex]) {
+        values.chunks_exact_mut(self.rows).for_each(|column| self.along_y.forward(column));
+        let mut line = vec![Complex::default(); self.columns];
+        for row in 0..self.rows {
+            let places = || (row..values.len()).step_by(self.rows);
+            line.iter_mut().zip(places()).for_each(|(value, place)| *value = values[place]);
+            self.along_x.forward(&mut line);
+            line.iter().zip(places()).for_each(|(value, place)| values[place] = *value);
+        }
+    }
+
+    /// Transform back, times the number of points.
+    fn backward(&mut self, values: &mut [Complex]) {
+        values.iter_mut().for_each(|value| *value = value.conj());
+        self.forward(values);
+        values.iter_mut().for_each(|value| *value = value.conj());
+    }
+
+    /// Maps the real parts of what is symmetric in either direction.
+    fn map_symmetric(&self, values: &mut [Complex], map: impl Fn(f64) -> f64) {
+        for column in 0..self.columns {
+            let mirrored_column = (self.columns - column) % self.columns;
+            for row in 0..self.rows {
+                let mirrored_row = (self.rows - row) % self.rows;
+                let first = column.min(mirrored_column) * self.rows + row.min(mirrored_row);
+                let here = column * self.rows + row;
+                values[here].re = if here == first { map(values[here].re) } else { values[first].re };
+            }
         }
     }
 }

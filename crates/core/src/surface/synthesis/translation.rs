@@ -19,26 +19,29 @@ const NEGLECTED: f64 = 1e-14;
 
 /// The map f of autocorrelations.
 #[derive(Debug)]
-pub(super) struct Translation {
+pub(in crate::surface) struct Translation {
     /// Share of each power of r, from r¹ on; together 1.
     shares: Vec<f64>,
 }
 
 impl Translation {
     pub(super) fn new(distribution: Johnson) -> Self {
+        // T grows as exp(x/δ).
         let step = (0.5 * distribution.delta()).min(0.0625);
         Self::of(|x| distribution.height(x), step, 2.0 / distribution.delta())
     }
 
-    /// That of any increasing T, by the rule for means with this step, whose reach is longer by `excess` where T grows fast.
-    pub(super) fn of(height_of: impl Fn(f64) -> f64, step: f64, excess: f64) -> Self {
-        // The product of He_k and the normal density falls as exp(−x²/4) beyond 2√k; T may grow as exp(2x/excess).
-        let reach = 12.0 + 2.0 * (MOST_TERMS as f64).sqrt() + excess;
+    /// That of the heights T(x) by quadrature with this step; T may grow beyond any bound if `growth` adds to the range of x
+    /// what it needs.
+    pub(in crate::surface) fn of(height: impl Fn(f64) -> f64, step: f64, growth: f64) -> Self {
+        // The product of He_k and the normal density falls as exp(−x²/4) beyond 2√k.
+        let reach = 12.0 + 2.0 * (MOST_TERMS as f64).sqrt() + growth;
         let (mut mean, mut square, mut coefficients) = (0.0, 0.0, [0.0; MOST_TERMS]);
         for (x, weight) in normal_nodes(step, reach) {
-            let height = weight * height_of(x);
+            let at = height(x);
+            let height = weight * at;
             mean += height;
-            square += height * height_of(x);
+            square += height * at;
             // He_k/√k! by its recurrence.
             let (mut before, mut hermite) = (1.0, x);
             for (k, coefficient) in coefficients.iter_mut().enumerate() {
@@ -79,7 +82,7 @@ impl Translation {
     /// Autocorrelation that the Gaussian field must have; f increases from f(−1) to 1.
     ///
     /// An autocorrelation below f(−1), which the distribution cannot have, gives −1.
-    pub(super) fn inverse(&self, autocorrelation: f64) -> f64 {
+    pub(in crate::surface) fn inverse(&self, autocorrelation: f64) -> f64 {
         let (mut low, mut high) = (-1.0, 1.0);
         let mut r = autocorrelation.clamp(low, high);
         // Newton's method, kept between bounds that close in.

@@ -29,12 +29,12 @@ pub(crate) const LEVEL: Choices<Level, 4> =
     [("quadratic", Level::Quadratic), ("plane", Level::Plane), ("mean", Level::Mean), ("none", Level::None)];
 /// `fill` of a preparation.
 pub(crate) const FILL: Choices<Fill, 2> = [("level", Fill::Level), ("interpolate", Fill::Interpolate)];
-/// `extend` of a preparation.
-pub(crate) const EXTEND: Choices<(), 1> = [("statistics", ())];
 /// `decimal` of a text file.
 pub const DECIMAL: Choices<Decimal, 2> = [(".", Decimal::Point), (",", Decimal::Comma)];
 /// `profile_lay` of a file.
 pub const LAY: Choices<Lay, 3> = [("along", Lay::Along), ("across", Lay::Across), ("isotropic", Lay::Isotropic)];
+/// `extend` of a preparation; its seed is a key of its own.
+pub(crate) const EXTEND: Choices<(), 1> = [("statistics", ())];
 /// `pin.base.rotate`: quarters of a turn.
 pub(crate) const ROTATE: Choices<u8, 4> = [("0 deg", 0), ("90 deg", 1), ("180 deg", 2), ("270 deg", 3)];
 /// `pin.base.fibres`.

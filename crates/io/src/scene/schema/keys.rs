@@ -12,14 +12,15 @@ use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, Require
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
 const FILE: &[&str] = &["dataset", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
-/// How a patch is continued beyond its edges.
-const CONTINUATIONS: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
 const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
 
 const TEXTURES: &[(&str, &[&str])] = &[
     ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
     ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
 ];
+
+/// What is done where a patch is smaller than ring or pin.
+const BEYOND_THE_PATCH: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
 
 /// Keys that exclude each other.
 pub const GROUPS: &[Group] = &[
@@ -38,16 +39,16 @@ pub const GROUPS: &[Group] = &[
     },
     Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true, unless: None },
     Group { section: "disc.surface", members: TEXTURES, required: true, unless: None },
+    Group { section: "disc.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
     Group {
         section: "pin.base",
         members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
         required: true,
         unless: None,
     },
-    Group { section: "disc.prepare", members: CONTINUATIONS, required: false, unless: None },
-    Group { section: "pin.prepare", members: CONTINUATIONS, required: false, unless: None },
     Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
     Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
+    Group { section: "pin.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
     Group {
         section: "output",
         members: &[("sample_every", &[]), ("sample_every_steps", &[])],
@@ -345,16 +346,11 @@ impl Table {
         );
         self.key("l_filter", nesting_index, Optional, "nesting index of a Gaussian filter that takes out longer waves");
         self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
-        self.key(
-            "repeat",
-            Bool,
-            Default("false"),
-            "whether the patch is tiled round the ring and across the track, mirrored from tile to tile",
-        );
-        let extensions = Choice(&const { words(&choices::EXTEND) });
-        let extension = "a surface of the size that is needed with the statistics of the patch, in place of tiles";
-        self.key("extend", extensions, Optional, extension);
-        self.key("extend_seed", Integer(0), Default("0"), "seed of that surface");
+        let repeat = "whether the patch is tiled over the ring or pin, mirrored from tile to tile";
+        self.key("repeat", Bool, Computed("`false`"), repeat);
+        let extend = "random heights with the statistics of the patch in place of the patch itself";
+        self.key("extend", Choice(&const { words(&choices::EXTEND) }), Optional, extend);
+        self.key("extend_seed", Integer(0), Computed("`0`"), "seed of the random heights of `extend`");
         self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
     }
 }

@@ -1,0 +1,146 @@
+//! Heights of a whole body with the statistics of a patch that is smaller.
+//!
+//! The patch is averaged over cells of the mesh's size. From these heights come the distribution (the Abbott-Firestone curve,
+//! [`quantiles`]) and the areal power spectrum, with which the autocorrelation and all anisotropy ([`spectrum`]). A Gaussian
+//! field g is made with the autocorrelation that becomes that of the patch when its heights are given the patch's
+//! distribution, z = T(g) (Grigoriu 1984, see [`translation`](super::synthesis::translation)).
+
+mod quantiles;
+mod reach;
+mod spectrum;
+
+use super::level::{Level, level, mean, rms};
+use super::preparation_error::PreparationError;
+use super::random::{Random, Stream};
+use super::resample::{cell_averages, whole_cells};
+use super::synthesis::grid::Grid;
+use super::synthesis::planar::{self, Plane};
+use super::synthesis::translation::Translation;
+use super::{Body, Length, Patch};
+use crate::model::mesh::Mesh;
+use crate::surface::fft::Complex;
+use quantiles::Quantiles;
+use reach::Reach;
+use spectrum::Spectrum;
+
+/// What is made of a patch that is smaller than the body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extension {
+    /// Random heights with its statistics.
+    Statistics {
+        /// Seed of the random stream.
+        seed: u64,
+    },
+}
+
+/// Fewest cells in either direction of which statistics are taken.
+const FEWEST_CELLS: usize = 4;
+/// Share of the mean square height below which a plane is not worth a word.
+const SLIGHT: f64 = 1e-6;
+
+/// Random heights of every cell of `body` with the statistics of the patch, on the disc periodic round the ring. What is done,
+/// and what the patch cannot tell, goes into the report.
+///
+/// The least-squares plane of the patch is taken out unless it was levelled by a plane or a surface of second order: a tilt is
+/// no roughness. The mean height stays.
+pub(super) fn extend(
+    mut patch: Patch,
+    levelled: Level,
+    Extension::Statistics { seed }: Extension,
+    body: Body,
+    mesh: &Mesh,
+    report: &mut Vec<String>,
+) -> Result<Vec<f64>, PreparationError> {
+    if matches!(levelled, Level::None | Level::Mean) {
+        take_out_plane(&mut patch, report);
+    }
+    let grid = grid(&patch, body, mesh)?;
+    let cells = cell_averages(&patch, mesh);
+    let count = body.columns(mesh) * mesh.rows();
+    let quantiles = Quantiles::of(&cells.heights);
+    if quantiles.are_equal() {
+        report.push("extend: all heights of the patch are equal".to_owned());
+        return Ok(vec![quantiles.at(0.5); count]);
+    }
+    let spectrum = Spectrum::of(&cells, &grid);
+    report.push(format!(
+        "extend: heights with the statistics of the patch of {} by {}, averaged over {} by {} cells, seed {seed}; \
+         {:.2} % of its mean square height is in waves as long as itself",
+        Length(patch.length()),
+        Length(patch.height()),
+        cells.columns,
+        cells.rows,
+        100.0 * spectrum.long_waves
+    ));
+    let Spectrum { power, .. } = spectrum;
+    let mut plane = Plane::new(&grid);
+    let correlation = autocorrelation(power, &mut plane);
+    report.extend(Reach::of(&correlation, &grid, &cells).warnings(&patch, body, mesh));
+    let power =
+        gaussian_power(correlation, &Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0), &mut plane);
+    let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
+    let field = planar::field(&grid, power, None, &mut Random::new(seed, stream));
+    Ok(quantiles.by_rank(&field))
+}
+
+/// Step of the quadrature of the distribution, whose density is not smooth: its error falls as the square of the step.
+const QUADRATURE_STEP: f64 = 1.0 / 128.0;
+
+fn take_out_plane(patch: &mut Patch, report: &mut Vec<String>) {
+    let (before, centre) = (rms(&patch.heights), mean(&patch.heights));
+    level(&mut patch.heights, patch.rows, Level::Plane, false);
+    patch.heights.iter_mut().for_each(|height| *height += centre);
+    let after = rms(&patch.heights);
+    if before * before - after * after > SLIGHT * before * before {
+        let plane = "extend: the least-squares plane was taken out, for a tilt is no roughness";
+        report.push(format!("{plane}: rms {} -> {}", Length(before), Length(after)));
+    }
+}
+
+/// The grid of the field: so large that opposite edges of the body are further apart than any two cells of the patch.
+fn grid(patch: &Patch, body: Body, mesh: &Mesh) -> Result<Grid, PreparationError> {
+    let cells = whole_cells(patch, mesh);
+    if cells.iter().any(|count| *count < FEWEST_CELLS) {
+        return Err(PreparationError::FewCells { cells, least: FEWEST_CELLS });
+    }
+    // Beyond these the padding could not be counted.
+    let large = |field: [usize; 2]| PreparationError::LargeField { cells, field };
+    if cells.iter().any(|count| *count > 1 << 28) {
+        return Err(large(cells));
+    }
+    let reach = [cells[0] as f64 * mesh.column_width(), cells[1] as f64 * mesh.row_height()];
+    let grid = Grid::new(body, mesh, reach, 1);
+    let many = cells[0].checked_mul(cells[1]).is_none_or(|count| count > Grid::MOST_CELLS);
+    if many || grid.is_too_large() { Err(large([grid.padded_columns, grid.padded_rows])) } else { Ok(grid) }
+}
+
+/// From the power at every harmonic to the autocorrelation at every lag, 1 at none, column by column.
+fn autocorrelation(power: Vec<f64>, plane: &mut Plane) -> Vec<f64> {
+    let mut values: Vec<Complex> = power.into_iter().map(|power| Complex { re: power, im: 0.0 }).collect();
+    plane.forward(&mut values);
+    let variance = values.first().map_or(1.0, |value| value.re);
+    values.into_iter().map(|value| value.re / variance).collect()
+}
+
+/// Autocorrelation that is no more than rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// The power of the Gaussian field that has this autocorrelation after the translation; where no field has it, the nearest.
+fn gaussian_power(correlation: Vec<f64>, translation: &Translation, plane: &mut Plane) -> Vec<f64> {
+    let [columns, rows] = plane.size();
+    let mut values: Vec<Complex> = vec![Complex::default(); correlation.len()];
+    for column in 0..columns {
+        for row in 0..rows {
+            let here = column * rows + row;
+            let opposite = (columns - column) % columns * rows + (rows - row) % rows;
+            let value = match correlation[here] {
+                _ if opposite < here => values[opposite].re,
+                small if small.abs() < ROUNDING => 0.0,
+                value => translation.inverse(value.min(1.0)),
+            };
+            values[here].re = value;
+        }
+    }
+    plane.forward(&mut values);
+    values.into_iter().map(|value| value.re.max(0.0)).collect()
+}
