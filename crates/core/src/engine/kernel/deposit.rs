@@ -25,11 +25,11 @@ pub(super) fn deposit<const DISTINCT: bool, const DISC_WEARS: bool>(
     moved: &mut Moved,
 ) {
     let mut receivers = !word(strip.pin.touches, first) & word(strip.pin.touches, first + 1);
-    if !strip.pin.present.is_empty() {
-        receivers &= word(strip.pin.present, first);
-    }
     if receivers == 0 {
         return;
+    }
+    if !strip.pin.present.is_empty() {
+        receivers &= word(strip.pin.present, first);
     }
     let columns = strip.disc_height.len();
     let mut cells = StripCells {
