@@ -19,6 +19,7 @@ mod integrity;
 mod killed;
 mod metrology;
 mod million;
+mod new_scene;
 mod not_finite;
 mod plausible;
 mod plot_command;

@@ -1,0 +1,71 @@
+//! `plateau new`: a scene to begin with that can be run as it stands.
+
+use std::fs;
+
+use plateau_tests::program::{WorkingDirectory, repository};
+use plateau_tests::run_file::RunFile;
+
+/// From nothing to a figure: a pin of 6 x 6 mm at 30 mm, 30 N, 600 rpm, a measured patch of half a millimetre.
+#[test]
+fn a_measured_patch_and_the_numbers_of_a_rig_become_a_figure() {
+    let directory = WorkingDirectory::new();
+    fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("patch.sdf")).unwrap();
+    // The same heights at 2 um a point: 0.512 mm wide.
+    let numbers = ["--pin-width=6 mm", "--pin-length=6 mm", "--radius=30 mm", "--load=30 N", "--speed=600 rpm"];
+    let new = [&["new", "mine.toml", "--disc", "patch.sdf", "--duration=2 s"][..], &numbers].concat();
+    let outcome = directory.plateau(&new);
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("plateau run mine.toml"), "{}", outcome.stdout);
+    let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+    let own = text.lines().filter(|line| line.contains("# <-")).count();
+    assert!((8..15).contains(&own), "{own} keys are the user's:\n{text}");
+    assert!(text.contains("pixel = \"50 um\""), "the scan is smaller than a cell:\n{text}");
+    fs::write(directory.path("mine.toml"), text.replace("pixel = \"50 um\"", "pixel = \"2 um\"")).unwrap();
+    for command in [&["check", "mine.toml"][..], &["run", "mine.toml"], &["plot", "mine.h5", "-o", "figures"]] {
+        let outcome = directory.plateau(command);
+        assert_eq!(outcome.status, Some(0), "{command:?}: {}", outcome.stderr);
+    }
+    // 6 mm are 120 cells; the ring at 30 mm has 2 pi 30 mm / 50 um = 3769.9 of them, and 6 mm of it 120.
+    let run = RunFile::open(directory.path("mine.h5"));
+    assert_eq!(
+        [run.floats("radius").len(), run.floats("disc_angle").len(), run.floats("pin_angle").len()],
+        [120, 3770, 120]
+    );
+    assert!(directory.path("figures/contact-area.png").exists(), "{:?}", directory.names());
+}
+
+#[test]
+fn the_path_of_the_surface_is_relative_to_the_scene() {
+    let directory = WorkingDirectory::new();
+    fs::create_dir(directory.path("scenes")).unwrap();
+    fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("scenes/patch.sdf")).unwrap();
+    directory.plateau(["new", "scenes/mine.toml", "--disc", "scenes/patch.sdf", "--diameter=10 mm"]).quiet_success();
+    let text = fs::read_to_string(directory.path("scenes/mine.toml")).unwrap();
+    assert!(text.contains("file = \"patch.sdf\"") && text.contains("shape = \"disc\""), "{text}");
+    directory.plateau(["check", "scenes/mine.toml"]).quiet_success();
+}
+
+#[test]
+fn what_is_there_or_makes_no_sense_is_refused() {
+    let directory = WorkingDirectory::new();
+    directory.plateau(["new", "mine.toml"]).quiet_success();
+    let before = fs::read(directory.path("mine.toml")).unwrap();
+    for (arguments, found) in [
+        (&["new", "mine.toml"][..], "--force"),
+        (&["new", "other.toml", "--load", "30 mm"], "is a length, expected a force"),
+        (&["new", "other.toml", "--load=-3 N"], "expected more than 0"),
+        (&["new", "other.toml", "--diameter", "5 mm", "--pin-width", "5 mm"], "cannot be used with"),
+        (&["new", "other.toml", "--disc", "mine.toml"], "mine.toml"),
+        (&["new", "mine.toml", "--force", "--disc", "mine.toml"], "mine.toml"),
+    ] {
+        let outcome = directory.plateau(arguments);
+        assert_eq!(outcome.status, Some(2), "{arguments:?}: {}", outcome.stdout);
+        assert!(outcome.stderr.contains(found), "{arguments:?}: {}", outcome.stderr);
+    }
+    assert_eq!(fs::read(directory.path("mine.toml")).unwrap(), before);
+    assert_eq!(directory.names(), ["mine.toml"]);
+    // A pin that does not fit its ring is told when the scene is written.
+    let outcome = directory.plateau(["new", "wide.toml", "--pin-width", "50 mm"]);
+    assert_eq!(outcome.status, Some(2));
+    assert!(outcome.stderr.contains("wide.toml is written, but it needs a change"), "{}", outcome.stderr);
+}
