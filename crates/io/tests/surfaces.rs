@@ -316,12 +316,16 @@ fn a_measured_patch_on_disc_and_pin() {
     ] {
         assert!(report.iter().any(|line| line.contains(expected)), "{expected} not in {report:#?}");
     }
-    // A patch as small as the file says does not cover the track.
+    // A patch as small as the file says does not cover the track, and tiled it is flat: all of it lies in a hundredth of a cell.
     scene.disc_surface.preparation.pixel = None;
+    let warned = load(&scene).unwrap().report;
+    let warning = "disc.prepare: warning: the patch is smaller than a cell";
+    assert!(warned.iter().any(|line| line.starts_with(warning)), "{warned:#?}");
+    scene.disc_surface.preparation.repeat = false;
     let found = message(&scene);
     assert!(
         found.starts_with("disc.prepare: ")
-            && found.contains(".sdf: the patch is 500 nm wide in r, the track 4 mm: a pixel of at"),
+            && found.contains(".sdf: the patch is 500 nm wide in r, the track 4 mm: repeat = true"),
         "{found}"
     );
 }

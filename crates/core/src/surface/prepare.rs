@@ -7,7 +7,7 @@ use super::gaussian_filter::filter;
 use super::level::{Level, level, mean, rms};
 use super::missing::{Fill, fill, remove_outliers};
 use super::preparation_error::PreparationError;
-use super::report::change;
+use super::report::{change, laid};
 use super::resample::resample;
 use super::rotate::Turn;
 use super::slope_outliers::remove_slope_outliers;
@@ -174,8 +174,14 @@ impl Preparation {
                 let heights = extend(patch.clone(), self.level, extension, body, mesh, report)?;
                 (heights, format!("from the patch to the {}", body.name()))
             }
-            None => (resample(patch, self.repeat, body, mesh)?, self.describe_resampling(patch, body, mesh)),
+            None => (resample(patch, self.repeat, body, mesh)?, laid(patch, self.repeat, body, mesh)),
         };
+        if patch.length() < mesh.column_width() || patch.height() < mesh.row_height() {
+            report.push(
+                "warning: the patch is smaller than a cell, which leaves nothing of its roughness; take smaller cells"
+                    .to_owned(),
+            );
+        }
         report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
         Ok(heights)
     }
@@ -296,37 +302,6 @@ impl Preparation {
         let before = rms(&patch.heights);
         level(&mut patch.heights, patch.rows, self.level, closed);
         report.push(format!("levelled by {what}: {}", change(before, &patch.heights)));
-    }
-
-    /// How the patch came onto the mesh, in words.
-    fn describe_resampling(&self, patch: &Patch, body: Body, mesh: &Mesh) -> String {
-        let way = |pitch: f64, cell: f64| if pitch > cell { "interpolated" } else { "averaged" };
-        let along = way(patch.column_pitch, mesh.column_width());
-        let across = way(patch.row_pitch, mesh.row_height());
-        let ways = if along == across { along.to_owned() } else { format!("{along} along, {across} across sliding") };
-        let size = format!("patch of {} by {}", Length(patch.length()), Length(patch.height()));
-        let across = mesh.rows() as f64 * mesh.row_height() / patch.height();
-        let across =
-            if across > 1.0 + 1e-9 { format!(" and {across:.2} times across the track") } else { String::new() };
-        let laid = match (self.repeat, body) {
-            (true, Body::Disc) => {
-                let times = body.length(mesh) / patch.length();
-                format!("{size} repeated {times:.2} times round the ring{across}, mirrored at the seams")
-            }
-            (true, Body::Pin) => format!("{size} repeated along the pin{across}, mirrored at the seams"),
-            (false, Body::Disc) => format!(
-                "{size} laid round the ring without repeating: a step may be left where the ring closes \
-                 (repeat = true leaves none)"
-            ),
-            (false, Body::Pin) => format!("{size} laid over the pin"),
-        };
-        format!(
-            "{laid}; {ways} from pixels of {} by {} to cells of {} by {}",
-            Length(patch.column_pitch),
-            Length(patch.row_pitch),
-            Length(mesh.column_width()),
-            Length(mesh.row_height())
-        )
     }
 }
 
