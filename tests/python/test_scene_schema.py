@@ -51,6 +51,7 @@ FORM_IS_GOOD = {
     "round-pin-without-cells",
     "round-pin-without-diameter",
     "steps-beyond-counting",
+    "text-keys-alone",
     "texture-missing",
     "unroll-radii-exchanged",
     "unroll-without-centre",

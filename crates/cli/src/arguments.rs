@@ -34,8 +34,7 @@ pub struct Arguments {
 pub enum Command {
     /// Write a commented scene to begin with, from a measured surface and the rig's numbers
     #[command(
-        after_help = "Example:\n  plateau new mine.toml --disc data/surfaces/afm_256x256.sdf --pin-width \"6 mm\" \\\n    \
-                      --pin-length \"6 mm\" --radius \"30 mm\" --load \"30 N\" --speed \"600 rpm\" --duration \"60 s\""
+        after_help = "Example:\n  plateau new mine.toml --disc data/surfaces/afm_256x256.sdf --radius \"30 mm\" --load \"30 N\""
     )]
     New(NewArguments),
     /// Run a scene and write a run file

@@ -1,8 +1,5 @@
 //! Heights on a rectangular grid, as an instrument gives them.
 
-use super::resample::cell_averages;
-use crate::model::mesh::Mesh;
-
 /// Heights on a rectangular grid with x along the sliding direction and y outward.
 ///
 /// Stored like the mesh, column by column: the point (column x, row y) is at `x * rows + y`. A missing point is NaN.
@@ -34,11 +31,5 @@ impl Patch {
     /// Extent along y, m.
     pub fn height(&self) -> f64 {
         self.rows as f64 * self.row_pitch
-    }
-
-    /// The means of the patch over cells of the mesh's size, those that lie in the patch whole; as the heights of a body are
-    /// made of it, so that both can be compared. None if there is not one such cell.
-    pub fn cell_averages(&self, mesh: &Mesh) -> Option<Self> {
-        Some(cell_averages(self, mesh)).filter(|cells| !cells.heights.is_empty())
     }
 }

@@ -41,6 +41,14 @@ pub(super) fn resample(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> 
     Ok(weighed(&patch.heights, patch.rows, column_weights, &row_weights))
 }
 
+impl Patch {
+    /// The means of the patch over cells of the mesh's size, those that lie in the patch whole; as the heights of a body are
+    /// made of it, so that both can be compared. None if there is not one such cell.
+    pub fn cell_averages(&self, mesh: &Mesh) -> Option<Self> {
+        Some(cell_averages(self, mesh)).filter(|cells| !cells.heights.is_empty())
+    }
+}
+
 /// The mean of the patch in every cell of the mesh's size that lies in it whole, the cells in the middle of the patch; as
 /// for [`resample`]. The number of cells along or across may be 0.
 pub(super) fn cell_averages(patch: &Patch, mesh: &Mesh) -> Patch {
