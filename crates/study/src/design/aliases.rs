@@ -6,8 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::Aliases;
-use super::fractional_factorial::columns;
-use super::generators::{Generator, letters};
+use super::generators::{Generator, columns, letters};
 
 /// Most words that are listed, unless the shortest alone are more. All of twelve generators, of 2¹² − 1 words.
 const MOST_WORDS: usize = 4095;

@@ -3,7 +3,7 @@
 //! NIST/SEMATECH e-Handbook of Statistical Methods, 5.3.3.4, doi:10.18434/M32189.
 
 use super::aliases::aliases;
-use super::generators::{Generator, can_be_named, parse};
+use super::generators::{Generator, can_be_named, columns, parse};
 use super::minimum_aberration::{COMPLETE, minimum_aberration};
 use super::{Design, DesignError, Factor, Fraction, Setting, only_ends, room};
 
@@ -47,12 +47,6 @@ pub(super) fn combinations(factors: usize, generators: &[Generator]) -> Result<V
         settings.extend(columns.iter().map(|column| Setting::Coded(column.sign(run))));
     }
     Ok(settings)
-}
-
-/// Every factor as a product of base factors.
-pub(super) fn columns(factors: usize, generators: &[Generator]) -> Vec<Generator> {
-    let base = factors - generators.len();
-    (0..base.min(u32::BITS as usize)).map(Generator::of_base).chain(generators.iter().copied()).collect()
 }
 
 #[cfg(test)]

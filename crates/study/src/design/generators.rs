@@ -150,6 +150,12 @@ fn error<T>(message: String) -> Result<T, DesignError> {
     Err(DesignError(message))
 }
 
+/// Every factor as a product of base factors.
+pub(super) fn columns(factors: usize, generators: &[Generator]) -> Vec<Generator> {
+    let base = factors - generators.len();
+    (0..base.min(u32::BITS as usize)).map(Generator::of_base).chain(generators.iter().copied()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

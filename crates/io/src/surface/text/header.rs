@@ -1,9 +1,9 @@
 //! What stands before the numbers of a text file.
 
 use super::cells::number;
+use super::lengths::{length, length_unit, pitch, positive};
 use super::names::Names;
 use crate::surface::decimal::Decimal;
-use crate::units::{self, Dimension};
 
 /// What a header states.
 #[derive(Debug, Default, PartialEq)]
@@ -89,45 +89,6 @@ impl Header {
         let extent = |axis: usize| self.extent[axis].or_else(|| Some(self.lengths[axis]? * unit?));
         let from_extent = || Some([extent(0)? / columns as f64, extent(1)? / rows as f64]);
         self.pitch.or_else(from_extent)
-    }
-}
-
-/// A number that a length can have.
-pub(super) fn positive(number: Option<f64>) -> Option<f64> {
-    number.filter(|number| *number > 0.0 && number.is_finite())
-}
-
-/// A length, m.
-pub(super) fn length(text: &str, decimal: Decimal) -> Option<f64> {
-    let point = match decimal {
-        Decimal::Point => text.to_owned(),
-        Decimal::Comma if text.contains('.') => return None,
-        Decimal::Comma => text.replacen(',', ".", 1),
-    };
-    positive(units::parse(&point, Dimension::Length).ok())
-}
-
-/// A unit of length, or a length.
-pub(super) fn length_unit(text: &str) -> Option<f64> {
-    length(text, Decimal::Point).or_else(|| unit_word(text))
-}
-
-/// A unit of length by its symbol or name.
-pub(super) fn unit_word(text: &str) -> Option<f64> {
-    match text.to_lowercase().trim_end_matches('s') {
-        "micron" | "micrometer" | "micrometre" => Some(1e-6),
-        "nanometer" | "nanometre" => Some(1e-9),
-        "millimeter" | "millimetre" => Some(1e-3),
-        _ => length(&format!("1 {text}"), Decimal::Point),
-    }
-}
-
-/// One or two lengths, parted by a comma (unless that is the decimal mark), a semicolon or "x".
-fn pitch(text: &str, decimal: Decimal) -> Option<[f64; 2]> {
-    let marks: &[char] = if decimal == Decimal::Point { &[',', ';', 'x'] } else { &[';', 'x'] };
-    match text.split_once(marks) {
-        Some((x, y)) => Some([length(x.trim(), decimal)?, length(y.trim(), decimal)?]),
-        None => length(text, decimal).map(|pitch| [pitch; 2]),
     }
 }
 

@@ -18,6 +18,7 @@ mod dialect;
 mod error;
 mod header;
 mod instrument;
+mod lengths;
 mod list;
 mod matrix;
 mod names;

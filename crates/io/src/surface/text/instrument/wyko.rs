@@ -10,7 +10,7 @@ use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
 use crate::surface::text::cells::{number, shown};
 use crate::surface::text::decode::lines;
 use crate::surface::text::error::TextError;
-use crate::surface::text::header::positive;
+use crate::surface::text::lengths::positive;
 use crate::surface::text::numbers::scale;
 use crate::surface::text::table::Table;
 
