@@ -118,11 +118,11 @@ fn flags_of_absent_cells_are_in_files_of_round_pins_alone() {
 #[test]
 fn a_killed_run_of_a_round_pin_ends_as_an_undisturbed_one() {
     let directory = WorkingDirectory::new();
-    let more = ["operation.steps=4000", "output.sample_every_steps=50", "output.checkpoint_every=0.03 s"];
+    let more = ["operation.steps=150000", "output.sample_every_steps=2000", "output.checkpoint_every=0.03 s"];
     let sets = [&ROUND[..], &more].concat();
     let whole = run(&directory, "whole.h5", &sets, &[]).content();
     let killed =
-        go_on_through_kills(&directory, &arguments("run.h5", &sets, &["--resume"]), few_or_all(2, 6), 1.0, Stream(3));
+        go_on_through_kills(&directory, &arguments("run.h5", &sets, &["--resume"]), few_or_all(2, 6), 0.5, Stream(3));
     assert!(killed > 0);
     assert_eq!(differences(&RunFile::open(directory.path("run.h5")).content(), &whole), [""; 0]);
 }
