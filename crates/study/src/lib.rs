@@ -1,6 +1,8 @@
-//! Studies: which runs to make ([`design`]), and what their responses tell of the factors ([`effects`]).
+//! Studies: which runs to make ([`design`]), what their responses tell of the factors ([`effects`]), and what is expected
+//! where no run was made ([`surrogate`]).
 //!
 //! Nothing here knows of simulations, files or the command line.
 
 pub mod design;
 pub mod effects;
+pub mod surrogate;

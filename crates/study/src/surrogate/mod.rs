@@ -1,0 +1,34 @@
+//! Surrogates: what a response is expected to be where no run was made.
+//!
+//! A polynomial and a Gaussian process answer the same questions, so what predicts, searches for an optimum or tells
+//! sensitivities asks a [`Surrogate`] and does not know which one it has.
+
+use crate::design::Setting;
+use crate::effects::EffectsError;
+
+/// What a surrogate expects of a response, in the unit of the response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forecast {
+    /// The response that is expected; its median where the response was transformed for the fit.
+    pub value: f64,
+    /// Interval that has the mean of many runs (with different seeds) in it; none without an error.
+    pub mean_interval: Option<[f64; 2]>,
+    /// Interval that has the response of one more run in it; none without an error.
+    pub run_interval: Option<[f64; 2]>,
+}
+
+/// Something that was fitted to the responses of a study.
+pub trait Surrogate {
+    /// What it is, for people: such as `quadratic in log(contact area)` or `Gaussian process`.
+    fn name(&self) -> String;
+
+    /// The response at settings, one for each factor; numbers in coded units, also beyond −1 and 1.
+    ///
+    /// # Errors
+    /// If the settings do not fit the factors, or a level was never observed.
+    fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError>;
+
+    /// Root mean square of what responses differ by from a fit without their point, in the unit of the response; none
+    /// where a term depends on one point alone.
+    fn leave_one_out_error(&self) -> Option<f64>;
+}
