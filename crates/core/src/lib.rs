@@ -16,9 +16,9 @@
 //! # One step
 //! | model | equation | as it is read | in the engine |
 //! |---|---|---|---|
-//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pairs`](model::step::pairs) | `pair::Coefficients` |
+//! | 4.1 pairs | 1/E* = (1−ν_p²)/E_p + (1−ν_d²)/E_d, k = E*/h | [`pairs`](model::step::pairs) | `coefficients::Coefficients` |
 //! | 4.1 load balance | g = z_p − z_d, Σ k A (δ − g)₊ = F_N | [`balance`](model::step::balance) | `contact::Contact::balance` |
-//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`](model::step::wear) | `pair::Coefficients`, `wear` |
+//! | 4.2 wear | Δh = κ p ds, or u (1 − exp(−κ k ds)); resin h_m; build-up first | [`wear`](model::step::wear) | `coefficients::Coefficients`, `wear` |
 //! | 4L local debris | d = min(γ, a_p + a_d, η w/A); emitted += worn − deposited | [`deposit_locally`](model::step::deposit_locally) | `kernel::deposit` |
 //! | 4P destruction | a build-up on resin with no plateau ahead returns to the pool | [`destroy`](model::step::destroy) | `plateau` |
 //! | 4P formation | d = min(γ, s), s = M/S | [`form`](model::step::form) | `debris::Debris::prepare`, `plateau` |

@@ -149,7 +149,7 @@ proptest! {
         prop_assert!(pin.height.iter().chain(&pin.substrate).chain(&disc.height).chain(&disc.substrate).all(|z| z.is_finite()));
         prop_assert!(pin.height.iter().zip(&pin.substrate).all(|(z, b)| z <= b), "z_p ≤ b_p");
         prop_assert!(disc.height.iter().zip(&disc.substrate).all(|(z, b)| z >= b), "z_d ≥ b_d");
-        prop_assert!(disc.statuses().all(|status| status != Status::None));
+        prop_assert!(disc.statuses().all(|status| status != Status::Resin));
     }
 
     #[test]
@@ -267,7 +267,7 @@ fn a_pool_that_has_given_all_is_exactly_empty() {
                 disc_height: vec![0.0; mesh.disc_cells()],
                 pin_height: (0..mesh.pin_cells()).map(|cell| if column(cell) < 2 { 0.0 } else { 50e-6 }).collect(),
                 pin_base: (0..mesh.pin_cells())
-                    .map(|cell| if column(cell) == 0 { Base::Primary } else { Base::None })
+                    .map(|cell| if column(cell) == 0 { Base::Primary } else { Base::Resin })
                     .collect(),
             };
             let mut simulation = start(&parameters, surfaces);

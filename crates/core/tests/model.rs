@@ -205,7 +205,7 @@ fn the_first_contact_is_that_of_the_first_step() {
         let surfaces = InitialSurfaces {
             disc_height: heights(mesh.disc_cells(), 7919),
             pin_height: heights(mesh.pin_cells(), 104_729),
-            pin_base: (0..mesh.pin_cells()).map(|cell| [Base::None, Base::Primary][cell * 31 % 3 % 2]).collect(),
+            pin_base: (0..mesh.pin_cells()).map(|cell| [Base::Resin, Base::Primary][cell * 31 % 3 % 2]).collect(),
         };
         let first = FirstContact::of(&parameters, &surfaces).unwrap();
         let mut simulation = Simulation::new(parameters, surfaces).unwrap();

@@ -64,7 +64,7 @@ pub fn random_surfaces(mesh: &Mesh, seed: u64) -> InitialSurfaces {
         disc_height: (0..mesh.disc_cells()).map(|_| 6e-6 * (stream.uniform() - 1.0)).collect(),
         pin_height: (0..mesh.pin_cells()).map(|_| 2e-6 * stream.uniform()).collect(),
         pin_base: (0..mesh.pin_cells())
-            .map(|_| if stream.uniform() < 0.4 { Base::Primary } else { Base::None })
+            .map(|_| if stream.uniform() < 0.4 { Base::Primary } else { Base::Resin })
             .collect(),
     }
 }

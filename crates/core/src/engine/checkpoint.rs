@@ -64,7 +64,7 @@ pub(crate) struct EngineMemory {
     pub contact: Contact,
     pub forecast: Forecast,
     pub bracket: Option<Bracket>,
-    pub overlaps: Quantum,
+    pub overlap_quantum: Quantum,
 }
 
 /// Why a simulation cannot go on from a checkpoint.

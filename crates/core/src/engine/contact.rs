@@ -244,7 +244,7 @@ fn load_at_low(weights: &RowWeights, sums: &Sums, bracket: &Bracket) -> (f64, f6
 
 /// Whether the pin of a pair is bare resin.
 fn is_bare_resin(pair: usize) -> bool {
-    status_of(pair) == Status::None as u8
+    status_of(pair) == Status::Resin as u8
 }
 
 /// Number of the pin's status in a pair.

@@ -1,9 +1,9 @@
 //! Debris balance: what wears, what is captured, compacted, returned and emitted (model 4L and 4P).
 
+use crate::engine::coefficients::Coefficients;
 use crate::engine::contact::Contact;
 use crate::engine::exact::float;
 use crate::engine::lanes::{Chunk, LANES};
-use crate::engine::pair::Coefficients;
 use crate::engine::parts::Needs;
 use crate::engine::quantum::Quantum;
 use crate::engine::strips::strips;
@@ -104,7 +104,7 @@ pub struct Debris {
     /// The same of every row.
     share: Vec<Chunk>,
     /// Of which the deposits of the step are counted as multiples.
-    deposits: Quantum,
+    deposit_quantum: Quantum,
     totals: Totals,
 }
 
@@ -132,7 +132,7 @@ impl Debris {
             pools: vec![RunningSum::default(); weights.pools()],
             pool_share: vec![0.0; weights.pools()],
             share: vec![Chunk([0.0; LANES]); strips(mesh.rows())],
-            deposits: Quantum::of(0.0, 1),
+            deposit_quantum: Quantum::of(0.0, 1),
             totals: Totals::default(),
         }
     }
@@ -156,7 +156,7 @@ impl Debris {
     /// Makes ready for the deposits of a step in whose contact no overlap is more than `largest_overlap` (m).
     pub fn prepare(&mut self, contact: &Contact, largest_overlap: f64) {
         if self.needs.local {
-            self.deposits = Quantum::of(self.largest_deposit * largest_overlap, self.columns);
+            self.deposit_quantum = Quantum::of(self.largest_deposit * largest_overlap, self.columns);
         } else if self.needs.forms {
             self.spread(contact);
         }
@@ -179,7 +179,7 @@ impl Debris {
                 }
             }
         }
-        self.deposits = Quantum::of(largest, self.columns);
+        self.deposit_quantum = Quantum::of(largest, self.columns);
     }
 
     /// s of every row, m: the height of debris that is at hand for each cell that does not touch.
@@ -188,12 +188,12 @@ impl Debris {
     }
 
     /// Of which this step's deposits are counted as multiples.
-    pub fn deposits(&self) -> Quantum {
-        self.deposits
+    pub fn deposit_quantum(&self) -> Quantum {
+        self.deposit_quantum
     }
 
     /// Of which losses are counted as multiples where overlaps are multiples of `overlaps`.
-    pub fn losses(&self, overlaps: Quantum) -> Quantum {
+    pub fn loss_quantum(&self, overlaps: Quantum) -> Quantum {
         overlaps.coarser(self.loss_exponent)
     }
 
@@ -218,8 +218,8 @@ impl Debris {
                 let share = self.pool_share[index];
                 let even_on_pin = share * self.pad_share;
                 let deposited = |even: f64, beyond: i128| {
-                    float(i128::from(self.deposits.count(even)) * open + beyond)
-                        * (self.area_unit * self.deposits.value())
+                    float(i128::from(self.deposit_quantum.count(even)) * open + beyond)
+                        * (self.area_unit * self.deposit_quantum.value())
                 };
                 deposited_pin = deposited(even_on_pin, sums.deposited_pin);
                 deposited_disc = deposited(share - even_on_pin, sums.deposited_disc);

@@ -17,6 +17,7 @@
 //! | `worker`, `worker_threads` | the step that all workers take together, and the threads that take it |
 
 pub mod checkpoint;
+pub(crate) mod coefficients;
 pub mod comm;
 pub(crate) mod contact;
 pub(crate) mod debris;
@@ -28,7 +29,6 @@ pub(crate) mod forecast;
 pub(crate) mod history;
 pub mod kernel;
 pub(crate) mod lanes;
-pub(crate) mod pair;
 pub mod parts;
 pub(crate) mod pin_strips;
 pub(crate) mod plateau;

@@ -67,7 +67,7 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
     };
     vec![
         part("wear of plateaus on the pin", pin_wears, "a wear rate above 0", "every wear rate of the pin is 0"),
-        part("wear of the resin", has(Base::None), "the pin has resin", "the pin is fibre alone"),
+        part("wear of the resin", has(Base::Resin), "the pin has resin", "the pin is fibre alone"),
         part("wear of the disc", disc_wears, "a wear rate above 0", "every wear rate of the disc is 0"),
         part(
             "formation of plateaus",
@@ -77,7 +77,7 @@ pub fn parts(parameters: &Parameters, pin_base: &[Base]) -> Vec<Part> {
         ),
         part(
             "destruction of plateaus",
-            destroys && has(Base::None),
+            destroys && has(Base::Resin),
             "destruction = true on resin",
             match parameters.plateaus.debris {
                 DebrisRule::Local => "debris = \"local\" has none for lack of support",

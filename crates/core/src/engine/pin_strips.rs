@@ -206,7 +206,7 @@ mod tests {
     fn a_column_crosses_with_the_status_of_the_next() {
         let mesh = Mesh::new(11, 9, 3, 1.0, 2.0).unwrap();
         let heights: Vec<f64> = (0..33).map(f64::from).collect();
-        let base = vec![Base::None; 33];
+        let base = vec![Base::Resin; 33];
         let needs = Needs { distinct: false, disc_wears: false, forms: true, local: false, destroys: false };
         let mut from = PinStrips::new(&mesh, 0..11, &heights, &base, needs);
         let mut to = from.clone();

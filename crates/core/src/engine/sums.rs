@@ -6,9 +6,9 @@
 
 use std::ops::Range;
 
+use crate::engine::coefficients::{Coefficients, StatusPair, Table};
 use crate::engine::exact::{RowIntegers, StepVolume, Weights, of_words, product, words};
 use crate::engine::kernel::{Bracket, Moved, NearPair, Reading, told_apart};
-use crate::engine::pair::{Coefficients, Pair, Table};
 use crate::engine::parts::Needs;
 use crate::model::mesh::Mesh;
 use crate::model::parameters::{DebrisRule, Parameters};
@@ -17,13 +17,13 @@ use crate::model::parameters::{DebrisRule, Parameters};
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowWeights {
     /// k A by pair, N/m.
-    pub stiffness: [Weights; Pair::COUNT],
+    pub stiffness: [Weights; StatusPair::COUNT],
     /// A, m².
     pub area: Weights,
     /// Raw volume that plateaus of the pin lose per overlap, by pair, m².
-    pub pin_loss: [Weights; Pair::COUNT],
+    pub pin_loss: [Weights; StatusPair::COUNT],
     /// The same of the disc.
-    pub disc_loss: [Weights; Pair::COUNT],
+    pub disc_loss: [Weights; StatusPair::COUNT],
     /// Pairs that are told apart.
     pub pairs: &'static [usize],
     needs: Needs,
@@ -112,7 +112,7 @@ pub struct PairSums {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct PoolSums {
     /// The pairs of the coming step.
-    pub pairs: [PairSums; Pair::COUNT],
+    pub pairs: [PairSums; StatusPair::COUNT],
     /// Volume compacted on the pin beyond the even deposit, in units and quanta of the deposits.
     pub deposited_pin: i128,
     /// The same on the disc.

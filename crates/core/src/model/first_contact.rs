@@ -56,15 +56,15 @@ impl FirstContact {
 fn pairs(parameters: &Parameters, surfaces: &InitialSurfaces) -> Vec<Pair> {
     let Parameters { mesh, materials, foundation_height, .. } = parameters;
     let stiffness = |base| {
-        let status = if base == Base::None { Status::None } else { Status::Primary };
+        let status = if base == Base::Resin { Status::Resin } else { Status::Primary };
         materials.combined_modulus(status, false) / foundation_height
     };
-    let [resin, fibre] = [Base::None, Base::Primary].map(stiffness);
+    let [resin, fibre] = [Base::Resin, Base::Primary].map(stiffness);
     let mut pairs = Vec::with_capacity(mesh.pin_cells());
     for column in 0..mesh.pin_columns() {
         let pin = mesh.column(column).zip(mesh.column(mesh.disc_column(column, 0)));
         for ((cell, under), area) in pin.zip(mesh.area()).filter(|((cell, _), _)| mesh.is_present(*cell)) {
-            let stiffness = if surfaces.pin_base[cell] == Base::None { resin } else { fibre };
+            let stiffness = if surfaces.pin_base[cell] == Base::Resin { resin } else { fibre };
             let gap = surfaces.pin_height[cell] - surfaces.disc_height[under];
             pairs.push(Pair { gap, stiffness: stiffness * area, area: *area });
         }
@@ -110,7 +110,7 @@ mod tests {
         let surfaces = InitialSurfaces {
             disc_height: vec![0.0; mesh.disc_cells()],
             pin_height: vec![0.0; mesh.pin_cells()],
-            pin_base: vec![Base::None; mesh.pin_cells()],
+            pin_base: vec![Base::Resin; mesh.pin_cells()],
         };
         assert_eq!(FirstContact::of(&parameters, &surfaces), None);
     }

@@ -61,7 +61,7 @@ impl Friction {
 
     fn law(&self, status: Status) -> &FrictionLaw {
         match status {
-            Status::None => &self.resin,
+            Status::Resin => &self.resin,
             Status::Primary => &self.primary,
             Status::Secondary => &self.secondary,
         }
@@ -72,7 +72,7 @@ impl Friction {
         let coefficient = match &contact.statuses {
             None => self.primary.pressure_coefficient + self.primary.shear_strength * contact.area / contact.load,
             Some(statuses) => {
-                let resistance = [Status::None, Status::Primary, Status::Secondary].map(|status| {
+                let resistance = [Status::Resin, Status::Primary, Status::Secondary].map(|status| {
                     let (law, StatusContact { area, load }) = (self.law(status), statuses[status as usize]);
                     law.pressure_coefficient * load + law.shear_strength * area
                 });

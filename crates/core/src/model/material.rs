@@ -5,7 +5,7 @@
 #[repr(u8)]
 pub enum Status {
     /// Resin of the pin: carries little, wears by a whole wear height at once.
-    None = 0,
+    Resin = 0,
     /// Fibre of the pin or coating of the disc.
     Primary = 1,
     /// Compacted debris on top of the substrate.
@@ -51,7 +51,7 @@ impl Materials {
     /// Material of a pin cell.
     pub fn pin(&self, status: Status) -> &Material {
         match status {
-            Status::None => &self.pin_resin,
+            Status::Resin => &self.pin_resin,
             Status::Primary => &self.pin_primary,
             Status::Secondary => &self.pin_secondary,
         }
@@ -88,6 +88,6 @@ mod tests {
         assert!((materials.combined_modulus(Status::Primary, false) / expected - 1.0).abs() < 1e-15);
         // A side that is a million times softer decides alone.
         let soft = 1e5 / (1.0 - 0.09);
-        assert!((materials.combined_modulus(Status::None, true) / soft - 1.0).abs() < 1e-6);
+        assert!((materials.combined_modulus(Status::Resin, true) / soft - 1.0).abs() < 1e-6);
     }
 }

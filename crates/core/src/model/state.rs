@@ -8,7 +8,7 @@ use crate::model::mesh::Mesh;
 #[repr(u8)]
 pub enum Base {
     /// Resin.
-    None = 0,
+    Resin = 0,
     /// Fibre.
     Primary = 1,
 }
@@ -17,7 +17,7 @@ impl Base {
     /// Whether the base is resin.
     #[inline(always)]
     pub fn is_resin(self) -> bool {
-        self == Self::None
+        self == Self::Resin
     }
 }
 
@@ -66,7 +66,7 @@ pub fn disc_status(height: f64, substrate: f64) -> Status {
 pub fn pin_status(height: f64, substrate: f64, is_resin: bool) -> Status {
     match is_resin {
         _ if height < substrate => Status::Secondary,
-        true => Status::None,
+        true => Status::Resin,
         false => Status::Primary,
     }
 }

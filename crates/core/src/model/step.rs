@@ -61,7 +61,7 @@ pub fn advance(parameters: &Parameters, state: &mut State) -> Result<Step, Conta
         displacement,
         pressure: vec![0.0; cells],
         contact: vec![false; cells],
-        pin_status: vec![Status::None; cells],
+        pin_status: vec![Status::Resin; cells],
         moved: match parameters.plateaus.debris {
             DebrisRule::Local => deposit_locally(parameters, state, &pairs, displacement, &losses),
             DebrisRule::Contact | DebrisRule::Track => pool(parameters, state, &pairs, displacement, &losses),
@@ -97,7 +97,7 @@ pub fn pairs(parameters: &Parameters, state: &State) -> Vec<Pair> {
             disc_status,
             gap: pin.height[cell] - disc.height[below],
             stiffness: materials.combined_modulus(pin_status, disc_status == Status::Secondary) / foundation_height,
-            plateau_ahead: ahead.is_some_and(|ahead| statuses[present[ahead]] != Status::None),
+            plateau_ahead: ahead.is_some_and(|ahead| statuses[present[ahead]] != Status::Resin),
             ahead,
         }
     };
@@ -153,14 +153,14 @@ pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f6
     let on_resin = pin.base[cell].is_resin();
     let rate_of_disc = materials.disc(pair.disc_status == Status::Secondary).specific_wear_rate;
     let rate_of_pin = match pair.pin_status {
-        Status::None => 0.0,
+        Status::Resin => 0.0,
         plateau => materials.pin(plateau).specific_wear_rate,
     };
 
     let build_up = pin.substrate[cell] - pin.height[cell];
     let fibre = if on_resin { 0.0 } else { raw(materials.pin_primary.specific_wear_rate, rate_of_disc) };
     let of_pin = match pair.pin_status {
-        Status::None => [0.0, materials.wear_height],
+        Status::Resin => [0.0, materials.wear_height],
         _ => build_up_first(build_up, raw(rate_of_pin, rate_of_disc), fibre),
     };
     pin.height[cell] = after(of_pin, build_up, pin.height[cell], pin.substrate[cell], 1.0);
@@ -173,7 +173,7 @@ pub fn wear(parameters: &Parameters, state: &mut State, pair: &Pair, overlap: f6
     disc.substrate[pair.disc] = disc.substrate[pair.disc].min(disc.height[pair.disc]);
 
     let [pin, disc] = [of_pin, of_disc].map(|[build_up, substrate]| build_up + substrate);
-    if pair.pin_status == Status::None { Loss { resin: pin, disc, pin: 0.0 } } else { Loss { pin, disc, resin: 0.0 } }
+    if pair.pin_status == Status::Resin { Loss { resin: pin, disc, pin: 0.0 } } else { Loss { pin, disc, resin: 0.0 } }
 }
 
 /// What a cell loses of its build-up t and of its substrate, m: t first, then (1 − t/Δh) of the substrate's own raw loss.

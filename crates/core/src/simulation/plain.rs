@@ -216,7 +216,7 @@ impl Plain {
             deposited_pin: totals.deposited_pin.value(),
             deposited_disc: totals.deposited_disc.value(),
             returned: totals.returned.value(),
-            pin_none: pin_share(Status::None),
+            pin_none: pin_share(Status::Resin),
             pin_primary: pin_share(Status::Primary),
             pin_secondary: pin_share(Status::Secondary),
             disc_secondary: (disc_secondary.map(|(_, area)| area).sum::<f64>() / mesh.disc_area()).min(1.0),

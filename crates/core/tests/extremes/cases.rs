@@ -126,7 +126,7 @@ fn bodies() -> Vec<Case> {
         parameters.materials.pin_secondary.specific_wear_rate = rate;
     };
     vec![
-        case("resin only", &|_| {}, Some(Base::None)),
+        case("resin only", &|_| {}, Some(Base::Resin)),
         case("fibres only", &|_| {}, Some(Base::Primary)),
         case("no wear", &|parameters| wear(parameters, 0.0), Some(Base::Primary)),
         case("a revolution takes the pin's roughness off", &|parameters| wear(parameters, 1e-11), None),
@@ -134,7 +134,7 @@ fn bodies() -> Vec<Case> {
         case(
             "resin only, without stiffness",
             &|parameters| parameters.materials.pin_resin.youngs_modulus = 1e-300,
-            Some(Base::None),
+            Some(Base::Resin),
         )
         .expecting(Expected::Refused),
     ]

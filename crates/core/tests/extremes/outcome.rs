@@ -220,7 +220,7 @@ impl State {
             for (pin, disc) in mesh.column(column).zip(over) {
                 let overlap = displacement + self.disc[disc] - self.pin[pin];
                 largest = largest.max(overlap);
-                let is_plateau = self.pin_status[pin] != f64::from(Status::None as u8);
+                let is_plateau = self.pin_status[pin] != f64::from(Status::Resin as u8);
                 if overlap > 0.0 && is_plateau && self.pin_status[pin] == after.pin_status[pin] {
                     worst = worst.max(after.pin[pin] - after.disc[disc] - displacement);
                 }

@@ -23,7 +23,7 @@ pub fn rough(mesh: &Mesh) -> InitialSurfaces {
     let mut stream = Stream(1);
     let disc_height = stream.by_ref().map(|number| 6e-6 * (number - 1.0)).take(mesh.disc_cells()).collect();
     let pin_height = stream.by_ref().map(|number| 2e-6 * number).take(mesh.pin_cells()).collect();
-    let base = |number| if number < 0.4 { Base::Primary } else { Base::None };
+    let base = |number| if number < 0.4 { Base::Primary } else { Base::Resin };
     InitialSurfaces { disc_height, pin_height, pin_base: stream.map(base).take(mesh.pin_cells()).collect() }
 }
 

@@ -4,8 +4,8 @@ use super::edge::{Ahead, Edge, EdgeStrip};
 use super::pairs::{PLATEAU, RESIN};
 use super::read::Span;
 use super::rules::{Conditions, Rules};
+use crate::engine::coefficients::StatusPair;
 use crate::engine::lanes::{Chunk, LANES};
-use crate::engine::pair::Pair;
 use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::strips::DiscSector;
@@ -50,7 +50,7 @@ impl Ahead {
         if DISC_WEARS {
             lost += clearance * rules.disc_loss.entry(pair, row);
         }
-        Self { height, caught: rules.caught(lost, of_resin), plateau: pair == PLATEAU }
+        Self { height, captured: rules.captured(lost, of_resin), plateau: pair == PLATEAU }
     }
 
     /// The same where build-up has properties of its own.
@@ -58,11 +58,11 @@ impl Ahead {
         let Cells { z_p, b_p, z_d, b_d, on_resin } = cells;
         let status = match (z_p < b_p, on_resin) {
             (true, _) => Status::Secondary,
-            (false, true) => Status::None,
+            (false, true) => Status::Resin,
             (false, false) => Status::Primary,
         };
-        let pair = Pair::new(status, b_d < z_d).index();
-        let is_resin = status == Status::None;
+        let pair = StatusPair::new(status, b_d < z_d).index();
+        let is_resin = status == Status::Resin;
         let raw = if is_resin { 0.0 } else { clearance * rules.pin_loss.entry(pair, row) };
         let below = if on_resin { 0.0 } else { rules.fibre.entry(pair, row) };
         let pin = wear(z_p, b_p, raw, below);
@@ -73,7 +73,7 @@ impl Ahead {
             lost = lost + raw - wear(0.0 - z_d, 0.0 - b_d, raw, rules.coating.entry(pair, row)).spared;
         }
         let height = if is_resin { f64::INFINITY } else { pin.height };
-        Self { height, caught: rules.caught(lost, of_resin), plateau: !is_resin }
+        Self { height, captured: rules.captured(lost, of_resin), plateau: !is_resin }
     }
 }
 

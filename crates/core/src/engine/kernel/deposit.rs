@@ -98,7 +98,7 @@ impl StripCells<'_> {
         let flush = lesser(z_p, ahead.height);
         let (to_plateau, to_reference) = (z_p - flush, rules.reference_height - z_d);
         let clearance = z_p - z_d - displacement;
-        let deposit = lesser(lesser(clearance, to_plateau + to_reference), ahead.caught);
+        let deposit = lesser(lesser(clearance, to_plateau + to_reference), ahead.captured);
         let on_pin = lesser(deposit, to_plateau);
         let on_disc = deposit - on_pin;
         // Neither beyond the plateau ahead nor above the reference, in rounded numbers too.
@@ -115,8 +115,8 @@ impl StripCells<'_> {
         self.plateau[column] |= u8::from(height < substrate) << lane;
 
         if ahead.plateau {
-            let deposits = self.conditions.deposits;
-            let add = |sum: &mut i64, height: f64| *sum = sum.wrapping_add(deposits.count(height));
+            let quantum = self.conditions.deposit_quantum;
+            let add = |sum: &mut i64, height: f64| *sum = sum.wrapping_add(quantum.count(height));
             add(&mut moved.deposited_pin.0[self.strip][lane], on_pin);
             add(&mut moved.deposited_disc.0[self.strip][lane], on_disc);
         } else if deposit > 0.0 {

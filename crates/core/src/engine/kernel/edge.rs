@@ -8,7 +8,7 @@ pub(super) struct Ahead {
     /// z_p of a plateau after wear, m; out of reach where it is none, which nothing is built up against.
     pub height: f64,
     /// What of the losses of the pair may be compacted behind it, m.
-    pub caught: f64,
+    pub captured: f64,
     /// Whether it was a plateau at the start of the step; else it is resin that lost its wear height.
     pub plateau: bool,
 }
@@ -46,7 +46,7 @@ impl Edge {
     pub fn write(&self, words: &mut Vec<u64>) {
         for EdgeStrip { touches, cells } in &self.strips {
             words.extend(cells.iter().map(|cell| cell.height.to_bits()));
-            words.extend(cells.iter().map(|cell| cell.caught.to_bits()));
+            words.extend(cells.iter().map(|cell| cell.captured.to_bits()));
             let plateaus = (0..LANES).fold(0, |bits, lane| bits | u64::from(cells[lane].plateau) << lane);
             words.push(u64::from(*touches) | plateaus << LANES);
         }
@@ -60,7 +60,7 @@ impl Edge {
             let [touches, plateaus, ..] = words[2 * LANES].to_le_bytes();
             let cell = |lane: usize| Ahead {
                 height: f64::from_bits(words[lane]),
-                caught: f64::from_bits(words[LANES + lane]),
+                captured: f64::from_bits(words[LANES + lane]),
                 plateau: plateaus >> lane & 1 == 1,
             };
             EdgeStrip { touches, cells: std::array::from_fn(cell) }

@@ -8,7 +8,7 @@ use super::cells::{Behind, MOST_UNUSUAL, Strip, Sweep};
 use super::deposit::{COLUMNS, deposit};
 use super::edge::Edge;
 use super::instructions::kernel;
-use super::local_plain::sweep_plain_locally;
+use super::local_ordinary::sweep_ordinary_locally;
 use super::moved::{Moved, SeldomEvent, StripMoved, note_seldom};
 use super::pairs::Pairs;
 use super::read::Span;
@@ -70,7 +70,7 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
             let (mut column, end) = (first, some.end.min(first + COLUMNS));
             while column < end {
                 if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
-                    column = sweep_plain_locally::<L, DISTINCT, DISC_WEARS>(
+                    column = sweep_ordinary_locally::<L, DISTINCT, DISC_WEARS>(
                         &strip_rules,
                         &mut strip,
                         column..end,

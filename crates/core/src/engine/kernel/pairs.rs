@@ -1,12 +1,12 @@
 //! Statuses of eight pairs of cells, and the coefficients that belong to them.
 
+use crate::engine::coefficients::{StatusPair, Table};
 use crate::engine::lanes::{Chunk, LANES, Lanes};
-use crate::engine::pair::{Pair, Table};
 use crate::engine::strips::chunks;
 
-/// A table of [`crate::engine::pair::Coefficients`] in chunks.
+/// A table of [`crate::engine::coefficients::Coefficients`] in chunks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ChunkTable([Vec<Chunk>; Pair::COUNT]);
+pub struct ChunkTable([Vec<Chunk>; StatusPair::COUNT]);
 
 impl ChunkTable {
     /// The table times a factor.
@@ -38,7 +38,7 @@ impl ChunkTable {
 
 /// A coefficient of every pair in the eight rows of a strip.
 #[derive(Clone, Copy)]
-pub(super) struct Entries<L>([L; Pair::COUNT]);
+pub(super) struct Entries<L>([L; StatusPair::COUNT]);
 
 /// The statuses of eight pairs.
 #[derive(Clone, Copy)]

@@ -1,9 +1,9 @@
 //! How the pairs of the next step stand to a bracket of displacements: all that the load balance needs of them.
 
 use super::pairs::{PLAIN_PAIRS, PLATEAU, Pairs, RESIN, lanes_of, pair_of_lane};
+use crate::engine::coefficients::StatusPair;
 use crate::engine::exact::RowIntegers;
 use crate::engine::lanes::{Chunk, Integers, LANES, Lanes, Mask};
-use crate::engine::pair::Pair;
 use crate::engine::quantum::Quantum;
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +39,7 @@ pub struct NearPair {
     pub row: u32,
     /// Its column of the pin.
     pub column: u32,
-    /// Its [`Pair::index`].
+    /// Its [`StatusPair::index`].
     pub pair: u8,
 }
 
@@ -51,7 +51,7 @@ pub struct NearPair {
 pub struct Reading {
     /// The bits of the anchored overlaps low − g of the cells that touch at the lower end, added up: see
     /// [`Quantum::split`].
-    pub overlap: [RowIntegers; Pair::COUNT],
+    pub overlap: [RowIntegers; StatusPair::COUNT],
     /// Pairs with low ≤ g ≤ low + width, to half a quantum.
     pub near: Vec<NearPair>,
     /// The row of the mesh that is the first here.
@@ -123,7 +123,7 @@ struct Stand<L: Lanes> {
 /// The sums of a strip while it is swept.
 #[derive(Clone, Copy)]
 pub(super) struct StripReading<L: Lanes, const DISTINCT: bool> {
-    overlap: [L::Integers; Pair::COUNT],
+    overlap: [L::Integers; StatusPair::COUNT],
     largest: L,
 }
 
@@ -131,7 +131,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     /// Nothing read.
     #[inline(always)]
     pub fn new() -> Self {
-        Self { overlap: [L::Integers::splat(0); Pair::COUNT], largest: L::splat(0.0) }
+        Self { overlap: [L::Integers::splat(0); StatusPair::COUNT], largest: L::splat(0.0) }
     }
 
     /// How eight pairs with gaps g = z_p − z_d stand to the bracket.
@@ -157,7 +157,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
         let Stand { overlap, touches, near } = self.face(gap, bracket);
         if DISTINCT {
             let mut pair = 0;
-            while pair < Pair::COUNT {
+            while pair < StatusPair::COUNT {
                 self.overlap[pair] = self.overlap[pair].plus_where(touches & pairs.are(pair), overlap);
                 pair += 1;
             }
@@ -190,7 +190,7 @@ impl<L: Lanes, const DISTINCT: bool> StripReading<L, DISTINCT> {
     #[inline(always)]
     pub fn store(self, strip: usize, reading: &mut Reading) {
         let mut pair = 0;
-        while pair < Pair::COUNT {
+        while pair < StatusPair::COUNT {
             if DISTINCT || pair == PLATEAU {
                 let overlap = &mut reading.overlap[pair].0[strip];
                 L::Integers::load(overlap).plus(self.overlap[pair]).store(overlap);

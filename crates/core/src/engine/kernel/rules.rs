@@ -3,8 +3,8 @@
 use super::edge::Edge;
 use super::pairs::{ChunkTable, Entries};
 use super::reading::{Bracket, BracketLanes};
+use crate::engine::coefficients::Coefficients;
 use crate::engine::lanes::{Chunk, Integers, Lanes};
-use crate::engine::pair::Coefficients;
 use crate::engine::quantum::Quantum;
 use crate::model::parameters::Parameters;
 
@@ -51,7 +51,7 @@ impl Rules {
 impl Rules {
     /// What of the losses of a pair local debris may compact behind it, m.
     #[inline(always)]
-    pub(super) fn caught(&self, of_plateaus: f64, of_resin: f64) -> f64 {
+    pub(super) fn captured(&self, of_plateaus: f64, of_resin: f64) -> f64 {
         of_plateaus * self.captured_fraction + of_resin * self.captured_resin_fraction
     }
 }
@@ -66,9 +66,9 @@ pub struct Conditions<'a> {
     /// With local debris: what the last column of the span must know of the one ahead of it, if there is one.
     pub ahead: Option<&'a Edge>,
     /// Of which deposits are counted as multiples.
-    pub deposits: Quantum,
+    pub deposit_quantum: Quantum,
     /// Of which losses that were spared are counted as multiples.
-    pub losses: Quantum,
+    pub loss_quantum: Quantum,
     /// Where the next load balance is expected.
     pub bracket: Bracket,
     /// The strip of the mesh that is the first of the worker.
@@ -89,9 +89,9 @@ pub(super) struct StripRules<'a, L: Lanes> {
     /// (1 − β) s, m: the disc's part of it.
     pub even_on_disc: L,
     /// Number whose last bit is worth a quantum of the deposits.
-    deposits: L,
+    deposit_anchor: L,
     /// Number whose last bit is worth a quantum of the losses.
-    losses: L,
+    loss_anchor: L,
     pub bracket: BracketLanes<L>,
 }
 
@@ -109,8 +109,8 @@ impl<'a, L: Lanes> StripRules<'a, L> {
             share,
             even_on_pin,
             even_on_disc: share - even_on_pin,
-            deposits: L::splat(conditions.deposits.anchor()),
-            losses: L::splat(conditions.losses.anchor()),
+            deposit_anchor: L::splat(conditions.deposit_quantum.anchor()),
+            loss_anchor: L::splat(conditions.loss_quantum.anchor()),
             bracket: BracketLanes::new(&conditions.bracket),
         }
     }
@@ -154,12 +154,12 @@ impl<'a, L: Lanes> StripRules<'a, L> {
     /// By how many quanta a deposit is above the even one.
     #[inline(always)]
     pub fn beyond(&self, deposit: L, even: L) -> L::Integers {
-        (self.deposits + deposit).bits().minus((self.deposits + even).bits())
+        (self.deposit_anchor + deposit).bits().minus((self.deposit_anchor + even).bits())
     }
 
     /// A loss in quanta.
     #[inline(always)]
     pub fn loss(&self, height: L) -> L::Integers {
-        (self.losses + height).bits().minus(self.losses.bits())
+        (self.loss_anchor + height).bits().minus(self.loss_anchor.bits())
     }
 }

@@ -14,7 +14,7 @@ use super::cells::{MOST_UNUSUAL, Strip, Sweep, update};
 use super::instructions::kernel;
 use super::local::sweep_locally;
 use super::moved::{Moved, StripMoved};
-use super::plain::sweep_plain;
+use super::ordinary::sweep_ordinary;
 use super::read::Span;
 use super::reading::{Reading, StripReading};
 use super::rules::{Conditions, Rules, StripRules};
@@ -82,8 +82,8 @@ fn sweep_strips<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool, const FO
             if whole.contains(&column) {
                 end = whole.end;
                 if !DISTINCT && rules.shortcut && unusual <= MOST_UNUSUAL {
-                    let plain = sweep_plain::<L, DISC_WEARS, FORMS, DESTROYS>;
-                    column = plain(&strip_rules, &mut strip, column..end, moved, reading);
+                    let ordinary = sweep_ordinary::<L, DISC_WEARS, FORMS, DESTROYS>;
+                    column = ordinary(&strip_rules, &mut strip, column..end, moved, reading);
                     end = end.min(column + 1);
                 }
             }

@@ -1,11 +1,11 @@
 //! Finding the displacement of a step (model 4.1).
 
 use super::Worker;
+use crate::engine::coefficients::StatusPair;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Verdict;
 use crate::engine::error::SimulationError;
 use crate::engine::kernel::{Bracket, Span};
-use crate::engine::pair::Pair;
 use crate::engine::quantum::Quantum;
 use crate::engine::sector::Segment;
 use crate::model::ContactError;
@@ -37,13 +37,13 @@ impl<C: Communicator> Worker<C> {
                 Verdict::Solved => {
                     self.note_near_touches();
                     if largest > 0.0 {
-                        self.overlaps = Quantum::of_sum(largest, columns);
+                        self.overlap_quantum = Quantum::of_sum(largest, columns);
                     }
                     self.course.largest_load_residual = self.course.largest_load_residual.max(self.contact.residual());
                     return Ok(largest.max(0.0) + (self.contact.displacement() - bracket.low));
                 }
                 Verdict::Between(low, high) => {
-                    bracket = Bracket::new(low, high - low, self.overlaps);
+                    bracket = Bracket::new(low, high - low, self.overlap_quantum);
                     self.read_columns(&bracket)?;
                 }
                 Verdict::Apart => bracket = self.read_around_first_contact()?,
@@ -63,7 +63,7 @@ impl<C: Communicator> Worker<C> {
         });
         let own = least.to_bits();
         self.communicator.all_gather(&[own], &mut |_, words| least = least.min(f64::from_bits(words[0])))?;
-        let bracket = Bracket::new(least, 0.0, self.overlaps);
+        let bracket = Bracket::new(least, 0.0, self.overlap_quantum);
         self.read_columns(&bracket)?;
         Ok(bracket)
     }
@@ -104,7 +104,7 @@ impl<C: Communicator> Worker<C> {
                 let disc_cells = sector.height.column(over + offset).zip(sector.substrate().column(over + offset));
                 for (row, ((z_p, b_p), (z_d, b_d))) in pin_cells.zip(disc_cells).enumerate() {
                     let status = pin_status(z_p, b_p, self.pin.is_resin(row, column));
-                    each(self.rows.start + row, column, z_p - z_d, Pair::new(status, z_d > b_d).index());
+                    each(self.rows.start + row, column, z_p - z_d, StatusPair::new(status, z_d > b_d).index());
                 }
             }
         }

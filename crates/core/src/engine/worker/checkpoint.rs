@@ -1,16 +1,10 @@
 //! What a worker keeps for later, and how it goes on from there.
 
-use std::sync::Arc;
-
 use super::Worker;
 use crate::engine::checkpoint::{Checkpoint, EngineMemory, Memory};
 use crate::engine::comm::Communicator;
 use crate::engine::error::SimulationError;
 use crate::engine::execution::Engine;
-use crate::engine::kernel::Rules;
-use crate::engine::pair::Coefficients;
-use crate::engine::sums::RowWeights;
-use crate::model::accounts::Accounts;
 use crate::model::parameters::Parameters;
 
 impl<C: Communicator> Worker<C> {
@@ -27,7 +21,7 @@ impl<C: Communicator> Worker<C> {
                 contact: self.contact.clone(),
                 forecast: self.forecast.clone(),
                 bracket: self.bracket,
-                overlaps: self.overlaps,
+                overlap_quantum: self.overlap_quantum,
             }),
         }
     }
@@ -35,7 +29,7 @@ impl<C: Communicator> Worker<C> {
     /// Takes over the state of a simulation of the same parameters and surfaces.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
         let Memory { course, clock, time_acceleration, account, history, accounts, engine } = checkpoint.memory.clone();
-        let Some(EngineMemory { contact, forecast, bracket, overlaps }) = engine else {
+        let Some(EngineMemory { contact, forecast, bracket, overlap_quantum }) = engine else {
             return Err(SimulationError::OtherEngine { found: Engine::Plain, expected: Engine::Fast });
         };
         if let (Some(own), Some(state)) = (&mut self.accounts, accounts) {
@@ -59,25 +53,11 @@ impl<C: Communicator> Worker<C> {
         self.filling.measure_all(&self.parameters.mesh, &own, self.sectors.iter().flatten(), course.steps);
         self.debris.set_account(account);
         (self.contact, self.history, self.forecast) = (contact, history, forecast);
-        (self.bracket, self.overlaps) = (bracket, overlaps);
+        (self.bracket, self.overlap_quantum) = (bracket, overlap_quantum);
         self.pressure.clear();
         // What the last sweep read of the coming step is read again.
         self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
         self.course = course;
         Ok(())
-    }
-
-    /// Makes everything that depends on the acceleration, and on wear rates that change with temperature, anew.
-    pub(super) fn accept_coefficients(&mut self, parameters: &Parameters) {
-        self.parameters = Arc::new(parameters.clone());
-        self.wear_rate_factor = self.accounts.as_deref().map_or(1.0, Accounts::wear_rate_factor);
-        let now = match self.wear_rate_factor {
-            1.0 => self.parameters.clone(),
-            factor => Arc::new(parameters.with_wear_rate_factor(factor)),
-        };
-        self.coefficients = Coefficients::new(&now);
-        self.rules = Rules::new(&now, &self.coefficients, self.filling.reference_height(), self.shortcut);
-        self.weights = RowWeights::new(&now, &self.coefficients, self.rows.clone());
-        self.debris.set_coefficients(&self.coefficients);
     }
 }

@@ -32,7 +32,7 @@ impl<C: Communicator> Worker<C> {
         self.reading.clear();
         self.moved.clear();
         let (expected, uncertainty) = self.forecast.expect(self.contact.mean_overlap());
-        let bracket = Bracket::new(expected - uncertainty, 2.0 * uncertainty, self.overlaps);
+        let bracket = Bracket::new(expected - uncertainty, 2.0 * uncertainty, self.overlap_quantum);
         let partition = self.partition.clone();
         let first = self.first();
         self.fetch_entering(&partition, first);
@@ -160,8 +160,8 @@ pub(super) fn conditions<'a>(
         displacement: contact.displacement(),
         share: debris.share(),
         ahead,
-        deposits: debris.deposits(),
-        losses: debris.losses(quantum),
+        deposit_quantum: debris.deposit_quantum(),
+        loss_quantum: debris.loss_quantum(quantum),
         bracket,
         first_strip: first_row / LANES,
     }

@@ -4,6 +4,7 @@
 //! sweeps.
 
 mod balance;
+mod changes;
 mod checkpoint;
 mod columns;
 mod gather;
@@ -13,6 +14,7 @@ mod report;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::engine::coefficients::Coefficients;
 use crate::engine::comm::Communicator;
 use crate::engine::contact::Contact;
 use crate::engine::debris::Debris;
@@ -24,7 +26,6 @@ use crate::engine::history::{Course, History};
 use crate::engine::kernel::{
     Bracket, Edge, InstructionSet, Moved, Read, Reading, Rules, Sweep, WearColumn, read, sweep, wear_column,
 };
-use crate::engine::pair::Coefficients;
 use crate::engine::parts::Needs;
 use crate::engine::pin_strips::PinStrips;
 use crate::engine::quantum::Quantum;
@@ -55,7 +56,7 @@ pub(crate) struct Worker<C> {
     /// Of which losses are counted as multiples: the quantum of the largest overlap that the load allows.
     quantum: Quantum,
     /// Of which the overlaps of the coming steps are counted as multiples, by the largest of the last step.
-    overlaps: Quantum,
+    overlap_quantum: Quantum,
     pin: PinStrips,
     /// The worker's own sectors, by their number.
     sectors: Vec<Option<DiscSector>>,
@@ -134,7 +135,7 @@ impl<C: Communicator> Worker<C> {
             rules: Rules::new(&parameters, &coefficients, filling.reference_height(), execution.shortcut),
             contact: Contact::new(&weights, by_status),
             quantum,
-            overlaps: quantum,
+            overlap_quantum: quantum,
             pin: PinStrips::new(mesh, rows.clone(), &surfaces.pin_height, &surfaces.pin_base, needs),
             forecast: Forecast::new(mesh.disc_columns()),
             debris: Debris::new(&parameters, &coefficients, &weights),
@@ -208,7 +209,7 @@ impl<C: Communicator> Worker<C> {
         let bracket = self.sweep_columns()?;
         self.gather_sweep(&bracket)?;
         self.bracket = Some(bracket);
-        let moved = self.debris.settle(&self.contact, &self.sums, self.debris.losses(self.quantum));
+        let moved = self.debris.settle(&self.contact, &self.sums, self.debris.loss_quantum(self.quantum));
         self.course.contact_area = self.contact.area();
         self.history.record(self.course.contact_area, &self.operation);
         self.course.steps += 1;
@@ -223,31 +224,6 @@ impl<C: Communicator> Worker<C> {
             });
         }
         Ok(())
-    }
-
-    /// Has the accounts take the pauses before the coming step, and takes over the wear rates that hold in it.
-    fn begin_accounts(&mut self) -> Result<(), SimulationError> {
-        let Some(accounts) = &mut self.accounts else { return Ok(()) };
-        accounts.begin(self.course.steps + 1, self.parameters.step_angle());
-        if accounts.wear_rate_factor() == self.wear_rate_factor {
-            return Ok(());
-        }
-        self.accept_coefficients(&self.parameters.clone());
-        // The sums of the coming step were taken with the weights of before. No bracket has missed, so this is not
-        // counted; and who goes on from a checkpoint has read them again anyway.
-        let extra_readings = self.course.extra_readings;
-        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))?;
-        self.course.extra_readings = extra_readings;
-        Ok(())
-    }
-
-    /// Has the coming steps stand for `acceleration` revolutions each, in place of what it was so far (model 4.6).
-    pub fn accelerate(&mut self, acceleration: f64) -> Result<(), SimulationError> {
-        let parameters = Parameters { time_acceleration: acceleration, ..Parameters::clone(&self.parameters) };
-        self.clock = self.clock.changed(self.course.steps, parameters.step_time());
-        self.accept_coefficients(&parameters);
-        // The sums of the coming step were taken with the weights of before.
-        self.bracket.map_or(Ok(()), |bracket| self.read_columns(&bracket))
     }
 
     /// The disc column under pin column 0 in the coming step.

@@ -49,7 +49,7 @@ impl<C: Communicator> Worker<C> {
             deposited_pin: totals.deposited_pin.value(),
             deposited_disc: totals.deposited_disc.value(),
             returned: totals.returned.value(),
-            pin_none: coverage[Status::None as usize],
+            pin_none: coverage[Status::Resin as usize],
             pin_primary: coverage[Status::Primary as usize],
             pin_secondary: coverage[Status::Secondary as usize],
             // Rounding may leave all of the disc a trace above 1.

@@ -5,9 +5,9 @@ use crate::model::parameters::{Integrator, Parameters};
 
 /// The statuses of a pin cell and the disc cell under it, as an index into the tables of [`Coefficients`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pair(u8);
+pub struct StatusPair(u8);
 
-impl Pair {
+impl StatusPair {
     /// Number of different pairs: three statuses of the pin times two of the disc.
     pub const COUNT: usize = 6;
 
@@ -18,17 +18,17 @@ impl Pair {
 
     /// Every pair with its statuses.
     pub fn all() -> impl Iterator<Item = (Status, bool)> {
-        [Status::None, Status::Primary, Status::Secondary].into_iter().flat_map(|pin| [(pin, false), (pin, true)])
+        [Status::Resin, Status::Primary, Status::Secondary].into_iter().flat_map(|pin| [(pin, false), (pin, true)])
     }
 
-    /// Index into a table of [`Pair::COUNT`] entries.
+    /// Index into a table of [`StatusPair::COUNT`] entries.
     pub fn index(self) -> usize {
         usize::from(self.0)
     }
 }
 
-/// One coefficient by [`Pair::index`] and row.
-pub type Table = [Vec<f64>; Pair::COUNT];
+/// One coefficient by [`StatusPair::index`] and row.
+pub type Table = [Vec<f64>; StatusPair::COUNT];
 
 /// The coefficients of every pair in every row.
 ///
@@ -54,8 +54,8 @@ impl Coefficients {
         let Parameters { mesh, materials, integrator, .. } = parameters;
         let table = || std::array::from_fn(|_| vec![0.0; mesh.rows()]);
         let mut tables = Self { stiffness: table(), pin: table(), disc: table(), fibre: table(), coating: table() };
-        for (pin, disc_secondary) in Pair::all() {
-            let pair = Pair::new(pin, disc_secondary).index();
+        for (pin, disc_secondary) in StatusPair::all() {
+            let pair = StatusPair::new(pin, disc_secondary).index();
             let stiffness = materials.combined_modulus(pin, disc_secondary) / parameters.foundation_height;
             let wear_rate_pin = pin_wear_rate(materials, pin);
             let wear_rate_disc = materials.disc(disc_secondary).specific_wear_rate;
@@ -79,8 +79,8 @@ impl Coefficients {
 
     /// k A of the softest pair with a plateau of the pin, N/m.
     pub fn least_plateau_stiffness(&self) -> f64 {
-        let plateaus = Pair::all().filter(|(pin, _)| *pin != Status::None);
-        let rows = plateaus.flat_map(|(pin, disc)| &self.stiffness[Pair::new(pin, disc).index()]);
+        let plateaus = StatusPair::all().filter(|(pin, _)| *pin != Status::Resin);
+        let rows = plateaus.flat_map(|(pin, disc)| &self.stiffness[StatusPair::new(pin, disc).index()]);
         rows.copied().fold(f64::INFINITY, f64::min)
     }
 }
@@ -88,7 +88,7 @@ impl Coefficients {
 /// κ of a pin cell; 0 for resin, which does not wear by Archard's law.
 fn pin_wear_rate(materials: &Materials, status: Status) -> f64 {
     match status {
-        Status::None => 0.0,
+        Status::Resin => 0.0,
         plateau => materials.pin(plateau).specific_wear_rate,
     }
 }

@@ -16,7 +16,7 @@ use crate::engine::lanes::{Chunk, Lanes, Mask};
 
 /// Sweeps columns of a strip, up to the first with a cell to which anything else happens; returns that column.
 #[inline(always)]
-pub(super) fn sweep_plain_locally<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
+pub(super) fn sweep_ordinary_locally<L: Lanes, const DISTINCT: bool, const DISC_WEARS: bool>(
     rules: &StripRules<L>,
     strip: &mut Strip,
     columns: Range<usize>,
@@ -24,7 +24,7 @@ pub(super) fn sweep_plain_locally<L: Lanes, const DISTINCT: bool, const DISC_WEA
     next: &mut StripReading<L, DISTINCT>,
 ) -> usize {
     let Range { start, end } = columns;
-    let mut plain = Plain::<L, DISTINCT> {
+    let mut ordinary = Ordinary::<L, DISTINCT> {
         rules,
         pin_height: &mut strip.pin.height[start..end],
         pin_substrate: &strip.pin.substrate[start..end],
@@ -39,16 +39,16 @@ pub(super) fn sweep_plain_locally<L: Lanes, const DISTINCT: bool, const DISC_WEA
         next: *next,
     };
     let mut column = 0;
-    while column < end - start && plain.column::<DISC_WEARS>(column) {
+    while column < end - start && ordinary.column::<DISC_WEARS>(column) {
         column += 1;
     }
-    *next = plain.next;
-    behind.height = plain.z_behind;
+    *next = ordinary.next;
+    behind.height = ordinary.z_behind;
     start + column
 }
 
 /// A strip while its ordinary cells are swept.
-struct Plain<'a, L: Lanes, const DISTINCT: bool> {
+struct Ordinary<'a, L: Lanes, const DISTINCT: bool> {
     rules: &'a StripRules<'a, L>,
     pin_height: &'a mut [Chunk],
     pin_substrate: &'a [Chunk],
@@ -64,7 +64,7 @@ struct Plain<'a, L: Lanes, const DISTINCT: bool> {
     next: StripReading<L, DISTINCT>,
 }
 
-impl<L: Lanes, const DISTINCT: bool> Plain<'_, L, DISTINCT> {
+impl<L: Lanes, const DISTINCT: bool> Ordinary<'_, L, DISTINCT> {
     /// Wears the eight cells of a column, and reads their pairs of the next step, if nothing out of the ordinary happens
     /// to any; else changes nothing.
     #[inline(always)]

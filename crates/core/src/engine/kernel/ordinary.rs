@@ -19,7 +19,7 @@ use crate::engine::lanes::{Chunk, Integers, Lanes, Mask};
 /// Sweeps some columns of a strip, all cells of which are there, up to the first with a cell to which anything else happens;
 /// returns that column.
 #[inline(always)]
-pub(super) fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
+pub(super) fn sweep_ordinary<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, const DESTROYS: bool>(
     rules: &StripRules<L>,
     strip: &mut Strip,
     Range { start, end: columns }: Range<usize>,
@@ -27,7 +27,7 @@ pub(super) fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, c
     reading: &mut Reading,
 ) -> usize {
     let z_behind = strip.behind::<L, false>(start).height;
-    let mut plain = Plain {
+    let mut ordinary = Ordinary {
         pin_height: &mut strip.pin.height[..columns],
         pin_substrate: if FORMS { &mut strip.pin.substrate[..columns] } else { &mut [] },
         resin: &strip.pin.resin[..columns],
@@ -46,25 +46,25 @@ pub(super) fn sweep_plain<L: Lanes, const DISC_WEARS: bool, const FORMS: bool, c
     let mut column = start;
     while column < columns {
         // Nearly all cells are plateaus with a plateau ahead: they need not be told from others.
-        let all_plateaus = plain.plateau[column] & plain.plateau[column + 1] == u8::MAX;
+        let all_plateaus = ordinary.plateau[column] & ordinary.plateau[column + 1] == u8::MAX;
         let ordinary = if !FORMS || all_plateaus {
-            plain.column::<false, DISC_WEARS, FORMS, DESTROYS>(column)
+            ordinary.column::<false, DISC_WEARS, FORMS, DESTROYS>(column)
         } else {
-            plain.column::<true, DISC_WEARS, FORMS, DESTROYS>(column)
+            ordinary.column::<true, DISC_WEARS, FORMS, DESTROYS>(column)
         };
         if !ordinary {
             break;
         }
         column += 1;
     }
-    let Plain { moved: strip_moved, next, .. } = plain;
+    let Ordinary { moved: strip_moved, next, .. } = ordinary;
     strip_moved.store::<false, FORMS>(strip.index, moved);
     next.store(strip.index, reading);
     column
 }
 
 /// A strip while its ordinary cells are swept.
-struct Plain<'a, L: Lanes> {
+struct Ordinary<'a, L: Lanes> {
     rules: &'a StripRules<'a, L>,
     pin_height: &'a mut [Chunk],
     pin_substrate: &'a mut [Chunk],
@@ -83,7 +83,7 @@ struct Plain<'a, L: Lanes> {
     next: StripReading<L, false>,
 }
 
-impl<L: Lanes> Plain<'_, L> {
+impl<L: Lanes> Ordinary<'_, L> {
     /// Updates the eight cells of a column, and reads their pairs of the next step, if nothing out of the ordinary
     /// happens to any; else changes nothing. `MIXED` tells whether not all of them are plateaus with a plateau ahead.
     #[inline(always)]
