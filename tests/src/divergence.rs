@@ -255,7 +255,7 @@ mod tests {
                 let mut disc_height = vec![0.0; parameters.mesh.disc_cells()];
                 disc_height[3 * 7 + 2] = 5e-6;
                 let pin_height = [[0.0; 3], [3e-6; 3]].concat();
-                let pin_base = [[Base::Primary; 3], [Base::None; 3]].concat();
+                let pin_base = [[Base::Primary; 3], [Base::Resin; 3]].concat();
                 start((parameters, InitialSurfaces { disc_height, pin_height, pin_base }))
             }
         };

@@ -13,6 +13,7 @@ mod elsewhere;
 mod export;
 mod faults;
 mod guide;
+mod habits;
 mod heat;
 mod help;
 mod integrity;

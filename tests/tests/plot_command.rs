@@ -13,8 +13,8 @@ const FIRST_RUN: &str = "#0072B2";
 /// The same, mixed with as much white.
 const FIRST_RUN_PALE: &str = "#80B9D9";
 /// Every figure.
-const ALL: [&str; 8] =
-    ["contact-area", "debris", "filled", "heights", "plateau-sizes", "pressure", "status", "topography"];
+const ALL: [&str; 9] =
+    ["build-up", "contact-area", "debris", "filled", "heights", "plateau-sizes", "pressure", "status", "topography"];
 
 /// A directory with `run.h5`, the quick scene with these edits.
 fn with_run(edits: &[(&str, &str)]) -> WorkingDirectory {
@@ -234,6 +234,35 @@ fn status_shows_the_status_of_every_cell() {
 }
 
 #[test]
+fn build_up_shows_how_thick_it_is() {
+    let directory = short();
+    let figure = plotted(&directory, "build-up");
+    let run = RunFile::open(directory.path("run.h5"));
+    for (body, toward) in [("disc", 1.0), ("pin", -1.0)] {
+        let last = |name: &str| -> Vec<f64> {
+            let values = run.floats(&format!("/{body}/{name}"));
+            let cells: usize = run.shape(&format!("/{body}/{name}"))[1..].iter().product();
+            values[values.len() - cells..].to_vec()
+        };
+        let (heights, substrates) = (last("height"), last("substrate"));
+        let thickness: Vec<f64> = heights.iter().zip(&substrates).map(|(z, b)| toward * (z - b)).collect();
+        assert!(thickness.iter().all(|thickness| *thickness >= 0.0), "{body}");
+        // Cells of one row are alike, and so each row counts with its radius.
+        let rows = run.shape(&format!("/{body}/height"))[2];
+        let radius = |cell: usize| 20.0 + ((cell % rows) as f64 + 0.5) / rows as f64;
+        let share = |covered: bool| -> f64 {
+            let cells = thickness.iter().enumerate().filter(|(_, thickness)| !covered || **thickness > 0.0);
+            cells.map(|(cell, _)| radius(cell)).sum()
+        };
+        let percent = 100.0 * share(true) / share(false);
+        let said = figure.texts.iter().filter_map(|text| text.text.strip_prefix("on ")?.split_once(" % of the area"));
+        let nearest = said.map(|(number, _)| (number.parse::<f64>().unwrap() - percent).abs()).fold(f64::MAX, f64::min);
+        // Three digits.
+        assert!(nearest <= 0.5e-2 * percent, "{body}: {percent} %, off by {nearest}");
+    }
+}
+
+#[test]
 fn heights_are_those_that_parts_of_the_cells_reach() {
     let directory = short();
     let figure = plotted(&directory, "heights");
@@ -353,11 +382,13 @@ fn what_was_not_recorded_is_left_out_and_said_so() {
         "plateau: run.h5 has no map disc_height: left out of topography, heights",
         "plateau: run.h5 has no map disc_status: left out of status, plateau-sizes",
         "plateau: run.h5 has no map pin_status: left out of status, plateau-sizes",
+        "plateau: run.h5 has no map disc_substrate: left out of build-up",
+        "plateau: run.h5 has no map pin_substrate: left out of build-up",
     ];
     assert_eq!(only(&outcome), expected);
     let names: Vec<String> = outcome.stdout.lines().map(|line| line.replace("wrote run/", "")).collect();
     let shown = |name: &str| names.iter().any(|line| line.starts_with(&format!("{name}.png: ")));
-    assert_eq!(ALL.map(shown), [true, true, true, true, false, true, false, true], "{names:?}");
+    assert_eq!(ALL.map(shown), [false, true, true, true, true, false, true, false, true], "{names:?}");
 }
 
 #[test]
@@ -369,7 +400,7 @@ fn a_run_without_samples_has_maps_only() {
     let outcome = directory.plateau(["plot", "run.h5"]);
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
     assert_eq!(only(&outcome), ["plateau: run.h5 has no samples: left out of contact-area, filled, debris"]);
-    assert_eq!(outcome.stdout.lines().count(), 5, "{}", outcome.stdout);
+    assert_eq!(outcome.stdout.lines().count(), 6, "{}", outcome.stdout);
 }
 
 #[test]

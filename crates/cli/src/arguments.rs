@@ -13,6 +13,7 @@ use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
 use plateau_present::figure::Format;
+use plateau_present::figure::run::NAMES;
 use plateau_run::ExecutionOptions;
 
 pub use accuracy::AccuracyArguments;
@@ -27,6 +28,12 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// Say errors only: no warnings, notes, progress
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say also what is done to surfaces
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
 }
 
 /// What to do.
@@ -217,6 +224,9 @@ pub struct PlotArguments {
     /// Format of the figures
     #[arg(long, value_enum, default_value = "png")]
     pub format: FigureFormat,
+    /// Draw this figure only; may be repeated
+    #[arg(long = "figure", value_name = "NAME", value_parser = NAMES)]
+    pub figures: Vec<String>,
     /// Show the whole ring from above instead of unrolled
     #[arg(long)]
     pub polar: bool,

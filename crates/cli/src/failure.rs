@@ -5,11 +5,14 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
+use plateau_io::scene::SceneError;
 use plateau_run::{Job, Progress, RunError};
 use signal_hook::consts::SIGABRT;
 
-use crate::message;
+use crate::arguments::Arguments;
+use crate::{excerpt, message};
 
 /// Why a command failed, with the exit status that tells whose fault it is.
 #[derive(Debug)]
@@ -36,6 +39,11 @@ impl Failure {
     /// A failed run.
     pub fn run(error: impl fmt::Display) -> Self {
         Self::Run(error.to_string())
+    }
+
+    /// A scene that cannot be used, with the lines that are wrong.
+    pub fn of_scene(error: SceneError) -> Self {
+        Self::Input(excerpt::of_scene(&error))
     }
 
     /// How a run failed.
@@ -138,11 +146,11 @@ fn tip(answer: &clap::Error) -> Option<String> {
     let word = |kind| answer.get(kind).map(ToString::to_string);
     match answer.kind() {
         ErrorKind::InvalidSubcommand => {
-            let file = word(ContextKind::InvalidSubcommand)?;
-            match file.rsplit_once('.')?.1 {
-                "toml" => Some(format!("to run a scene: plateau run {file}")),
-                "h5" => Some(format!("to see a run: plateau report {file}, or plateau plot {file}")),
-                _ => None,
+            let word = word(ContextKind::InvalidSubcommand)?;
+            match word.rsplit_once('.').map_or("", |(_, ending)| ending) {
+                "toml" => Some(format!("to run a scene: plateau run {word}")),
+                "h5" => Some(format!("to see a run: plateau report {word}, or plateau plot {word}")),
+                _ => command_like(&word).map(|command| format!("did you mean plateau {command}?")),
             }
         }
         ErrorKind::UnknownArgument => {
@@ -152,4 +160,14 @@ fn tip(answer: &clap::Error) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// The command whose name is the nearest to a word, if it is near: two letters that change places, one that is missing or
+/// wrong.
+fn command_like(word: &str) -> Option<String> {
+    let command = Arguments::command();
+    let names = command.get_subcommands().map(|command| command.get_name().to_owned());
+    let distance = |name: &String| strsim::osa_distance(name, word);
+    let most = 1 + word.len() / 5;
+    names.filter(|name| distance(name) <= most).min_by_key(distance)
 }

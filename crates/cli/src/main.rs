@@ -3,6 +3,7 @@
 mod accuracy;
 mod arguments;
 mod commands;
+mod excerpt;
 mod failure;
 mod interrupt;
 mod message;

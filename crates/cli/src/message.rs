@@ -1,10 +1,30 @@
-//! Messages on standard error.
+//! Messages on standard error: in colour on a terminal, unless NO_COLOR is set.
 
 use std::fmt;
 use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use console::{Style, StyledObject};
+
 static WARNINGS: AtomicBool = AtomicBool::new(true);
+static QUIET: AtomicBool = AtomicBool::new(false);
+static VERBOSE: AtomicBool = AtomicBool::new(false);
+
+/// How much is said, as `-q` and `-v` ask for: errors alone, or also what is done to surfaces.
+pub fn set_level(quiet: bool, verbose: bool) {
+    QUIET.store(quiet, Ordering::Relaxed);
+    VERBOSE.store(verbose, Ordering::Relaxed);
+}
+
+/// Whether nothing but errors is said.
+pub fn is_quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
+}
+
+/// Whether more is said than one needs.
+pub fn is_verbose() -> bool {
+    VERBOSE.load(Ordering::Relaxed)
+}
 
 /// From now on there are no warnings: another process of the same job gives them.
 pub fn no_warnings() {
@@ -13,21 +33,30 @@ pub fn no_warnings() {
 
 /// Says why the program cannot do what was asked.
 pub fn error(message: impl fmt::Display) {
-    say(format_args!("plateau: {message}"));
+    say(format_args!("{} {message}", coloured("plateau:", Style::new().red().bold())));
 }
 
 /// Says what deserves attention though the program goes on.
 pub fn warning(message: impl fmt::Display) {
-    if WARNINGS.load(Ordering::Relaxed) {
-        say(format_args!("plateau: warning: {message}"));
+    if may_be_said() {
+        say(format_args!("plateau: {} {message}", coloured("warning:", Style::new().yellow().bold())));
     }
 }
 
 /// Says what is worth knowing.
 pub fn note(message: impl fmt::Display) {
-    if WARNINGS.load(Ordering::Relaxed) {
+    if may_be_said() {
         say(format_args!("plateau: {message}"));
     }
+}
+
+/// A text in a style where standard error is a terminal that shows it.
+pub fn coloured(text: &str, style: Style) -> StyledObject<&str> {
+    style.for_stderr().apply_to(text)
+}
+
+fn may_be_said() -> bool {
+    WARNINGS.load(Ordering::Relaxed) && !is_quiet()
 }
 
 /// Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.

@@ -22,6 +22,12 @@ impl Observer for Messages {
     fn note(&mut self, message: &dyn Display) {
         message::note(message);
     }
+
+    fn detail(&mut self, message: &dyn Display) {
+        if message::is_verbose() {
+            message::note(message);
+        }
+    }
 }
 
 /// Shows a run, and stops or saves it when a signal asks for that.
@@ -60,6 +66,10 @@ impl Observer for Terminal {
 
     fn note(&mut self, message: &dyn Display) {
         Messages.note(message);
+    }
+
+    fn detail(&mut self, message: &dyn Display) {
+        Messages.detail(message);
     }
 
     fn starts(&mut self, name: &str, duration: f64) {

@@ -14,6 +14,7 @@ mod profiles;
 mod read_run_file;
 mod run_file;
 mod run_file_processes;
+mod scene_layers;
 mod sdf;
 mod sdf_dialects;
 mod small_patches;

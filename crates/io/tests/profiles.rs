@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use plateau_core::surface::Extension;
 use plateau_io::scene::HeightSource;
 use plateau_io::surface::{Lay, Loaded, ReadOptions, load};
 
@@ -79,14 +80,19 @@ fn a_profile_becomes_grooves_along_or_across_sliding() {
 }
 
 #[test]
-fn a_profile_without_grooves_or_too_short_is_refused() {
+fn a_profile_without_grooves_is_extended_and_one_too_short_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = profile_file(folder.path());
     let mut scene = scene();
     scene.disc_surface.source = profile_source(&path, Lay::Isotropic);
-    assert!(
-        message(&scene).contains("profile_lay = \"isotropic\" asks for a surface with the statistics of the profile")
-    );
+    let refused = message(&scene);
+    assert!(refused.contains("isotropic") && refused.contains("extend = \"statistics\""), "{refused}");
+    scene.disc_surface.preparation.extend = Some(Extension::Statistics { seed: 3 });
+    let heights = load(&scene).unwrap().surfaces.disc_height;
+    assert_eq!(heights.len(), scene.parameters.mesh.disc_cells());
+    let (column, row) = (&heights[..ROWS], heights.iter().step_by(ROWS));
+    assert!(column.iter().any(|height| *height != column[0]) && row.into_iter().any(|height| *height != heights[0]));
+    scene.disc_surface.preparation.extend = None;
     scene.disc_surface.source = profile_source(&path, Lay::Across);
     assert!(message(&scene).starts_with("disc.prepare: "), "{}", message(&scene));
     scene.disc_surface.preparation.repeat = true;

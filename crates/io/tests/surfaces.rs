@@ -121,9 +121,9 @@ fn synthetic_sources_and_the_resin_recess() {
     scene.resin_recess = 8e-6;
     let Loaded { surfaces, report, .. } = load(&scene).unwrap();
     assert_eq!((&surfaces.disc_height, &surfaces.pin_base), (&plain.disc_height, &plain.pin_base));
-    assert!(surfaces.pin_base.contains(&Base::None) && surfaces.pin_base.contains(&Base::Primary));
+    assert!(surfaces.pin_base.contains(&Base::Resin) && surfaces.pin_base.contains(&Base::Primary));
     for ((height, before), base) in surfaces.pin_height.iter().zip(&plain.pin_height).zip(&surfaces.pin_base) {
-        assert_eq!(*height, if *base == Base::None { before + 8e-6 } else { *before });
+        assert_eq!(*height, if *base == Base::Resin { before + 8e-6 } else { *before });
     }
     assert!(report.iter().any(|line| line == "pin.surface: resin set back by 8 um"), "{report:?}");
     assert!(report.iter().any(|line| line.starts_with("pin.base: fibre fraction 0.")), "{report:?}");
@@ -144,7 +144,7 @@ fn hdf5_heights_come_through_bit_for_bit_and_base_as_it_is() {
     assert_eq!(loaded.surfaces.pin_height, pin);
     for (cell, base) in loaded.surfaces.pin_base.iter().enumerate() {
         let fibre = (cell / ROWS + cell % ROWS).is_multiple_of(3);
-        assert_eq!(*base, if fibre { Base::Primary } else { Base::None });
+        assert_eq!(*base, if fibre { Base::Primary } else { Base::Resin });
     }
     assert_eq!(loaded.inputs.len(), 1, "one file, read three times");
     // "base" and "wrong" both have the type and shape of a fibre map, so one must be named.
@@ -203,7 +203,7 @@ fn a_base_may_be_an_enumeration_as_in_run_files() {
     scene.pin_base = BaseSource::File { path, dataset: Some("base".to_owned()) };
     let found = load(&scene).unwrap().surfaces.pin_base;
     assert_eq!(found[..2 * ROWS], [Base::Primary; 2 * ROWS]);
-    assert_eq!(found[2 * ROWS..], [Base::None; 4 * ROWS]);
+    assert_eq!(found[2 * ROWS..], [Base::Resin; 4 * ROWS]);
 }
 
 #[test]

@@ -16,6 +16,9 @@ pub trait Observer {
     /// What is worth knowing.
     fn note(&mut self, _message: &dyn Display) {}
 
+    /// What was done to make a surface ready, one step a line; for those who want to see how.
+    fn detail(&mut self, _message: &dyn Display) {}
+
     /// Steps begin, to be taken until this physical time (s); `name` tells a run from others of the same scene, else it is
     /// empty.
     fn starts(&mut self, _name: &str, _duration: f64) {}

@@ -80,6 +80,7 @@ impl Prepared {
         let implausible = plausibility::of_surfaces(&scene, &loaded);
         warn_of_scene(&mut scene, implausible, observer);
         let Loaded { surfaces, inputs, report, .. } = loaded;
+        report.iter().for_each(|step| observer.detail(step));
         let execution = decide(&scene, job.ranks(), &options.execution, &surfaces, observer)?;
         let assembly = Assembly::on(job, &scene, surfaces, execution)?;
         assembly.idle().into_iter().for_each(|idle| observer.warning(&idle_warning(idle)));

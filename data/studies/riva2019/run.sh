@@ -86,6 +86,14 @@ of_sets() {
     done
 }
 
+of_the_rig() {
+    for scale in 1 0.1 0.01; do
+        for seed in 1 2 3; do
+            with_set round-pin "round-$seed-$scale" "$seed" "$seed" "$scale"
+        done
+    done
+}
+
 # One core each: the longest runs, and all else.
 (
     of_the_model
@@ -97,6 +105,7 @@ long=$!
     simulate heights-100 heights-100
     of_symmetry
     of_sets
+    of_the_rig
     "$root/.venv-study/bin/python" -B "$study/variants.py" "$program" || exit 1
     "$program" sweep run "$study/open-questions.toml" --jobs 1 --task 2/2 >/dev/null 2>"$runs/open-questions-2.log"
 ) || die 'the study is not complete; call this again to go on'
@@ -107,6 +116,7 @@ wait $long || die 'the baseline is not complete; call this again to go on'
 # shellcheck disable=SC2086
 {
     $python "$study/evaluate.py" || exit 1
+    $python "$study/round_pin.py" || exit 1
     $python "$study/write_docs.py" || exit 1
 }
 exec "$study/figures.sh"

@@ -11,6 +11,8 @@ from make_points import DEFAULT
 
 HERE = Path(__file__).parent
 RESULTS = json.loads((HERE / "results.json").read_text())
+# Of a run of the study in parts.
+RESULTS |= {"round_pin": json.loads((HERE / "round-pin.json").read_text())}
 
 
 def value(path: str) -> object:
@@ -267,6 +269,26 @@ def table_sizes() -> str:
             cells.append(", ".join(shown(found[p] * 1e6, ".0f") for p in ("10", "50", "90")) + f" ({found['count']})"
                          if found["count"] else "none")
         text += row(name, *cells)
+    return text
+
+
+def table_round_pin() -> str:
+    """The rig's round pin and the paper's patch."""
+    numbers = {
+        "contact area, mm²": ("contact_area_mean", 1e6, ".2f"),
+        "part of the pin in contact, %": ("contact_fraction", 100, ".1f"),
+        "mean pressure of the contact, MPa": ("mean_pressure", 1e-6, ".2f"),
+        "Gini coefficient of the pressure": ("pressure_gini", 1, ".3f"),
+        "filled, %": ("filled", 100, ".1f"),
+        "disc, secondary, %": ("disc_secondary", 100, ".1f"),
+        "pin, secondary, %": ("pin_secondary", 100, ".1f"),
+        "run-in, s": ("run_in", 1, ".0f"),
+    }
+    pins = {"round": "round", "patch": "4 × 8 mm"}
+    text = head("", *(f"{name}, {pin}" for name in NAMES.values() for pin in pins.values()))
+    for name, (key, factor, form) in numbers.items():
+        found = [value(f"round_pin/{pin}/{heights}/{key}") for heights in NAMES for pin in pins]
+        text += row(name, *(with_interval(pair, factor, form) for pair in found))
     return text
 
 

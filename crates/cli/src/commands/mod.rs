@@ -29,6 +29,7 @@ use runs::{figures, named_like, open_run, open_runs};
 
 /// Does what the command line asks for.
 pub fn perform(arguments: Arguments) -> Result<(), Failure> {
+    message::set_level(arguments.quiet, arguments.verbose);
     match arguments.command {
         Command::New(arguments) => new::new(&arguments),
         Command::Run(arguments) => run::run(&arguments),
@@ -52,7 +53,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
 fn load_scene(arguments: &SceneArguments) -> Result<Scene, Failure> {
     let mut sets = arguments.sets.clone();
     sets.extend(arguments.workers.iter().map(|workers| format!("numerics.workers={workers}")));
-    let mut scene = scene::load(&arguments.scene, &sets).map_err(Failure::input)?;
+    let mut scene = scene::load(&arguments.scene, &sets).map_err(Failure::of_scene)?;
     scene.warnings.extend(plausibility::of_scene(&scene));
     scene.warnings.iter().for_each(message::warning);
     Ok(scene)

@@ -8,7 +8,7 @@ use crate::arguments::{RunArguments, SceneArguments};
 use crate::failure::{Failure, in_job};
 use crate::table::print;
 use crate::terminal::Terminal;
-use crate::{summary, version};
+use crate::{message, summary, version};
 
 /// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -37,6 +37,9 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let finished = plateau_run::run(scene, &options, job, &mut terminal).map_err(Failure::of)?;
     let Some(summary) = finished else { return Ok(()) };
     let text = if arguments.scene.json { summary::json(&summary)? } else { summary::text(&summary) };
+    if message::is_quiet() && !arguments.scene.json {
+        return Ok(());
+    }
     let file = summary.file.display();
     print(&text).map_err(|failure| failure.but(format_args!("the run is finished, {file} is complete")))
 }

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::message;
+
 /// One bar for all runs, on standard error; silent where that is no terminal.
 #[derive(Debug)]
 pub struct Progress {
@@ -17,7 +19,7 @@ pub struct Progress {
 impl Progress {
     /// A bar for so many runs with so many steps together.
     pub fn new(runs: usize, steps: u64, visible: bool) -> Self {
-        let bar = if visible { ProgressBar::new(steps) } else { ProgressBar::hidden() };
+        let bar = if visible && !message::is_quiet() { ProgressBar::new(steps) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }

@@ -12,6 +12,6 @@ pub fn fibre_fraction(base: &[Base], mesh: &Mesh) -> f64 {
 
 /// Sets the resin of a pin back from its fibres by `recess`, m: the pin's z grows away from the disc.
 pub fn set_back_resin(heights: &mut [f64], base: &[Base], recess: f64) {
-    let resin = heights.iter_mut().zip(base).filter(|(_, base)| **base == Base::None);
+    let resin = heights.iter_mut().zip(base).filter(|(_, base)| **base == Base::Resin);
     resin.for_each(|(height, _)| *height += recess);
 }

@@ -80,7 +80,7 @@ impl FibreSynthesis {
         if self.fibre_fraction == 1.0 {
             return Ok(vec![Base::Primary; mesh.pin_cells()]);
         }
-        let mut base = vec![Base::None; mesh.pin_cells()];
+        let mut base = vec![Base::Resin; mesh.pin_cells()];
         if self.fibre_fraction == 0.0 {
             return Ok(base);
         }
@@ -91,7 +91,7 @@ impl FibreSynthesis {
         let mut open_cells = mesh.present_cells();
         for _ in 0..MOST_FIBRES {
             let capsule = self.draw(&mut random, width, height);
-            let is_new = |cell: &usize| base[*cell] == Base::None && mesh.is_present(*cell);
+            let is_new = |cell: &usize| base[*cell] == Base::Resin && mesh.is_present(*cell);
             let new_cells: Vec<usize> = capsule.cells(mesh).filter(is_new).collect();
             let before = covered / total;
             covered += new_cells.iter().map(|cell| area[cell % mesh.rows()]).sum::<f64>();
@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn none_and_all_are_exact() {
         let mesh = mesh();
-        assert!(fibres(1, 0.0).base(&mesh).unwrap().iter().all(|base| *base == Base::None));
+        assert!(fibres(1, 0.0).base(&mesh).unwrap().iter().all(|base| *base == Base::Resin));
         assert!(fibres(1, 1.0).base(&mesh).unwrap().iter().all(|base| *base == Base::Primary));
         assert!(fibres(1, 1.0 - 1e-16).base(&mesh).unwrap().iter().all(|base| *base == Base::Primary));
     }

@@ -52,26 +52,31 @@ pub struct Preparation {
     pub scale: f64,
 }
 
-impl Default for Preparation {
+impl Preparation {
     /// Nothing is done.
+    pub const NONE: Self = Self {
+        crop: None,
+        unroll: None,
+        rotate: 0.0,
+        flip: None,
+        level: Level::None,
+        outlier_slope: None,
+        outliers: None,
+        fill: None,
+        pixel: None,
+        s_filter: None,
+        l_filter: None,
+        cutoff: None,
+        repeat: false,
+        extend: None,
+        scale: 1.0,
+    };
+}
+
+impl Default for Preparation {
+    /// [`Preparation::NONE`].
     fn default() -> Self {
-        Self {
-            crop: None,
-            unroll: None,
-            rotate: 0.0,
-            flip: None,
-            level: Level::None,
-            outlier_slope: None,
-            outliers: None,
-            fill: None,
-            pixel: None,
-            s_filter: None,
-            l_filter: None,
-            cutoff: None,
-            repeat: false,
-            extend: None,
-            scale: 1.0,
-        }
+        Self::NONE
     }
 }
 
@@ -176,7 +181,9 @@ impl Preparation {
             }
             None => (resample(patch, self.repeat, body, mesh)?, laid(patch, self.repeat, body, mesh)),
         };
-        if patch.length() < mesh.column_width() || patch.height() < mesh.row_height() {
+        // A profile has no width of its own.
+        let narrow = patch.height() < mesh.row_height() && !matches!(self.extend, Some(Extension::Isotropic { .. }));
+        if patch.length() < mesh.column_width() || narrow {
             report.push(
                 "warning: the patch is smaller than a cell, which leaves nothing of its roughness; take smaller cells"
                     .to_owned(),

@@ -3,23 +3,7 @@
 use super::*;
 
 /// Slopes between neighbours 1 mm apart are at most 1.4e-6/1e-3 here.
-const BY_SLOPE: Preparation = Preparation {
-    outlier_slope: Some(0.05),
-    fill: Some(Fill::Level),
-    crop: None,
-    unroll: None,
-    rotate: 0.0,
-    flip: None,
-    level: Level::None,
-    outliers: None,
-    pixel: None,
-    s_filter: None,
-    l_filter: None,
-    cutoff: None,
-    repeat: false,
-    extend: None,
-    scale: 1.0,
-};
+const BY_SLOPE: Preparation = Preparation { outlier_slope: Some(0.05), fill: Some(Fill::Level), ..Preparation::NONE };
 
 /// Indices of the points that the chain took out.
 fn taken_out(pixels: &Patch, body: Body) -> Vec<usize> {

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use plateau_core::model::heat::{Substance, Thermal};
+use plateau_core::surface::Length;
 
 use super::words::{number, pressure};
 use super::{Finding, Rule, apply};
@@ -28,6 +29,7 @@ const RULES: &[Rule<Scene>] = &[
         key: "thermal.disc.coating.conductivity",
         look: |scene| substance(&thermal(scene)?.disc.coating?.substance),
     },
+    Rule { key: "thermal.disc.coating.thickness", look: coating_thickness },
     Rule { key: "thermal.pin.conductivity", look: |scene| substance(&thermal(scene)?.pin.substance) },
     Rule { key: "thermal.pin.area", look: pin_area },
     Rule { key: "emission.pin_density", look: |scene| density(scene.parameters.emission.as_ref()?.pin_density) },
@@ -63,6 +65,17 @@ fn substance(substance: &Substance) -> Option<Finding> {
     outside(substance.conductivity, CONDUCTIVITY, "a conductivity of", "W/(m K)", advice)
         .or_else(|| outside(substance.density, DENSITY, "a density of", "kg/m^3", advice))
         .or_else(|| outside(substance.specific_heat, SPECIFIC_HEAT, "a specific heat of", "J/(kg K)", advice))
+}
+
+/// Heat goes through the coating into the disc; the coating of a brake disc is a small part of it.
+fn coating_thickness(scene: &Scene) -> Option<Finding> {
+    let disc = &thermal(scene)?.disc;
+    let thickness = disc.coating?.thickness;
+    (thickness > disc.thickness).then(|| Finding {
+        found: format!("a coating of {}", Length(thickness)),
+        bound: format!("more than the disc below it, {}", Length(disc.thickness)),
+        advice: "check both thicknesses and their units",
+    })
 }
 
 fn density(density: f64) -> Option<Finding> {

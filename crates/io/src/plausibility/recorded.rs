@@ -69,7 +69,7 @@ impl Recorded {
 /// k of the stiffest pair whose statuses a sample has, Pa/m.
 fn largest_stiffness(parameters: &Parameters, sample: &Sample) -> f64 {
     let pin = [
-        (Status::None, sample.pin_none),
+        (Status::Resin, sample.pin_none),
         (Status::Primary, sample.pin_primary),
         (Status::Secondary, sample.pin_secondary),
     ];

@@ -29,7 +29,7 @@ impl Header {
             mesh: run.mesh().clone(),
             pin_base: base
                 .iter()
-                .map(|base| if *base == Status::Primary as u8 { Base::Primary } else { Base::None })
+                .map(|base| if *base == Status::Primary as u8 { Base::Primary } else { Base::Resin })
                 .collect(),
             maps: Map::ALL.into_iter().filter(|map| run.has_map(*map)).collect(),
             extras: EXTRAS.iter().copied().filter(|extra| has(extra.quantities[0].name)).collect(),

@@ -26,7 +26,7 @@ trait Stored: H5Type + Copy {
 #[repr(u8)]
 #[allow(non_camel_case_types)]
 enum StoredStatus {
-    none = Status::None as u8,
+    none = Status::Resin as u8,
     primary = Status::Primary as u8,
     secondary = Status::Secondary as u8,
 }
@@ -42,7 +42,7 @@ impl Stored for StoredStatus {
 #[repr(u8)]
 #[allow(non_camel_case_types)]
 enum OutlinedStatus {
-    none = Status::None as u8,
+    none = Status::Resin as u8,
     primary = Status::Primary as u8,
     secondary = Status::Secondary as u8,
     absent = ABSENT,
@@ -74,7 +74,7 @@ impl Statuses {
 
     /// CF `flag_values` and `flag_meanings` of disc or pin.
     fn flags(self, on_disc: bool) -> (&'static [u8], &'static str) {
-        const VALUES: [u8; 4] = [Status::None as u8, Status::Primary as u8, Status::Secondary as u8, ABSENT];
+        const VALUES: [u8; 4] = [Status::Resin as u8, Status::Primary as u8, Status::Secondary as u8, ABSENT];
         if self.outlined && !on_disc {
             (&VALUES, "none primary secondary absent")
         } else {

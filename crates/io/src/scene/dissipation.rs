@@ -7,7 +7,7 @@ use plateau_core::model::friction::{Friction, FrictionLaw};
 use plateau_core::model::heat::{Coating, Disc, Pin, Substance, Thermal};
 use plateau_core::model::parameters::Parameters;
 
-use super::error::Problem;
+use super::error::{Origin, Problem};
 use super::settings::Settings;
 
 /// Puts the parts that a scene asks for into its parameters.
@@ -46,6 +46,16 @@ fn friction(settings: &Settings) -> Result<Friction, Problem> {
         Ok::<_, Problem>(FrictionLaw { pressure_coefficient: pressure_coefficient?, shear_strength: shear_strength? })
     };
     let primary = law("friction")?;
+    let is_given = |table: &str| {
+        ["pressure_coefficient", "shear_strength"]
+            .iter()
+            .any(|key| settings.origin(&format!("{table}.{key}")) != Origin::Default)
+    };
+    if !["friction", "friction.secondary", "friction.resin"].into_iter().any(is_given) {
+        let message = "this table gives no coefficient of friction: expected pressure_coefficient = 0.33, \
+                       shear_strength = \"0.75 MPa\" or both, for example; or leave [friction] out";
+        return Err(Problem::new(&settings.origin("friction"), "friction", message));
+    }
     let other = |table: &str| if settings.has_table(table) { law(table) } else { Ok(primary) };
     Ok(Friction {
         primary,

@@ -51,8 +51,18 @@ impl fmt::Display for Value {
             Self::Array(_) => "a list",
             Self::Table => "a table",
         };
-        write!(f, "{} is {kind}", self.text())
+        write!(f, "{} is {kind}", self.text())?;
+        match self {
+            Self::Text(text) => number_in(text).map_or(Ok(()), |number| write!(f, " (write {number} without quotes)")),
+            _ => Ok(()),
+        }
     }
+}
+
+/// The number that stands in a text, also with a decimal comma, as TOML has it.
+fn number_in(text: &str) -> Option<String> {
+    let number = text.trim().replacen(',', ".", 1);
+    number.parse::<f64>().is_ok_and(f64::is_finite).then_some(number)
 }
 
 /// Whether a key is given with this value.
@@ -99,7 +109,14 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
     let locator = Locator::new(file.clone(), text);
     let document = DeTable::parse(text).map_err(|error| {
         let origin = error.span().map_or(Origin::File(file.clone()), |span| locator.origin(span));
-        Problem::without_key(&origin, format!("this is not TOML: {}", error.message()))
+        let message = error.message();
+        // The parser points at the second of two equal keys, and does not name it.
+        let twice = error.span().filter(|_| message == "duplicate key").and_then(|span| text.get(span));
+        let message = match twice {
+            Some(key) => format!("{key} is there already in this table, further up: keep one of them"),
+            None => format!("this is not TOML: {message}"),
+        };
+        Problem::without_key(&origin, message)
     })?;
     let mut flattening = Flattening { locate: |span| locator.origin(span), entries: Entries::new(), problems };
     flattening.table(document.get_ref(), "");

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use plateau_core::observe::Map;
 use plateau_core::observe::extra::Extra;
+use plateau_core::surface::Body;
 
-use super::Scene;
+use super::{HeightSettings, Scene};
 
 /// Copies of a map that exist at once: one on its way to the writer, one that it writes; and of a field that a series is
 /// measured of, that of one worker and that of all.
@@ -18,11 +19,25 @@ const STATUS: u128 = size_of::<u8>() as u128;
 /// Bytes that a run of the scene keeps in memory at its peak: state and working arrays, and beside them the larger of
 /// the surfaces while they are made and the maps on their way to the file.
 ///
-/// Measured surfaces come on top, as large as their files.
+/// Measured surfaces come on top, as large as their files. Surfaces that are extended by statistics count as for a patch of a few
+/// rows.
 pub fn memory_estimate(scene: &Scene) -> u64 {
     let mesh = &scene.parameters.mesh;
     let counts = [mesh.rows(), mesh.disc_columns(), mesh.pin_columns()].map(|count| count as u64);
-    estimate(counts, &scene.output.maps, &scene.output.extras, scene.adaptive.is_some())
+    let run = estimate(counts, &scene.output.maps, &scene.output.extras, scene.adaptive.is_some());
+    // One body after the other, before there is a simulation.
+    let extended = |settings: &HeightSettings, body: Body| {
+        settings.preparation.extend.map_or(0, |_| field(body.columns(mesh), mesh.rows(), body == Body::Disc))
+    };
+    run.max(extended(&scene.disc_surface, Body::Disc)).max(extended(&scene.pin_surface, Body::Pin))
+}
+
+/// Bytes of the field from which heights of a body are taken that are extended by statistics: a complex number, an
+/// autocorrelation, its power and a height for every cell of the padded grid.
+fn field(columns: usize, rows: usize, closed: bool) -> u64 {
+    let padded = |cells: usize| (cells + 1).next_power_of_two() as u64;
+    let columns = if closed { columns as u64 } else { padded(columns) };
+    columns.saturating_mul(padded(rows)).saturating_mul(5 * FLOAT as u64)
 }
 
 /// As [`memory_estimate`], for a mesh of `rows`, `disc_columns` and `pin_columns` that need not exist; saturates.
@@ -105,6 +120,13 @@ mod tests {
             550 + 2 * (20 * 17 + 6 * 25) + 16 * (20 + 6 + 6 + 6 + 6)
         );
         assert_eq!(estimate([u64::MAX; 3], &maps, EXTRAS, true), u64::MAX);
+    }
+
+    #[test]
+    fn a_field_is_larger_than_its_body() {
+        // By hand: 800 rows are padded to 1024; the ring closes, the pin's 100 columns are padded to 128.
+        assert_eq!(field(13_800, 800, true), 13_800 * 1024 * 40);
+        assert_eq!(field(100, 800, false), 128 * 1024 * 40);
     }
 
     #[test]

@@ -16,6 +16,8 @@ use super::schema::{self, Key, Need};
 #[derive(Debug, Default)]
 pub(super) struct Settings {
     values: BTreeMap<String, (Setting, Origin)>,
+    /// Tables that are given and have no key.
+    tables: BTreeMap<String, Origin>,
 }
 
 impl Settings {
@@ -25,6 +27,7 @@ impl Settings {
         for (path, entry) in entries {
             let Some(key) = schema::find(path) else { continue };
             if entry.value == Value::Table && schema::is_table(path) {
+                settings.tables.insert(path.clone(), entry.origin.clone());
                 continue;
             }
             match interpret(path, key.kind, entry, scene) {
@@ -48,9 +51,10 @@ impl Settings {
         self.values.get(path).map(|(setting, _)| setting)
     }
 
-    /// Where a key was given.
+    /// Where a key was given, or an empty table.
     pub(super) fn origin(&self, path: &str) -> Origin {
-        self.values.get(path).map_or(Origin::Default, |(_, origin)| origin.clone())
+        let table = || self.tables.get(path).cloned().unwrap_or(Origin::Default);
+        self.values.get(path).map_or_else(table, |(_, origin)| origin.clone())
     }
 
     /// Where every key that has a value was given.

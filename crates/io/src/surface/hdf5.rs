@@ -244,9 +244,9 @@ pub(super) fn base(
     let name = dataset.name();
     let numbers = hdf5_file::guarded(shape.0 * shape.1 * size_of::<i64>(), || dataset.read_raw::<i64>())?;
     let base = numbers.into_iter().enumerate().map(|(cell, number)| match number {
-        0 => Ok(Base::None),
+        0 => Ok(Base::Resin),
         1 => Ok(Base::Primary),
-        _ if !is_there(cell) => Ok(Base::None),
+        _ if !is_there(cell) => Ok(Base::Resin),
         found => Err(Hdf5Error::Base { dataset: name.clone(), found, column: cell / shape.1, row: cell % shape.1 }),
     });
     let base = base.collect::<Result<_, _>>()?;

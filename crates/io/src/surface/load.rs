@@ -8,13 +8,14 @@ use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::surface::describe::HeightParameters;
 use plateau_core::surface::micrograph::{FibreMap, Micrograph};
 use plateau_core::surface::{
-    Body, HeightSynthesis, Length, Patch, RawHeights, Texture, fibre_fraction, set_back_resin,
+    Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture, fibre_fraction, set_back_resin,
 };
 
 use super::error::{FileError, SurfaceError};
 use super::format::Format;
 use super::measured::{detect, read};
 use super::options::ReadOptions;
+use super::stylus_profile::{Lay, ProfileError};
 use super::{hdf5, image};
 use crate::regular::sha256;
 use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
@@ -99,9 +100,12 @@ fn source_name(source: &HeightSource) -> String {
     }
 }
 
-/// Whether heights come from a file that is taken as a profile.
-fn takes_as_profile(source: &HeightSource) -> bool {
-    matches!(source, HeightSource::File { options, .. } if options.profile_lay.is_some())
+/// The lay of heights that come from a file that is taken as a profile.
+fn profile_lay(source: &HeightSource) -> Option<Lay> {
+    match source {
+        HeightSource::File { options, .. } => options.profile_lay,
+        _ => None,
+    }
 }
 
 impl<'a> Loader<'a> {
@@ -138,7 +142,11 @@ impl<'a> Loader<'a> {
                 (RawHeights::OnMesh(heights), false)
             }
             HeightSource::File { path, options } => {
-                let pixel = settings.preparation.pixel;
+                let Preparation { pixel, extend, .. } = settings.preparation;
+                if options.profile_lay == Some(Lay::Isotropic) && extend.is_none() {
+                    let reason = ProfileError::Isotropic.into();
+                    return Err(SurfaceError::File { key: surface, path: path.clone(), reason });
+                }
                 let (raw, instrument) = self
                     .file_heights(path, options, body, pixel)
                     .map_err(|reason| SurfaceError::File { key: surface, path: path.clone(), reason })?;
@@ -146,9 +154,13 @@ impl<'a> Loader<'a> {
             }
         };
         let mut preparation = settings.preparation;
-        if takes_as_profile(&settings.source) {
+        let lay = profile_lay(&settings.source);
+        if lay.is_some() {
             // It has been taken into the profile, which has a pitch in one direction only.
             preparation.pixel = None;
+        }
+        if let (Some(Lay::Isotropic), Some(Extension::Statistics { seed })) = (lay, preparation.extend) {
+            preparation.extend = Some(Extension::Isotropic { seed });
         }
         let prepared = preparation.apply(raw, settings.mirror, body, self.mesh).map_err(|reason| {
             SurfaceError::Preparation { key: prepare, source_name: source_name(&settings.source), reason }
@@ -192,7 +204,7 @@ impl<'a> Loader<'a> {
         if let Some(profile) = measured.stylus_profile(pixel)? {
             let pitch = Length(profile.pitch);
             self.report.push(format!("{surface}: {}, points {pitch} apart", profile.describe()));
-            return Ok((RawHeights::Patch(profile.into_patch(body, self.mesh)?), instrument));
+            return Ok((RawHeights::Patch(profile.into_patch(body, self.mesh)), instrument));
         }
         let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
         let raw = match pitch {

@@ -41,36 +41,29 @@ pub enum ProfileError {
     /// Nothing says the pitch.
     #[error("the file does not say the distance of its points: pitch = \"0.5 um\" beside file does, for example")]
     NoPitch,
-    /// The surface cannot be made.
+    /// Nothing says how the surface is made of the profile.
     #[error(
-        "profile_lay = \"isotropic\" asks for a surface with the statistics of the profile in every direction, which this \
-         version does not make: say \"along\" or \"across\" for grooves, or use synthetic heights with the rms height and the \
-         correlation length of the profile"
+        "profile_lay = \"isotropic\" asks for random heights with the statistics of the profile in every direction: \
+         extend = \"statistics\" in the prepare table of the same body makes them"
     )]
     Isotropic,
 }
 
 impl StylusProfile {
     /// The surface of grooves that the profile stands for, with the size that `body` needs along the grooves: one column
-    /// as long as the body, or one row as wide as the track.
+    /// as long as the body, or one row as wide as the track. Across the grooves it is as long as the profile.
     ///
-    /// Across the grooves it is as long as the profile.
-    ///
-    /// # Errors
-    /// [`ProfileError`] for a profile without grooves.
-    pub fn into_patch(self, body: Body, mesh: &Mesh) -> Result<Patch, ProfileError> {
+    /// Without grooves it is the profile itself, in one row as wide as its pitch.
+    pub fn into_patch(self, body: Body, mesh: &Mesh) -> Patch {
         let Self { pitch, heights, lay } = self;
         let points = heights.len();
-        match lay {
-            Lay::Along => {
-                Ok(Patch { columns: 1, rows: points, column_pitch: body.length(mesh), row_pitch: pitch, heights })
-            }
-            Lay::Across => {
-                let width = mesh.rows() as f64 * mesh.row_height();
-                Ok(Patch { columns: points, rows: 1, column_pitch: pitch, row_pitch: width, heights })
-            }
-            Lay::Isotropic => Err(ProfileError::Isotropic),
-        }
+        let row = |row_pitch: f64| (points, 1, pitch, row_pitch);
+        let (columns, rows, column_pitch, row_pitch) = match lay {
+            Lay::Along => (1, points, body.length(mesh), pitch),
+            Lay::Across => row(mesh.rows() as f64 * mesh.row_height()),
+            Lay::Isotropic => row(pitch),
+        };
+        Patch { columns, rows, column_pitch, row_pitch, heights }
     }
 
     /// What becomes of the profile, in words.

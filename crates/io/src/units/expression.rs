@@ -47,6 +47,7 @@ const PLAIN: &[(&str, Scale)] = &[
     ("deg", unit([0, 0, 0, 1, 0], 0, PI, 180.0)),
     ("rev", unit([0, 0, 0, 1, 0], 0, TAU, 1.0)),
     ("rpm", unit([0, 0, -1, 1, 0], 0, TAU, 60.0)),
+    ("RPM", unit([0, 0, -1, 1, 0], 0, TAU, 60.0)),
     // Tribology writes "mm^3/Nm" and means mm³/(N·m).
     ("Nm", unit([2, 1, -2, 0, 0], 0, 1.0, 1.0)),
     ("1", Scale::ONE),

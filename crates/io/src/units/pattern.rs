@@ -93,7 +93,7 @@ impl Units {
             Dimension::Pressure => pressure.clone(),
             Dimension::Time => time.clone(),
             Dimension::Speed => format!("{length}{OVER}{time}"),
-            Dimension::RotationalSpeed => format!("rpm|(rad|rev|deg){OVER}{time}"),
+            Dimension::RotationalSpeed => format!("rpm|RPM|(rad|rev|deg){OVER}{time}"),
             Dimension::Angle => "deg|rad|rev".to_owned(),
             Dimension::Area => format!("{length}{SQUARED}"),
             Dimension::Temperature => "K".to_owned(),

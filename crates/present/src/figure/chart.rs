@@ -10,9 +10,9 @@ use super::font::{shortened, text_width};
 use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
 use crate::colour::{INK, RUNS, paler};
 
-/// Width of a figure of one column and of two columns of a journal, pixels: 85 mm and 175 mm.
-pub const COLUMN: f64 = 1360.0;
-pub const TWO_COLUMNS: f64 = 2800.0;
+/// Width of a figure of one column and of two columns of a journal, pixels: 88 mm and 180 mm.
+pub const COLUMN: f64 = 1056.0;
+pub const TWO_COLUMNS: f64 = 2160.0;
 /// Room round the page, pixels.
 pub const MARGIN: f64 = 24.0;
 /// Room between boxes, pixels.

@@ -50,7 +50,7 @@ pub fn figure(mesh: &Mesh, base: &[Base], micrograph: Option<Micrograph>) -> Fig
     let within = |x: f64, y: f64| plane.cell(x, y).filter(|cell| mesh.is_present(*cell));
     let cell = |x: f64, y: f64| match within(x, y).and_then(|cell| base.get(cell)) {
         Some(Base::Primary) => FIBROUS,
-        Some(Base::None) => RESINOUS,
+        Some(Base::Resin) => RESINOUS,
         None => NOTHING,
     };
     let mut pictures = Vec::new();
@@ -146,7 +146,7 @@ mod tests {
         // Square cells of 100 µm, a pin of 3 mm by 2 mm; fibre right of the middle, and a bar along the top of the picture.
         let mesh = Mesh::new(20, 1382, 30, 21e-3, 23e-3).unwrap();
         let fibre = |x: usize, line: usize| x >= 80 || line < 30;
-        let base: Vec<Base> = (0..600).map(|cell| if cell / 20 >= 15 { Base::Primary } else { Base::None }).collect();
+        let base: Vec<Base> = (0..600).map(|cell| if cell / 20 >= 15 { Base::Primary } else { Base::Resin }).collect();
         let grey = pixels(|x, line| if fibre(x, line) { 200.0 / 255.0 } else { 50.0 / 255.0 });
         let map = FibreMap { base: base.clone(), grey, fibre: pixels(fibre), report: Vec::new() };
         let figure = figure(&mesh, &base, Some(Micrograph { map: &map, pixel: 20e-6 }));

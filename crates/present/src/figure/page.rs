@@ -12,8 +12,8 @@ use super::picture::Picture;
 use super::simplify::simplified;
 use crate::colour::GROUND;
 
-/// Pixels of a millimetre on paper: letters are of 6 points then.
-pub const PER_MILLIMETRE: f64 = 16.0;
+/// Pixels of a millimetre on paper: letters are of 8 points then.
+pub const PER_MILLIMETRE: f64 = 12.0;
 
 /// A page; lengths and places in pixels.
 #[derive(Debug, Clone, PartialEq, Default)]

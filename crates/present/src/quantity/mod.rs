@@ -227,7 +227,7 @@ pub struct StatusLook {
 
 /// The statuses, by their numbers.
 pub const STATUS_LOOKS: [StatusLook; 3] = [
-    StatusLook { status: Status::None, name: "none", made_of: "resin", colour: STATUSES[0] },
+    StatusLook { status: Status::Resin, name: "none", made_of: "resin", colour: STATUSES[0] },
     StatusLook { status: Status::Primary, name: "primary plateau", made_of: "fibre, or coating", colour: STATUSES[1] },
     StatusLook {
         status: Status::Secondary,

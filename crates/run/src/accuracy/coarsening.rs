@@ -97,7 +97,7 @@ impl Coarsening {
             let sums = self.integrals(&self.pin_columns, |cell| if is_it(cell) { heights[cell] } else { 0.0 });
             (sums, self.integrals(&self.pin_columns, |cell| f64::from(u8::from(is_it(cell)))))
         };
-        let (fibre, resin) = (of(Base::Primary), of(Base::None));
+        let (fibre, resin) = (of(Base::Primary), of(Base::Resin));
         let height = |(cell, base): (usize, &Base)| {
             let (sums, parts) = if base.is_resin() { &resin } else { &fibre };
             match parts[cell] {
@@ -142,7 +142,7 @@ fn coarse_base(fibre: &[f64], whole: &[f64]) -> Vec<Base> {
     let rank = |cell: usize| ((1.0 - part(cell)) * 1e9).round() + spread(cell);
     cells.sort_by(|one, other| rank(*one).total_cmp(&rank(*other)));
     let mut left: f64 = fibre.iter().sum();
-    let mut base = vec![Base::None; fibre.len()];
+    let mut base = vec![Base::Resin; fibre.len()];
     for cell in cells.into_iter().filter(|cell| fibre[*cell] > 0.0) {
         if left < 0.5 * whole[cell] {
             break;
@@ -198,7 +198,7 @@ mod tests {
         let mesh = Mesh::new(6, 48, 13, 20e-3, 24e-3).unwrap();
         let height = |cell: usize| (cell * 7919 % 101) as f64 * 1e-8;
         // Every third column is fibre.
-        let base = |cell: usize| if (cell / 6).is_multiple_of(3) { Base::Primary } else { Base::None };
+        let base = |cell: usize| if (cell / 6).is_multiple_of(3) { Base::Primary } else { Base::Resin };
         let surfaces = InitialSurfaces {
             disc_height: (0..6 * 48).map(height).collect(),
             pin_height: (0..6 * 13).map(|cell| if base(cell).is_resin() { 8e-6 } else { -1e-6 }).collect(),
@@ -264,7 +264,7 @@ mod tests {
         };
         let heights: Vec<f64> = (0..mesh.pin_cells()).map(|cell| of(cell, -1e-6, 8e-6)).collect();
         let base: Vec<Base> = (0..mesh.pin_cells())
-            .map(|cell| if of(cell, 1.0, 0.0) == 1.0 { Base::Primary } else { Base::None })
+            .map(|cell| if of(cell, 1.0, 0.0) == 1.0 { Base::Primary } else { Base::Resin })
             .collect();
         for factor in [2, 4, 8] {
             let coarsening = Coarsening::new(&mesh, &base, factor).unwrap().unwrap();
@@ -285,7 +285,7 @@ mod tests {
     #[test]
     fn one_row_stays_one_row() {
         let mesh = Mesh::new(1, 64, 16, 20e-3, 24e-3).unwrap();
-        let coarse = Coarsening::new(&mesh, &[Base::None; 16], 2).unwrap().unwrap();
+        let coarse = Coarsening::new(&mesh, &[Base::Resin; 16], 2).unwrap().unwrap();
         assert_eq!([coarse.mesh.rows(), coarse.mesh.disc_columns(), coarse.mesh.pin_columns()], [1, 32, 8]);
         assert_eq!(coarse.disc(&[2e-6; 64]), [2e-6; 32]);
     }

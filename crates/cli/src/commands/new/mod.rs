@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use plateau_core::surface::Length;
+use plateau_core::surface::{Extension, Length};
 use plateau_io::scene;
 use plateau_io::surface::{self, Measured, ReadOptions};
 
@@ -15,9 +15,8 @@ use crate::table::print;
 /// The scene with places for what is the user's.
 const SCENE: &str = include_str!("scene.toml");
 
-/// The cell size of that scene, m, and how many cells a patch needs for its statistics to show.
-const CELL: f64 = 50e-6;
-const FEWEST_CELLS: f64 = 8.0;
+/// The cell size of that scene, um.
+const CELL: f64 = 50.0;
 
 /// The disc of who has not measured one.
 const SYNTHETIC: &str = r#"synthetic = { seed = 1, rms_height = "3 um", correlation_length = "120 um" }     # <- or file = "surface.x3p"
@@ -62,6 +61,10 @@ fn text(arguments: &NewArguments) -> Result<String, Failure> {
     let name = scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let run = format!("{stem}.h5");
     let places = [
+        (
+            "{cell_size}",
+            line("cell_size", &format!("{CELL} um"), "local debris goes one cell far: keep it to compare runs"),
+        ),
         ("{title}", line("title", &stem, "<-")),
         ("{mesh}", mesh.join("\n")),
         ("{operation}", operation.join("\n")),
@@ -88,6 +91,7 @@ fn measured(scene: &Path, disc: &Path) -> Result<String, Failure> {
     let path = std::path::absolute(disc).map_err(|reason| named(&reason))?;
     let path = folder.and_then(|folder| path.strip_prefix(folder).ok().map(Path::to_owned)).unwrap_or(path);
     let path = path.to_str().ok_or_else(|| named(&"its path is not UTF-8, as a scene is: rename it"))?;
+    let cell = format!("{CELL} um");
     let mut lines = vec![line("file", path, "<-")];
     if pitch.is_none() {
         lines.push(line("pitch", "1 um", "<- the file does not say how far its points are apart"));
@@ -95,9 +99,10 @@ fn measured(scene: &Path, disc: &Path) -> Result<String, Failure> {
     lines.extend([String::new(), "[disc.prepare]".to_owned()]);
     lines.push(line("level", "plane", "form that is taken out: mean, plane, quadratic"));
     let least = pitch.map_or(f64::INFINITY, |[x, y]| (columns as f64 * x).min(rows as f64 * y));
-    if least < FEWEST_CELLS * CELL {
-        let remark = format!("<- the patch is {} wide, less than eight cells: read it as larger,", Length(least));
-        lines.push(line("pixel", "50 um", &remark));
+    let fewest = Extension::FEWEST_CELLS;
+    if least < fewest as f64 * CELL * 1e-6 {
+        let remark = format!("<- the patch is {} wide, less than {fewest} cells: read it as larger,", Length(least));
+        lines.push(line("pixel", &cell, &remark));
         lines.push(format!("{:40}# or leave this out and take smaller cells", ""));
     }
     if heights.iter().any(|height| height.is_nan()) {

@@ -3,8 +3,10 @@
 //! The patch is averaged over cells of the mesh's size. From these heights come the distribution (the Abbott-Firestone curve,
 //! [`quantiles`]) and the areal power spectrum, with which the autocorrelation and all anisotropy ([`spectrum`]). A Gaussian
 //! field g is made with the autocorrelation that becomes that of the patch when its heights are given the patch's
-//! distribution, z = T(g) (Grigoriu 1984, see [`translation`](super::synthesis::translation)).
+//! distribution, z = T(g) (Grigoriu 1984, see [`translation`](super::synthesis::translation)). From a profile they come as
+//! those of a surface without a direction ([`line`]).
 
+mod line;
 mod quantiles;
 mod reach;
 mod spectrum;
@@ -19,6 +21,7 @@ use super::synthesis::translation::Translation;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 use crate::surface::fft::Complex;
+use line::Line;
 use quantiles::Quantiles;
 use reach::Reach;
 use spectrum::Spectrum;
@@ -31,10 +34,28 @@ pub enum Extension {
         /// Seed of the random stream.
         seed: u64,
     },
+    /// Random heights with the statistics of a profile in every direction; the patch is the profile, in one row.
+    Isotropic {
+        /// Seed of the random stream.
+        seed: u64,
+    },
 }
 
-/// Fewest cells in either direction of which statistics are taken.
-const FEWEST_CELLS: usize = 4;
+impl Extension {
+    /// Fewest cells in either direction of which statistics are taken.
+    pub const FEWEST_CELLS: usize = 4;
+}
+
+/// What random heights are made from.
+struct Statistics {
+    /// The grid of the field.
+    grid: Grid,
+    /// Autocorrelation at every lag of the grid, column by column.
+    correlation: Vec<f64>,
+    /// Distribution of the heights.
+    quantiles: Quantiles,
+}
+
 /// Share of the mean square height below which a plane is not worth a word.
 const SLIGHT: f64 = 1e-6;
 
@@ -46,7 +67,7 @@ const SLIGHT: f64 = 1e-6;
 pub(super) fn extend(
     mut patch: Patch,
     levelled: Level,
-    Extension::Statistics { seed }: Extension,
+    extension: Extension,
     body: Body,
     mesh: &Mesh,
     report: &mut Vec<String>,
@@ -54,13 +75,36 @@ pub(super) fn extend(
     if matches!(levelled, Level::None | Level::Mean) {
         take_out_plane(&mut patch, report);
     }
-    let grid = grid(&patch, body, mesh)?;
-    let cells = cell_averages(&patch, mesh);
-    let count = body.columns(mesh) * mesh.rows();
+    let (Extension::Statistics { seed } | Extension::Isotropic { seed }) = extension;
+    let statistics = match extension {
+        Extension::Statistics { .. } => statistics_of_patch(&patch, seed, body, mesh, report)?,
+        Extension::Isotropic { .. } => statistics_of_line(&patch, seed, body, mesh, report)?,
+    };
+    let Some(Statistics { grid, correlation, quantiles }) = statistics else {
+        report.push("extend: all heights of the patch are equal".to_owned());
+        return Ok(vec![mean(&patch.heights); body.columns(mesh) * mesh.rows()]);
+    };
+    let mut plane = Plane::new(&grid);
+    let power =
+        gaussian_power(correlation, &Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0), &mut plane);
+    let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
+    let field = planar::field(&grid, power, None, &mut Random::new(seed, stream));
+    Ok(quantiles.by_rank(&field))
+}
+
+/// Those of a patch; none if its cells are equal.
+fn statistics_of_patch(
+    patch: &Patch,
+    seed: u64,
+    body: Body,
+    mesh: &Mesh,
+    report: &mut Vec<String>,
+) -> Result<Option<Statistics>, PreparationError> {
+    let grid = grid(patch, body, mesh)?;
+    let cells = cell_averages(patch, mesh);
     let quantiles = Quantiles::of(&cells.heights);
     if quantiles.are_equal() {
-        report.push("extend: all heights of the patch are equal".to_owned());
-        return Ok(vec![quantiles.at(0.5); count]);
+        return Ok(None);
     }
     let spectrum = Spectrum::of(&cells, &grid);
     report.push(format!(
@@ -72,15 +116,44 @@ pub(super) fn extend(
         cells.rows,
         100.0 * spectrum.long_waves
     ));
-    let Spectrum { power, .. } = spectrum;
-    let mut plane = Plane::new(&grid);
-    let correlation = autocorrelation(power, &mut plane);
-    report.extend(Reach::of(&correlation, &grid, &cells).warnings(&patch, body, mesh));
-    let power =
-        gaussian_power(correlation, &Translation::of(|x| quantiles.normal(x), QUADRATURE_STEP, 0.0), &mut plane);
-    let stream = if body == Body::Disc { Stream::DiscExtension } else { Stream::PinExtension };
-    let field = planar::field(&grid, power, None, &mut Random::new(seed, stream));
-    Ok(quantiles.by_rank(&field))
+    let correlation = autocorrelation(spectrum.power, &mut Plane::new(&grid));
+    report.extend(Reach::of(&correlation, &grid, &cells).warnings(patch, body, mesh));
+    Ok(Some(Statistics { grid, correlation, quantiles }))
+}
+
+/// Those of a surface without a direction, of which the patch is a profile; none if its points are equal.
+fn statistics_of_line(
+    patch: &Patch,
+    seed: u64,
+    body: Body,
+    mesh: &Mesh,
+    report: &mut Vec<String>,
+) -> Result<Option<Statistics>, PreparationError> {
+    let cell = [mesh.column_width(), mesh.row_height()];
+    let cells = cell.map(|cell| (patch.length() / cell) as usize);
+    if cells.iter().any(|count| *count < Extension::FEWEST_CELLS) {
+        return Err(PreparationError::FewCells { cells, least: Extension::FEWEST_CELLS });
+    }
+    if patch.heights.iter().all(|height| *height == patch.heights[0]) {
+        return Ok(None);
+    }
+    let line = Line::of(patch);
+    let grid = Grid::new(body, mesh, [line.reach(); 2], 1);
+    if grid.is_too_large() {
+        return Err(PreparationError::LargeField { cells, field: [grid.padded_columns, grid.padded_rows] });
+    }
+    let (correlation, variance) = line.correlation(&grid);
+    let quantiles = Quantiles::of(&line.cell_heights(cell[0], variance));
+    report.push(format!(
+        "extend: heights without a direction with the statistics of the profile of {}, averaged over cells of {} by {}, seed \
+         {seed}; heights are related over {}",
+        Length(patch.length()),
+        Length(cell[0]),
+        Length(cell[1]),
+        Length(line.reach())
+    ));
+    report.extend(line.warning());
+    Ok(Some(Statistics { grid, correlation, quantiles }))
 }
 
 /// Step of the quadrature of the distribution, whose density is not smooth: its error falls as the square of the step.
@@ -100,8 +173,8 @@ fn take_out_plane(patch: &mut Patch, report: &mut Vec<String>) {
 /// The grid of the field: so large that opposite edges of the body are further apart than any two cells of the patch.
 fn grid(patch: &Patch, body: Body, mesh: &Mesh) -> Result<Grid, PreparationError> {
     let cells = whole_cells(patch, mesh);
-    if cells.iter().any(|count| *count < FEWEST_CELLS) {
-        return Err(PreparationError::FewCells { cells, least: FEWEST_CELLS });
+    if cells.iter().any(|count| *count < Extension::FEWEST_CELLS) {
+        return Err(PreparationError::FewCells { cells, least: Extension::FEWEST_CELLS });
     }
     // Beyond these the padding could not be counted.
     let large = |field: [usize; 2]| PreparationError::LargeField { cells, field };

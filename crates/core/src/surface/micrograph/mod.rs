@@ -147,7 +147,8 @@ impl Micrograph {
         let fractions = cells::fractions(&fibre, self.pixel, mesh)?;
         let covered: f64 = fractions.iter().zip(mesh.pin_areas()).map(|(fraction, area)| fraction * area).sum();
         report.push(format!("fibre fraction of the picture on the pin {:.4}", covered / mesh.pin_area()));
-        let base = fractions.iter().map(|fraction| if *fraction >= 0.5 { Base::Primary } else { Base::None }).collect();
+        let base =
+            fractions.iter().map(|fraction| if *fraction >= 0.5 { Base::Primary } else { Base::Resin }).collect();
         Ok(FibreMap { base, grey, fibre, report })
     }
 

@@ -39,15 +39,15 @@ fn the_picture_lies_with_its_top_outward_and_its_right_in_sliding_direction() {
     // The bar covers y > 30 · 20 µm.
     for (x, y, base) in [
         (0.5e-3, -0.5e-3, Base::Primary),
-        (-0.5e-3, -0.5e-3, Base::None),
+        (-0.5e-3, -0.5e-3, Base::Resin),
         (-0.5e-3, 0.8e-3, Base::Primary),
-        (-0.5e-3, 0.4e-3, Base::None),
+        (-0.5e-3, 0.4e-3, Base::Resin),
     ] {
         assert_eq!(at(&map, x, y), base, "{x} {y}");
     }
     // A quarter turn counterclockwise puts what was right on top.
     let turned = Micrograph { quarters: 1, pixel: 30e-6, ..settings() }.fibre_map(picture(), &mesh()).unwrap();
-    assert_eq!((at(&turned, 0.5e-3, 0.5e-3), at(&turned, 0.5e-3, -0.5e-3)), (Base::Primary, Base::None));
+    assert_eq!((at(&turned, 0.5e-3, 0.5e-3), at(&turned, 0.5e-3, -0.5e-3)), (Base::Primary, Base::Resin));
     assert_eq!(turned.report[0], "turned counterclockwise by 90 deg");
     let dark = Micrograph { fibres: Fibres::Dark, ..settings() }.fibre_map(picture(), &mesh()).unwrap();
     assert!(dark.base.iter().zip(&map.base).all(|(a, b)| a != b));

@@ -40,7 +40,7 @@ pub(crate) const ROTATE: Choices<u8, 4> = [("0 deg", 0), ("90 deg", 1), ("180 de
 /// `pin.base.fibres`.
 pub(crate) const FIBRES: Choices<Fibres, 2> = [("bright", Fibres::Bright), ("dark", Fibres::Dark)];
 /// `pin.base.uniform`.
-pub(crate) const UNIFORM: Choices<Base, 2> = [("primary", Base::Primary), ("none", Base::None)];
+pub(crate) const UNIFORM: Choices<Base, 2> = [("primary", Base::Primary), ("none", Base::Resin)];
 
 /// `mesh.shape`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

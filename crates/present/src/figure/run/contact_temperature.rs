@@ -48,7 +48,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let mut blocks = Vec::new();
     let mut has_none = false;
     for together in shown.chunks(MOST_ACROSS) {
-        let rows = rows(together, Shape::Unrolled, false, moments_of, |subject, index| {
+        let rows = rows(together, Shape::of_pin, false, moments_of, |subject, index| {
             let temperatures = floats(subject.run, Map::Temperature, index)?;
             let colour = |temperature: &f64| match *temperature {
                 temperature if temperature.is_finite() => colour_index(scale.part(look.unit.value(temperature))),

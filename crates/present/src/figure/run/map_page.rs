@@ -45,6 +45,14 @@ pub struct MapSection<'a> {
     pub cells: Vec<u8>,
 }
 
+/// Where a map lies on its page.
+struct Placed {
+    /// The lower right corner of its last box.
+    box_end: [f64; 2],
+    /// Where its text ends, from the top of the page.
+    end: f64,
+}
+
 /// Maps that share a colour scale, in rows; a place may be empty.
 #[derive(Debug, Clone, Default)]
 pub struct MapGroup<'a> {
@@ -97,20 +105,21 @@ pub fn page(meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
 impl MapGroup<'_> {
     /// Puts the maps on the page, this far from its top and so wide; gives the place below.
     fn place(&self, page: &mut Page, begin: f64, width: f64) -> f64 {
-        let (mut top, mut last_box) = (begin, begin);
+        let (mut top, mut last_box, mut right) = (begin, begin, MARGIN);
         for row in &self.rows {
             let each = width / row.len().max(1) as f64;
             let mut lowest = top;
             for (column, section) in row.iter().enumerate() {
                 let Some(section) = section else { continue };
                 let origin = [MARGIN + column as f64 * each, top];
-                let (box_end, end) = section.place(page, origin, each - BETWEEN, &self.palette);
-                (lowest, last_box) = (lowest.max(end), last_box.max(box_end));
+                let placed = section.place(page, origin, each - BETWEEN, &self.palette);
+                (lowest, last_box) = (lowest.max(placed.end), last_box.max(placed.box_end[1]));
+                right = right.max(placed.box_end[0]);
             }
             top = lowest;
         }
         if let Some(axis) = &self.scale {
-            let left = MARGIN + width + BESIDE - BETWEEN;
+            let left = right.round() + BESIDE;
             // Room for the points at its ends.
             let titles =
                 self.rows.iter().flatten().flatten().map(|section| if section.remark.is_empty() { 1.0 } else { 2.0 });
@@ -125,8 +134,8 @@ impl MapGroup<'_> {
 }
 
 impl MapSection<'_> {
-    /// Puts the map on the page with its upper left corner there; gives where its last box and where its text ends.
-    fn place(&self, page: &mut Page, [left, top]: [f64; 2], width: f64, palette: &[RGBColor]) -> (f64, f64) {
+    /// Puts the map on the page with its upper left corner there.
+    fn place(&self, page: &mut Page, [left, top]: [f64; 2], width: f64, palette: &[RGBColor]) -> Placed {
         let columns = self.cells.len() / self.mesh.rows();
         let y_range = self.shape.y_range(self.mesh);
         let y = Axis::linear(y_range.clone(), self.shape.y_label());
@@ -145,12 +154,13 @@ impl MapSection<'_> {
         y_top = (y_top + 8.0).round();
         let first = y_top;
         let last = windows.len() - 1;
-        let mut bottom = y_top;
+        let mut box_end = [begin, y_top];
         for (number, window) in windows.into_iter().enumerate() {
             let height = height(&window, inner);
             // A body that is taller than wide stays in proportion.
             let wide = inner.min(inner / proportion(&window)).max(LEAST_HEIGHT).round();
             let frame = Frame { x: [begin.round(), begin.round() + wide], y: [y_top, y_top + height] };
+            let frame_end = frame.x[1];
             let label = if number == last { self.shape.x_label() } else { String::new() };
             let x = Axis::linear(window.x.clone(), label);
             let y = Axis { label: String::new(), ..y.clone() };
@@ -158,12 +168,12 @@ impl MapSection<'_> {
                 self.shape.picture(self.mesh, &window, &self.cells, palette, [wide as usize, height as usize]);
             let below = x.room_below();
             page.panels.push(Panel { axes: Axes { frame, x, y }, contents: vec![Content::Map(picture)] });
-            bottom = y_top + height;
-            y_top = bottom + below + BELOW;
+            box_end = [box_end[0].max(frame_end), y_top + height];
+            y_top = box_end[1] + below + BELOW;
         }
         let beside = left + 1.1 * f64::from(TEXT);
-        page.write(self.shape.y_label(), (beside, 0.5 * (first + bottom)), Anchor::Upward, TEXT);
-        (bottom, y_top)
+        page.write(self.shape.y_label(), (beside, 0.5 * (first + box_end[1])), Anchor::Upward, TEXT);
+        Placed { box_end, end: y_top }
     }
 }
 
@@ -204,10 +214,10 @@ pub struct Painted {
 }
 
 /// Rows of maps. The moments of a single run stand below each other if they are `wide`, else beside each other; those of
-/// several runs stand below each other, the runs beside each other. `paint` gives the map of a run at a moment.
+/// several runs stand below each other, the runs beside each other. `shape` tells how a body on a mesh is shown, `paint` gives the map of a run at a moment.
 pub fn rows<'a>(
     subjects: &[&'a Subject<'a>],
-    shape: Shape,
+    shape: impl Fn(&Mesh) -> Shape,
     wide: bool,
     moments: impl Fn(&Subject) -> Vec<usize>,
     mut paint: impl FnMut(&Subject, usize) -> Result<Option<Painted>, ReadError>,
@@ -216,8 +226,9 @@ pub fn rows<'a>(
     for subject in subjects {
         let mut column = Vec::new();
         for moment in moments(subject) {
+            let mesh = subject.run.mesh();
             let section =
-                |Painted { title, remark, cells }| MapSection { title, remark, mesh: subject.run.mesh(), shape, cells };
+                |Painted { title, remark, cells }| MapSection { title, remark, mesh, shape: shape(mesh), cells };
             column.push(paint(subject, moment)?.map(section));
         }
         columns.push(column);

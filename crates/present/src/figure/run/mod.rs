@@ -6,6 +6,7 @@
 //! |---|---|
 //! | heights of disc and pin | [`topography`] |
 //! | status of their cells | [`status`] |
+//! | thickness of what has built up on them | [`build_up`] |
 //! | contact pressure on the pin | [`pressure`] |
 //! | temperature of the pin's cells, of runs that record it | [`contact_temperature`] |
 //! | contact area against time | [`contact_area`] |
@@ -22,6 +23,7 @@
 //! shown in [`moments`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
 //! [`rates`], names of runs in [`mod@crate::label`].
 
+mod build_up;
 mod contact_area;
 mod contact_temperature;
 mod debris;
@@ -56,12 +58,45 @@ use shape::Shape;
 /// More runs make no legible figure, and have no colours of their own.
 pub const MOST_RUNS: usize = crate::colour::RUNS.len();
 
-/// How figures are to look.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// How figures are to look, and which of them are drawn.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Options {
     /// The ring as a ring, instead of unrolled.
     pub polar: bool,
+    /// Names of the figures that are drawn; all if there are none.
+    pub only: Vec<String>,
 }
+
+/// Adds a figure, if the runs have what it shows.
+type Add = fn(&[Subject], &Options, &mut Figures) -> Result<(), ReadError>;
+
+/// Every figure with its name, in their order.
+const FIGURES: [(&str, Add); 13] = [
+    ("topography", topography::add),
+    ("status", status::add),
+    ("build-up", build_up::add),
+    ("pressure", |subjects, _, figures| pressure::add(subjects, figures)),
+    ("contact-temperature", |subjects, _, figures| contact_temperature::add(subjects, figures)),
+    ("contact-area", |subjects, _, figures| contact_area::add(subjects, figures)),
+    ("friction", |subjects, _, figures| friction::add(subjects, figures)),
+    ("temperature", |subjects, _, figures| temperature::add(subjects, figures)),
+    ("filled", |subjects, _, figures| filled::add(subjects, figures)),
+    ("plateau-sizes", |subjects, _, figures| plateau_sizes::add(subjects, figures)),
+    ("debris", |subjects, _, figures| debris::add(subjects, figures)),
+    ("emission", |subjects, _, figures| emission::add(subjects, figures)),
+    ("heights", |subjects, _, figures| heights::add(subjects, figures)),
+];
+
+/// Names of all figures of runs, in their order.
+pub const NAMES: [&str; FIGURES.len()] = {
+    let mut names = [""; FIGURES.len()];
+    let mut figure = 0;
+    while figure < names.len() {
+        names[figure] = FIGURES[figure].0;
+        figure += 1;
+    }
+    names
+};
 
 impl Options {
     /// How the disc is shown.
@@ -102,7 +137,7 @@ struct Subject<'a> {
     label: String,
 }
 
-/// The figures of runs. What a run did not record is left out.
+/// The figures of runs, in the order of [`NAMES`]. What a run did not record is left out.
 ///
 /// # Errors
 /// [`ReadError`] when a file turns out to be damaged.
@@ -110,18 +145,10 @@ pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError
     let labels = labels(runs);
     let subjects: Vec<Subject> = runs.iter().zip(labels).map(|(run, label)| Subject { run, label }).collect();
     let mut figures = Figures::default();
-    topography::add(&subjects, options, &mut figures)?;
-    status::add(&subjects, options, &mut figures)?;
-    pressure::add(&subjects, &mut figures)?;
-    contact_temperature::add(&subjects, &mut figures)?;
-    contact_area::add(&subjects, &mut figures)?;
-    friction::add(&subjects, &mut figures)?;
-    temperature::add(&subjects, &mut figures)?;
-    filled::add(&subjects, &mut figures)?;
-    plateau_sizes::add(&subjects, &mut figures)?;
-    debris::add(&subjects, &mut figures)?;
-    emission::add(&subjects, &mut figures)?;
-    heights::add(&subjects, &mut figures)?;
+    let is_asked_for = |name: &str| options.only.is_empty() || options.only.iter().any(|only| only == name);
+    for (_, add) in FIGURES.iter().filter(|(name, _)| is_asked_for(name)) {
+        add(&subjects, options, &mut figures)?;
+    }
     Ok(figures)
 }
 

@@ -40,7 +40,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
-        let rows = rows(together, Shape::Unrolled, false, moments, |subject, index| {
+        let rows = rows(together, Shape::of_pin, false, moments, |subject, index| {
             let pressures = floats(subject.run, Map::Pressure, index)?;
             let look = MapLook::of(Map::Pressure);
             let colour = |pressure: &f64| match *pressure {

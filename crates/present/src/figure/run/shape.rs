@@ -1,4 +1,4 @@
-//! How the cells of a body are laid out on paper: unrolled, in windows below each other, or as the ring is.
+//! How the cells of a body are laid out on paper: unrolled, in windows below each other, as the ring is, or as a round pin is.
 
 use std::f64::consts::TAU;
 use std::ops::{Range, RangeInclusive};
@@ -21,6 +21,8 @@ pub enum Shape {
     Unrolled,
     /// From above; column 0 on the right, columns counted to the left round the middle.
     Polar,
+    /// Arc length at the radius of each row, from the middle of the pin, against radius: a round pin is round.
+    Arcs,
 }
 
 /// A part of a body.
@@ -33,18 +35,24 @@ pub struct Window {
 }
 
 impl Shape {
+    /// How the pin is shown.
+    pub fn of_pin(mesh: &Mesh) -> Self {
+        if mesh.is_rectangle() { Self::Unrolled } else { Self::Arcs }
+    }
+
     /// What the axis below measures.
     pub fn x_label(self) -> String {
         match self {
             Self::Unrolled => "arc length at the mean radius, mm".to_owned(),
             Self::Polar => "x, mm".to_owned(),
+            Self::Arcs => "arc length from the middle, mm".to_owned(),
         }
     }
 
     /// What the axis to the left measures.
     pub fn y_label(self) -> String {
         match self {
-            Self::Unrolled => "radius, mm".to_owned(),
+            Self::Unrolled | Self::Arcs => "radius, mm".to_owned(),
             Self::Polar => "y, mm".to_owned(),
         }
     }
@@ -53,7 +61,7 @@ impl Shape {
     pub fn y_range(self, mesh: &Mesh) -> RangeInclusive<f64> {
         let [inner, outer] = radii(mesh).map(|radius| radius * MILLIMETRES);
         match self {
-            Self::Unrolled => inner..=outer,
+            Self::Unrolled | Self::Arcs => inner..=outer,
             Self::Polar => -outer..=outer,
         }
     }
@@ -61,8 +69,13 @@ impl Shape {
     /// The windows in which a body of so many columns is shown.
     pub fn windows(self, mesh: &Mesh, columns: usize) -> Vec<Window> {
         let width = mesh.column_width() * MILLIMETRES;
-        if self == Self::Polar {
-            return vec![Window { columns: 0..columns, x: self.y_range(mesh) }];
+        match self {
+            Self::Polar => return vec![Window { columns: 0..columns, x: self.y_range(mesh) }],
+            Self::Arcs => {
+                let half = 0.5 * columns as f64 * width;
+                return vec![Window { columns: 0..columns, x: -half..=half }];
+            }
+            Self::Unrolled => {}
         }
         let [inner, outer] = radii(mesh).map(|radius| radius * MILLIMETRES);
         let elongation = columns as f64 * width / (outer - inner);
@@ -85,7 +98,7 @@ impl Shape {
     ) -> Picture {
         let (columns, rows) = match self {
             Self::Unrolled => (window.columns.len().min(width), mesh.rows().min(height)),
-            Self::Polar => (width, height),
+            Self::Polar | Self::Arcs => (width, height),
         };
         let ground = (palette.len() - 1) as u8;
         let mut indices = Vec::with_capacity(columns * rows);
@@ -100,6 +113,7 @@ impl Shape {
                         Some(column * mesh.rows() + (y * mesh.rows() as f64) as usize)
                     }
                     Self::Polar => polar_cell(mesh, x, y),
+                    Self::Arcs => arc_cell(mesh, window.columns.len(), x, y),
                 };
                 indices.push(cell.and_then(|cell| cells.get(cell)).copied().unwrap_or(ground));
             }
@@ -119,6 +133,15 @@ fn polar_cell(mesh: &Mesh, x: f64, y: f64) -> Option<usize> {
     let angle = y.atan2(x).rem_euclid(TAU);
     let column = ((angle / mesh.column_angle()) as usize).min(mesh.disc_columns() - 1);
     Some(column * mesh.rows() + row as usize)
+}
+
+/// The pin cell at a place of the box round the pin, from 0 to 1 along its sides.
+fn arc_cell(mesh: &Mesh, columns: usize, x: f64, y: f64) -> Option<usize> {
+    let [inner, outer] = radii(mesh);
+    let from_middle = (x - 0.5) * columns as f64 * mesh.mean_radius() / (inner + y * (outer - inner));
+    let column = from_middle + 0.5 * columns as f64;
+    let row = (y * mesh.rows() as f64) as usize;
+    (column >= 0.0 && column < columns as f64).then(|| column as usize * mesh.rows() + row)
 }
 
 /// Inner and outer radius, m.
@@ -152,6 +175,17 @@ mod tests {
         let picture = Shape::Unrolled.picture(&mesh, window, &[0, 1, 2, 3, 4, 5], &PALETTE, [90, 90]);
         assert_eq!((picture.columns, picture.rows), (3, 2));
         assert_eq!(picture.indices, [1, 3, 5, 0, 2, 4]);
+    }
+
+    #[test]
+    fn by_arcs_inner_rows_are_shorter() {
+        // Radii 1 and 3 in the middle of the rows, 2 in the mean: by 1/2 and 3/2 as long as at the mean radius, so that inward the
+        // middle two of four quarters have all four columns, and outward of four columns the middle ones and a third of others.
+        let mesh = Mesh::new(2, 40, 4, 1e-9, 4.0).unwrap();
+        let window = &Shape::Arcs.windows(&mesh, 4)[0];
+        let picture = Shape::Arcs.picture(&mesh, window, &[0, 1, 2, 3, 4, 5, 6, 7], &PALETTE, [8, 2]);
+        let expected = [[1, 3, 3, 3, 5, 5, 5, 7], [8, 8, 0, 2, 4, 6, 8, 8]];
+        assert_eq!(picture.indices, expected.concat());
     }
 
     #[test]

@@ -29,11 +29,15 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
         let moments = |subject: &Subject| ends(subject.run);
-        let disc_rows = rows(together, disc_shape, disc_shape == Shape::Unrolled, moments, |subject, index| {
-            painted(subject, Map::DiscStatus, index)
-        })?;
+        let disc_rows = rows(
+            together,
+            |_| disc_shape,
+            disc_shape == Shape::Unrolled,
+            moments,
+            |subject, index| painted(subject, Map::DiscStatus, index),
+        )?;
         let pin_rows =
-            rows(together, Shape::Unrolled, false, moments, |subject, index| painted(subject, Map::PinStatus, index))?;
+            rows(together, Shape::of_pin, false, moments, |subject, index| painted(subject, Map::PinStatus, index))?;
         let has_any = |rows: &Vec<Vec<Option<_>>>| rows.iter().flatten().any(Option::is_some);
         blocks.push(MapBlock {
             names: together.iter().map(|subject| subject.label.clone()).collect(),

@@ -1,5 +1,6 @@
 //! Heights of disc and pin at the first and the last moment (paper Figs. 5, 7, 8, 9 and 11).
 
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
@@ -16,20 +17,22 @@ const NAME: &str = "topography";
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Result<(), ReadError> {
-    let bodies = [(Map::DiscHeight, options.disc_shape()), (Map::PinHeight, Shape::Unrolled)];
-    let having = bodies.map(|(map, _)| having(figures, NAME, subjects, map));
+    let bodies = [Map::DiscHeight, Map::PinHeight];
+    let disc_shape = options.disc_shape();
+    let having = bodies.map(|map| having(figures, NAME, subjects, map));
     let shown = any_of(subjects, having.each_ref().map(|list| &list[..]));
     if shown.is_empty() {
         return Ok(());
     }
-    let scales = [scale(&having[0], bodies[0].0)?, scale(&having[1], bodies[1].0)?];
+    let scales = [scale(&having[0], bodies[0])?, scale(&having[1], bodies[1])?];
     let palette: Vec<_> = colour_map().into_iter().chain([GROUND]).collect();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
         let names = together.iter().map(|subject| subject.label.clone()).collect();
         let mut groups = Vec::new();
-        for ((map, shape), scale) in bodies.into_iter().zip(&scales) {
-            let wide = map.on_disc() && shape == Shape::Unrolled;
+        for (map, scale) in bodies.into_iter().zip(&scales) {
+            let wide = map.on_disc() && disc_shape == Shape::Unrolled;
+            let shape = |mesh: &Mesh| if map.on_disc() { disc_shape } else { Shape::of_pin(mesh) };
             let moments = |subject: &Subject| ends(subject.run);
             let rows = rows(together, shape, wide, moments, |subject, index| painted(subject, map, index, scale))?;
             if rows.iter().flatten().any(Option::is_some) {

@@ -1,0 +1,147 @@
+//! How layers of a scene combine: files that extend others, `--set`, alternatives, and the resolved scene.
+
+use std::f64::consts::TAU;
+
+use plateau_core::model::material::Material;
+use plateau_core::model::state::Base;
+use plateau_core::observe::Map;
+use plateau_core::observe::schedule::SampleEvery;
+use plateau_core::surface::{Extension, FibreSynthesis, Fill, HeightSynthesis, Level, Preparation};
+use plateau_io::scene::{self};
+use plateau_io::scene::{BaseSource, HeightSettings, HeightSource, Scene, Workers};
+use plateau_io::surface::ReadOptions;
+
+use crate::good_scenes::{good, input, load};
+
+#[test]
+fn an_extending_scene_overrides_key_by_key_and_removes_the_other_alternatives() {
+    let scene = load("extending.toml", &[]);
+    assert_eq!(scene.title, "measured");
+    assert_eq!(scene.files, ["extending.toml", "parts/measured.toml", "parts/../minimal.toml"].map(good));
+    assert_eq!(scene.parameters.angular_velocity, 850.0 * TAU / 60.0);
+    // 0.5 s at ten revolutions in one: 0.5 · 850/60 · 276/10 = 195.5 steps.
+    assert_eq!(scene.steps, 196);
+    // Key by key like the primary plateau, but for what is given.
+    let materials = &scene.parameters.materials;
+    assert_eq!(materials.pin_secondary, Material { poisson_ratio: 0.3, ..materials.pin_primary });
+    // Files are relative to the scene that names them.
+    assert_eq!(
+        scene.disc_surface,
+        HeightSettings {
+            source: HeightSource::File { path: input("parts/../surfaces/cermet.sdf"), options: ReadOptions::default() },
+            mirror: true,
+            preparation: Preparation { level: Level::Mean, fill: Some(Fill::Level), repeat: true, ..Preparation::NONE },
+        }
+    );
+    assert_eq!(
+        scene.pin_surface.source,
+        HeightSource::File { path: input("pin.npy"), options: ReadOptions::default() }
+    );
+    let fibres = FibreSynthesis { seed: 0, fibre_fraction: 0.3, fibre_length: 4e-4, fibre_width: 1e-4 };
+    assert_eq!((scene.pin_base, scene.pin_base_mirror), (BaseSource::Synthetic(fibres), true));
+    assert_eq!(scene.workers, Workers::Auto);
+    assert_eq!(scene.output.sample_every, SampleEvery::Time(1.0));
+    assert_eq!(scene.output.maps, [Map::DiscHeight, Map::Pressure]);
+    assert_eq!(scene.output.maps_at, [0.0, 0.5]);
+    assert_eq!(scene.output.checkpoint_every, 60.0);
+    let [debris, warning] = &scene.warnings[..] else { panic!("{:?}", scene.warnings) };
+    assert_eq!((debris.key.as_str(), debris.found.as_str()), ("plateaus.debris", "not given"));
+    let warning = warning.to_string();
+    assert!(
+        warning.starts_with("tests/scenes/good/extending.toml:17:11: output.maps_at: maps at 3600 s, "),
+        "{warning}"
+    );
+}
+
+#[test]
+fn set_overrides_the_scene() {
+    let scene = load(
+        "extending.toml",
+        &[
+            "mesh.rows = 4",
+            "mesh.rows=5",
+            "operation.steps=7",
+            "operation.normal_force=30 N",
+            "contact.foundation_height=\"60 um\"",
+            "disc.surface.file=other.sdf",
+            "disc.surface.dataset=/height",
+            "pin.base.uniform=none",
+            "pin.surface.synthetic={ seed = 18446744073709551615, rms_height = \"1 um\", correlation_length = \"2 um\" }",
+            "output.maps=[]",
+            "output.sample_every_steps=3",
+        ],
+    );
+    let parameters = &scene.parameters;
+    assert_eq!((parameters.mesh.rows(), scene.steps), (5, 7));
+    assert_eq!((parameters.normal_force, parameters.foundation_height), (30.0, 6e-5));
+    let options = ReadOptions { dataset: Some("/height".to_owned()), ..ReadOptions::default() };
+    assert_eq!(scene.disc_surface.source, HeightSource::File { path: input("other.sdf"), options });
+    assert_eq!(scene.pin_base, BaseSource::Uniform(Base::Resin));
+    assert_eq!(scene.seeds, [("pin.surface.synthetic.seed".to_owned(), u64::MAX)]);
+    assert_eq!((scene.output.maps.len(), scene.output.sample_every), (0, SampleEvery::Steps(3)));
+    // A key of a table leaves the others of it.
+    let scene = load("full.toml", &["pin.surface.synthetic.seed=9", "disc.surface.flat=true"]);
+    let synthesis = HeightSynthesis::gaussian(9, 0.5e-6, 100e-6);
+    assert_eq!(scene.pin_surface.source, HeightSource::Synthetic(synthesis));
+    assert_eq!(scene.disc_surface.source, HeightSource::Flat);
+}
+
+#[test]
+fn tiling_and_extending_replace_each_other() {
+    // full.toml tiles its disc.
+    let extended = load("full.toml", &["disc.prepare.extend=statistics"]);
+    let Preparation { repeat, extend, .. } = extended.disc_surface.preparation;
+    assert_eq!((repeat, extend), (false, Some(Extension::Statistics { seed: 0 })));
+    assert_eq!(extended.seeds[0], ("disc.prepare.extend_seed".to_owned(), 0));
+    let seeded = load("full.toml", &["disc.prepare.extend=statistics", "disc.prepare.extend_seed=12"]);
+    assert_eq!(seeded.disc_surface.preparation.extend, Some(Extension::Statistics { seed: 12 }));
+    assert_eq!(load("full.toml", &["pin.prepare.repeat=true"]).pin_surface.preparation.extend, None);
+}
+
+#[test]
+fn a_resolved_scene_reads_back_alike() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, sets) in [
+        ("full.toml", &[][..]),
+        ("minimal.toml", &[]),
+        ("minimal.toml", &["operation.sliding_speed=0.1 km/h", "contact.load_tolerance=1e-13", "output.maps=[]"]),
+        ("minimal.toml", &["title='quoted \" and \\ µ'", "disc.prepare.scale=-0.1", "pin.prepare.cutoff=0.3 um"]),
+        ("extending.toml", &["operation.rotational_speed=123.456 rpm", "numerics.workers=3"]),
+        ("full.toml", &["pin.surface.synthetic.correlation_length_across=20 um", "disc.prepare.outliers=4.5"]),
+        (
+            "full.toml",
+            &[
+                "pin.surface.synthetic={ rms_height = '1 um', roll_off = '0.3 mm', hurst = 1, short_cutoff = '0.2 mm' }",
+                "pin.surface.synthetic.skewness=-0.5",
+            ],
+        ),
+        (
+            "full.toml",
+            &["disc.prepare.extend=statistics", "pin.prepare.extend=statistics", "pin.prepare.extend_seed=7"],
+        ),
+        ("hot.toml", &["thermal.ambient=0 degC", "thermal.wear_rate_factor=[['100.1 degC', 0.3]]"]),
+        ("vector-flat.toml", &[]),
+        ("vector-rough.toml", &[]),
+        ("vector-track.toml", &["operation.duration=0.1 min"]),
+    ] {
+        let scene = load(name, sets);
+        let path = folder.path().join("resolved.toml");
+        std::fs::write(&path, &scene.resolved).unwrap();
+        let again = scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{}", scene.resolved));
+        let content = |scene: Scene| {
+            (
+                (scene.title, scene.parameters, scene.disc_surface, scene.pin_surface, scene.resin_recess),
+                (scene.pin_base, scene.pin_base_mirror, scene.workers, scene.output, scene.seeds, scene.resolved),
+            )
+        };
+        assert_eq!(again.files, [path]);
+        assert_eq!(content(again), content(scene));
+    }
+}
+
+#[test]
+fn a_resolved_scene_says_everything_in_the_order_of_the_format() {
+    let resolved = load("extending.toml", &[]).resolved;
+    let folder = std::path::absolute("tests/scenes/good").unwrap();
+    insta::assert_snapshot!("resolved", resolved.replace(folder.to_str().unwrap(), "[folder]"));
+}

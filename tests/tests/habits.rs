@@ -1,0 +1,76 @@
+//! What one who types commands all day expects: hints, marks, quiet and talkative runs.
+
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with};
+use std::fs;
+
+fn with_scene(edits: &[(&str, &str)]) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(edits));
+    directory
+}
+
+/// What a command that was refused for its input says.
+fn refused(outcome: Outcome) -> String {
+    assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""), "{}", outcome.stderr);
+    outcome.stderr
+}
+
+#[test]
+fn a_mistyped_command_gets_the_one_that_was_meant() {
+    let directory = WorkingDirectory::new();
+    for (typed, meant) in [("rnu", "run"), ("chekc", "check"), ("swep", "sweep")] {
+        let message = refused(directory.plateau([typed]));
+        assert!(message.contains(&format!("did you mean plateau {meant}?")), "{message}");
+    }
+    let message = refused(directory.plateau(["simulate"]));
+    assert!(!message.contains("did you mean"), "{message}");
+}
+
+#[test]
+fn what_is_wrong_is_shown_with_its_line() {
+    let directory = with_scene(&[("rows = 20", "rows = \"20\"")]);
+    let message = refused(directory.plateau(["check", "scene.toml"]));
+    let text = fs::read_to_string(directory.path("scene.toml")).unwrap();
+    let (number, line) = text.lines().enumerate().find(|(_, line)| line.contains("rows = \"20\"")).unwrap();
+    let (number, column) = (number + 1, line.find("\"20\"").unwrap());
+    assert!(message.contains("\"20\" is a string (write 20 without quotes)"), "{message}");
+    let blank = " ".repeat(number.to_string().len());
+    let shown = format!("  {number} | {}\n  {blank} | {}^", line.trim_end(), " ".repeat(column));
+    assert!(message.contains(&shown), "{message}");
+    assert!(!message.contains('\u{1b}'), "colours for no terminal: {message:?}");
+}
+
+#[test]
+fn keys_that_are_there_twice_are_named() {
+    let directory = with_scene(&[("rows = 20", "rows = 20\nrows = 41")]);
+    let message = refused(directory.plateau(["check", "scene.toml"]));
+    assert!(message.contains("rows is there already in this table"), "{message}");
+    assert!(message.contains("| rows = 41\n"), "{message}");
+}
+
+#[test]
+fn a_quiet_run_says_nothing_and_a_talkative_one_what_was_done_to_surfaces() {
+    let directory = with_scene(&[("duration = \"60 s\"", "steps = 20")]);
+    let quiet = directory.plateau(["run", "scene.toml", "-q", "--set", "operation.normal_force=1 MN"]);
+    assert_eq!((quiet.status, quiet.stdout.as_str(), quiet.stderr.as_str()), (Some(0), "", ""));
+    let plain = directory.plateau(["run", "scene.toml", "--force", "--set", "operation.normal_force=1 MN"]);
+    assert!(plain.stderr.contains("plateau: warning: "), "{}", plain.stderr);
+    let verbose = directory.plateau(["run", "scene.toml", "--force", "-v"]);
+    assert!(!plain.stderr.contains("disc.surface: synthetic"), "{}", plain.stderr);
+    assert!(verbose.stderr.contains("plateau: disc.surface: synthetic, seed"), "{}", verbose.stderr);
+    assert!(refused(directory.plateau(["run", "scene.toml", "-q", "-v"])).contains("cannot be used with"));
+    // Errors are said in any case.
+    assert!(refused(directory.plateau(["run", "nothing.toml", "-q"])).contains("nothing.toml"));
+}
+
+#[test]
+fn one_figure_is_drawn_alone() {
+    let directory = with_scene(&[("duration = \"60 s\"", "steps = 20")]);
+    directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
+    directory.plateau(["plot", "run.h5", "-o", ".", "--figure", "status", "--figure", "filled"]).quiet_success();
+    let names = directory.names();
+    let figures: Vec<&String> = names.iter().filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(figures, ["filled.png", "status.png"]);
+    let message = refused(directory.plateau(["plot", "run.h5", "--figure", "stauts"]));
+    assert!(message.contains("topography") && message.contains("status"), "{message}");
+}
