@@ -1,7 +1,7 @@
 //! The preparation chain of a surface.
 
 use super::crop::Crop;
-use super::extend::{Extension, extend};
+use super::extend::{Extension, extend, take_out_plane};
 use super::flip::{Flip, reverse_along};
 use super::gaussian_filter::filter;
 use super::level::{Level, level, mean, rms};
@@ -142,6 +142,9 @@ impl Preparation {
             fill(&mut patch, Fill::Interpolate, closed);
         }
         report.extend(filter(&mut patch, self.s_filter, self.l_filter, closed)?);
+        if self.extend.is_some() && !on_mesh {
+            take_out_plane(&mut patch, self.level, &mut report);
+        }
         let cut = self.cutoff.map(|cutoff| {
             let before = rms(&patch.heights);
             let cut = cut(&mut patch.heights, cutoff);
@@ -176,7 +179,7 @@ impl Preparation {
     ) -> Result<Vec<f64>, PreparationError> {
         let (heights, step) = match self.extend {
             Some(extension) => {
-                let heights = extend(patch.clone(), self.level, extension, body, mesh, report)?;
+                let heights = extend(patch, extension, body, mesh, report)?;
                 (heights, format!("from the patch to the {}", body.name()))
             }
             None => (resample(patch, self.repeat, body, mesh)?, laid(patch, self.repeat, body, mesh)),

@@ -60,25 +60,18 @@ struct Statistics {
 const SLIGHT: f64 = 1e-6;
 
 /// Random heights of every cell of `body` with the statistics of the patch, on the disc periodic round the ring. What is done,
-/// and what the patch cannot tell, goes into the report.
-///
-/// The least-squares plane of the patch is taken out unless it was levelled by a plane or a surface of second order: a tilt is
-/// no roughness. The mean height stays.
+/// and what the patch cannot tell, goes into the report. The patch is without a tilt, see [`take_out_plane`].
 pub(super) fn extend(
-    mut patch: Patch,
-    levelled: Level,
+    patch: &Patch,
     extension: Extension,
     body: Body,
     mesh: &Mesh,
     report: &mut Vec<String>,
 ) -> Result<Vec<f64>, PreparationError> {
-    if matches!(levelled, Level::None | Level::Mean) {
-        take_out_plane(&mut patch, report);
-    }
     let (Extension::Statistics { seed } | Extension::Isotropic { seed }) = extension;
     let statistics = match extension {
-        Extension::Statistics { .. } => statistics_of_patch(&patch, seed, body, mesh, report)?,
-        Extension::Isotropic { .. } => statistics_of_line(&patch, seed, body, mesh, report)?,
+        Extension::Statistics { .. } => statistics_of_patch(patch, seed, body, mesh, report)?,
+        Extension::Isotropic { .. } => statistics_of_line(patch, seed, body, mesh, report)?,
     };
     let Some(Statistics { grid, correlation, quantiles }) = statistics else {
         report.push("extend: all heights of the patch are equal".to_owned());
@@ -159,7 +152,13 @@ fn statistics_of_line(
 /// Step of the quadrature of the distribution, whose density is not smooth: its error falls as the square of the step.
 const QUADRATURE_STEP: f64 = 1.0 / 128.0;
 
-fn take_out_plane(patch: &mut Patch, report: &mut Vec<String>) {
+/// Takes the least-squares plane out of a patch that is to be extended and was not levelled by a plane or a surface of second
+/// order: a tilt is no roughness. The mean height stays. It has to be done before peaks are cut, or those that were cut to one
+/// height, which carry the load, would lie at many.
+pub(super) fn take_out_plane(patch: &mut Patch, levelled: Level, report: &mut Vec<String>) {
+    if matches!(levelled, Level::Plane | Level::Quadratic) {
+        return;
+    }
     let (before, centre) = (rms(&patch.heights), mean(&patch.heights));
     level(&mut patch.heights, patch.rows, Level::Plane, false);
     patch.heights.iter_mut().for_each(|height| *height += centre);
