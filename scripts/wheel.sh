@@ -29,10 +29,8 @@ install_tools() {
 build() {
     # Of the works of others in the program; they go into the wheel, and not into the checkout.
     python3 "$root/scripts/notices.py" >"$root/THIRD-PARTY-NOTICES" || die "the notices could not be collected, see above"
-    (cd "$root" && maturin build --release --locked --zig --compatibility "manylinux_$glibc" --target-dir "$target" --out "$folder")
-    built=$?
-    rm -f "$root/THIRD-PARTY-NOTICES"
-    [ $built -eq 0 ] || die "the wheel could not be built, see above"
+    (cd "$root" && maturin build --release --locked --zig --compatibility "manylinux_$glibc" --target-dir "$target" --out "$folder") ||
+        die "the wheel could not be built, see above"
 }
 
 # In the wheel there is what there should be, and the program asks for no newer system than the name of the wheel says.
@@ -42,6 +40,9 @@ check() {
         { auditwheel show "$1" >&2 && die "auditwheel finds another platform than manylinux, see above"; }
 }
 
+trap 'rm -f "$root/THIRD-PARTY-NOTICES"' EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
 need_rust
 with_lock "$environment.lock" install_tools >&2 || exit 1
 PATH=$environment/bin:$PATH
@@ -50,7 +51,8 @@ CMAKE_GENERATOR=Ninja
 export PATH CMAKE CMAKE_GENERATOR
 mkdir -p "$folder" "$target" || exit 1
 with_lock "$target/plateau.lock" build >&2 </dev/null || exit 1
-for wheel in "$folder"/plateau_brake-*-manylinux_"$glibc"_*.whl; do
+version=$(sed -n 's/^version *= *"\(.*\)"/\1/p' "$root/Cargo.toml" | head -n 1)
+for wheel in "$folder"/plateau_brake-"$version"-*-manylinux_"$glibc"_*.whl; do
     [ -f "$wheel" ] || die "maturin has written no wheel for manylinux_$glibc into $folder"
     check "$wheel"
     printf '%s\n' "$wheel"
