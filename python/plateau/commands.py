@@ -225,7 +225,7 @@ def effects(
         if value is not None:
             arguments += [flag, str(value)]
     document = call(arguments, progress=False)
-    table = pandas.read_csv(document["files"][0]).set_index(["response", "term"])
+    table = pandas.read_csv(document["files"][0], float_precision="round_trip").set_index(["response", "term"])
     return Effects(table, document["responses"], document["files"])
 
 

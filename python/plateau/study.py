@@ -57,4 +57,4 @@ def open_study(path: str | os.PathLike[str]) -> Study:
     for file in (csv, hdf5):
         if not file.is_file():
             raise FileNotFoundError(f"{file}: there is no such file; `plateau sweep collect` writes it")
-    return Study(pandas.read_csv(csv), xarray.load_dataset(hdf5, engine="h5netcdf"))
+    return Study(pandas.read_csv(csv, float_precision="round_trip"), xarray.load_dataset(hdf5, engine="h5netcdf"))
