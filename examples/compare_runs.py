@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
 """Compares runs: a table of their ends, and a figure of one series of all of them.
 
-    python examples/compare_runs.py weak.h5 strong.h5 -o compare.png      # pip install h5py matplotlib
+    python examples/compare_runs.py weak.h5 strong.h5 -o compare.png
     python examples/compare_runs.py *.h5 --series filled_fraction
 """
 
 import argparse
 import pathlib
 
-import h5py
-import matplotlib
+import pandas
 
-matplotlib.use("Agg")  # draws into files, without a window
-import matplotlib.pyplot as plt
+import plateau
+from plateau.plots import new_axes
 
 COLUMNS = ["contact_area_mean", "mean_pressure", "filled_fraction", "disc_secondary", "emitted"]
 
@@ -22,19 +21,15 @@ parser.add_argument("--series", default="contact_area_mean", help="series that i
 parser.add_argument("-o", "--output", default="compare.png", help="picture to write")
 arguments = parser.parse_args()
 
-figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
-print("run".ljust(20), "time".rjust(12), *(name.rjust(18) for name in COLUMNS))
-units = []
+axes, rows, units = new_axes(figsize=(7, 4)), {}, {}
 for path in arguments.runs:
-    with h5py.File(path, swmr=True) as run:
-        name = pathlib.Path(path).stem
-        series, time = run["series"], run["time"][:]
-        last = len(time) - 1
-        print(name.ljust(20), f"{time[last]:12.6g}", *(f"{series[column][last]:18.6g}" for column in COLUMNS))
-        drawn = series[arguments.series]
-        axes.plot(time, drawn[: len(time)], label=name)
-        units = [f"{series[column].attrs['units']}" for column in COLUMNS]
-        axes.set(xlabel="time, s", ylabel=f"{arguments.series}, {drawn.attrs['units']}")
-print("unit".ljust(20), "s".rjust(12), *(unit.rjust(18) for unit in units))
+    run = plateau.open_run(path)
+    run.plateau.plot(arguments.series, ax=axes)
+    axes.lines[-1].set_label(pathlib.Path(path).stem)
+    rows[pathlib.Path(path).stem] = run.plateau.series[COLUMNS].reset_index().iloc[-1]
+    units = {"time": "s"} | {name: run[f"series/{name}"].attrs["units"] for name in COLUMNS}
+table = pandas.DataFrame(rows).transpose()
+print(table.rename(columns=lambda name: f"{name}/{units[name]}").to_string(float_format="{:.6g}".format))
+axes.set_title("")
 axes.legend()
-figure.savefig(arguments.output, dpi=150)
+axes.figure.savefig(arguments.output, dpi=150)

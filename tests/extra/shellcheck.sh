@@ -11,4 +11,4 @@ if ! command -v shellcheck >/dev/null 2>&1; then
         exit 77
     fi
 fi
-shellcheck -x plateau check .ci/run scripts/*.sh tests/scripts/*.sh tests/extra/*.sh tests/cluster/*.sh data/studies/*/*.sh
+shellcheck -x plateau check .ci/run scripts/*.sh tests/scripts/*.sh tests/extra/*.sh tests/cluster/*.sh data/studies/*/*.sh packaging/*/*.sh

@@ -38,7 +38,9 @@ class Examples(unittest.TestCase):
     def example(self, name, *arguments):
         """Lines that an example prints."""
         command = [sys.executable, "-W", "error::DeprecationWarning", str(ROOT / "examples" / name), *arguments]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=self.folder)
+        # As of a checkout of which the package is not installed.
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "python"), "PLATEAU_PROGRAM": PROGRAM, "MPLBACKEND": "agg"}
+        done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=self.folder, env=environment)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         return done.stdout.splitlines()
 
@@ -63,40 +65,50 @@ class Examples(unittest.TestCase):
             self.assertIn(f"examples/{name}.py", guide)
 
     def test_contact_area(self):
-        [line] = self.example("contact_area.py", "quick.h5", "-o", "contact_area.png")
+        line, mean = self.example("contact_area.py", "quick.h5", "-o", "contact_area.png")
         with netCDF4.Dataset(self.folder / "quick.h5") as run:
-            series = run["series"]
-            expected = [run["time"][-1], series["contact_area"][-1] * 1e6, series["contact_area_mean"][-1] * 1e6]
+            series, time = run["series"], run["time"][:]
+            expected = [time[-1], series["contact_area"][-1] * 1e6, series["contact_area_mean"][-1] * 1e6]
+            integral = series["contact_area_integral"][:]
         found = numbers(line.replace("mm2", "mm"))
         self.close(found, expected)
+        start, end, value, _ = numbers(mean.replace("mm2", "mm"))
+        first = np.argmin(abs(time - start))
+        self.close(value, (integral[-1] - integral[first]) / (time[-1] - time[first]) * 1e6)
+        self.close(end, time[-1])
         self.check_picture("contact_area.png")
 
     def test_disc_map(self):
         with netCDF4.Dataset(self.folder / "quick.h5") as run:
             height, pressure, times = run["disc/height"][:], run["pin/pressure"][:], run["map_time"][:]
+            radius = np.asarray(run["radius"][:])
         self.assertEqual(len(times), 3)
+
+        def mean(values):
+            return (values * radius).sum() / (radius.sum() * len(values))
+
         [line] = self.example("disc_map.py", "quick.h5", "-o", "disc_map.png")
         self.assertTrue(line.startswith("disc/height at "), line)
-        self.close(numbers(line), [times[2], height[2].min(), height[2].max(), height[2].sum() / height[2].size])
+        self.close(numbers(line), [times[2], height[2].min(), height[2].max(), mean(height[2])])
         self.check_picture("disc_map.png")
         [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/pressure", "--time", "11", "-o", "pressure.png")
-        self.close(numbers(line), [times[1], pressure[1].min(), pressure[1].max(), pressure[1].sum() / pressure[1].size])
+        self.close(numbers(line), [times[1], pressure[1].min(), pressure[1].max(), mean(pressure[1])])
         self.check_picture("pressure.png")
-        [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/status", "-o", "status.png")
+        [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/status", "--polar", "-o", "status.png")
         self.close(numbers(line)[0], times[2])
         self.assertIn("from 0 to 2 1,", line)
         self.check_picture("status.png")
 
     def test_compare_runs(self):
         lines = self.example("compare_runs.py", "quick.h5", "strong.h5", "--series", "filled_fraction", "-o", "compare.png")
-        self.assertEqual(len(lines), 4)
-        names = lines[0].split()[2:]
-        for name, line in zip(["quick", "strong"], lines[1:3]):
+        self.assertEqual(len(lines), 3)
+        names, units = zip(*(word.rsplit("/", 1) for word in lines[0].split()))
+        for name, line in zip(["quick", "strong"], lines[1:]):
             with netCDF4.Dataset(self.folder / f"{name}.h5") as run:
-                expected = [run["time"][-1], *(run["series"][series][-1] for series in names)]
+                expected = [run["time"][-1], *(run["series"][series][-1] for series in names[1:])]
             self.assertEqual(line.split()[0], name)
             self.close([float(word) for word in line.split()[1:]], expected)
-        self.assertEqual(lines[3].split(), ["unit", "s", "m2", "Pa", "1", "1", "m3"])
+        self.assertEqual(units, ("s", "m2", "Pa", "1", "1", "m3"))
         self.check_picture("compare.png")
 
     def test_coverage(self):
@@ -104,17 +116,30 @@ class Examples(unittest.TestCase):
         with netCDF4.Dataset(self.folder / "quick.h5") as run:
             radius, times = np.asarray(run["radius"][:]), run["map_time"][:]
             disc, pin = np.asarray(run["disc/status"][:]), np.asarray(run["pin/status"][:])
+            film = np.asarray(run["disc/height"][:] - run["disc/substrate"][:])
             last = [run["series"][name][-1] for name in ("disc_secondary", "pin_primary", "pin_secondary")]
         self.assertEqual(len(lines), 1 + len(times))
         for index, line in enumerate(lines[1:]):
             found = [float(word) for word in line.split()]
             mean = [np.average(status == value, axis=1, weights=radius).mean()
                     for status, value in ((disc[index], 2), (pin[index], 1), (pin[index], 2))]
-            np.testing.assert_allclose(found[1:], mean, rtol=0, atol=1e-6)
+            mean.append(np.average(film[index], axis=1, weights=radius).mean() * 1e6)
+            np.testing.assert_allclose(found[1:5], mean, rtol=0, atol=1e-6)
             self.close(found[0], times[index])
         # The program counts the cells of the last map itself.
-        np.testing.assert_allclose(found[1:], last, rtol=0, atol=1e-6)
+        np.testing.assert_allclose(found[1:4], last, rtol=0, atol=1e-6)
         self.assertGreater(found[1], 0)
+        self.assertGreater(found[5], 0)
+
+    def test_loads(self):
+        scene = self.folder / "loads.toml"
+        scene.write_text(f'extends = "{ROOT / "data/scenes/quick.toml"}"\n[operation]\nduration = "20 s"\n')
+        for _ in range(2):  # The second time nothing is run again.
+            lines = self.example("loads.py", "loads.toml", "--loads", "5", "20")
+            self.assertEqual(len(lines), 3)
+            for name, load, line in zip(["quick", "strong"], [5, 20], lines[1:]):
+                _, line_of_mean = self.example("contact_area.py", f"{name}.h5", "-o", "other.png")
+                self.close([float(word) for word in line.split()], [load, *numbers(line_of_mean.replace("mm2", "mm"))[2:]])
 
     def test_to_pandas(self):
         lines = self.example("to_pandas.py", "quick.h5", "--parts", "2")

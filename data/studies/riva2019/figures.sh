@@ -11,5 +11,8 @@ root=$PWD
 . scripts/lock.sh
 . scripts/python.sh
 with_lock .venv.lock install_readers || exit 1
+# The package of the checkout.
+PYTHONPATH=$root/python
+export PYTHONPATH
 "$root/.venv/bin/python" -B data/studies/riva2019/figures.py || exit 1
 exec "$root/.venv/bin/python" -B data/studies/riva2019/friction_figures.py

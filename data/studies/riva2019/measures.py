@@ -70,22 +70,6 @@ def mean_of_last(values: np.ndarray, count: int) -> float:
     return float(values[-count:].mean())
 
 
-def standard_error(values: np.ndarray) -> float:
-    """Standard error of the mean of values that follow one another in time: the formula is that of the program,
-    crates/core/src/observe/window_mean.rs, with its sources."""
-    n, rest = len(values), values - values.mean()
-    covariance = [float((rest[: n - lag] * rest[lag:]).sum()) / n for lag in range(n // 2 + 1)]
-    lags, total, before = 0, -covariance[0], np.inf
-    while lags + 2 <= n // 2:
-        pair = min(covariance[lags] + covariance[lags + 1], before)
-        if pair <= 0:
-            break
-        lags, total, before = lags + 2, total + 2 * pair, pair
-    if total < covariance[0]:
-        lags, total = 1, covariance[0]
-    return float(np.sqrt(total * n / ((n - lags) * (n - lags + 1))))
-
-
 def run_in(time: np.ndarray, values: np.ndarray, part: float) -> float:
     """The time at which a series first comes to a part of the mean of its last two values."""
     return float(time[np.argmax(values >= part * mean_of_last(values, 2))])

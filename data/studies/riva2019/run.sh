@@ -20,6 +20,9 @@ runs=$study/runs
 sh scripts/build.sh || exit 1
 with_lock .venv.lock install_readers || exit 1
 python="$root/.venv/bin/python -B"
+# The package of the checkout.
+PYTHONPATH=$root/python
+export PYTHONPATH
 mkdir -p "$runs"
 
 # The environment in which other readings of the rule are compiled, .venv-study.

@@ -4,10 +4,11 @@ import json
 import tomllib
 from pathlib import Path
 
-import measures
 import numpy as np
 from discs import NAMES, SCENES
 from make_points import DEFAULT
+
+from plateau.means import standard_error
 
 HERE = Path(__file__).parent
 RESULTS = json.loads((HERE / "results.json").read_text())
@@ -45,7 +46,7 @@ def last_tenth(heights: str, end: float, runs: str = "runs") -> str:
     """Mean contact area over the last tenth of a run and its standard error, mm²: of the means of 50 s that are kept of it."""
     middles, areas = np.array(value(f"{runs}/{heights}/contact_area")).T
     areas = areas[(middles > 0.9 * end) & (middles < end)] * 1e6
-    return with_interval([areas.mean(), measures.standard_error(areas)], 1, ".2f")
+    return with_interval([areas.mean(), standard_error(areas)], 1, ".2f")
 
 
 def share(rule: str, claim: str) -> str:

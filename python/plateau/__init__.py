@@ -1,0 +1,49 @@
+"""Plateau in Python: simulate a brake pin on a rough disc, open runs and studies, draw them.
+
+>>> import plateau
+>>> run = plateau.run("quick.toml", "first.h5", set={"operation.duration": "20 s"})
+>>> run.attrs["state"]
+'finished'
+>>> area = run.plateau.mean("contact_area")
+>>> print(f"{area.value * 1e6:.2f} mm2, standard error {area.error * 1e6:.2f} mm2")
+0.51 mm2, standard error 0.03 mm2
+
+All quantities are in SI units. The guide is docs/python.md of the project.
+"""
+
+from importlib.metadata import PackageNotFoundError, version
+
+from plateau.commands import Effects, check, collect, effects, run, sweep
+from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, RunStopped
+from plateau.map_accessor import MapAccessor
+from plateau.means import Mean
+from plateau.program import find_program
+from plateau.run_accessor import RunAccessor
+from plateau.run_file import open_run
+from plateau.study import Study, open_study
+
+try:
+    __version__ = version("plateau-brake")
+except PackageNotFoundError:  # a checkout that is not installed
+    __version__ = "0"
+
+__all__ = [
+    "Effects",
+    "InputError",
+    "MapAccessor",
+    "Mean",
+    "PlateauError",
+    "PlateauWarning",
+    "RunAccessor",
+    "RunFailed",
+    "RunStopped",
+    "Study",
+    "check",
+    "collect",
+    "effects",
+    "find_program",
+    "open_run",
+    "open_study",
+    "run",
+    "sweep",
+]

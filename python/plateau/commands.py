@@ -1,0 +1,264 @@
+"""The commands of the program as functions."""
+
+import json
+import os
+import warnings
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import pandas
+import xarray
+
+from plateau.errors import PlateauWarning
+from plateau.program import call
+from plateau.run_file import open_run
+from plateau.study import Study, open_study
+
+# A path as everywhere in Python.
+Path = str | os.PathLike[str]
+
+
+class Effects(NamedTuple):
+    """What the factors of a study do.
+
+    Attributes
+    ----------
+    table : pandas.DataFrame
+        A row for each response and term: effect, standard error, p, ... (docs/studies.md).
+    responses : list of dict
+        For each response what was fitted, and how well: ``name``, ``unit``, ``model``, ``mean``, ``r_squared``, ``terms``, ...
+    files : list of str
+        What was written: table, figures, the page for the browser.
+    """
+
+    table: pandas.DataFrame
+    responses: list[dict[str, Any]]
+    files: list[str]
+
+
+def run(
+    scene: Path,
+    output: Path | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    workers: int | str | None = None,
+    force: bool = False,
+    resume: bool = False,
+    extend_to: str | None = None,
+    progress: bool | None = None,
+) -> xarray.DataTree:
+    """Runs a scene and opens its run file.
+
+    Parameters
+    ----------
+    scene : path
+        The scene, TOML.
+    output : path, optional
+        The run file; that of the scene unless given.
+    set : mapping, optional
+        Keys of the scene and their values; a physical quantity is text with its unit.
+    workers : int or "auto", optional
+        Threads that share the run.
+    force : bool
+        Replace a run file that exists.
+    resume : bool
+        Go on with a run that was stopped or killed.
+    extend_to : str, optional
+        Go on beyond the end of a run, to this time, such as ``"7200 s"``.
+    progress : bool, optional
+        Whether progress is shown; unless given, in notebooks and terminals.
+
+    Returns
+    -------
+    xarray.DataTree
+        As of `open_run`; its ``attrs["summary"]`` is the summary of the program, a dictionary in SI units. It is not there where
+        ``resume`` found a run that is finished.
+
+    Raises
+    ------
+    InputError, RunFailed, RunStopped
+        With the message of the program.
+
+    Examples
+    --------
+    >>> heavy = run("quick.toml", "heavy.h5", set={"operation.normal_force": "10 N", "operation.duration": "2 s"})
+    >>> heavy.attrs["summary"]["steps"]
+    978
+    >>> run("quick.toml", "light.h5", set={"operation.normal_force": 1})  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    plateau.errors.InputError: --set operation.normal_force=1: ... 1 has no unit, expected a force such as "47 N" (N, kN, mN)
+    """
+    arguments = ["run", scene, *_scene_arguments(set, workers)]
+    if output is not None:
+        arguments += ["--output", output]
+    if extend_to is not None:
+        arguments += ["--extend-to", extend_to]
+    arguments += [flag for flag, given in (("--force", force), ("--resume", resume)) if given]
+    summary = call(arguments, progress)
+    if summary is None:
+        # A run to go on with that is finished: nothing was done.
+        return open_run(_output_of(scene, set) if output is None else output)
+    opened = open_run(summary["file"])
+    opened.attrs["summary"] = summary
+    return opened
+
+
+def check(scene: Path, *, set: Mapping[str, Any] | None = None, workers: int | str | None = None) -> dict[str, Any]:
+    """Checks a scene without running it.
+
+    Parameters
+    ----------
+    scene, set, workers
+        As of `run`.
+
+    Returns
+    -------
+    dict
+        What the scene resolves to (``scene``, TOML), needs and costs: ``steps``, ``samples``, ``memory`` (bytes),
+        ``estimated_time`` (s), ``warnings``, ...
+
+    Examples
+    --------
+    >>> check("quick.toml", set={"mesh.rows": 10, "output.file": "ten-rows.h5"})["rows"]
+    10
+    """
+    return dict(call(["check", scene, *_scene_arguments(set, workers)], progress=False))
+
+
+def sweep(
+    study: Path,
+    *,
+    jobs: int | None = None,
+    workers: int | None = None,
+    max_failures: int | None = None,
+    retry: bool = False,
+    progress: bool | None = None,
+) -> Study:
+    """Makes the runs of a study that are not there yet, and opens its results.
+
+    Parameters
+    ----------
+    study : path
+        The study, TOML.
+    jobs : int, optional
+        Runs at a time; as many as there are cores unless given.
+    workers : int, optional
+        Threads of each run.
+    max_failures : int, optional
+        Stop when so many runs have failed; unless given, the others go on.
+    retry : bool
+        Make runs again that failed before.
+    progress : bool, optional
+        Whether progress is shown; unless given, in notebooks and terminals.
+
+    Returns
+    -------
+    Study
+        Table and data.
+
+    Raises
+    ------
+    InputError, RunFailed, RunStopped
+        With the message of the program. Results of runs that have ended are kept; `collect` opens them.
+
+    Examples
+    --------
+    >>> results = sweep("loads.toml")
+    >>> results.table["load [N]"].tolist()
+    [5.0, 10.0]
+    """
+    arguments = ["sweep", "run", study]
+    for flag, value in (("--jobs", jobs), ("--workers", workers), ("--max-failures", max_failures)):
+        if value is not None:
+            arguments += [flag, str(value)]
+    call(arguments + (["--retry"] if retry else []), progress)
+    return collect(study)
+
+
+def collect(study: Path) -> Study:
+    """Collects what there is of the results of a study, complete or not, and opens it.
+
+    Parameters
+    ----------
+    study : path
+        The study, TOML.
+
+    Returns
+    -------
+    Study
+        Table and data; runs without result have the state ``missing`` or ``failed``.
+    """
+    collected = call(["sweep", "collect", study], progress=False)
+    return open_study(os.path.dirname(collected["files"][0]))
+
+
+def effects(
+    study: Path, *, model: str | None = None, confidence: float | None = None, output: Path | None = None
+) -> Effects:
+    """Tells what the factors of a study do to its responses.
+
+    Parameters
+    ----------
+    study : path
+        The study, TOML, of which runs have been made.
+    model : {"main", "interactions", "full", "quadratic"}, optional
+        What is fitted; chosen by the design unless given.
+    confidence : float, optional
+        Confidence level of intervals, 0.95 unless given.
+    output : path, optional
+        Folder for tables, figures and the page.
+
+    Returns
+    -------
+    Effects
+        Table, what was fitted, and files.
+
+    Examples
+    --------
+    >>> results = sweep("loads.toml")
+    >>> found = effects("loads.toml")
+    >>> bool(found.table.loc[("contact area", "load"), "effect"] > 0)
+    True
+    """
+    arguments = ["sweep", "effects", study]
+    for flag, value in (("--model", model), ("--confidence", confidence), ("--output", output)):
+        if value is not None:
+            arguments += [flag, str(value)]
+    document = call(arguments, progress=False)
+    table = pandas.read_csv(document["files"][0], float_precision="round_trip").set_index(["response", "term"])
+    return Effects(table, document["responses"], document["files"])
+
+
+def _output_of(scene: Path, changes: Mapping[str, Any] | None) -> str:
+    """The run file that a scene names."""
+    with warnings.catch_warnings():
+        # That it exists is known.
+        warnings.simplefilter("ignore", PlateauWarning)
+        files = check(scene, set=changes)["files"]
+    return str(next(file["resolved"] for file in files if file["access"] == "writes"))
+
+
+def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | None) -> list[Path]:
+    arguments: list[Path] = []
+    for key, value in (changes or {}).items():
+        arguments += ["--set", f"{key}={_toml(value)}"]
+    if workers is not None:
+        arguments += ["--workers", str(workers)]
+    return arguments
+
+
+def _toml(value: Any) -> str:
+    """A value as TOML has it."""
+    if hasattr(value, "tolist"):  # of NumPy
+        value = value.tolist()
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int | float):
+        return repr(value)
+    if isinstance(value, str | os.PathLike):
+        return json.dumps(os.fspath(value), ensure_ascii=False)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(key)} = {_toml(part)}" for key, part in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    raise TypeError(f"{value!r} is no value of a scene: expected text, a number, True or False, a list or a dictionary")

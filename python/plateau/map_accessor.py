@@ -1,0 +1,179 @@
+"""What maps can do: ``run["disc/height"].plateau``."""
+
+from typing import Any
+
+import numpy as np
+import xarray
+
+from plateau import plots
+
+ANGLES = ("disc_angle", "pin_angle")
+# Status of a cell beyond the outline of a round pin.
+ABSENT = 3
+
+
+@xarray.register_dataarray_accessor("plateau")
+class MapAccessor:
+    """Maps of disc and pin: cells with the dimensions ``disc_angle`` or ``pin_angle`` (rad) and ``radius`` (m).
+
+    Cells further out are larger, so every mean here counts them with their area.
+
+    Examples
+    --------
+    >>> import plateau
+    >>> run = plateau.open_run("quick.h5")
+    >>> height = run["disc/height"]
+    >>> height.plateau.area_mean().dims
+    ('map_time',)
+    """
+
+    def __init__(self, cells: xarray.DataArray) -> None:
+        self._cells = cells
+
+    @property
+    def _angle(self) -> str:
+        for name in ANGLES:
+            if name in self._cells.dims and "radius" in self._cells.coords:
+                return name
+        raise ValueError(f"dimensions {self._cells.dims}: no map; expected disc_angle or pin_angle, and radius")
+
+    def area_mean(self) -> xarray.DataArray:
+        """Mean over all cells, each counted with its area; cells beyond a round pin are left out.
+
+        Returns
+        -------
+        xarray.DataArray
+            In the unit of the map; the dimensions of the map without angle and radius.
+        """
+        over = [self._angle, "radius"]
+        return self._cells.weighted(self._cells["radius"]).mean(over, keep_attrs=True)
+
+    @property
+    def status_names(self) -> dict[int, str]:
+        """Statuses and their names; of other maps nothing.
+
+        Examples
+        --------
+        >>> import plateau
+        >>> plateau.open_run("quick.h5")["disc/status"].plateau.status_names
+        {0: 'none', 1: 'primary', 2: 'secondary'}
+        """
+        names = str(self._cells.attrs.get("flag_meanings", "")).split()
+        return {int(value): name for value, name in zip(self._cells.attrs.get("flag_values", ()), names, strict=True)}
+
+    def has_status(self, name: str) -> xarray.DataArray:
+        """The cells that have a status.
+
+        Parameters
+        ----------
+        name : str
+            ``"none"``, ``"primary"`` or ``"secondary"``.
+
+        Returns
+        -------
+        xarray.DataArray of bool
+            Of the shape of the map.
+        """
+        values = [value for value, known in self.status_names.items() if known == name]
+        if not values:
+            known = ", ".join(self.status_names.values())
+            raise ValueError(f"no status is called {name!r}, " + (f"there are: {known}" if known else "this is no map of statuses"))
+        return self._cells == values[0]
+
+    def area_fraction(self, name: str) -> xarray.DataArray:
+        """Area of the cells that have a status over that of all cells.
+
+        Parameters
+        ----------
+        name : str
+            As of `has_status`.
+
+        Returns
+        -------
+        xarray.DataArray
+            Between 0 and 1; the dimensions of the map without angle and radius.
+
+        Examples
+        --------
+        >>> import plateau
+        >>> run = plateau.open_run("quick.h5")
+        >>> counted = run["disc/status"].plateau.area_fraction("secondary")[-1]
+        >>> bool(abs(counted - run["series/disc_secondary"][-1]) < 1e-9)
+        True
+        """
+        area, over = self._cells["radius"], [self._angle, "radius"]
+        there = (self._cells != ABSENT) * area
+        return (self.has_status(name) * area).sum(over) / there.sum(over)
+
+    def unrolled(self) -> xarray.DataArray:
+        """The map over arc length at the mean radius in place of the angle.
+
+        Returns
+        -------
+        xarray.DataArray
+            With the dimension ``arc_length``, m, in place of the angle.
+        """
+        radius = float(self._cells["radius"].mean())
+        attributes = {"units": "m", "long_name": "arc length at the mean radius"}
+        arc = self._cells[self._angle].copy(data=self._cells[self._angle].values * radius)
+        arc.attrs = attributes
+        return self._cells.assign_coords(arc_length=arc).swap_dims({self._angle: "arc_length"})
+
+    def cartesian(self) -> xarray.DataArray:
+        """The map with places in the plane of the disc, of which its own coordinates are the polar ones.
+
+        Returns
+        -------
+        xarray.DataArray
+            With the coordinates ``x`` and ``y``, m, of every cell, from the axis of the disc.
+        """
+        angle, radius = self._cells[self._angle], self._cells["radius"]
+        places = {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
+        named = {name: place.assign_attrs(units="m", long_name=name) for name, place in places.items()}
+        return self._cells.assign_coords(named)
+
+    def at_time(self, time: float | None = None) -> xarray.DataArray:
+        """The map that was recorded nearest to a time.
+
+        Parameters
+        ----------
+        time : float, optional
+            s; the last one unless given.
+
+        Returns
+        -------
+        xarray.DataArray
+            Without the dimension ``map_time``; a map that has none is given as it is.
+        """
+        if "map_time" not in self._cells.dims:
+            return self._cells
+        if time is None:
+            return self._cells.isel(map_time=-1)
+        return self._cells.sel(map_time=time, method="nearest")
+
+    def plot(self, time: float | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
+        """Draws the map, unrolled or as the ring that it is; needs matplotlib.
+
+        Parameters
+        ----------
+        time : float, optional
+            As of `at_time`.
+        polar : bool
+            As a ring in the plane of the disc.
+        ax : matplotlib.axes.Axes, optional
+            Where; new axes unless given.
+        **options
+            Those of ``pcolormesh``, such as ``cmap``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Examples
+        --------
+        >>> import plateau
+        >>> axes = plateau.open_run("quick.h5")["disc/height"].plateau.plot()
+        >>> axes.get_xlabel()
+        'arc length, mm'
+        """
+        return plots.draw_map(self.at_time(time), self.status_names, polar=polar, ax=ax, **options)

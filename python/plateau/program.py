@@ -1,0 +1,129 @@
+"""The program: where it is, and how it is called."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sysconfig
+import tempfile
+import warnings
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from plateau.errors import PlateauError, PlateauWarning, error_of
+from plateau.progress import Follow, follow_pipe, follow_terminal, shower
+
+# What every message of the program begins with.
+BEGIN = re.compile(r"^plateau: ", re.MULTILINE)
+
+
+def find_program() -> str:
+    """The program that is called.
+
+    Returns
+    -------
+    str
+        ``PLATEAU_PROGRAM`` where it is set; else the program that was installed with this package, that of the checkout in which
+        this package is, or ``plateau`` on ``PATH``.
+
+    Raises
+    ------
+    PlateauError
+        If there is none of them.
+
+    Examples
+    --------
+    >>> import os
+    >>> os.access(find_program(), os.X_OK)
+    True
+    """
+    given = os.environ.get("PLATEAU_PROGRAM")
+    if given:
+        found = shutil.which(given)
+        if found is None:
+            raise PlateauError(f"PLATEAU_PROGRAM is {given!r}, which is no program: correct it or unset it")
+        return found
+    # Two folders up are site-packages, or the folder `python` of a checkout with its launcher beside it.
+    package = Path(__file__).resolve().parent
+    checkout = package.parents[1]
+    beside = [Path(sysconfig.get_path("scripts", scheme)) / "plateau" for scheme in (_scheme("prefix"), _scheme("user"))]
+    if (checkout / "Cargo.toml").is_file():
+        beside.insert(0, checkout / "plateau")
+    # `pip install --target` puts it beside the package.
+    beside.append(package.parent / "bin" / "plateau")
+    for path in beside:
+        if path.is_file() and os.access(path, os.X_OK):
+            return str(path)
+    on_path = shutil.which("plateau")
+    if on_path is None:
+        raise PlateauError(
+            "the program plateau is neither beside the Python package nor on PATH: install the package with pip, "
+            "or set PLATEAU_PROGRAM to the program"
+        )
+    return on_path
+
+
+def _scheme(key: Any) -> str:
+    return sysconfig.get_preferred_scheme(key)
+
+
+def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None) -> Any:
+    """Calls the program with ``--json`` and gives what it prints.
+
+    Parameters
+    ----------
+    arguments : sequence of str or path
+        Command and arguments.
+    progress : bool, optional
+        Whether progress is shown; unless given, in a notebook and in a terminal.
+
+    Returns
+    -------
+    object
+        The JSON document: dictionaries, lists, numbers and text; None where the program prints nothing, for there was nothing to do.
+
+    Raises
+    ------
+    PlateauError
+        With the message of the program. Its warnings are given as `PlateauWarning`.
+    """
+    command = [find_program(), *[os.fspath(argument) for argument in arguments], "--json"]
+    show = shower(progress)
+    with tempfile.TemporaryFile() as output:
+        status, said = _wait(command, output, follow_pipe if show is None else follow_terminal, show)
+        output.seek(0)
+        document = output.read()
+    messages = [message.strip() for message in BEGIN.split(said)]
+    errors = [message for message in messages if message and not message.startswith("warning: ")]
+    for message in messages:
+        if message.startswith("warning: "):
+            warnings.warn(message.removeprefix("warning: "), PlateauWarning, stacklevel=3)
+    if status != 0:
+        raise error_of(errors[-1] if errors else f"the program ended with status {status}", command, status)
+    return json.loads(document) if document.strip() else None
+
+
+def _wait(command: list[str], output: Any, follow: Follow, show: Callable[[str], None] | None) -> tuple[int, str]:
+    """Exit status and messages of a command."""
+    process: subprocess.Popen[bytes] | None = None
+    # No bar is drawn on a terminal that says that it is dumb.
+    environment = None if show is None else {**os.environ, "TERM": "xterm"}
+
+    def start(error: int) -> subprocess.Popen[bytes]:
+        nonlocal process
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=error, env=environment)
+        return process
+
+    try:
+        said = follow(start, show)
+        assert process is not None
+        return process.wait(), said
+    except BaseException:
+        # Ctrl-C in a notebook may reach this process alone. The run file is closed in good order before it goes on here.
+        if process is not None and process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            process.wait()
+        raise

@@ -1,0 +1,182 @@
+"""What runs can do: ``run.plateau``."""
+
+import tomllib
+from typing import Any
+
+import numpy as np
+import pandas
+import xarray
+
+from plateau import plots
+from plateau.map_accessor import MapAccessor
+from plateau.means import Array, Mean, last_tenth, mean_between
+from plateau.run_file import array
+
+
+@xarray.register_datatree_accessor("plateau")
+class RunAccessor:
+    """A run as `plateau.open_run` gives it.
+
+    Examples
+    --------
+    >>> import plateau
+    >>> run = plateau.open_run("quick.h5")
+    >>> run.plateau.scene["operation"]["normal_force"]
+    '5 N'
+    """
+
+    def __init__(self, run: xarray.DataTree) -> None:
+        if "series" not in run.children:
+            raise AttributeError("no run: expected the tree that plateau.open_run gives, with the group series")
+        self._run = run
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """The resolved scene, every key with its value."""
+        return tomllib.loads(self._run.attrs["scene"])
+
+    @property
+    def series(self) -> pandas.DataFrame:
+        """All series, a column for each in SI units; the index is the time, s."""
+        # Not with the coordinates of maps: the table would have a row for each of their combinations.
+        series = self._run.children["series"].to_dataset(inherit=False)
+        columns = {name: values.values for name, values in series.data_vars.items()}
+        return pandas.DataFrame(columns, index=pandas.Index(self._values("time"), name="time"))
+
+    @property
+    def events(self) -> pandas.DataFrame:
+        """A row for each event of the cycle that has ended, SI units; of a run without cycle no row."""
+        if "event" not in self._run.children:
+            return pandas.DataFrame()
+        events = self._run.children["event"].to_dataset(inherit=False)
+        return pandas.DataFrame({name: values.values for name, values in events.data_vars.items()})
+
+    def mean(self, series: str = "contact_area", start: float | None = None, end: float | None = None) -> Mean:
+        """Mean of a series over a part of the run, with its standard error.
+
+        That of the contact area is taken from its integral, which knows every step, and is the number that ``plateau run`` prints.
+        Of other series a sample stands for the time since the one before. How the error is told says
+        `plateau.means.mean_between`; it allows for neighbours in time that are alike.
+
+        Parameters
+        ----------
+        series : str
+            Name of a series.
+        start, end : float, optional
+            The part, s; unless given, the last tenth of the run, at least ten simulated revolutions.
+
+        Returns
+        -------
+        Mean
+            Value and error in the unit of the series.
+
+        Examples
+        --------
+        >>> import plateau
+        >>> filled = plateau.open_run("quick.h5").plateau.mean("filled_fraction")
+        >>> bool(0 < filled.error < filled.value < 1)
+        True
+        """
+        time = self._values("time")
+        revolutions = self._revolutions()
+        first, last = last_tenth(time, revolutions)
+        if f"{series}_integral" in self._run["series"]:
+            integral = self._values(f"series/{series}_integral")
+        else:
+            integral = np.cumsum(self._values(f"series/{series}") * np.diff(time, prepend=0.0))
+        return mean_between(time, integral, revolutions, first if start is None else start, last if end is None else end)
+
+    def build_up(self, body: str) -> xarray.DataArray:
+        """Thickness of the build-up on every cell: how far the height is beyond the substrate, away from the body.
+
+        Parameters
+        ----------
+        body : {"disc", "pin"}
+
+        Returns
+        -------
+        xarray.DataArray
+            m, with the dimensions of the map of heights.
+
+        Raises
+        ------
+        ValueError
+            If the run has not the maps of height and substrate.
+
+        Examples
+        --------
+        >>> import plateau
+        >>> run = plateau.open_run("quick.h5")
+        >>> bool((run.plateau.build_up("pin") >= 0).all())
+        True
+        """
+        if body not in ("disc", "pin"):
+            raise ValueError(f"no body is called {body!r}, there are: disc, pin")
+        for name in ("height", "substrate"):
+            if body not in self._run.children or name not in self._run[body]:
+                raise ValueError(f"the run has no map {body}/{name}: name {body}_{name} in output.maps of the scene")
+        height, substrate = array(self._run, f"{body}/height"), array(self._run, f"{body}/substrate")
+        # The z of the pin grows away from the disc, into its body.
+        thickness = height - substrate if body == "disc" else substrate - height
+        return thickness.assign_attrs(units="m", long_name=f"thickness of the build-up on the {body}")
+
+    def coverage(self) -> xarray.Dataset:
+        """Area fractions of plateaus at every recorded map.
+
+        Returns
+        -------
+        xarray.Dataset
+            ``disc_secondary``, ``pin_primary``, ``pin_secondary`` with the dimension ``map_time``, as far as the maps are there.
+
+        Examples
+        --------
+        >>> import plateau
+        >>> sorted(plateau.open_run("quick.h5").plateau.coverage())
+        ['disc_secondary', 'pin_primary', 'pin_secondary']
+        """
+        wanted = [("disc", "secondary"), ("pin", "primary"), ("pin", "secondary")]
+        return xarray.Dataset(
+            {
+                f"{body}_{status}": MapAccessor(array(self._run, f"{body}/status")).area_fraction(status)
+                for body, status in wanted
+                if body in self._run.children and "status" in self._run[body]
+            }
+        )
+
+    def plot(self, *series: str, ax: Any = None) -> Any:
+        """Draws series against time; needs matplotlib.
+
+        Parameters
+        ----------
+        *series : str
+            Names, of equal units; unless given, the contact area of single steps and of the last revolution.
+        ax : matplotlib.axes.Axes, optional
+            Where; new axes unless given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Examples
+        --------
+        >>> import plateau
+        >>> plateau.open_run("quick.h5").plateau.plot().get_ylabel()
+        'contact area, mm²'
+        """
+        return plots.draw_series(self._run, series, ax=ax)
+
+    def _values(self, name: str) -> Array:
+        return np.asarray(array(self._run, name).values, dtype=np.float64)
+
+    def _revolutions(self) -> Array | None:
+        """Simulated revolutions until every sample: one stands for as many as the time acceleration says."""
+        series = self._run["series"]
+        if "sliding_distance" not in series:
+            return None
+        if "time_acceleration" in series:
+            acceleration: Any = self._values("series/time_acceleration")
+        else:
+            given = self.scene.get("numerics", {}).get("time_acceleration", 1.0)
+            acceleration = float(given) if isinstance(given, int | float) else 1.0
+        way = 2 * np.pi * float(self._values("radius").mean())
+        return np.cumsum(np.diff(self._values("series/sliding_distance"), prepend=0.0) / (way * acceleration))

@@ -1,0 +1,122 @@
+"""Run files as trees of xarray, also of runs that go on or were killed."""
+
+import os
+from typing import Any
+
+import h5py
+import xarray
+
+# What HDF5 and netCDF keep in attributes for themselves.
+INTERNAL = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
+
+
+def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
+    """Opens a run file.
+
+    A run that has ended is read when its values are asked for. Of a run that goes on, or was killed, all that is complete by now
+    is read at once: open it again for what comes later.
+
+    Parameters
+    ----------
+    path : path
+        The run file.
+
+    Returns
+    -------
+    xarray.DataTree
+        Groups ``series``, ``disc``, ``pin`` and, with a cycle, ``event`` (docs/run-file.md). The accessor ``plateau`` of the tree
+        and of its maps has means, build-up, coverage and plots.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If it is no run file.
+
+    Examples
+    --------
+    >>> quick = open_run("quick.h5")
+    >>> quick["disc/height"].dims
+    ('map_time', 'disc_angle', 'radius')
+    >>> quick["series/filled_fraction"].attrs["units"]
+    '1'
+    """
+    try:
+        # Refused while the file is being written, and after a kill.
+        with h5py.File(path, "r") as file:
+            ended = _state(file, path) != "running"
+    except FileNotFoundError:
+        raise
+    except OSError:
+        ended = False
+    if ended:
+        return xarray.open_datatree(path, engine="h5netcdf")
+    try:
+        with h5py.File(path, "r", swmr=True) as file:
+            _state(file, path)
+            return _complete_part(file)
+    except OSError as error:
+        raise ValueError(f"{os.fspath(path)}: cannot be read as a run file: {error}") from error
+
+
+def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
+    """A variable of a run by its path.
+
+    Parameters
+    ----------
+    run : xarray.DataTree
+        As of `open_run`.
+    path : str
+        Such as ``"series/contact_area"``.
+
+    Returns
+    -------
+    xarray.DataArray
+
+    Raises
+    ------
+    KeyError
+        If the run has no such variable.
+    """
+    try:
+        found = run[path]
+    except KeyError:
+        raise KeyError(f"the run has no {path}") from None
+    if not isinstance(found, xarray.DataArray):
+        raise KeyError(f"{path} is a group of the run: expected a variable")
+    return found
+
+
+def _state(file: Any, path: str | os.PathLike[str]) -> Any:
+    if "state" not in file.attrs or "series" not in file:
+        raise ValueError(f"{os.fspath(path)}: this HDF5 file is no run file: it has no state, or no series")
+    return file.attrs["state"]
+
+
+def _complete_part(file: Any) -> xarray.DataTree:
+    """What is complete: of every series as many values as there are times, which are written last."""
+    complete = {name: len(file[name]) for name in ("time", "map_time") if name in file}
+    names = {"/": [name for name in file if isinstance(file[name], h5py.Dataset)]}
+    names |= {group: list(file[group]) for group in file if isinstance(file[group], h5py.Group)}
+    groups = {}
+    for group, members in names.items():
+        variables = {name: _variable(file[group][name], complete) for name in members if (group, name) != ("series", "time")}
+        groups[group] = xarray.Dataset(variables, attrs=_attributes(file[group]))
+    return xarray.DataTree.from_dict(groups)
+
+
+def _variable(dataset: Any, complete: dict[str, int]) -> tuple[list[str], Any, dict[str, Any]]:
+    """Dimensions, values and attributes."""
+    if dataset.is_scale:
+        dims = [dataset.name.rsplit("/", 1)[-1]]
+    else:
+        dims = [dimension[0].name.rsplit("/", 1)[-1] for dimension in dataset.dims]
+    parts = tuple(slice(complete.get(name)) for name in dims)
+    values = dataset[parts]
+    # Statuses are an enumeration there, and plain integers here.
+    return dims, values.astype(values.dtype.base.str) if values.dtype.metadata else values, _attributes(dataset)
+
+
+def _attributes(item: Any) -> dict[str, Any]:
+    return {name: value for name, value in item.attrs.items() if name not in INTERNAL}

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Checks that a wheel holds the package, the program, the licences and the notices, and that the program asks for no newer glibc than the
+name of the wheel says.
+
+    python3 scripts/wheel_check.py WHEEL
+"""
+
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+# The program is far smaller with debug information left out than with it.
+LARGEST = 40_000_000
+
+
+def problems(wheel: Path) -> list[str]:
+    """What is wrong with a wheel."""
+    name, version, _, _, platform = wheel.stem.split("-")
+    with zipfile.ZipFile(wheel) as archive:
+        files = {member.filename: member for member in archive.infolist()}
+        info, program = f"{name}-{version}.dist-info", f"{name}-{version}.data/scripts/plateau"
+        modules = [f"plateau/{path.name}" for path in (ROOT / "python" / "plateau").glob("*.py")]
+        texts = [f"{info}/licenses/{text}" for text in ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-NOTICES")]
+        wanted = ["plateau/py.typed", *modules, *texts, program]
+        found = [f"it has no {file}" for file in wanted if file not in files]
+        if found:
+            return found
+        if not files[program].external_attr >> 16 & 0o111:
+            found.append("the program cannot be executed")
+        if files[program].file_size > LARGEST:
+            found.append(f"the program has {files[program].file_size} bytes: it is not stripped")
+        notices = archive.read(f"{info}/licenses/THIRD-PARTY-NOTICES").decode()
+        found += [f"the notices do not name {work}" for work in ("hdf5-metno-src", "libz-sys", "DejaVu Sans") if work not in notices]
+        allowed = tuple(map(int, re.findall(r"manylinux_(\d+)_(\d+)", platform)[0]))
+        asked = {tuple(map(int, text.split(b"."))) for text in re.findall(rb"GLIBC_(\d+\.\d+)", archive.read(program))}
+        if max(asked) > allowed:
+            found.append(f"the program asks for glibc {max(asked)}, the name of the wheel says {allowed}")
+    return found
+
+
+def main() -> None:
+    wheel = Path(sys.argv[1])
+    found = problems(wheel)
+    if found:
+        sys.exit("\n".join(f"{wheel.name}: {problem}" for problem in found))
+
+
+if __name__ == "__main__":
+    main()

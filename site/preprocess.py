@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""Prepares the pages of docs/ for the site, as a preprocessor of mdBook: formulas become elements that KaTeX fills, and links to files of
+the repository lead there, if PLATEAU_REPOSITORY has its address, else they become plain text.
+"""
+
+import html
+import json
+import os
+import re
+import sys
+from typing import Any
+
+FENCE = re.compile(r"^(```+|~~~+)(\w*)[^\n]*\n(.*?)^\1[ \t]*$\n?", re.MULTILINE | re.DOTALL)
+# Inline code, a formula on a line of its own or within one, or a link out of the folder of the guide.
+INLINE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)|^\$\$(?P<display>.+?)\$\$$|\$(?P<formula>[^\s$](?:[^$\n]*[^\s$])?)\$(?!\d)|\]\((?P<path>\.\./[^)\s]*)\)", re.DOTALL | re.MULTILINE)
+LINK_TEXT = re.compile(r"\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(plain:\)")
+
+
+def element(tex: str, tag: str) -> str:
+    """An element with a formula as an attribute, of which Markdown leaves the text alone, also in tables."""
+    text = html.escape(tex.strip(), quote=True).replace("|", "&#124;").replace("\n", " ")
+    return f'<{tag} class="formula" data-tex="{text}"></{tag}>'
+
+
+def inline(text: str, repository: str) -> str:
+    """Text between fences."""
+
+    def replaced(match: re.Match[str]) -> str:
+        if match["display"]:
+            return element(match["display"], "div")
+        if match["formula"]:
+            return element(match["formula"], "span")
+        if match["path"]:
+            return f"]({repository}/{match['path'].removeprefix('../')})" if repository else "](plain:)"
+        return match[0]
+
+    return LINK_TEXT.sub(r"\1", INLINE.sub(replaced, text))
+
+
+def page(text: str, repository: str) -> str:
+    """A page of the guide."""
+    parts, end = [], 0
+    for fence in FENCE.finditer(text):
+        parts.append(inline(text[end : fence.start()], repository))
+        parts.append(element(fence[3], "div") + "\n" if fence[2] == "math" else fence[0])
+        end = fence.end()
+    return "".join([*parts, inline(text[end:], repository)])
+
+
+def chapters(items: list[Any], repository: str) -> None:
+    """All chapters of a book, with those below them."""
+    for item in items:
+        if isinstance(item, dict) and (chapter := item.get("Chapter")):
+            chapter["content"] = page(chapter["content"], repository)
+            chapters(chapter["sub_items"], repository)
+
+
+def main() -> None:
+    if len(sys.argv) > 1 and sys.argv[1] == "supports":
+        sys.exit(sys.argv[2] != "html")
+    _, book = json.load(sys.stdin)
+    # The name changed with mdBook 0.5.
+    chapters(book.get("items", book.get("sections", [])), os.environ.get("PLATEAU_REPOSITORY", "").rstrip("/"))
+    json.dump(book, sys.stdout)
+
+
+if __name__ == "__main__":
+    main()

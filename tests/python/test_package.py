@@ -1,0 +1,229 @@
+"""The Python package calls the program and opens what it writes. Numbers are found another way: by h5py and NumPy, by hand, or are
+those that the program itself prints."""
+
+import doctest
+import importlib
+import io
+import json
+import os
+import pathlib
+import pkgutil
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+import unittest
+import unittest.mock
+import warnings
+
+import h5py
+import numpy as np
+import pandas
+from package_scenes import QUICK, ROOT, SHORT, STUDY, InFolder
+
+import plateau
+from plateau import commands, program
+
+
+def stand_in(text):
+    """A program that is a shell script, in place of the real one."""
+    path = pathlib.Path("stand-in").absolute()
+    path.write_text("#!/bin/sh\n" + text)
+    path.chmod(0o755)
+    return unittest.mock.patch.dict(os.environ, PLATEAU_PROGRAM=str(path))
+
+
+class Documentation(InFolder):
+    def test_examples_in_docstrings(self):
+        plateau.run("quick.toml", set={"output.maps_at": ["0 s"]})
+        one_factor = STUDY.split("[[factor]]")
+        response = '[[response]]\nname = "contact area"\ndataset = "/series/contact_area_mean"\nat = "end"\n'
+        pathlib.Path("loads.toml").write_text("[[factor]]".join(one_factor[:2]) + response)
+        tried = 0
+        # `commands` comes before `study`, which opens what it makes.
+        for name in ["plateau", *(f"plateau.{module.name}" for module in pkgutil.iter_modules(plateau.__path__))]:
+            result = doctest.testmod(importlib.import_module(name))
+            self.assertEqual(result.failed, 0, name)
+            tried += result.attempted
+        self.assertGreater(tried, 40)
+
+    def test_every_public_thing_says_what_it_is(self):
+        for name in plateau.__all__:
+            thing = getattr(plateau, name)
+            self.assertTrue(thing.__doc__, name)
+            if isinstance(thing, type) and thing.__module__.endswith("_accessor"):
+                for member, value in vars(thing).items():
+                    self.assertTrue(member.startswith("_") or value.__doc__, f"{name}.{member}")
+
+    def test_types(self):
+        try:
+            import mypy.api
+        except ImportError:
+            self.skipTest("mypy is not installed")
+        found, errors, status = mypy.api.run(["--config-file", str(ROOT / "pyproject.toml"), str(ROOT / "python" / "plateau")])
+        self.assertEqual(status, 0, found + errors)
+
+
+class Runs(InFolder):
+    def test_a_run_and_its_summary(self):
+        run = plateau.run("quick.toml", "short.h5", set=SHORT)
+        summary = run.attrs["summary"]
+        with h5py.File("short.h5") as file:
+            self.assertEqual(summary["contact_area"], file["series/contact_area"][-1])
+            np.testing.assert_array_equal(run["disc/height"].values, file["disc/height"][:])
+            np.testing.assert_array_equal(run["time"].values, file["time"][:])
+            self.assertEqual(json.loads(json.dumps(run.plateau.scene))["operation"]["duration"], "20 s")
+        # What exists is left alone, replaced, or left as it is when it is finished.
+        with self.assertRaisesRegex(plateau.InputError, "short.h5 exists") as caught:
+            plateau.run("quick.toml", "short.h5", set=SHORT)
+        self.assertEqual(caught.exception.status, 2)
+        self.assertEqual(caught.exception.command[1:3], ["run", "quick.toml"])
+        plateau.run("quick.toml", "short.h5", set=SHORT | {"operation.duration": "10 s"}, force=True)
+        self.assertEqual(len(plateau.open_run("short.h5")["map_time"]), 2)
+        again = plateau.run("quick.toml", "short.h5", set=SHORT | {"operation.duration": "10 s"}, resume=True)
+        self.assertNotIn("summary", again.attrs)
+        named = SHORT | {"operation.duration": "10 s", "output.file": "short.h5"}
+        self.assertEqual(plateau.run("quick.toml", set=named, resume=True).sizes, again.sizes)
+        longer = plateau.run("quick.toml", "short.h5", extend_to="20 s", set=SHORT | {"operation.duration": "10 s"})
+        np.testing.assert_array_equal(longer["series/pool"].values, run["series/pool"].values)
+        np.testing.assert_array_equal(longer["disc/height"][-1].values, run["disc/height"][-1].values)
+
+    def test_check(self):
+        found = plateau.check(QUICK, set={"mesh": {"rows": 10}}, workers=2)
+        # 60 s at 850 turns a minute, of which one simulated stands for 20: 42.5 of 690 columns each.
+        self.assertEqual((found["rows"], found["steps"], found["workers"]), (10, 29325, 2))
+
+    def test_warnings_of_the_program(self):
+        with self.assertWarnsRegex(plateau.PlateauWarning, "nominal pressure of 669.6 MPa"):
+            plateau.check("quick.toml", set={"operation.normal_force": "5 kN"})
+
+    def test_values_of_keys_are_what_they_were(self):
+        values = ["5 N", 'a "quoted" \\ text', "µm", True, False, 7, 5e-14, 2.5, ["0 s", "10 s"], {"tolerance": 0.01, "max": 100}]
+        for value in [*values, [{"a b": 1}, [True]], (1, 2)]:
+            expected = list(value) if isinstance(value, tuple) else value
+            found = tomllib.loads(f"value = {commands._toml(value)}")["value"]
+            self.assertEqual((type(found), found), (type(expected), expected))
+        self.assertEqual(tomllib.loads(f"value = {commands._toml(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
+        self.assertEqual(commands._toml(np.float64(0.1)), "0.1")
+        with self.assertRaisesRegex(TypeError, "no value of a scene"):
+            commands._toml(object())
+
+    def test_errors_are_those_of_the_exit_status(self):
+        kinds = {1: plateau.RunFailed, 2: plateau.InputError, 143: plateau.RunStopped, 7: plateau.PlateauError}
+        for status, kind in kinds.items():
+            said = f"printf 'plateau: warning: beware\\nplateau: a note\\nplateau: what happened\\n  and where\\n' >&2; exit {status}"
+            for progress in (False, True):
+                with stand_in(said), self.assertWarnsRegex(plateau.PlateauWarning, "^beware$"):
+                    with unittest.mock.patch("sys.stderr", io.StringIO()), self.assertRaises(kind) as caught:
+                        program.call(["run"], progress)
+                self.assertIs(type(caught.exception), kind)
+                self.assertEqual((str(caught.exception), caught.exception.status), ("what happened\n  and where", status))
+        with stand_in("kill -KILL $$"), self.assertRaisesRegex(plateau.PlateauError, "ended with status -9"):
+            program.call(["run"], False)
+
+    def test_progress_is_shown_and_taken_away(self):
+        said = "printf '\\r\\033[2K##..   50 %%  1.0 of 2.0 s  1s left' >&2; printf '\\r\\033[2K' >&2; test -t 2 && echo '[1]'"
+        with stand_in(said), unittest.mock.patch("sys.stderr", io.StringIO()) as shown:
+            self.assertEqual(program.call(["run"], True), [1])
+        self.assertEqual(shown.getvalue(), "\r\x1b[2K##..   50 %  1.0 of 2.0 s  1s left\r\x1b[2K")
+        with stand_in(said + "; echo 1"), unittest.mock.patch("sys.stderr", io.StringIO()) as shown:
+            self.assertEqual(program.call(["run"], False), 1)
+        self.assertEqual(shown.getvalue(), "")
+
+    def test_a_notebook_shows_progress_in_the_cell(self):
+        # The least of IPython that is used: a kernel, and a place in the output that is updated.
+        display, handle = unittest.mock.MagicMock(), unittest.mock.MagicMock()
+        display.display.return_value = handle
+        display.Pretty = str
+        notebook = unittest.mock.MagicMock()
+        said = "printf '\\r##..   50 %%  1.0 of 2.0 s  1s left\\r' >&2; echo 1"
+        modules = {"IPython": notebook, "IPython.display": display}
+        with stand_in(said), unittest.mock.patch.dict(sys.modules, modules):
+            program.call(["run"])
+        self.assertEqual([call.args[0] for call in handle.update.call_args_list], ["##..   50 %  1.0 of 2.0 s  1s left", ""])
+
+    def test_an_interrupt_of_python_alone_closes_the_run_file(self):
+        text = (
+            "import plateau\ntry:\n    plateau.run('quick.toml', 'long.h5', set={'operation.duration': '100000 s'})\n"
+            "except KeyboardInterrupt:\n    print('interrupted')"
+        )
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+        process = subprocess.Popen([sys.executable, "-c", text], env=environment, stdout=subprocess.PIPE, text=True)
+        end = time.monotonic() + 120
+        while not pathlib.Path("long.h5").exists():
+            self.assertLess(time.monotonic(), end, "no run file after two minutes")
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=120)
+        self.assertEqual(out, "interrupted\n")
+        with h5py.File("long.h5") as file:
+            self.assertEqual(file.attrs["state"], "interrupted")
+
+
+class Programs(InFolder):
+    def test_where_it_is_looked_for(self):
+        with unittest.mock.patch.dict(os.environ, PLATEAU_PROGRAM="/no/such"):
+            with self.assertRaisesRegex(plateau.PlateauError, "PLATEAU_PROGRAM is '/no/such'"):
+                plateau.find_program()
+        with unittest.mock.patch.dict(os.environ):
+            del os.environ["PLATEAU_PROGRAM"]
+            self.assertEqual(plateau.find_program(), str(ROOT / "plateau"))
+            # Installed: the package is somewhere else, its program among the scripts of the environment.
+            site = pathlib.Path("lib/site-packages").absolute()
+            site.mkdir(parents=True)
+            scripts = {"prefix": "bin", "user": "user/bin"}
+            with (
+                unittest.mock.patch.object(program, "__file__", str(site / "plateau" / "program.py")),
+                unittest.mock.patch.object(program, "_scheme", lambda key: key),
+                unittest.mock.patch("sysconfig.get_path", lambda name, scheme: str(pathlib.Path(scripts[scheme]).absolute())),
+            ):
+                os.environ["PATH"] = str(pathlib.Path("path").absolute())
+                with self.assertRaisesRegex(plateau.PlateauError, "neither beside the Python package nor on PATH"):
+                    plateau.find_program()
+                for folder in ("path", "lib/site-packages/bin", "user/bin", "bin"):
+                    pathlib.Path(folder).mkdir(parents=True)
+                    path = pathlib.Path(folder, "plateau").absolute()
+                    path.write_text("#!/bin/sh\n")
+                    path.chmod(0o755)
+                    self.assertEqual(plateau.find_program(), str(path))
+
+    def test_matplotlib_is_asked_for_by_figures_alone(self):
+        text = (
+            "import sys, plateau\nassert not any(name.startswith('matplotlib') for name in sys.modules)\n"
+            "sys.modules['matplotlib.pyplot'] = None\nfrom plateau.plots import new_axes\nnew_axes()"
+        )
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+        done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True, timeout=120)
+        self.assertIn("ImportError: figures need matplotlib: pip install 'plateau-brake[plot]'", done.stderr)
+
+
+class Studies(InFolder):
+    def test_a_study_from_its_runs_to_its_effects(self):
+        pathlib.Path("study.toml").write_text(STUDY)
+        with self.assertRaisesRegex(FileNotFoundError, "sweep collect"):
+            plateau.open_study("study.toml")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            made = plateau.sweep("study.toml", jobs=2, progress=False)
+        for study in (made, plateau.open_study("study"), plateau.open_study("study.toml"), plateau.collect("study.toml")):
+            self.assertEqual(study.data["contact_area"].dims, ("run", "time"))
+            pandas.testing.assert_frame_equal(study.table, pandas.read_csv("study/results.csv", float_precision="round_trip"))
+        np.testing.assert_array_equal(made.table["worn [m3]"], made.data["worn"].values)
+        found = plateau.effects("study.toml", model="main", confidence=0.9, output="effects")
+        self.assertEqual(found.files[0], "effects/effects.csv")
+        [response] = found.responses
+        self.assertEqual((response["name"], response["unit"], response["model"]), ("worn", "m3", "main"))
+        # Main effects of two levels are differences of means.
+        worn = made.table.groupby("load [N]")["worn [m3]"].mean()
+        self.assertAlmostEqual(found.table.loc[("worn", "load"), "effect"] / (worn[10.0] - worn[5.0]), 1.0, delta=1e-9)
+        self.assertAlmostEqual(response["mean"] / made.table["worn [m3]"].mean(), 1.0, delta=1e-9)
+
+    def test_a_study_that_is_wrong(self):
+        pathlib.Path("bad.toml").write_text(STUDY.replace("5 N", "5 kg"))
+        with self.assertRaisesRegex(plateau.InputError, "(?s)bad.toml.*5 kg"):
+            plateau.sweep("bad.toml")
+
+
+if __name__ == "__main__":
+    unittest.main()

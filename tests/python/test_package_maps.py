@@ -1,0 +1,245 @@
+"""Means, maps, build-up and figures of the Python package, against closed forms, sums written out by hand, and what the program prints;
+and run files that are read while they are written and after a kill."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+from package_scenes import ROUND, SHORT, InFolder
+
+import plateau
+from plateau import means
+
+
+def made_up(values, dtype=float):
+    """A map of two angles and rows of radius 1 and 3, so that cells of the outer row have three times the area."""
+    coordinates = {"disc_angle": [0.0, np.pi], "radius": [1.0, 3.0]}
+    return xarray.DataArray(np.array(values, dtype), coordinates, ["disc_angle", "radius"], name="height")
+
+
+class Means(unittest.TestCase):
+    def test_standard_error_is_that_of_a_process_of_first_order(self):
+        # The variance of a mean of n values in closed form, (1/n²) Σ φ^|i−k|, against the mean of 200 estimates. Chance moves that by
+        # some hundredths, and the truncation makes it a little too large.
+        random, count = np.random.default_rng(2), 500
+        for alike in (0.0, 0.7):
+            apart = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
+            found = []
+            for _ in range(200):
+                values = np.empty(count)
+                values[0] = random.standard_normal()
+                for step, chance in enumerate(random.standard_normal(count - 1) * np.sqrt(1 - alike**2)):
+                    values[step + 1] = alike * values[step] + chance
+                found.append(means.standard_error(values) ** 2)
+            self.assertAlmostEqual(np.mean(found) / ((alike**apart).sum() / count**2), 1.1, delta=0.2)
+
+    def test_parts_of_a_run(self):
+        time, turns = np.arange(1.0, 101.0), np.arange(1.0, 101.0) / 2
+        self.assertEqual(means.last_tenth(time, None), (90.0, 100.0))
+        # At least ten revolutions, and the whole run where that has no more.
+        self.assertEqual(means.last_tenth(time, turns), (80.0, 100.0))
+        self.assertEqual(means.last_tenth(time, turns / 10), (0.0, 100.0))
+        # The integral of t is t²/2; between samples it is linear.
+        found = means.mean_between(time, time**2 / 2, turns, 10.0, 20.0)
+        self.assertAlmostEqual(found.value, 15.0)
+        self.assertEqual((found.start, found.end, found.revolutions), (10.0, 20.0, 5.0))
+        # Five blocks of a revolution each, with the means 11, 13, 15, 17, 19.
+        self.assertAlmostEqual(found.error, means.standard_error(np.array([11.0, 13.0, 15.0, 17.0, 19.0])))
+        self.assertTrue(np.isnan(means.mean_between(time, time**2 / 2, turns, 12.0, 20.0).error))
+        self.assertAlmostEqual(means.mean_between(time, time**2 / 2, None, 0.0, 0.5).value, 0.5)
+        for part in ((-1.0, 5.0), (5.0, 5.0), (5.0, 101.0)):
+            with self.assertRaisesRegex(ValueError, "expected times in order"):
+                means.mean_between(time, time, None, *part)
+
+
+class MadeUpMaps(unittest.TestCase):
+    def test_means_count_areas_and_leave_out_what_is_not_there(self):
+        self.assertAlmostEqual(made_up([[0, 4], [0, 4]]).plateau.area_mean().item(), 3.0)
+        # (1·1 + 3·2) / (1 + 3)
+        self.assertAlmostEqual(made_up([[1, 2], [np.nan, np.nan]]).plateau.area_mean().item(), 7 / 4)
+
+    def test_fractions_of_statuses(self):
+        flags = {"flag_values": [0, 1, 2], "flag_meanings": "none primary secondary"}
+        status = made_up([[2, 1], [2, 0]], np.uint8).assign_attrs(flags)
+        self.assertAlmostEqual(status.plateau.area_fraction("secondary").item(), 2 / 8)
+        self.assertEqual(status.plateau.has_status("primary").values.tolist(), [[False, True], [False, False]])
+        # Beyond a round pin: 1 / (1 + 1 + 3).
+        absent = made_up([[2, 3], [1, 0]], np.uint8).assign_attrs(flags)
+        self.assertAlmostEqual(absent.plateau.area_fraction("secondary").item(), 1 / 5)
+        with self.assertRaisesRegex(ValueError, "'half', there are: none, primary, secondary"):
+            status.plateau.area_fraction("half")
+        with self.assertRaisesRegex(ValueError, "this is no map of statuses"):
+            made_up([[0, 0], [0, 0]]).plateau.has_status("none")
+
+    def test_places(self):
+        unrolled = made_up([[0, 4], [0, 4]]).plateau.unrolled()
+        np.testing.assert_allclose(unrolled["arc_length"], [0.0, 2 * np.pi])
+        self.assertEqual(unrolled.dims, ("arc_length", "radius"))
+        plane = made_up([[0, 4], [0, 4]]).plateau.cartesian()
+        np.testing.assert_allclose(plane["x"].transpose("disc_angle", "radius"), [[1, 3], [-1, -3]])
+        np.testing.assert_allclose(plane["y"], 0.0, atol=1e-15)
+
+    def test_what_is_no_map(self):
+        with self.assertRaisesRegex(ValueError, "no map; expected disc_angle or pin_angle"):
+            xarray.DataArray([1.0], dims="time").plateau.area_mean()
+        with self.assertRaisesRegex((RuntimeError, AttributeError), "no run|plateau"):
+            xarray.DataTree().plateau.mean()
+
+
+class Runs(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.run_ = plateau.run("quick.toml", "quick.h5", set=SHORT)
+        cls.round_ = plateau.run("quick.toml", "round.h5", set=ROUND)
+
+    def test_the_mean_is_the_one_that_the_program_prints(self):
+        for run in (self.run_, self.round_):
+            expected, found = run.attrs["summary"]["contact_area_last_tenth"], run.plateau.mean()
+            np.testing.assert_allclose(
+                [found.value, found.error, found.start, found.end, found.revolutions],
+                [expected[key] for key in ("mean", "standard_error", "from", "to", "revolutions")],
+                rtol=1e-10,
+            )
+            pressure = run.plateau.mean("mean_pressure", found.start, found.end)
+            time, values = run["time"].values, run["series/mean_pressure"].values
+            inside = time > found.start
+            # Samples lie whole steps apart, so that their distances differ a little.
+            self.assertAlmostEqual(pressure.value / values[inside].mean(), 1.0, delta=2e-3)
+            self.assertGreater(pressure.error, 0)
+
+    def test_build_up_and_coverage(self):
+        for run in (self.run_, self.round_):
+            with h5py.File(run.attrs["summary"]["file"]) as file:
+                disc = file["disc/height"][:] - file["disc/substrate"][:]
+                pin = file["pin/substrate"][:] - file["pin/height"][:]
+                there = np.isfinite(file["pin/height"][-1])
+                weights = np.broadcast_to(file["radius"][:], there.shape)
+                last = [file[f"series/{name}"][-1] for name in ("disc_secondary", "pin_primary", "pin_secondary")]
+                secondary = file["pin/status"][-1] == 2
+            np.testing.assert_array_equal(run.plateau.build_up("disc").values, disc)
+            np.testing.assert_array_equal(run.plateau.build_up("pin").values, pin)
+            mean = run.plateau.build_up("pin").plateau.area_mean().values[-1]
+            self.assertAlmostEqual(mean / np.average(pin[-1][there], weights=weights[there]), 1.0, delta=1e-12)
+            self.assertTrue((pin[-1][secondary] > 0).all() and secondary.any())
+            # The program counts the cells of the last map itself.
+            coverage = run.plateau.coverage().isel(map_time=-1)
+            np.testing.assert_allclose([coverage[name].item() for name in sorted(coverage)], last, rtol=1e-9)
+        self.assertFalse(there.all())
+
+    def test_what_a_run_has_not(self):
+        without = plateau.run("quick.toml", "few.h5", set=SHORT | {"output.maps": ["disc_height"]})
+        with self.assertRaisesRegex(ValueError, "no map disc/substrate: name disc_substrate in output.maps"):
+            without.plateau.build_up("disc")
+        with self.assertRaisesRegex(ValueError, "no body is called 'rotor'"):
+            without.plateau.build_up("rotor")
+        with self.assertRaisesRegex(KeyError, "no series/warmth"):
+            without.plateau.mean("warmth")
+        self.assertEqual(list(without.plateau.coverage()), [])
+        self.assertEqual(len(without.plateau.events), 0)
+
+    def test_tables(self):
+        table = self.run_.plateau.series
+        with h5py.File("quick.h5") as file:
+            self.assertEqual(set(table), set(file["series"]) - {"time"})
+            np.testing.assert_array_equal(table.index, file["time"][:])
+            np.testing.assert_array_equal(table["emitted"], file["series/emitted"][:])
+
+    def test_moments(self):
+        height = self.run_["disc/height"]
+        self.assertAlmostEqual(height.plateau.at_time(12.0)["map_time"].item(), 10.0, delta=0.01)
+        self.assertEqual(height.plateau.at_time()["map_time"].item(), height["map_time"].values[-1])
+        self.assertIs(self.run_["pin/base"].plateau.at_time(3.0).dims, self.run_["pin/base"].dims)
+
+    def test_figures_show_what_is_in_the_run(self):
+        axes = self.run_.plateau.plot()
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), self.run_["series/contact_area"].values * 1e6)
+        axes = self.run_.plateau.plot("displacement")
+        self.assertEqual(axes.get_ylabel(), "displacement, µm")
+        np.testing.assert_allclose(axes.lines[0].get_ydata(), self.run_["series/displacement"].values * 1e6)
+        self.assertEqual(self.run_.plateau.plot("sliding_distance").get_ylabel(), "sliding distance, m")
+        for polar in (False, True):
+            axes = self.round_["pin/pressure"].plateau.plot(polar=polar)
+            drawn = axes.collections[0].get_array()
+            np.testing.assert_allclose(np.ma.filled(drawn, np.nan), self.round_["pin/pressure"].values[-1].T / 1e6)
+            self.assertIn("MPa", [other.get_ylabel() for other in axes.figure.axes])
+        axes = self.run_["disc/status"].plateau.plot(10.0)
+        axes.figure.canvas.draw()
+        names = [label.get_text() for label in axes.figure.axes[1].get_yticklabels()]
+        self.assertEqual([name for name in names if name.isalpha()], ["none", "primary", "secondary"])
+        # The ring is as long as the circle of its mean radius.
+        self.assertAlmostEqual(axes.get_xlim()[1] / (2 * np.pi * self.run_["radius"].values.mean() * 1e3), 1.0, delta=1e-6)
+
+
+class Unfinished(InFolder):
+    def test_a_run_that_goes_on_and_one_that_was_killed(self):
+        changes = ['operation.duration="100000 s"', 'output.maps_at=["0 s"]']
+        sets = [argument for change in changes for argument in ("--set", change)]
+        command = [os.environ["PLATEAU_PROGRAM"], "run", "quick.toml", "-o", "going.h5", *sets]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        looks, end = [], time.monotonic() + 120
+        while len(looks) < 3:
+            self.assertLess(time.monotonic(), end, "three looks at a growing run in two minutes")
+            if pathlib.Path("going.h5").exists():
+                try:
+                    run = plateau.open_run("going.h5")
+                except ValueError:  # it has only just been made
+                    continue
+                if len(run["time"]) > (len(looks[-1]["time"]) if looks else 0):
+                    looks.append(run)
+            time.sleep(0.1)
+        self.assertEqual(process.poll(), None)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        killed = plateau.open_run("going.h5")
+        self.assertEqual(killed.attrs["state"], "running")
+        for run in looks:
+            count = len(run["time"])
+            for name in ("contact_area", "emitted"):
+                self.assertTrue(np.isfinite(run[f"series/{name}"].values).all())
+                np.testing.assert_array_equal(run[f"series/{name}"].values, killed[f"series/{name}"].values[:count])
+        # What is made of the file afterwards is a run that has ended, with the same samples.
+        subprocess.run([os.environ["PLATEAU_PROGRAM"], "repair", "going.h5"], check=True, capture_output=True, timeout=120)
+        repaired = plateau.open_run("going.h5")
+        self.assertEqual(repaired.attrs["state"], "interrupted")
+        self.assertEqual(set(repaired["series"].data_vars), set(killed["series"].data_vars))
+        np.testing.assert_array_equal(repaired["series/pool"].values, killed["series/pool"].values)
+        self.assertEqual(repaired.plateau.mean(), killed.plateau.mean())
+        for name in ("disc/height", "pin/status", "pin/base"):
+            self.assertEqual((killed[name].dims, killed[name].dtype), (repaired[name].dims, repaired[name].dtype))
+            np.testing.assert_array_equal(killed[name].values, repaired[name].values)
+        self.assertEqual(killed["pin/status"].plateau.status_names, repaired["pin/status"].plateau.status_names)
+
+    def test_what_is_no_run_file(self):
+        with self.assertRaises(FileNotFoundError):
+            plateau.open_run("none.h5")
+        pathlib.Path("text.h5").write_text("no HDF5")
+        with self.assertRaisesRegex(ValueError, "text.h5: cannot be read as a run file"):
+            plateau.open_run("text.h5")
+        with h5py.File("other.h5", "w") as file:
+            file["values"] = [1, 2]
+        with self.assertRaisesRegex(ValueError, "other.h5: this HDF5 file is no run file"):
+            plateau.open_run("other.h5")
+
+
+class Cycles(InFolder):
+    def test_a_row_for_each_event(self):
+        rows = [["0 s", "5 N", "850 rpm"], ["1 s", "5 N", "0 rpm"], ["1 s", "0 N", "0 rpm"], ["2 s", "0 N", "850 rpm"]]
+        pathlib.Path("stops.toml").write_text(f'extends = "quick.toml"\n[operation]\nduration = "6 s"\n[operation.cycle]\npoints = {rows}\nrepeat = 3\n')
+        with self.assertWarnsRegex(plateau.PlateauWarning, "simulated revolutions"):
+            run = plateau.run("stops.toml", "stops.h5", set={"output.maps_at": [], "numerics.time_acceleration": 2})
+        with h5py.File("stops.h5") as file:
+            np.testing.assert_array_equal(run.plateau.events["worn"], file["event/worn"][:])
+        np.testing.assert_allclose(run.plateau.events["start"], [0, 2, 4], atol=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
