@@ -4,6 +4,8 @@ use std::fmt;
 use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use plateau_io::text::shown;
+
 static WARNINGS: AtomicBool = AtomicBool::new(true);
 
 /// From now on there are no warnings: another process of the same job gives them.
@@ -30,7 +32,7 @@ pub fn note(message: impl fmt::Display) {
     }
 }
 
-/// Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.
+/// Text of others cannot do anything to the terminal. Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.
 fn say(line: fmt::Arguments<'_>) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", shown(&line.to_string()));
 }

@@ -6,7 +6,7 @@ use std::io;
 use plateau_core::simulation::Simulation;
 use plateau_run::Observer;
 
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, Preparation};
 use crate::message;
 use crate::progress::Progress;
 
@@ -28,6 +28,8 @@ impl Observer for Messages {
 #[derive(Debug)]
 pub struct Terminal {
     interrupt: Interrupt,
+    /// Nothing is written yet.
+    preparation: Option<Preparation>,
     /// Whether there is a progress bar.
     visible: bool,
     progress: Option<Progress>,
@@ -39,7 +41,7 @@ impl Terminal {
     /// # Errors
     /// When the system does not take the handlers.
     pub fn listen(visible: bool) -> io::Result<Self> {
-        Ok(Self { interrupt: Interrupt::listen()?, visible, progress: None })
+        Ok(Self { interrupt: Interrupt::listen()?, preparation: None, visible, progress: None })
     }
 
     /// The same, and SIGUSR1 asks for a checkpoint.
@@ -51,6 +53,11 @@ impl Terminal {
         terminal.interrupt.listen_for_save()?;
         Ok(terminal)
     }
+
+    /// Until the run is prepared, a signal ends the program at once.
+    pub fn end_while_preparing(&mut self) {
+        self.preparation = Some(self.interrupt.end_at_once());
+    }
 }
 
 impl Observer for Terminal {
@@ -60,6 +67,10 @@ impl Observer for Terminal {
 
     fn note(&mut self, message: &dyn Display) {
         Messages.note(message);
+    }
+
+    fn prepared(&mut self) {
+        self.preparation = None;
     }
 
     fn starts(&mut self, name: &str, duration: f64) {
