@@ -21,6 +21,7 @@ build() {
         rm -f "$mark"
         die "the program could not be built, see above"
     fi
+    can_start
     if [ ! -x "$program" ]; then
         rm -f "$mark"
         die "cargo put the program elsewhere than $program: unset CARGO_BUILD_TARGET and build.target"

@@ -1,4 +1,4 @@
-# Where the build lives, and whether it is up to date. Sourced with `root`, the checkout, set.
+# Where the build lives, and whether it is up to date. Sourced with `root`, the checkout, set; say.sh comes too.
 # shellcheck shell=sh disable=SC2034,SC2154
 
 target=${CARGO_TARGET_DIR:-$root/target}
@@ -15,6 +15,14 @@ stamp=$target/plateau.stamp
 stamp_key="features=$features toolchain=${RUSTUP_TOOLCHAIN:-} flags=${RUSTFLAGS:-}"
 [ -z "${CARGO_TARGET_DIR:-}" ] || stamp_key="$stamp_key checkout=$root"
 
+# Ends with one line where the program is there and the system will not start it. Building it again would not help.
+can_start() {
+    [ ! -f "$program" ] || [ -x "$program" ] ||
+        die "$program may not be started: the file system is mounted noexec, or the file lost its permission;" \
+            "set CARGO_TARGET_DIR to a folder elsewhere, or remove the file"
+}
+
+# Status 2: nobody can tell, for there is no find.
 # The program is there and nothing that goes into it has changed since it was built. Folders count, so that a
 # deleted file is noticed; the log of the checked-out revision counts, because results name the revision.
 is_fresh() {
@@ -23,6 +31,7 @@ is_fresh() {
     [ "$built_key" = "$stamp_key" ] || return 1
     git_dir=$root/.git
     [ ! -f "$git_dir" ] || read -r _ git_dir <"$git_dir"
+    command -v find >/dev/null 2>&1 || return 2
     newer=$(find "$root/crates" "$root/Cargo.toml" "$root/Cargo.lock" "$root/.cargo" "$root/rust-toolchain" \
         "$root/rust-toolchain.toml" "$git_dir/logs/HEAD" -newer "$stamp" -print -quit 2>/dev/null)
     [ -z "$newer" ]

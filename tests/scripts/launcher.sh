@@ -139,6 +139,17 @@ launch "$checkout/plateau"
 expect 'second use does not build' "$(builds)" 1
 expect 'second use is silent' "$(cat "$sandbox/err")" ''
 
+rm "$tools/find"
+launch "$checkout/plateau"
+expect_message 'without find' 'find is missing'
+ln -s "$(PATH=/usr/bin:/bin command -v find)" "$tools/find"
+# As on a file system that is mounted noexec: there the system says the same of a file with that permission.
+chmod a-x "$checkout/target/release/plateau"
+launch "$checkout/plateau"
+expect_message 'a program that may not be started' 'noexec'
+expect 'that does not build' "$(builds)" 1
+chmod a+x "$checkout/target/release/plateau"
+
 mkdir "$sandbox/bin" "$sandbox/bin/deep"
 ln -s ../../check\ out/plateau "$sandbox/bin/deep/relative"
 ln -s "$sandbox/bin/deep/relative" "$sandbox/bin/absolute"

@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -139,6 +140,15 @@ int open64(const char *path, int flags, ...) {
     mode_t permissions = flags & O_CREAT ? va_arg(rest, mode_t) : 0;
     va_end(rest);
     return opened(path, flags, permissions);
+}
+
+/* PLATEAU_THREADS, if set, is how many threads there are to be had. */
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument) {
+    static atomic_long made;
+    const char *most = getenv("PLATEAU_THREADS");
+    if (most && atomic_fetch_add(&made, 1) >= atol(most))
+        return EAGAIN;
+    return REAL(pthread_create)(thread, attributes, start, argument);
 }
 
 __attribute__((destructor)) static void tell(void) {

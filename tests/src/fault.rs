@@ -61,6 +61,12 @@ pub fn strike(mut command: Command, fault: Fault, call: usize) -> Outcome {
     outcome
 }
 
+/// Runs a command to which the system gives so many threads and no more.
+pub fn without_threads(mut command: Command, threads: usize) -> Outcome {
+    command.env("LD_PRELOAD", shim()).env("PLATEAU_THREADS", threads.to_string()).env_remove("RUST_BACKTRACE");
+    run(command)
+}
+
 /// The library that stands before the C library, built once.
 fn shim() -> PathBuf {
     static SHIM: OnceLock<PathBuf> = OnceLock::new();

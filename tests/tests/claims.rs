@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::os::unix::fs::PermissionsExt;
+use std::os::unix::fs::{MetadataExt, PermissionsExt};
+use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
+use plateau_tests::program::{WorkingDirectory, kill, run, scene, wait_until};
 use plateau_tests::run_file::{Content, RunFile, differences};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
@@ -54,7 +55,7 @@ fn writes(process: u32, folder: &Path) -> bool {
 /// Lets processes race as often as `PLATEAU_RACES` says, if it does.
 #[test]
 fn of_processes_that_go_on_at_once_one_writes_and_the_others_say_so() {
-    let races = std::env::var("PLATEAU_RACES").map_or(few_or_all(4, 8), |races| races.parse().unwrap());
+    let races = std::env::var("PLATEAU_RACES").map_or(few_or_all(4, 40), |races| races.parse().unwrap());
     let whole = {
         let directory = WorkingDirectory::new();
         assert!(racer(&directory, "run.h5", "--resume").stderr(Stdio::null()).status().unwrap().success());
@@ -174,4 +175,38 @@ fn a_lock_of_another_machine_is_left_to_the_user() {
     assert!(directory.content() == before);
     fs::remove_file(directory.path("run.h5.lock")).unwrap();
     assert!(racer(&directory, "run.h5", "--force").stderr(Stdio::null()).status().unwrap().success());
+}
+
+/// Only the superuser can be another user: elsewhere this tests nothing.
+#[test]
+fn what_another_user_may_be_writing_is_not_repaired() {
+    const NOBODY: u32 = 65_534;
+    let directory = WorkingDirectory::new();
+    fs::set_permissions(directory.path(""), fs::Permissions::from_mode(0o777)).unwrap();
+    let child = start(&directory, racer(&directory, "run.h5", "--resume"), "said");
+    assert!(wait_until(|| directory.path("run.h5.checkpoint").exists()));
+    kill(child);
+    let lock = fs::read(directory.path("run.h5.lock")).unwrap();
+    if fs::metadata(directory.path("run.h5")).unwrap().uid() != 0 {
+        println!("not tried: this is no superuser");
+        return;
+    }
+    let as_nobody = |arguments: &[&str]| {
+        let mut command = directory.command(arguments);
+        command.uid(NOBODY).gid(NOBODY);
+        run(command)
+    };
+    if as_nobody(&["--version"]).status != Some(0) {
+        println!("not tried: another user cannot start the program");
+        return;
+    }
+    // Without the lock nobody knows whether a process of the file's owner still has it open.
+    fs::remove_file(directory.path("run.h5.lock")).unwrap();
+    let before = directory.content();
+    let refused = as_nobody(&["repair", "run.h5"]);
+    assert!(refused.status == Some(2) && refused.stderr.contains("belongs to another user"), "{refused:?}");
+    assert!(directory.content() == before);
+    // With it everybody knows that its process has ended.
+    directory.write("run.h5.lock", lock);
+    as_nobody(&["repair", "run.h5"]).quiet_success();
 }

@@ -80,20 +80,59 @@ fn a_run_whose_file_was_replaced_leaves_the_checkpoints_of_the_other_alone() {
 #[test]
 fn a_signal_during_the_preparation_is_heard() {
     let large = ["--set", "mesh.rows=300", "--set", "mesh.disc_columns=20700", "--set", "mesh.pin_columns=1200"];
-    for (signal, status) in [("TERM", 143), ("INT", 130)] {
+    // Fibres that are so long that nearly all of them miss the pin: hours of one loop.
+    let fibres = ["--set", "pin.base.synthetic.fibre_length=1e5 m", "--set", "pin.base.synthetic.fibre_width=1e-7 m"];
+    let cases = [("TERM", 143, &large[..]), ("INT", 130, &large), ("HUP", 129, &large), ("XCPU", 152, &fibres)];
+    for (signal, status, sets) in cases {
         let directory = WorkingDirectory::new();
-        let mut command = directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(large));
+        let mut command =
+            directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(sets.iter().copied()));
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        // Its handlers are the first that it sets up: 1 is SIGHUP's bit.
-        let caught = || {
-            let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
-            let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:").map(str::trim).map(str::to_owned));
-            mask.and_then(|mask| u64::from_str_radix(&mask, 16).ok()).is_some_and(|mask| mask >> (10 - 1) & 1 == 1)
-        };
-        assert!(wait_until(caught), "no handler of SIGUSR1");
-        let send = |signal: &str| Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
-        assert!(send("USR1").success() && send(signal).success());
+        assert!(wait_until(|| catches_save(child.id())), "no handler of SIGUSR1");
+        send("USR1", child.id());
+        send(signal, child.id());
+        let mut ended = None;
+        assert!(wait_until(|| {
+            ended = child.try_wait().unwrap();
+            ended.is_some()
+        }));
+        assert_eq!(ended.and_then(|ended| ended.code()), Some(status), "{signal}");
+        assert_eq!(directory.names(), [""; 0], "{signal}");
+    }
+}
+
+/// Whether a process has the last of the handlers that it sets up first: in the mask, 1 is SIGHUP's bit.
+fn catches_save(process: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:").map(str::trim));
+    mask.and_then(|mask| u64::from_str_radix(mask, 16).ok()).is_some_and(|mask| mask >> (10 - 1) & 1 == 1)
+}
+
+fn send(signal: &str, process: u32) {
+    assert!(Command::new("kill").args(["-s", signal, &process.to_string()]).status().unwrap().success());
+}
+
+#[test]
+fn a_terminal_that_goes_leaves_a_checkpoint_unless_that_is_to_be_ignored() {
+    let directory = WorkingDirectory::new();
+    for (signal, status, ignored) in [("HUP", 129, false), ("XCPU", 152, false), ("TERM", 143, true)] {
+        let file = format!("{signal}.h5");
+        let order = if ignored { "trap '' HUP" } else { ":" };
+        let mut command = directory.command_after(order, endless(&file, "1 h"));
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        assert!(has_samples(&directory.path(&file)));
+        if ignored {
+            let samples = RunFile::follow(directory.path(&file)).unwrap().shape("/time")[0];
+            send("HUP", child.id());
+            assert!(wait_until(|| {
+                RunFile::follow(directory.path(&file)).is_ok_and(|run| run.shape("/time")[0] > samples)
+            }));
+            assert!(child.try_wait().unwrap().is_none(), "what nohup starts goes on");
+        }
+        send(signal, child.id());
         assert_eq!(child.wait().unwrap().code(), Some(status), "{signal}");
+        assert_eq!(RunFile::open(directory.path(&file)).text("state"), "interrupted", "{signal}");
+        assert!(directory.path(&format!("{file}.checkpoint")).exists(), "{signal}");
     }
 }
 

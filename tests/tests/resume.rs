@@ -46,7 +46,7 @@ fn start_and_kill(directory: &WorkingDirectory, more: &[&str], random: &mut Stre
 /// Kills as often as `PLATEAU_KILLS` says, if it does.
 #[test]
 fn a_run_killed_again_and_again_ends_bit_for_bit_like_an_undisturbed_one() {
-    let kills = std::env::var("PLATEAU_KILLS").map_or(few_or_all(4, 12), |kills| kills.parse().unwrap());
+    let kills = std::env::var("PLATEAU_KILLS").map_or(few_or_all(4, 1000), |kills| kills.parse().unwrap());
     let directory = WorkingDirectory::new();
     assert_eq!(run(&directory, "whole.h5", &[]).status, Some(0));
     let whole = RunFile::open(directory.path("whole.h5")).content();

@@ -5,6 +5,7 @@ mod new;
 mod surface;
 mod sweep;
 
+use std::ffi::OsString;
 use std::num::NonZeroU64;
 use std::path::PathBuf;
 
@@ -12,9 +13,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
+use plateau_io::text::{odd_character, shown_on_one_line};
 use plateau_present::figure::Format;
 use plateau_present::figure::run::NAMES;
 use plateau_run::ExecutionOptions;
+
+use crate::failure::Failure;
 
 pub use accuracy::AccuracyArguments;
 pub use new::NewArguments;
@@ -34,6 +38,28 @@ pub struct Arguments {
     /// Say also what is done to surfaces
     #[arg(short, long, global = true)]
     pub verbose: bool,
+}
+
+/// Refuses what a terminal would obey, and names of several lines: they stand in messages and tables. Values of `--set` may have
+/// line breaks, as TOML has.
+///
+/// # Errors
+/// [`Failure::Input`] with the argument.
+pub fn refuse_odd_characters(arguments: impl Iterator<Item = OsString>) -> Result<(), Failure> {
+    let mut is_value = false;
+    for argument in arguments.skip(1) {
+        let text = argument.to_string_lossy();
+        let is_set = is_value || text.starts_with("--set=");
+        is_value = text == "--set";
+        let text = if is_set { text.replace(['\n', '\t'], " ") } else { text.into_owned() };
+        if let Some(found) = odd_character(&text) {
+            return Err(Failure::input(format_args!(
+                "the argument \"{}\" has {found}; take it out, rename the file if it is one",
+                shown_on_one_line(&text)
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// What to do.
@@ -312,7 +338,7 @@ pub struct RepairArguments {
     /// Run files
     #[arg(value_name = "RUN", required = true)]
     pub runs: Vec<PathBuf>,
-    /// Repair also what another machine has written a moment ago
+    /// Repair also what another machine has written a moment ago, or what another user may still be writing
     #[arg(long)]
     pub force: bool,
 }

@@ -4,10 +4,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use console::Style;
 use plateau_io::scene::{Origin, Problem, SceneError};
-
-use crate::message::coloured;
 
 /// Longest line that is shown, characters: of a longer one its beginning.
 const LONGEST: usize = 160;
@@ -38,7 +35,7 @@ fn marked(text: &str, line: usize, column: usize) -> Option<String> {
     let number = line.to_string();
     let blank = " ".repeat(number.len());
     let mark = " ".repeat(column - 1);
-    Some(format!("  {number} | {}\n  {blank} | {mark}{}", shown.trim_end(), coloured("^", Style::new().red().bold())))
+    Some(format!("  {number} | {}\n  {blank} | {mark}^", shown.trim_end()))
 }
 
 #[cfg(test)]

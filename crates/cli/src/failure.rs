@@ -31,9 +31,10 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A wrong input.
+    /// A wrong input; or a failed run, where the system lacks what it takes to look at the input.
     pub fn input(error: impl fmt::Display) -> Self {
-        Self::Input(error.to_string())
+        let message = error.to_string();
+        if LACKS.iter().any(|number| is_lacking(&message, *number)) { Self::Run(message) } else { Self::Input(message) }
     }
 
     /// A failed run.
@@ -89,6 +90,14 @@ impl Failure {
         self.say();
         ExitCode::from(self.status())
     }
+}
+
+/// Numbers of the system's errors that are not the user's fault: no memory, too many open files, in all or of this process.
+const LACKS: [u8; 3] = [12, 23, 24];
+
+/// Whether a message ends in that number of the system, as the standard library and HDF5 write it.
+fn is_lacking(message: &str, number: u8) -> bool {
+    message.contains(&format!("(os error {number})")) || message.contains(&format!("errno = {number},"))
 }
 
 /// Works together with the other processes of the job if there are any. From here on only the first of them gives warnings; if

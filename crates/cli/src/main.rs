@@ -8,6 +8,7 @@ mod failure;
 mod interrupt;
 mod message;
 mod output;
+mod panic;
 mod progress;
 mod screen;
 mod summary;
@@ -25,6 +26,14 @@ use plateau_run::machine;
 
 fn main() -> ExitCode {
     failure::end_where_memory_does();
+    panic::told(answer)
+}
+
+/// Does what the command line asks for.
+fn answer() -> ExitCode {
+    if let Err(failure) = arguments::refuse_odd_characters(std::env::args_os()) {
+        return failure.report();
+    }
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
         Err(answer) => return failure::answer(answer),

@@ -5,6 +5,7 @@ use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use console::{Style, StyledObject};
+use plateau_io::text::shown;
 
 static WARNINGS: AtomicBool = AtomicBool::new(true);
 static QUIET: AtomicBool = AtomicBool::new(false);
@@ -33,25 +34,25 @@ pub fn no_warnings() {
 
 /// Says why the program cannot do what was asked.
 pub fn error(message: impl fmt::Display) {
-    say(format_args!("{} {message}", coloured("plateau:", Style::new().red().bold())));
+    say(coloured("plateau:", Style::new().red().bold()), message);
 }
 
 /// Says what deserves attention though the program goes on.
 pub fn warning(message: impl fmt::Display) {
     if may_be_said() {
-        say(format_args!("plateau: {} {message}", coloured("warning:", Style::new().yellow().bold())));
+        say(format_args!("plateau: {}", coloured("warning:", Style::new().yellow().bold())), message);
     }
 }
 
 /// Says what is worth knowing.
 pub fn note(message: impl fmt::Display) {
     if may_be_said() {
-        say(format_args!("plateau: {message}"));
+        say("plateau:", message);
     }
 }
 
 /// A text in a style where standard error is a terminal that shows it.
-pub fn coloured(text: &str, style: Style) -> StyledObject<&str> {
+fn coloured(text: &str, style: Style) -> StyledObject<&str> {
     style.for_stderr().apply_to(text)
 }
 
@@ -59,7 +60,8 @@ fn may_be_said() -> bool {
     WARNINGS.load(Ordering::Relaxed) && !is_quiet()
 }
 
-/// Where standard error takes nothing (a full disc, a reader gone) the exit status still tells; `eprintln!` would panic.
-fn say(line: fmt::Arguments<'_>) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+/// Text of others cannot do anything to the terminal. Where standard error takes nothing (a full disc, a reader gone) the exit
+/// status still tells; `eprintln!` would panic.
+fn say(who: impl fmt::Display, message: impl fmt::Display) {
+    let _ = writeln!(io::stderr().lock(), "{who} {}", shown(&message.to_string()));
 }

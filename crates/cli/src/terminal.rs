@@ -6,7 +6,7 @@ use std::io;
 use plateau_core::simulation::Simulation;
 use plateau_run::Observer;
 
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, Preparation};
 use crate::message;
 use crate::progress::Progress;
 
@@ -34,6 +34,8 @@ impl Observer for Messages {
 #[derive(Debug)]
 pub struct Terminal {
     interrupt: Interrupt,
+    /// Nothing is written yet.
+    preparation: Option<Preparation>,
     /// Whether there is a progress bar.
     visible: bool,
     progress: Option<Progress>,
@@ -45,7 +47,7 @@ impl Terminal {
     /// # Errors
     /// When the system does not take the handlers.
     pub fn listen(visible: bool) -> io::Result<Self> {
-        Ok(Self { interrupt: Interrupt::listen()?, visible, progress: None })
+        Ok(Self { interrupt: Interrupt::listen()?, preparation: None, visible, progress: None })
     }
 
     /// The same, and SIGUSR1 asks for a checkpoint.
@@ -56,6 +58,11 @@ impl Terminal {
         let terminal = Self::listen(visible)?;
         terminal.interrupt.listen_for_save()?;
         Ok(terminal)
+    }
+
+    /// Until the run is prepared, a signal ends the program at once.
+    pub fn end_while_preparing(&mut self) {
+        self.preparation = Some(self.interrupt.end_at_once());
     }
 }
 
@@ -70,6 +77,10 @@ impl Observer for Terminal {
 
     fn detail(&mut self, message: &dyn Display) {
         Messages.detail(message);
+    }
+
+    fn prepared(&mut self) {
+        self.preparation = None;
     }
 
     fn starts(&mut self, name: &str, duration: f64) {

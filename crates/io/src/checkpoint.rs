@@ -11,7 +11,7 @@
 //! ```
 
 use std::fs;
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use plateau_core::acceleration::scout::ScoutCheckpoint;
@@ -24,11 +24,13 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::regular;
 use crate::temporary::Temporary;
+use crate::{limits, regular};
 
 /// How every checkpoint begins.
 const MAGIC: &[u8; 16] = b"plateau state 4\n";
+/// Bytes before the content.
+const HEAD: u64 = 16 + 8;
 /// How those of every version do.
 const OWN: &[u8] = b"plateau state ";
 /// Bytes of what is neither of every cell nor of every column, at most: scene and sums.
@@ -207,15 +209,21 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointErr
     file.read_exact(&mut length).map_err(failed)?;
     let length = u64::from_le_bytes(length);
     let there = file.metadata().map_err(failed)?.len();
-    if length > LARGEST || there != 16 + 8 + length + 32 {
+    if length > LARGEST || there != HEAD + length + digest.len() as u64 {
         return Err(damaged("its length is not what it says"));
     }
-    let mut content = vec![0; length as usize];
-    file.read_exact(&mut content).map_err(failed)?;
+    if limits::memory().is_some_and(|memory| length > memory) {
+        return Err(damaged("it is larger than the memory of this machine"));
+    }
+    // A file with holes takes no room on the disk. Memory for all of it is taken only when it is known to be what was written.
+    let mut hasher = Sha256::new();
+    io::copy(&mut Read::by_ref(&mut file).take(length), &mut hasher).map_err(failed)?;
     file.read_exact(&mut digest).map_err(failed)?;
-    if Sha256::digest(&content).as_slice() != digest {
+    if hasher.finalize().as_slice() != digest {
         return Err(damaged("its digest does not hold"));
     }
+    let mut content = vec![0; length as usize];
+    file.seek(SeekFrom::Start(HEAD)).and_then(|_| file.read_exact(&mut content)).map_err(failed)?;
     postcard::from_bytes(&content).map(Some).map_err(|_| damaged("it holds something else"))
 }
 

@@ -163,15 +163,16 @@ impl Claim {
         }
     }
 
-    /// Whether a file could be claimed now, for a quick answer; touches nothing.
+    /// Whether a file could be claimed now, for a quick answer; touches nothing. True where there is the lock of a process that
+    /// has ended, so that it is known who wrote the file last.
     ///
     /// # Errors
     /// [`ClaimError`] when another process has it.
-    pub fn check(path: &Path) -> Result<(), ClaimError> {
+    pub fn check(path: &Path) -> Result<bool, ClaimError> {
         let lock = lock_of(path);
         match read(path, &lock)? {
             Some(there) if there.writer.life() != Life::Ended => Err(there.refusal(path, &lock)),
-            _ => Ok(()),
+            there => Ok(there.is_some()),
         }
     }
 }

@@ -14,6 +14,8 @@
 //! | HDF5 files of named results | [`dataset_file`] |
 //! | who may write a run file and its checkpoints | [`claim`] |
 //! | regular files, and nothing else | [`regular`] |
+//! | how much is read of a file | [`limits`] |
+//! | text that others have written, as it can be shown | [`text`] |
 //! | files that appear when they are complete | [`temporary`] |
 //! | processes: told from later ones, or by the file that they write | [`process`] |
 
@@ -22,6 +24,7 @@ pub mod claim;
 pub mod dataset_file;
 pub mod export;
 mod hdf5_file;
+pub mod limits;
 pub mod number;
 pub mod plausibility;
 pub mod process;
@@ -32,5 +35,6 @@ pub mod scene;
 pub mod study;
 pub mod surface;
 pub mod temporary;
+pub mod text;
 mod timestamp;
 pub mod units;

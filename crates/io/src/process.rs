@@ -1,6 +1,7 @@
 //! Processes: told from later ones of the same number and from those of other machines, found by the file that they write, and kept
 //! alive when a file grows beyond their limit.
 
+use std::io::ErrorKind;
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 use std::sync::Arc;
@@ -45,7 +46,10 @@ impl Process {
         Self {
             host: host(),
             number,
-            started: state_and_start(number).map_or(0, |(_, started)| started),
+            started: status_of(number)
+                .ok()
+                .and_then(|status| state_and_start(&status))
+                .map_or(0, |(_, started)| started),
             boot: fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default().trim().to_owned(),
             numbers: fs::read_link("/proc/self/ns/pid").unwrap_or_default().to_string_lossy().into_owned(),
             user: fs::metadata("/proc/self").map_or(0, |process| process.uid()),
@@ -64,13 +68,30 @@ impl Process {
         if self.numbers != this.numbers {
             return Life::Unknown;
         }
-        match state_and_start(self.number) {
-            Some((state, started)) if started == self.started && !['Z', 'X'].contains(&state) => Life::Lives,
+        let hidden = self.user != this.user && !fs::exists("/proc/1").unwrap_or(false);
+        life_by(status_of(self.number), self.started, hidden)
+    }
+}
+
+/// Whether a process that was started then lives, by what the system tells of the process that has its number now. `hidden`
+/// says that the system may not even tell that there is one.
+fn life_by(status: io::Result<String>, started: u64, hidden: bool) -> Life {
+    match status {
+        Ok(status) => match state_and_start(&status) {
+            Some((state, found)) if found == started && !['Z', 'X'].contains(&state) => Life::Lives,
             Some(_) => Life::Ended,
-            // A system may hide the processes of other users.
-            None if self.user != this.user && !fs::exists("/proc/1").unwrap_or(false) => Life::Unknown,
-            None => Life::Ended,
+            None => Life::Unknown,
+        },
+        // Not there, or gone while it was looked at: ENOENT and ESRCH.
+        Err(error) if error.kind() == ErrorKind::NotFound || error.raw_os_error() == Some(ESRCH) => {
+            if hidden {
+                Life::Unknown
+            } else {
+                Life::Ended
+            }
         }
+        // A system may keep to itself how the processes of other users are, though not that they are (proc(5), hidepid=1).
+        Err(_) => Life::Unknown,
     }
 }
 
@@ -84,9 +105,13 @@ pub fn host() -> String {
         .unwrap_or_else(|| "unknown".into())
 }
 
-/// State of a process of this machine, and when it was started: fields 3 and 22 of `/proc/PID/stat` (proc(5)).
-fn state_and_start(number: u32) -> Option<(char, u64)> {
-    let status = fs::read_to_string(format!("/proc/{number}/stat")).ok()?;
+/// What the system tells of a process of this machine.
+fn status_of(number: u32) -> io::Result<String> {
+    fs::read_to_string(format!("/proc/{number}/stat"))
+}
+
+/// State of a process, and when it was started: fields 3 and 22 of `/proc/PID/stat` (proc(5)).
+fn state_and_start(status: &str) -> Option<(char, u64)> {
     // Field 2 is the name of the program in parentheses, and may hold anything.
     let (_, fields) = status.rsplit_once(')')?;
     let mut fields = fields.split_whitespace();
@@ -94,24 +119,55 @@ fn state_and_start(number: u32) -> Option<(char, u64)> {
     Some((state, fields.nth(22 - 4)?.parse().ok()?))
 }
 
+/// No such process.
+const ESRCH: i32 = 3;
+
 /// Access modes of an open file in `/proc/PID/fdinfo`, where writing is possible: O_WRONLY and O_RDWR.
 const WRITING: u32 = 3;
 
-/// A living process of this machine, other than this one, that has a file open for writing, as far as the system tells: only
-/// on Linux, and of users whose processes this one may look at.
-pub fn writer_of(path: &Path) -> Option<u32> {
-    let wanted = fs::metadata(path).ok()?;
-    let processes = fs::read_dir("/proc").ok()?.flatten();
-    let mut numbers = processes.filter_map(|process| process.file_name().to_str()?.parse::<u32>().ok());
-    numbers.find(|&process| process != std::process::id() && writes(process, &wanted))
+/// Who has a file open for writing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Writer {
+    /// No process of this machine that could be found.
+    Nobody,
+    /// This living process of this machine, which is not this one.
+    Process(u32),
+    /// Maybe a process of the user to whom the file belongs: this process may not look at those.
+    Hidden,
 }
 
-fn writes(process: u32, wanted: &fs::Metadata) -> bool {
-    let Ok(files) = fs::read_dir(format!("/proc/{process}/fd")) else { return false };
-    files.flatten().any(|file| {
+/// Who has a file open for writing, as far as the system tells: only on Linux, and of this machine.
+pub fn writer_of(path: &Path) -> Writer {
+    let (Ok(wanted), Ok(processes)) = (fs::metadata(path), fs::read_dir("/proc")) else { return Writer::Nobody };
+    let user = fs::metadata("/proc/self").map_or(0, |process| process.uid());
+    let mut found = match fs::exists("/proc/1") {
+        // Only the processes of this user are to be seen.
+        Ok(false) if wanted.uid() != user => Writer::Hidden,
+        _ => Writer::Nobody,
+    };
+    let numbers = processes.flatten().filter_map(|process| process.file_name().to_str()?.parse::<u32>().ok());
+    for process in numbers.filter(|process| *process != std::process::id()) {
+        match writes(process, &wanted) {
+            Ok(true) => return Writer::Process(process),
+            Ok(false) => {}
+            Err(_) if belongs_to(process, wanted.uid()) => found = Writer::Hidden,
+            Err(_) => {}
+        }
+    }
+    found
+}
+
+/// Whether a process is there and belongs to a user.
+fn belongs_to(process: u32, user: u32) -> bool {
+    fs::metadata(format!("/proc/{process}")).is_ok_and(|process| process.uid() == user)
+}
+
+fn writes(process: u32, wanted: &fs::Metadata) -> io::Result<bool> {
+    let files = fs::read_dir(format!("/proc/{process}/fd"))?;
+    Ok(files.flatten().any(|file| {
         let same = fs::metadata(file.path()).is_ok_and(|file| (file.dev(), file.ino()) == (wanted.dev(), wanted.ino()));
         same && is_writing(process, &file.file_name().to_string_lossy())
-    })
+    }))
 }
 
 fn is_writing(process: u32, file: &str) -> bool {
@@ -154,20 +210,40 @@ mod tests {
     #[test]
     fn a_process_that_nobody_has_waited_for_has_ended() {
         let mut child = Command::new("sleep").arg("60").spawn().unwrap();
-        let (_, started) = state_and_start(child.id()).unwrap();
+        let (_, started) = state_and_start(&status_of(child.id()).unwrap()).unwrap();
         let process = Process { number: child.id(), started, ..Process::this() };
         assert_eq!(process.life(), Life::Lives);
         child.kill().unwrap();
         while process.life() == Life::Lives {
             std::thread::yield_now();
         }
-        assert!(state_and_start(child.id()).is_some(), "it is still listed");
+        assert!(status_of(child.id()).is_ok(), "it is still listed");
         child.wait().unwrap();
         assert_eq!(process.life(), Life::Ended);
     }
 
+    #[test]
+    fn who_cannot_be_looked_at_may_live() {
+        let status = |state: char, started: u64| Ok(format!("7 (a) b) {state} {}{started} 0", "0 ".repeat(18)));
+        let error = |number: i32| Err(io::Error::from_raw_os_error(number));
+        let (enoent, eacces, eperm) = (2, 13, 1);
+        for (status, hidden, expected) in [
+            (status('S', 9), false, Life::Lives),
+            (status('R', 8), false, Life::Ended),
+            (status('Z', 9), false, Life::Ended),
+            (error(enoent), false, Life::Ended),
+            (error(ESRCH), false, Life::Ended),
+            (error(enoent), true, Life::Unknown),
+            (error(eacces), false, Life::Unknown),
+            (error(eperm), true, Life::Unknown),
+            (Ok("7 (a".to_owned()), false, Life::Unknown),
+        ] {
+            assert_eq!(life_by(status, 9, hidden), expected);
+        }
+    }
+
     /// Soon the writer is this one. A process that another test starts has the files of this one for a moment.
-    fn assert_writer(path: &Path, expected: Option<u32>) {
+    fn assert_writer(path: &Path, expected: Writer) {
         let start = Instant::now();
         while writer_of(path) != expected {
             assert!(start.elapsed() < Duration::from_secs(30), "{:?}, expected {expected:?}", writer_of(path));
@@ -179,16 +255,16 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("file");
         let own = File::create(&path).unwrap();
-        assert_writer(&path, None);
+        assert_writer(&path, Writer::Nobody);
         let sleep = |file: File| Command::new("sleep").arg("60").stdout(Stdio::from(file)).spawn().unwrap();
         let mut reader = sleep(File::open(&path).unwrap());
-        assert_writer(&path, None);
+        assert_writer(&path, Writer::Nobody);
         let mut writer = sleep(own);
-        assert_writer(&path, Some(writer.id()));
+        assert_writer(&path, Writer::Process(writer.id()));
         for process in [&mut reader, &mut writer] {
             process.kill().unwrap();
             process.wait().unwrap();
         }
-        assert_writer(&path, None);
+        assert_writer(&path, Writer::Nobody);
     }
 }

@@ -3,7 +3,7 @@
 mod bad_scenes;
 mod description;
 mod fixtures;
-mod fuzz_surfaces;
+mod fuzz;
 mod good_scenes;
 mod heights;
 mod hostile_tables;

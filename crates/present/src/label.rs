@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use plateau_io::run_file::RunFile;
+use plateau_io::text::is_plain;
 
 /// The title of every run's scene; where titles are equal with the name of the file behind it, where these are, too, with
 /// its path.
@@ -30,9 +31,9 @@ fn candidates(title: &str, path: &Path) -> [String; 3] {
     }
 }
 
-/// A text without control characters, which would move or hide what follows them.
+/// A text without characters that would move, hide or turn what follows them.
 pub fn on_one_line(text: &str) -> String {
-    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+    text.chars().map(|letter| if is_plain(letter) { letter } else { ' ' }).collect()
 }
 
 #[cfg(test)]

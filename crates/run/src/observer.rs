@@ -19,6 +19,9 @@ pub trait Observer {
     /// What was done to make a surface ready, one step a line; for those who want to see how.
     fn detail(&mut self, _message: &dyn Display) {}
 
+    /// All is read and made that the run needs, and nothing is written yet: until now whoever wants to stop it may end the process.
+    fn prepared(&mut self) {}
+
     /// Steps begin, to be taken until this physical time (s); `name` tells a run from others of the same scene, else it is
     /// empty.
     fn starts(&mut self, _name: &str, _duration: f64) {}

@@ -40,6 +40,7 @@ pub fn run(
 ) -> Result<Option<RunSummary>, RunError> {
     let prepared = Prepared::new(scene, options, job, observer)?;
     stop_if_asked(observer, job)?;
+    observer.prepared();
     let Prepared { path, header, identity, assembly, .. } = &prepared;
     let request = Request { path, header, identity, options, end: assembly.schedule.end_time() };
     let Some(Start { claim, writer, state }) = request.start(job, observer)? else { return Ok(None) };

@@ -14,7 +14,7 @@ use super::{directory, records, results, study, sweep};
 
 #[test]
 fn a_sweep_killed_again_and_again_ends_like_an_undisturbed_one() {
-    let (kills, seeds) = few_or_all((12, 10), (50, 30));
+    let (kills, seeds) = few_or_all((12, 10), (500, 60));
     let (undisturbed, killed) = (directory(), directory());
     let seeds: Vec<String> = (1..=seeds).map(|seed: u32| seed.to_string()).collect();
     let runs = 9 * seeds.len();
@@ -60,6 +60,37 @@ fn an_interrupted_sweep_says_what_is_left() {
     assert_eq!(output.status.code(), Some(130));
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("are left, the same command goes on"), "{said}");
+}
+
+#[test]
+fn what_was_kept_of_a_run_that_has_ended_goes() {
+    let directory = directory();
+    let long = study()
+        .replace("'3 s'\"", "'40 s'\", \"numerics.time_acceleration = 1\", \"output.checkpoint_every = '0.05 s'\"")
+        .replace("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.3]")
+        .replace("seeds = [7, 8, 9]", "seeds = [7]");
+    directory.write("study.toml", &long);
+    let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", "1"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let folder = directory.path("results/under-way");
+    let state = || fs::read_dir(&folder).ok()?.flatten().find(|entry| entry.file_name().len() == 64);
+    assert!(wait_until(|| state().is_some()));
+    kill(child);
+    let state = state().unwrap();
+    let (name, content) = (state.file_name().into_string().unwrap(), fs::read(state.path()).unwrap());
+    sweep(&directory, &["--jobs", "1"]);
+    assert!(!folder.exists());
+    // As a process leaves it that is killed between keeping the result and forgetting the state.
+    directory.write(&format!("results/under-way/{name}"), &content);
+    let stranger = directory.write(&format!("results/under-way/{}", "0".repeat(64)), &content);
+    let notes = directory.write("results/under-way/notes", "mine");
+    let said = directory.plateau(["sweep", "run", "study.toml"]);
+    assert!(said.status == Some(0) && said.stderr.contains("1 state of runs that the study no longer has"), "{said:?}");
+    assert!(!folder.join(&name).exists() && stranger.exists() && notes.exists());
+    fs::remove_file(stranger).unwrap();
+    fs::remove_file(notes).unwrap();
+    sweep(&directory, &[]);
+    assert!(!folder.exists());
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
-use plateau_io::process::writer_of;
+use plateau_io::process::{Writer, writer_of};
 use plateau_io::run_file::{self, Repair, RepairError, RunFile};
 use plateau_io::units::{self, Dimension};
 
@@ -70,10 +70,19 @@ fn silence(run: &RunFile) -> Duration {
 
 /// Refuses a file whose run goes on, or may.
 fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
-    Claim::check(path).map_err(Failure::input)?;
+    let is_known = Claim::check(path).map_err(Failure::input)?;
     let file = path.display();
-    if let Some(process) = writer_of(path) {
-        return Err(Failure::input(format_args!("{file} is being written by process {process}; stop it first")));
+    match writer_of(path) {
+        Writer::Process(process) => {
+            return Err(Failure::input(format_args!("{file} is being written by process {process}; stop it first")));
+        }
+        // The lock of a run that was killed says that this run has ended.
+        Writer::Hidden if !is_known && !force => {
+            return Err(Failure::input(format_args!(
+                "{file} belongs to another user, who may still be writing it: this system does not tell; if not, give --force"
+            )));
+        }
+        Writer::Nobody | Writer::Hidden => {}
     }
     let run = RunFile::open(path).map_err(Failure::input)?;
     let host = run.attribute("host").unwrap_or_default();

@@ -23,7 +23,9 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{bar:28} {percent:>3} %  {msg}  {eta} left") {
             bar.set_style(style);
         }
-        bar.enable_steady_tick(Duration::from_secs(1));
+        if !bar.is_hidden() {
+            bar.enable_steady_tick(Duration::from_secs(1));
+        }
         let progress = Self { bar, runs, ended: AtomicU64::new(0), failed: AtomicU64::new(0) };
         progress.show();
         progress

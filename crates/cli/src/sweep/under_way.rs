@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::message;
 
+/// Letters of the identity of a run.
+const IDENTITY: usize = 64;
+
 /// The state of one run between two steps.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct State {
@@ -113,6 +116,26 @@ impl UnderWay {
             let _ = self.path.parent().map(fs::remove_dir);
         }
     }
+}
+
+/// Removes the states of runs that have come to their end: of a process that was killed between keeping the result and forgetting
+/// the state. Gives how many are left of runs that are none of the study, as of another version of it or of the program.
+pub fn tidy(results: &Path, is_run: impl Fn(&str) -> bool, has_ended: impl Fn(&str) -> bool) -> usize {
+    let folder = results.join("under-way");
+    let Ok(entries) = fs::read_dir(&folder) else { return 0 };
+    let mut strangers = 0;
+    for entry in entries.flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_state = name.len() == IDENTITY && name.bytes().all(|byte| byte.is_ascii_hexdigit());
+        if is_state && has_ended(&name) {
+            UnderWay::new(results, &name).forget();
+        } else if is_state && !is_run(&name) {
+            strangers += 1;
+        }
+    }
+    // The folder goes with its last file.
+    let _ = fs::remove_dir(&folder);
+    strangers
 }
 
 fn not_kept(error: &dyn std::fmt::Display) {

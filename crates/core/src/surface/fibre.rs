@@ -68,6 +68,9 @@ pub enum FibreError {
 
 /// Fibres after which the map is given up.
 const MOST_FIBRES: u32 = 20_000_000;
+/// Cells looked at after which it is, too: fibres far longer than the pin mostly miss it, and each is looked for in all of it. A
+/// map takes about as many as the pin has cells, times the length of a fibre over its width.
+const MOST_CELLS: u64 = 20_000_000_000;
 
 impl FibreSynthesis {
     /// Base of every pin cell: fibre where the cell's centre lies in a capsule, x being the arc length at the mean
@@ -89,8 +92,11 @@ impl FibreSynthesis {
         let mut random = Random::new(self.seed, Stream::PinBase);
         let mut covered = 0.0;
         let mut open_cells = mesh.present_cells();
-        for _ in 0..MOST_FIBRES {
+        let (mut placed, mut looked) = (0, 0);
+        while placed < MOST_FIBRES && looked < MOST_CELLS {
             let capsule = self.draw(&mut random, width, height);
+            placed += 1;
+            looked += capsule.box_cells(mesh);
             let is_new = |cell: &usize| base[*cell] == Base::Resin && mesh.is_present(*cell);
             let new_cells: Vec<usize> = capsule.cells(mesh).filter(is_new).collect();
             let before = covered / total;
@@ -107,7 +113,7 @@ impl FibreSynthesis {
             }
         }
         Err(FibreError::TooMany {
-            placed: MOST_FIBRES,
+            placed,
             reached: covered / total,
             wanted: self.fibre_fraction,
             length: self.fibre_length,
@@ -163,13 +169,27 @@ impl Capsule {
         beyond * beyond + across * across <= self.radius * self.radius
     }
 
+    /// Columns and rows of the pin in which the capsule may be.
+    fn reach(&self, mesh: &Mesh) -> [Range<usize>; 2] {
+        let reach_x = self.half_segment * self.direction.0.abs() + self.radius;
+        let reach_y = self.half_segment * self.direction.1.abs() + self.radius;
+        [
+            span(self.centre.0, reach_x, mesh.column_width(), mesh.pin_columns()),
+            span(self.centre.1, reach_y, mesh.row_height(), mesh.rows()),
+        ]
+    }
+
+    /// Cells that are looked at to find those of the capsule.
+    fn box_cells(&self, mesh: &Mesh) -> u64 {
+        let [columns, rows] = self.reach(mesh);
+        columns.len() as u64 * rows.len() as u64
+    }
+
     /// Cells of the pin whose centres lie in the capsule.
     fn cells(&self, mesh: &Mesh) -> impl Iterator<Item = usize> {
         let (width, height, rows) = (mesh.column_width(), mesh.row_height(), mesh.rows());
-        let reach_x = self.half_segment * self.direction.0.abs() + self.radius;
-        let reach_y = self.half_segment * self.direction.1.abs() + self.radius;
-        let row_range = span(self.centre.1, reach_y, height, rows);
-        span(self.centre.0, reach_x, width, mesh.pin_columns())
+        let [columns, row_range] = self.reach(mesh);
+        columns
             .flat_map(move |column| row_range.clone().map(move |row| (column, row)))
             .filter(move |(column, row)| self.contains((*column as f64 + 0.5) * width, (*row as f64 + 0.5) * height))
             .map(move |(column, row)| column * rows + row)

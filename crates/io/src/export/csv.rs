@@ -9,6 +9,7 @@ use plateau_core::surface::Body;
 
 use super::{ExportError, maps_of, name};
 use crate::run_file::{RunFile, map_unit};
+use crate::text::cell;
 
 /// Writes the times and every series, one sample a line.
 ///
@@ -107,7 +108,7 @@ impl<W: Write> Table<W> {
     }
 
     fn text(&mut self, text: &str) -> Result<(), ExportError> {
-        Ok(self.writer.write_field(text)?)
+        Ok(self.writer.write_field(cell(text).as_bytes())?)
     }
 
     /// The shortest text that reads back as this number.

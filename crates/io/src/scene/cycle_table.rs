@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Origin, Problem};
-use crate::regular;
 use crate::units::{self, Dimension};
+use crate::{limits, regular};
 
 /// What a column may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,8 +83,12 @@ struct Reader {
 /// # Errors
 /// What is wrong, with line and column.
 pub fn read(path: &Path) -> Result<CycleTable, Problem> {
+    read_rows(path, limits::ROWS)
+}
+
+fn read_rows(path: &Path, most: usize) -> Result<CycleTable, Problem> {
     let file: Arc<Path> = path.into();
-    let text = regular::read_to_string(path).map_err(|error| {
+    let text = regular::read_to_string(path, limits::TABLE).map_err(|error| {
         let advice = if error.kind() == ErrorKind::InvalidData { "; save it as UTF-8" } else { "" };
         Problem::without_key(&Origin::File(file.clone()), format!("cannot read it: {error}{advice}"))
     })?;
@@ -109,6 +113,9 @@ pub fn read(path: &Path) -> Result<CycleTable, Problem> {
     let mut columns = reader.header(number, header)?;
     let mut rows = Vec::new();
     for (number, line) in lines {
+        if rows.len() == most {
+            return Err(reader.problem(number, 1, None, limits::more("more", most, "rows")));
+        }
         reader.row(number, line, &mut columns)?;
         rows.push(reader.origin(number, 1));
     }
@@ -247,6 +254,16 @@ mod tests {
         assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![2, 4]));
         assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
         assert_eq!(table.speeds, None);
+    }
+
+    #[test]
+    fn more_rows_than_are_read_are_refused() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("stops.csv");
+        std::fs::write(&path, "time [s]\n0\n1\n\n2\n3\n").unwrap();
+        assert_eq!(read_rows(&path, 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
+        let error = read_rows(&path, 3).unwrap_err().to_string();
+        assert!(error.ends_with("stops.csv:6:1: more rows, expected at most 3"), "{error}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! One layer of a scene - a file, or the `--set` arguments - as a flat list of keys that remember where they stand.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
@@ -11,6 +12,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Origin, Problem};
 use super::schema;
+
+/// Problems that are looked for; nobody reads more, and in a file that is no scene each word may be one.
+const MOST_PROBLEMS: usize = 100;
 
 /// A value as it stands in the text.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,18 +90,24 @@ struct Locator<'a> {
     text: &'a str,
     /// Byte at which each line starts.
     lines: Vec<usize>,
+    /// The place that was asked for last: line, byte, column. The next one is mostly behind it, maybe on a line of a megabyte.
+    last: Cell<(usize, usize, usize)>,
 }
 
 impl<'a> Locator<'a> {
     fn new(file: Arc<Path>, text: &'a str) -> Self {
         let lines = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-        Self { file, text, lines }
+        Self { file, text, lines, last: Cell::new((0, 0, 1)) }
     }
 
     fn origin(&self, span: Range<usize>) -> Origin {
         let line = self.lines.partition_point(|start| *start <= span.start).max(1);
-        let start = self.lines[line - 1];
-        let column = self.text.get(start..span.start).map_or(0, |before| before.chars().count()) + 1;
+        let (from, first) = match self.last.get() {
+            (last, byte, column) if last == line && byte <= span.start => (byte, column),
+            _ => (self.lines[line - 1], 1),
+        };
+        let column = self.text.get(from..span.start).map_or(0, |before| before.chars().count()) + first;
+        self.last.set((line, span.start, column));
         Origin::Place { file: self.file.clone(), line, column }
     }
 }
@@ -178,6 +188,9 @@ impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
     }
 
     fn key(&mut self, table: &str, name: &str, key_origin: Origin, value: &Spanned<DeValue<'_>>) {
+        if self.problems.len() >= MOST_PROBLEMS {
+            return;
+        }
         let path = schema::join(table, name);
         if name.is_empty() || name.contains('.') {
             let message = "unknown key; write the path of a key without quotes";

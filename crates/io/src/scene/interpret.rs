@@ -11,6 +11,7 @@ use super::error::{Origin, Problem};
 use super::quantity::{at, in_range, quantity};
 use super::rows;
 use super::schema::{self, Kind, Range};
+use crate::text::odd_character;
 use crate::units::Dimension;
 
 /// A checked value.
@@ -39,7 +40,7 @@ pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> 
         (Kind::Rows, Value::Array(list)) if list.len() >= 2 => rows::cycle(list).map(Setting::Rows),
         (Kind::Factor, Value::Array(list)) if !list.is_empty() => rows::factor(list).map(Setting::Factor),
         (Kind::InputFile, Value::Text(text)) => {
-            not_empty(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
+            one_line(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
         }
         (_, value) => plain(kind, value).map_err(at(entry)),
     }
@@ -68,7 +69,7 @@ fn plain(kind: Kind, value: &Value) -> Result<Setting, String> {
         (Kind::Choice(words), Value::Text(text)) => {
             one_of(text, words, |word| word).map(|word| Setting::Text((*word).to_owned()))
         }
-        (Kind::Text, Value::Text(text)) => not_empty(text).map(|text| Setting::Text(text.to_owned())),
+        (Kind::Text, Value::Text(text)) => one_line(text).map(|text| Setting::Text(text.to_owned())),
         _ => Err(format!("{value}, expected {}", expectation(kind))),
     }
 }
@@ -113,8 +114,13 @@ fn count(integer: i128, least: u64) -> Result<Setting, String> {
     }
 }
 
-fn not_empty(text: &str) -> Result<&str, String> {
-    if text.trim().is_empty() { Err("the text is empty".to_owned()) } else { Ok(text) }
+/// Names and paths are shown, in messages and figures, and written into tables.
+fn one_line(text: &str) -> Result<&str, String> {
+    match odd_character(text) {
+        _ if text.trim().is_empty() => Err("the text is empty".to_owned()),
+        Some(found) => Err(format!("the text has {found}, expected one line of letters; take it out")),
+        None => Ok(text),
+    }
 }
 
 fn one_of<'a, T>(text: &str, choices: &'a [T], name: impl Fn(&T) -> &'static str) -> Result<&'a T, String> {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem, SceneError};
 use super::schema::{self, Group};
-use crate::regular;
+use crate::{limits, regular};
 
 /// The newest version of the scene format that this program reads.
 const VERSION: i128 = 1;
@@ -86,6 +86,14 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>,
             return Err(Problem::new(origin, "extends", message).into());
         }
         identities.push(identity);
+        if identities.len() > limits::LAYERS {
+            let message = limits::more("more", limits::LAYERS, "scenes that extend each other");
+            return Err(match &named {
+                Some(origin) => Problem::new(origin, "extends", message),
+                None => Problem::without_key(&Origin::File(file), message),
+            }
+            .into());
+        }
 
         let text = read_text(&path).map_err(unreadable)?;
         let entries = document::read(&file, &text, problems).map_err(|problem| {

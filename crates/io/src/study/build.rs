@@ -1,7 +1,7 @@
 //! From the text of a study to the study: what its keys say together.
 
+use std::collections::HashSet;
 use std::path::Path;
-use std::sync::Arc;
 
 use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
 use plateau_core::observe::{EXTRAS, quantities};
@@ -10,14 +10,19 @@ use toml::{Spanned, Value};
 
 use super::document::{self, Document};
 use super::factor::{Factor, Level, Values};
+use super::place::Place;
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent};
 use super::{DesignSource, Order, Replicates, Study, points_of_file};
 use crate::scene::{Origin, Problem, schema};
+use crate::text::odd_character;
 use crate::units::{self, Dimension};
 
 /// The newest version of the study format that this program reads.
 const VERSION: i64 = 1;
+
+/// Problems that are looked for: nobody reads more.
+const MOST_PROBLEMS: usize = 100;
 
 /// Designs by their name in a study.
 const DESIGNS: [&str; 8] = [
@@ -30,25 +35,6 @@ const DESIGNS: [&str; 8] = [
     "sobol",
     "csv",
 ];
-
-/// Turns a place in the text into line and column.
-pub(super) struct Place<'a> {
-    pub file: Arc<Path>,
-    pub text: &'a str,
-}
-
-impl Place<'_> {
-    pub fn at(&self, byte: usize) -> Origin {
-        let before = self.text.get(..byte).unwrap_or("");
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
-        Origin::Place { file: self.file.clone(), line, column }
-    }
-
-    fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
-        Problem::new(&self.at(found.span().start), key, message)
-    }
-}
 
 pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Result<Study, Vec<Problem>> {
     let mut problems = Vec::new();
@@ -71,10 +57,16 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
     let replicates = document.replicates.as_ref().map(|given| replicates(given, place, &mut problems));
     let responses = responses(&document.response, place, &mut problems);
     let series = document.series.as_ref().map(|series| {
-        series.iter().filter_map(|name| series_name(name, "series", place, &mut problems)).collect::<Vec<_>>()
+        let few = |problems: &[Problem]| problems.len() < MOST_PROBLEMS;
+        let names =
+            series.iter().map_while(|name| few(&problems).then(|| series_name(name, "series", place, &mut problems)));
+        names.flatten().collect::<Vec<_>>()
     });
     let stem = path.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let directory = document.directory.unwrap_or_else(|| stem.clone());
+    let names = [("title", document.title.as_deref().unwrap_or_default()), ("directory", directory.as_str())];
+    let file = || Origin::File(place.file.clone());
+    names.into_iter().for_each(|(key, name)| place.check_name(name, file, key, &mut problems));
     if directory.is_empty() {
         problems.push(Problem::new(&Origin::File(place.file.clone()), "directory", "\"\", expected a folder"));
     }
@@ -98,7 +90,11 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
 
 fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Factor> {
     let mut factors: Vec<Factor> = Vec::new();
+    let (mut names, mut varied) = (HashSet::new(), HashSet::new());
     for table in &document.factor {
+        if problems.len() >= MOST_PROBLEMS {
+            break;
+        }
         let key = table.key.get_ref();
         for unknown in key.0.iter().filter(|key| schema::find(key).is_none()) {
             let (section, name) = unknown.rsplit_once('.').unwrap_or(("", unknown));
@@ -106,15 +102,19 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
             problems.push(place.problem(&table.key, "factor.key", message));
         }
         let name = table.name.as_ref().map_or_else(|| key.0[0].clone(), |name| name.get_ref().clone());
+        let at = table.name.as_ref().map_or(table.key.span(), Spanned::span);
+        place.check_name(&name, || place.at(at.start), "factor.name", problems);
         let values = values(table, &key.0[0], document.design.get_ref() == "csv", place);
         let values = values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()));
-        if factors.iter().any(|factor| factor.name == name) {
-            let at = table.name.as_ref().map_or(table.key.span(), Spanned::span);
+        if !names.insert(name.clone()) {
             problems.push(Problem::new(&place.at(at.start), "factor.name", format!("\"{name}\" is the name of two")));
         }
-        if let Some(twice) = key.0.iter().find(|key| factors.iter().any(|factor| factor.keys.contains(key))) {
+        // A key may stand twice in one list: that sets it to the same value.
+        let twice = key.0.iter().find(|key| varied.contains(*key));
+        if let Some(twice) = twice {
             problems.push(place.problem(&table.key, "factor.key", format!("\"{twice}\" is varied by two factors")));
         }
+        varied.extend(key.0.iter().cloned());
         factors.push(Factor { name, keys: key.0.clone(), values });
     }
     if factors.is_empty() {
@@ -139,11 +139,16 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
             if list.len() < 2 {
                 return Err(place.problem(levels, "factor.levels", "expected at least two levels"));
             }
-            let twice = list.iter().enumerate().find(|(at, level)| list[..*at].contains(level));
-            twice.map_or(Ok(()), |(at, level)| {
-                let message = format!("{} is there twice", level.text);
-                Err(place.problem(&levels.get_ref()[at], "factor.levels", message))
-            })?;
+            let refuse =
+                |at: usize, message: String| Err(place.problem(&levels.get_ref()[at], "factor.levels", message));
+            let mut known = HashSet::new();
+            if let Some(at) = list.iter().position(|level| !known.insert(level.text.as_str())) {
+                return refuse(at, format!("{} is there twice", list[at].text));
+            }
+            let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));
+            if let Some((at, found)) = odd {
+                return refuse(at, format!("{} has {found}; take it out", list[at].text.escape_debug()));
+            }
             Ok(Values::Levels(list))
         }
         (None, Some(range)) => {
@@ -266,22 +271,29 @@ fn replicates(given: &document::Replicates, place: &Place<'_>, problems: &mut Ve
     if seeds.is_empty() || given.keys.get_ref().is_empty() {
         problems.push(place.problem(&given.seeds, "replicates", "expected at least one key and one seed"));
     }
-    for (at, seed) in given.seeds.get_ref().iter().enumerate() {
-        let message = match seeds[..at].contains(&seeds[at]) {
-            true => "is there twice: equal seeds give equal runs",
-            false if seeds[at] < 0 => "is negative, expected a seed of at least 0",
-            false => continue,
+    let mut known = HashSet::new();
+    for seed in given.seeds.get_ref() {
+        let message = match known.insert(*seed.get_ref()) {
+            _ if problems.len() >= MOST_PROBLEMS => break,
+            false => "is there twice: equal seeds give equal runs",
+            true if *seed.get_ref() < 0 => "is negative, expected a seed of at least 0",
+            true => continue,
         };
-        problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seeds[at])));
+        problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
     }
     Replicates { keys: given.keys.get_ref().iter().map(|key| key.get_ref().clone()).collect(), seeds }
 }
 
 fn responses(tables: &[document::Response], place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
     let mut responses: Vec<Response> = Vec::new();
+    let mut names = HashSet::new();
     for table in tables {
+        if problems.len() >= MOST_PROBLEMS {
+            break;
+        }
         let name = table.name.get_ref().clone();
-        if responses.iter().any(|response| response.name == name) {
+        place.check_name(&name, || place.at(table.name.span().start), "response.name", problems);
+        if !names.insert(name.clone()) {
             problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
         }
         let series = match &table.event {

@@ -9,7 +9,7 @@
 //! ```
 
 use std::collections::BTreeSet;
-use std::io::{self, ErrorKind};
+use std::io;
 use std::path::Path;
 
 use plateau_core::observe::event::event_quantity;
@@ -19,7 +19,7 @@ use thiserror::Error;
 use super::identity::firsts;
 use super::journal::{Entry, Journal};
 use super::plan::{Plan, Run};
-use super::record::{EVENT, Outcome, Packed, Series};
+use super::record::{EVENT, Outcome, Series};
 use crate::dataset_file::{Attribute, Content, Coordinate, DatasetFileError, Name, Rows, Values, Variable, write_rows};
 
 /// The results of the runs of a study, as far as there are any.
@@ -107,7 +107,11 @@ impl Collected {
             if let Some(entry) = &collected.entry {
                 collected.wall_time = entry.wall_time;
                 collected.state = entry.failure.clone().map_or(State::Finished, State::Failed);
-                if let Some(series) = series(entry)? {
+                let series = series(entry)?;
+                if series.is_none() && collected.state == State::Finished {
+                    collected.state = State::Failed(NO_SERIES.to_owned());
+                }
+                if let Some(series) = series {
                     collected.time = series.time().to_vec();
                     collected.series = series.names().to_vec();
                     let known = |answer: Option<f64>| answer.unwrap_or(f64::NAN);
@@ -250,18 +254,19 @@ impl Collected {
 /// Where runs have samples at different times.
 const TIME_OF_SAMPLE: &str = "sample_time";
 
-/// The series of a record; none of a run that failed.
+/// What is known of a run whose record is whole and whose series are not.
+const NO_SERIES: &str = "its record in the journal holds no series; move the journal away, and make the runs again";
+
+/// The series of a record; none of a run that failed, and none where the record does not hold what it says.
 fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
     match entry.record()?.outcome {
         Outcome::Failed { .. } => Ok(None),
         Outcome::Finished { series, events, .. } => {
-            let unpacked =
-                |packed: Packed| packed.unpack().ok_or_else(|| CollectError::Read(ErrorKind::InvalidData.into()));
-            let series = unpacked(series)?;
-            Ok(Some(match events {
-                Some(events) => series.with_events(unpacked(events)?),
+            let series = series.unpack();
+            Ok(match events {
+                Some(events) => series.zip(events.unpack()).map(|(series, events)| series.with_events(events)),
                 None => series,
-            }))
+            })
         }
     }
 }

@@ -9,13 +9,14 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead, BufReader, BufWriter, ErrorKind, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, ErrorKind, Read as _, Seek, SeekFrom, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::SystemTime;
 
 use super::record::{Outcome, Record};
+use crate::{limits, regular};
 
 /// Ending of a shard that is being written.
 const OPEN: &str = "open";
@@ -105,6 +106,10 @@ fn line(record: &Record) -> io::Result<Vec<u8>> {
     let mut line = format!("{:08x} ", crc32fast::hash(&json)).into_bytes();
     line.extend_from_slice(&json);
     line.push(b'\n');
+    if line.len() as u64 > limits::RECORD {
+        let message = limits::more(line.len(), limits::RECORD, "bytes for the series of a run");
+        return Err(io::Error::other(message + ": sample less often, or keep fewer series"));
+    }
     Ok(line)
 }
 
@@ -169,10 +174,10 @@ impl Journal {
     }
 
     fn add(&mut self, shard: &Path) -> io::Result<()> {
-        let mut reader = BufReader::with_capacity(1 << 20, File::open(shard)?);
+        let mut reader = BufReader::with_capacity(1 << 20, regular::open(shard)?);
         let (mut line, mut start) = (Vec::new(), 0);
         loop {
-            let length = reader.read_until(b'\n', &mut line)?;
+            let length = next_line(&mut reader, &mut line, limits::RECORD)?;
             if length == 0 {
                 return Ok(());
             }
@@ -181,7 +186,6 @@ impl Journal {
                 None => self.damaged += 1,
             }
             start += length as u64;
-            line.clear();
         }
     }
 
@@ -209,12 +213,23 @@ impl Entry {
     }
 
     fn line(&self) -> io::Result<Vec<u8>> {
-        let mut file = File::open(&self.shard)?;
+        let mut file = regular::open(&self.shard)?;
         file.seek(SeekFrom::Start(self.start))?;
         let mut line = Vec::new();
-        BufReader::with_capacity(1 << 20, file).read_until(b'\n', &mut line)?;
+        next_line(&mut BufReader::with_capacity(1 << 20, file), &mut line, limits::RECORD)?;
         Ok(line)
     }
+}
+
+/// Reads a line with its end; how many bytes it has in the file. One that has more than `most` bytes is left empty.
+fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>, most: u64) -> io::Result<usize> {
+    line.clear();
+    let length = reader.by_ref().take(most).read_until(b'\n', line)?;
+    if (length as u64) < most || line.ends_with(b"\n") {
+        return Ok(length);
+    }
+    *line = Vec::new();
+    Ok(length + reader.skip_until(b'\n')?)
 }
 
 /// Every shard, complete or not.
@@ -226,7 +241,8 @@ fn shards(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let mut shards = Vec::new();
     for entry in entries {
         let path = entry?.path();
-        if path.extension().is_some_and(|ending| ending == OPEN || ending == COMPLETE) {
+        // To open a pipe would wait for whoever writes into it.
+        if path.extension().is_some_and(|ending| ending == OPEN || ending == COMPLETE) && path.is_file() {
             shards.push(path);
         }
     }

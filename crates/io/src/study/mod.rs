@@ -17,6 +17,7 @@ mod document;
 pub mod factor;
 pub mod identity;
 pub mod journal;
+mod place;
 pub mod plan;
 mod points_of_file;
 pub mod record;
@@ -29,10 +30,11 @@ use std::sync::Arc;
 use plateau_study::design::Kind;
 use thiserror::Error;
 
-use crate::regular;
 use crate::scene::{Origin, Problem};
+use crate::{limits, regular};
 use document::Document;
 use factor::Factor;
+use place::Place;
 use points_of_file::Points;
 use response::Response;
 
@@ -107,9 +109,9 @@ impl Study {
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let file: Arc<Path> = path.into();
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
-        let text = regular::read_to_string(path)
+        let text = regular::read_to_string(path, limits::STUDY)
             .map_err(|error| at(Origin::File(file.clone()), format!("cannot read the study: {error}")))?;
-        let place = build::Place { file: file.clone(), text: &text };
+        let place = Place { file: file.clone(), text: &text };
         let document: Document = toml::from_str(&text).map_err(|error| {
             let origin = error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start));
             at(origin, error.message().to_owned())

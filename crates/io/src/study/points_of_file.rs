@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::factor::{Factor, Level};
-use crate::regular;
+use crate::text::odd_character;
+use crate::{limits, regular};
 
 /// Points of a study, each with one level for every factor.
 pub type Points = Vec<Vec<Level>>;
@@ -13,8 +14,12 @@ pub type Points = Vec<Vec<Level>>;
 /// # Errors
 /// What is wrong with the file, and in which line.
 pub fn read(path: &Path, factors: &[Factor]) -> Result<Points, String> {
+    read_points(path, factors, limits::ROWS.min(limits::CELLS / factors.len().max(1)))
+}
+
+fn read_points(path: &Path, factors: &[Factor], most: usize) -> Result<Points, String> {
     let shown = path.display();
-    let file = regular::open(path).map_err(|error| format!("cannot read {shown}: {error}"))?;
+    let file = regular::open_small(path, limits::TABLE).map_err(|error| format!("cannot read {shown}: {error}"))?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(file);
     let header = reader.headers().map_err(|error| format!("{shown}: {error}"))?.clone();
     let column = |factor: &Factor| {
@@ -31,9 +36,15 @@ pub fn read(path: &Path, factors: &[Factor]) -> Result<Points, String> {
     for record in reader.records() {
         let record = record.map_err(|error| format!("{shown}: {error}"))?;
         let line = record.position().map_or(0, csv::Position::line);
+        if points.len() == most {
+            return Err(format!("{shown}:{line}: {}", limits::more("more", most, "points")));
+        }
         let level = |(factor, column): (&Factor, &usize)| {
             let text = record.get(*column).filter(|text| !text.is_empty());
             let text = text.ok_or_else(|| format!("{shown}:{line}: \"{}\" is empty", factor.name))?;
+            if let Some(found) = odd_character(text) {
+                return Err(format!("{shown}:{line}: \"{}\" has {found}; take it out", factor.name));
+            }
             Ok(Level::new(&factor.keys[0], &value(text)))
         };
         points.push(factors.iter().zip(&columns).map(level).collect::<Result<_, String>>()?);
@@ -63,7 +74,7 @@ mod tests {
             values: Values::Levels(Vec::new()),
         };
         let factors = [factor("load", "operation.normal_force"), factor("rows", "mesh.rows")];
-        read(&path, &factors).map_err(|error| error.replace(&directory.path().display().to_string(), "."))
+        read_points(&path, &factors, 3).map_err(|error| error.replace(&directory.path().display().to_string(), "."))
     }
 
     #[test]
@@ -81,6 +92,10 @@ mod tests {
             "./points.csv: column \"x\" is no factor of the study"
         );
         assert_eq!(read_text("load,rows\n5 N,\n").unwrap_err(), "./points.csv:2: \"rows\" is empty");
+        let four = read_text("load,rows\n5 N,1\n5 N,2\n5 N,3\n5 N,4\n").unwrap_err();
+        assert_eq!(four, "./points.csv:5: more points, expected at most 3");
+        let bell = read_text("load,rows\n5 N\u{7},1\n").unwrap_err();
+        assert_eq!(bell, "./points.csv:2: \"load\" has the control character U+0007; take it out");
         assert_eq!(read_text("load,rows\n").unwrap_err(), "./points.csv: no points, expected a line for each");
     }
 }

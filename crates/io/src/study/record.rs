@@ -7,6 +7,8 @@ use flate2::read::{DeflateDecoder, DeflateEncoder};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
+use crate::limits;
+
 /// A run that has ended.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {
@@ -117,7 +119,7 @@ pub struct Packed {
 impl Packed {
     /// The series; none if the text is not what [`Series::pack`] made.
     pub fn unpack(&self) -> Option<Series> {
-        let count = self.columns.len().checked_mul(self.samples)?;
+        let count = self.columns.len().checked_mul(self.samples).filter(|count| *count <= limits::RECORD_NUMBERS)?;
         let bytes = count.checked_mul(8)?;
         let mut shuffled = Vec::new();
         let packed = STANDARD.decode(&self.data).ok()?;

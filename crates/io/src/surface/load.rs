@@ -19,6 +19,7 @@ use super::stylus_profile::{Lay, ProfileError};
 use super::{hdf5, image};
 use crate::regular::sha256;
 use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
+use crate::{limits, regular};
 
 /// The surfaces of a scene, ready for the first step.
 #[derive(Debug, Clone)]
@@ -306,7 +307,7 @@ fn fibre_map(path: &Path, micrograph: &Micrograph, mesh: &Mesh) -> Result<(Fibre
     if !matches!(format, Format::Png | Format::Tiff) {
         return Err(FileError::NotAnImage(format));
     }
-    let (grey, picture) = image::grey(&std::fs::read(path)?, format)?;
+    let (grey, picture) = image::grey(&regular::read(path, limits::SURFACE)?, format)?;
     Ok((micrograph.fibre_map(grey, mesh)?, picture))
 }
 

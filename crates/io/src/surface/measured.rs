@@ -16,6 +16,7 @@ use super::sdf::{SdfKind, without_margin};
 use super::stylus_profile::{Lay, ProfileError, StylusProfile};
 use super::text::is_utf16;
 use super::{hdf5, image, npy, sdf, text, x3p};
+use crate::{limits, regular};
 
 /// Pitches that are read, m; measured ones are between 1e-11 and 1e-3.
 const PITCHES: RangeInclusive<f64> = 1e-15..=1e3;
@@ -144,33 +145,35 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             })
         }
         Format::Sdf(_) => {
-            let file = File::open(path)?;
+            let file = regular::open(path)?;
             let length = file.metadata()?.len();
             let sdf::Surface { patch, warnings } = sdf::read(BufReader::new(file), length)?;
             Ok(from_instrument(format, patch, Vec::new(), warnings))
         }
         Format::X3p => {
-            let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(File::open(path)?))?;
+            let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(regular::open(path)?))?;
             Ok(from_instrument(format, patch, notes, warnings))
         }
-        Format::Npy => Ok(array(format, npy::read(&std::fs::read(path)?, options.unit.unwrap_or(1.0))?, options)),
+        Format::Npy => {
+            Ok(array(format, npy::read(&regular::read(path, limits::SURFACE)?, options.unit.unwrap_or(1.0))?, options))
+        }
         Format::Npz => {
             let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));
-            let (name, read) = npy::read_archive(&std::fs::read(path)?, dataset, unit)?;
+            let (name, read) = npy::read_archive(&regular::read(path, limits::SURFACE)?, dataset, unit)?;
             let mut measured = array(format, read, options);
             measured.notes.insert(0, format!("array {name}"));
             Ok(measured)
         }
         Format::Png | Format::Tiff => {
             let image::HeightMap { columns, rows, heights, notes, warnings } =
-                image::heights(&std::fs::read(path)?, format, options)?;
+                image::heights(&regular::read(path, limits::SURFACE)?, format, options)?;
             let pitch = options.pitch;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings })
         }
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
             let text::Table { columns, rows, pitch, heights, notes, warnings } =
-                text::read(&std::fs::read(path)?, xyz, options)?;
+                text::read(&regular::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
             Ok(Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings })
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),

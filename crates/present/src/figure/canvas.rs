@@ -10,6 +10,7 @@ use plotters::style::{Color as _, FontTransform, RGBColor, ShapeStyle, WHITE};
 
 use super::font::{self, FONT_NAME};
 use crate::colour::INK;
+use crate::label::on_one_line;
 
 /// Height of the letters of numbers and words, pixels.
 pub const TEXT: u32 = 34;
@@ -124,12 +125,14 @@ impl<B: DrawingBackend> Canvas<B> {
         if text.is_empty() {
             return Ok(());
         }
+        // In SVG a control character would be an error of the whole file.
+        let text = on_one_line(text);
         let turn = if anchor == Anchor::Upward { FontTransform::Rotate270 } else { FontTransform::None };
         let style = (FONT_NAME, size).into_font().transform(turn).color(&INK).pos(anchor.position());
         // Centred is the line with the room above its letters; the letters themselves shall be.
         let beside = matches!(anchor, Anchor::Left | Anchor::Right);
         let place = (place.0, if beside { place.1 + 0.12 * f64::from(size) } else { place.1 });
-        self.area.draw(&Text::new(text, pixels(&place), style)).map_err(failed)
+        self.area.draw(&Text::new(text.as_str(), pixels(&place), style)).map_err(failed)
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use plateau_io::text::is_plain;
+
 /// A text that HTML shows as it is, also within the quotes of an attribute.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -12,6 +14,8 @@ pub fn escape(text: &str) -> String {
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
+            // Control characters are no HTML; lines may be wanted.
+            letter if !is_plain(letter) && !"\n\t".contains(letter) => escaped.push(' '),
             letter => escaped.push(letter),
         }
     }

@@ -1,10 +1,10 @@
 //! `plateau sweep collect`: all results of a study in one HDF5 file and a table.
 
 use plateau_io::dataset_file::{Attribute, now};
-use plateau_io::regular;
 use plateau_io::study::collected::{CollectError, Collected, State};
 use plateau_io::study::plan::Plan;
 use plateau_io::study::results_table::table as table_of;
+use plateau_io::{limits, regular};
 use serde::Serialize;
 
 use crate::arguments::CollectArguments;
@@ -67,7 +67,8 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
     let study = plan.study();
     let text = |text: &str| Attribute::Text(text.to_owned());
     let read = |path: &std::path::Path| {
-        regular::read_to_string(path).map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
+        regular::read_to_string(path, limits::STUDY)
+            .map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
     };
     let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
     Ok(vec![

@@ -1,5 +1,6 @@
 //! `plateau sweep run`: make the runs of a study that are not there yet.
 
+use std::collections::HashSet;
 use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -20,7 +21,7 @@ use crate::interrupt::Interrupt;
 use crate::sweep::make::{Stopped, Watcher, make};
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::under_way::UnderWay;
+use crate::sweep::under_way::{self, UnderWay};
 use crate::sweep::{self, journal, journal_folder};
 use crate::table::{print, table};
 use crate::{machine, message, number};
@@ -55,6 +56,9 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
             Some(_) if !arguments.retry => before.failed += 1,
             _ => pending.push(number),
         }
+    }
+    if job.leads() {
+        tidy(&plan, &resolved, &journal);
     }
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
@@ -118,6 +122,21 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
             failed,
             number::count(summary.runs, "run")
         ))),
+    }
+}
+
+/// Removes what killed processes left of runs that have ended, and says what is of no use to this study.
+fn tidy(plan: &Plan, resolved: &Resolved, journal: &Journal) {
+    let results = &plan.study().directory;
+    let runs: HashSet<&str> = resolved.identities.iter().map(String::as_str).collect();
+    let has_ended = |identity: &str| journal.get(identity).is_some_and(|entry| entry.failure.is_none());
+    let strangers = under_way::tidy(results, |identity| runs.contains(identity), has_ended);
+    if strangers > 0 {
+        message::note(format_args!(
+            "{} of runs that the study no longer has, or of another version of the program; nothing needs what is older than that in {}",
+            number::count(strangers, "state"),
+            results.join("under-way").display()
+        ));
     }
 }
 

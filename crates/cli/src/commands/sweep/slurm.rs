@@ -41,7 +41,7 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
     let study = arguments.study.canonicalize().map_err(Failure::input)?;
     let minutes = (time / 60.0).ceil() as u64;
     let megabytes = (memory / (1 << 20) as f64).ceil() as u64;
-    let text = format!(
+    let head = format!(
         "#!/bin/sh\n\
          # Makes the runs of a study of {runs} runs that are not there yet. Submit it again for what is left.\n\
          #SBATCH --job-name={name}\n\
@@ -51,16 +51,16 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
          #SBATCH --mem={megabytes}M\n\
          #SBATCH --time={hours:02}:{rest:02}:00\n\
          #SBATCH --signal=B:TERM@60\n\
-         #SBATCH --output={name}-%A_%a.out\n\
-         exec {program} sweep run {study} --task \"$SLURM_ARRAY_TASK_ID/{tasks}\" --jobs {cores}\n",
+         #SBATCH --output={name}-%A_%a.out\n",
         runs = plan.runs(),
         name = stem.replace(|c: char| !(c.is_ascii_alphanumeric() || "-_.".contains(c)), "-"),
         hours = minutes / 60,
         rest = minutes % 60,
-        program = quoted(&program),
-        study = quoted(&study),
     );
-    output::write(&script, text.as_bytes(), arguments.force)?;
+    // Paths need not be UTF-8.
+    let command = [&b"exec "[..], &quoted(&program), b" sweep run ", &quoted(&study)].concat();
+    let rest = format!(" --task \"$SLURM_ARRAY_TASK_ID/{tasks}\" --jobs {cores}\n");
+    output::write(&script, &[head.as_bytes(), &command, rest.as_bytes()].concat(), arguments.force)?;
     print(&table(
         &plan.study().title,
         &[
@@ -73,6 +73,8 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
 }
 
 /// A path as a shell takes it.
-fn quoted(path: &Path) -> String {
-    format!("'{}'", path.display().to_string().replace('\'', "'\\''"))
+fn quoted(path: &Path) -> Vec<u8> {
+    let quote = |byte: &u8| if *byte == b'\'' { b"'\\''".to_vec() } else { vec![*byte] };
+    let bytes = path.as_os_str().as_encoded_bytes().iter().flat_map(quote);
+    [b'\''].into_iter().chain(bytes).chain([b'\'']).collect()
 }

@@ -103,3 +103,27 @@ fn shards_of_processes_that_are_gone_are_merged() {
     assert_eq!(shards(folder.path()).unwrap().len(), 1 + 1 + 12);
     assert_eq!(identities(folder.path()).len(), 25);
 }
+
+#[test]
+fn a_line_without_end_takes_no_memory() {
+    let mut text = "ab\ncdefghij\nkl\nmnop".as_bytes();
+    let (mut line, mut lines) = (Vec::new(), Vec::new());
+    loop {
+        match next_line(&mut text, &mut line, 4).unwrap() {
+            0 => break,
+            length => lines.push((length, String::from_utf8(line.clone()).unwrap())),
+        }
+    }
+    let expected = [(3, "ab\n"), (9, ""), (3, "kl\n"), (4, "")];
+    assert_eq!(lines, expected.map(|(length, text)| (length, text.to_owned())));
+}
+
+#[test]
+fn what_is_no_file_is_no_shard() {
+    let folder = tempfile::tempdir().unwrap();
+    let fifo = folder.path().join("h_1_0-0.journal");
+    assert!(std::process::Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    fs::create_dir(folder.path().join("h_1_0-1.open")).unwrap();
+    assert!(Journal::read(folder.path()).unwrap().is_empty());
+    merge(folder.path(), "h").unwrap();
+}

@@ -1,0 +1,38 @@
+//! Where something stands in the text of a study.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::Spanned;
+
+use crate::scene::{Origin, Problem};
+use crate::text::odd_character;
+
+/// Turns a place in the text into line and column.
+pub(super) struct Place<'a> {
+    pub file: Arc<Path>,
+    pub text: &'a str,
+}
+
+impl Place<'_> {
+    /// Line and column of a byte.
+    pub fn at(&self, byte: usize) -> Origin {
+        let before = self.text.get(..byte).unwrap_or("");
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
+        Origin::Place { file: self.file.clone(), line, column }
+    }
+
+    /// What is wrong with something that was found.
+    pub fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
+        Problem::new(&self.at(found.span().start), key, message)
+    }
+
+    /// Refuses a name that cannot be shown on one line, in messages, tables and figures.
+    pub fn check_name(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
+        if let Some(found) = odd_character(name) {
+            let message = format!("\"{}\" has {found}, expected one line of letters; take it out", name.escape_debug());
+            problems.push(Problem::new(&at(), key, message));
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Text that others have written, made such that it changes nothing but itself where it is shown: no character of it moves the
+//! cursor, hides what follows, or turns the direction of letters.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+/// Whether a character is shown as itself: no control character (Unicode category Cc), none that turns the direction of what
+/// follows (Unicode Standard Annex 9, section 2), and none that XML 1.0 has no place for.
+pub fn is_plain(letter: char) -> bool {
+    let turns =
+        matches!(letter, '\u{200e}' | '\u{200f}' | '\u{061c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    !letter.is_control() && !turns && !matches!(letter, '\u{2028}' | '\u{2029}' | '\u{fffe}' | '\u{ffff}')
+}
+
+/// The first character of a text that is not shown as itself, in words.
+pub fn odd_character(text: &str) -> Option<String> {
+    let odd = text.chars().find(|letter| !is_plain(*letter))?;
+    Some(match odd {
+        '\n' | '\r' => "a line break".to_owned(),
+        '\t' => "a tab".to_owned(),
+        odd => format!("the control character U+{:04X}", u32::from(odd)),
+    })
+}
+
+/// A text of one or more lines as it can be shown: other control characters are written as `\u{1b}`.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    escaped(text, |letter| is_plain(letter) || letter == '\n' || letter == '\t')
+}
+
+/// A text as it can be shown within a line.
+pub fn shown_on_one_line(text: &str) -> Cow<'_, str> {
+    escaped(text, is_plain)
+}
+
+fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
+    if text.chars().all(&stays) {
+        return Cow::Borrowed(text);
+    }
+    let mut shown = String::with_capacity(text.len() + 8);
+    for letter in text.chars() {
+        match letter {
+            letter if stays(letter) => shown.push(letter),
+            '\n' => shown.push_str("\\n"),
+            '\r' => shown.push_str("\\r"),
+            '\t' => shown.push_str("\\t"),
+            // Writing to a String cannot fail.
+            letter => _ = write!(shown, "\\u{{{:x}}}", u32::from(letter)),
+        }
+    }
+    Cow::Owned(shown)
+}
+
+/// A cell of a table that spreadsheets take as the text that it is: one that would begin a formula there (`=`, `+`, `-`, `@`)
+/// has an apostrophe before it, which spreadsheets take as "this is text". Numbers and quantities stay as they are.
+pub fn cell(text: &str) -> Cow<'_, str> {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_quantity(text) {
+        return Cow::Owned(format!("'{text}"));
+    }
+    Cow::Borrowed(text)
+}
+
+/// Whether a text is a number, or one with a unit behind it such as `-5 mm` or `-2 1/K`.
+fn is_quantity(text: &str) -> bool {
+    let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+    let of_units = |letter: char| letter.is_alphanumeric() || "/^*%°- ".contains(letter);
+    number.parse::<f64>().is_ok() && unit.chars().all(of_units)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_the_cursor_or_turns_letters_is_written_out() {
+        let text = "a\u{1b}[2Jb\r\u{9b}31m\u{202e}c\u{7f}\nd\té µ";
+        assert_eq!(shown(text), "a\\u{1b}[2Jb\\r\\u{9b}31m\\u{202e}c\\u{7f}\nd\té µ");
+        assert_eq!(shown_on_one_line("d\ne\tf"), "d\\ne\\tf");
+        assert!(matches!(shown("plain, ö, 中\n"), Cow::Borrowed(_)));
+        assert_eq!(odd_character("a\nb").as_deref(), Some("a line break"));
+        assert_eq!(odd_character("a\u{1b}").as_deref(), Some("the control character U+001B"));
+        assert_eq!(odd_character("µm, \"a\" <b>"), None);
+    }
+
+    #[test]
+    fn only_what_a_spreadsheet_would_compute_is_marked() {
+        for formula in ["=1+1", "+1+1", "-2+3+cmd|' /C calc'!A0", "@SUM(A1)", "-x", "=", "-1 a(b)", "\t=1", "-inf(1)"] {
+            assert_eq!(cell(formula), format!("'{formula}"));
+        }
+        for plain in ["-1.5", "+3", "-1e-300", "-inf", "-20 degC", "-5 1/K", "a=b", "", "1-2"] {
+            assert_eq!(cell(plain), plain);
+        }
+    }
+}

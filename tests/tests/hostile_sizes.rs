@@ -1,0 +1,179 @@
+//! Files that say they are huge, and machines that have next to nothing: an answer at once, in bounded memory, and never a panic.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::Command;
+
+use plateau_tests::fault::without_threads;
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run, scene};
+use plateau_tests::scenes::few_or_all;
+
+/// Bytes that nobody reads.
+const HUGE: u64 = 1 << 40;
+
+/// A file that begins like this and takes no room for the rest.
+fn huge(directory: &WorkingDirectory, name: &str, start: &[u8], length: u64) {
+    let path = directory.write(name, start);
+    File::options().write(true).open(path).unwrap().set_len(length).unwrap();
+}
+
+/// With 1 GB of address space: enough for the program, and not for what some files declare.
+fn limited(directory: &WorkingDirectory, command: &[&str]) -> Outcome {
+    run(directory.command_after("ulimit -c 0; ulimit -v 1000000", command))
+}
+
+fn assert_refused(outcome: &Outcome, said: &str) {
+    assert!(outcome.status == Some(2) && outcome.stderr.contains(said), "expected {said}: {outcome:?}");
+}
+
+fn surface_scene(directory: &WorkingDirectory, file: &str, more: &str) {
+    let text = quick_scene_with(&[]);
+    let start = text.find("[disc.surface]").unwrap();
+    let end = start + text[start..].find("\n[").unwrap();
+    let disc = format!("[disc.surface]\nfile = \"{file}\"\n{more}");
+    directory.write("scene.toml", [&text[..start], &disc, &text[end..]].concat());
+}
+
+#[test]
+fn files_that_are_too_large_are_refused_with_both_numbers() {
+    let directory = WorkingDirectory::new();
+    let most = "expected at most";
+    huge(&directory, "study.toml", b"version = 1\n", HUGE);
+    for command in ["plan", "run", "collect", "effects", "slurm"] {
+        assert_refused(&limited(&directory, &["sweep", command, "study.toml"]), most);
+    }
+    huge(&directory, "big.toml", b"version = 1\n", HUGE);
+    for command in ["run", "check"] {
+        assert_refused(&limited(&directory, &[command, "big.toml"]), "larger than 1 MiB");
+    }
+    huge(&directory, "points.csv", b"load\n5 N\n", HUGE);
+    let study = format!(
+        "version = 1\nbase = \"{}\"\ndesign = \"csv\"\nfile = \"points.csv\"\n[[factor]]\nname = \"load\"\n\
+         key = \"operation.normal_force\"\n",
+        scene("quick.toml")
+    );
+    directory.write("points.toml", study);
+    assert_refused(&limited(&directory, &["sweep", "plan", "points.toml"]), most);
+    huge(&directory, "stops.csv", b"time [s]\n0\n1\n", HUGE);
+    let cycle = ["check", &scene("quick.toml"), "--set"];
+    let set = format!("operation.cycle.file=\"{}\"", directory.path("stops.csv").display());
+    assert_refused(&limited(&directory, &[&cycle[..], &[&set]].concat()), most);
+    let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR";
+    for (name, start, more) in [
+        ("heights.txt", &b"1 2 3 4\n5 6 7 8\n"[..], "unit = \"um\"\n"),
+        ("heights.npy", b"\x93NUMPY\x01\0", ""),
+        ("heights.png", png, "height_range = [\"0 um\", \"1 um\"]\n"),
+    ] {
+        // Behind the part that tells what it is.
+        let start: Vec<u8> =
+            start.iter().copied().chain(if name.ends_with("txt") { vec![b' '; 8192] } else { vec![] }).collect();
+        huge(&directory, name, &start, HUGE);
+        surface_scene(&directory, name, more);
+        assert_refused(&limited(&directory, &["check", "scene.toml"]), most);
+        assert_refused(&limited(&directory, &["surface", name]), most);
+    }
+}
+
+#[test]
+fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
+    let directory = WorkingDirectory::new();
+    let short = ["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.duration=2 s"];
+    assert_eq!(directory.plateau(short).status, Some(0));
+    let before = fs::read(directory.path("run.h5")).unwrap();
+    let content = (HUGE - 16 - 8 - 32).to_le_bytes();
+    huge(&directory, "run.h5.checkpoint", &[&b"plateau state 4\n"[..], &content].concat(), HUGE);
+    let refused = limited(&directory, &[&short[..], &["--resume"]].concat());
+    assert_refused(&refused, "memory of this machine");
+    assert!(fs::read(directory.path("run.h5")).unwrap() == before);
+    // A line that never ends, and a pipe.
+    let study = format!(
+        "version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\nset = [\"operation.duration = '1 s'\"]\n\
+         [[factor]]\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"6 N\"]\n",
+        scene("quick.toml")
+    );
+    directory.write("study.toml", study);
+    huge(&directory, "results/journal/h_1_0-0.journal", b"00000000 {", 1 << 30);
+    assert!(Command::new("mkfifo").arg(directory.path("results/journal/h_1_0-1.journal")).status().unwrap().success());
+    for command in ["run", "collect"] {
+        let outcome = limited(&directory, &["sweep", command, "study.toml"]);
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    }
+}
+
+/// Every command that does something.
+fn commands(directory: &WorkingDirectory) -> Vec<Vec<String>> {
+    let study = format!(
+        "version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\nset = [\"operation.duration = '1 s'\"]\n\
+         [[factor]]\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"6 N\"]\n\
+         [[response]]\nname = \"pool\"\ndataset = \"/series/pool\"\nat = \"end\"\n",
+        scene("quick.toml")
+    );
+    directory.write("study.toml", study);
+    fs::write(directory.path("heights.sdf"), fs::read(corpus("bcr1_surface_ascii.sdf")).unwrap()).unwrap();
+    let made = ["run", &scene("quick.toml"), "-o", "run.h5", "--set", "operation.duration=1 s"];
+    assert_eq!(directory.plateau(made).status, Some(0));
+    let short = format!("run {} -o other.h5 --force --set operation.duration=1\u{a0}s", scene("quick.toml"));
+    let lines = [
+        short.as_str(),
+        "check SCENE",
+        "surface heights.sdf --plot surface.png --force",
+        "verify run.h5",
+        "plot run.h5 -o figures --force",
+        "report run.h5 -o run.html --force",
+        "export run.h5 --to csv -o run.csv --force",
+        "watch run.h5 --once",
+        "sweep plan study.toml",
+        "sweep run study.toml --jobs 2",
+        "sweep collect study.toml",
+        "sweep effects study.toml",
+    ];
+    let words = |line: &str| {
+        line.split(' ').map(|word| word.replace("SCENE", &scene("quick.toml")).replace('\u{a0}', " ")).collect()
+    };
+    lines.into_iter().map(words).collect()
+}
+
+fn corpus(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/io/tests/surfaces").join(name)
+}
+
+/// A line that says what is lacking, and status 1; or all is well.
+fn assert_told(outcome: &Outcome, what: &str) {
+    // The standard library has a note of its own behind what it says of memory.
+    let told = |line: &str| line.starts_with("plateau: ") || line.starts_with("memory allocation of");
+    let told = outcome.stderr.lines().filter(|line| !line.starts_with("note: ")).last().is_some_and(told);
+    assert!(outcome.status == Some(0) || outcome.status == Some(1) && told, "{what}: {outcome:?}");
+    assert!(!outcome.stderr.contains("panicked"), "{what}: {outcome:?}");
+}
+
+#[test]
+fn without_threads_nothing_panics() {
+    let directory = WorkingDirectory::new();
+    for command in commands(&directory) {
+        assert_eq!(directory.plateau(&command).status, Some(0), "{command:?}");
+        for &threads in few_or_all(&[0, 2][..], &[0, 1, 2, 3]) {
+            let outcome = without_threads(directory.command(&command), threads);
+            assert_told(&outcome, &format!("{command:?} with {threads} threads"));
+        }
+    }
+}
+
+#[test]
+fn without_files_or_memory_nothing_panics() {
+    let directory = WorkingDirectory::new();
+    let (files, megabytes) = few_or_all((&[4][..], &[100][..]), (&[3, 4, 5], &[60, 100, 200]));
+    let mut limits: Vec<String> = files.iter().map(|files| format!("ulimit -n {files}")).collect();
+    limits.extend(megabytes.iter().map(|megabytes| format!("ulimit -c 0; ulimit -v {}", megabytes * 1000)));
+    for command in commands(&directory) {
+        assert_eq!(directory.plateau(&command).status, Some(0), "{command:?}");
+        for limit in &limits {
+            let mut limited = directory.command_after(limit, &command);
+            limited.env_remove("RUST_BACKTRACE");
+            let outcome = run(limited);
+            // The system itself cannot start it.
+            if !outcome.stderr.contains("error while loading shared libraries") {
+                assert_told(&outcome, &format!("{command:?} after {limit}"));
+            }
+        }
+    }
+}
