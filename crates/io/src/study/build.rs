@@ -12,7 +12,7 @@ use super::document::{self, Document};
 use super::factor::{Factor, Level, Values};
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent};
-use super::{DesignSource, Order, Replicates, Study, points_of_file};
+use super::{DesignSource, Order, Replicates, Study, measured, points_of_file};
 use crate::scene::{Origin, Problem, schema};
 use crate::units::{self, Dimension};
 
@@ -20,7 +20,7 @@ use crate::units::{self, Dimension};
 const VERSION: i64 = 1;
 
 /// Designs by their name in a study.
-const DESIGNS: [&str; 8] = [
+const DESIGNS: [&str; 9] = [
     "full-factorial",
     "fractional-factorial",
     "plackett-burman",
@@ -28,8 +28,13 @@ const DESIGNS: [&str; 8] = [
     "box-behnken",
     "latin-hypercube",
     "sobol",
+    "morris",
     "csv",
 ];
+
+/// Trajectories of a Morris design and levels of its ranges, unless given.
+const TRAJECTORIES: usize = 10;
+const GRID_LEVELS: usize = 4;
 
 /// Turns a place in the text into line and column.
 pub(super) struct Place<'a> {
@@ -45,7 +50,7 @@ impl Place<'_> {
         Origin::Place { file: self.file.clone(), line, column }
     }
 
-    fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
+    pub fn problem<T>(&self, found: &Spanned<T>, key: &str, message: impl Into<String>) -> Problem {
         Problem::new(&self.at(found.span().start), key, message)
     }
 }
@@ -70,6 +75,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
     };
     let replicates = document.replicates.as_ref().map(|given| replicates(given, place, &mut problems));
     let responses = responses(&document.response, place, &mut problems);
+    let fit = measured::settings(&document, &responses, place, &mut problems);
     let series = document.series.as_ref().map(|series| {
         series.iter().filter_map(|name| series_name(name, "series", place, &mut problems)).collect::<Vec<_>>()
     });
@@ -92,6 +98,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         replicates,
         order,
         responses,
+        fit,
         series,
     })
 }
@@ -200,6 +207,8 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
     only("resolution", start(&document.resolution), &["fractional-factorial"])?;
     only("generators", start(&document.generators), &["fractional-factorial"])?;
     only("points", start(&document.points), &["latin-hypercube", "sobol"])?;
+    only("trajectories", start(&document.trajectories), &["morris"])?;
+    only("levels", start(&document.levels), &["morris"])?;
     only("alpha", start(&document.alpha), &["central-composite"])?;
     only("centre_points", start(&document.centre_points), &["central-composite", "box-behnken"])?;
     only("file", start(&document.file), &["csv"])?;
@@ -238,6 +247,11 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
         "sobol" => match points() {
             Some(points) => Kind::Sobol { points },
             None => return missing("points = 32, at least 1"),
+        },
+        "morris" => Kind::Morris {
+            trajectories: document.trajectories.as_ref().map_or(TRAJECTORIES, |count| *count.get_ref()),
+            levels: document.levels.as_ref().map_or(GRID_LEVELS, |count| *count.get_ref()),
+            seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()),
         },
         "csv" => {
             let Some(file) = &document.file else { return missing("file = \"points.csv\"") };
