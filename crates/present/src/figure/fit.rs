@@ -22,7 +22,7 @@ const MOST_ACROSS: usize = 3;
 /// How far above the threshold profiles are shown, as multiples of it.
 const ABOVE: f64 = 2.5;
 /// Places between two places of a region for its lines.
-const FINER: usize = 8;
+const FINER: usize = 4;
 /// What a value without end is taken for.
 const HIGH: f64 = 1e6;
 
@@ -46,7 +46,7 @@ fn profiles(result: &FitResult, keys: &[FittedKey]) -> Figure {
         Chart {
             title: String::new(),
             x: axis(key, &profile.values),
-            y: if at % across == 0 { y } else { y.shared() },
+            y: if at % across == 0 { y } else { Axis { label: String::new(), ..y } },
             contents: profile_contents(key, profile, result.best[at], top),
         }
     };
@@ -69,14 +69,14 @@ fn profiles(result: &FitResult, keys: &[FittedKey]) -> Figure {
 }
 
 fn profile_contents(key: &FittedKey, profile: &Profile, best: f64, top: f64) -> Vec<Content> {
-    let ends = [profile.values.first(), profile.values.last()].map(|end| end.map_or(0.0, |end| key.value(*end)));
+    let ends = [profile.values.first(), profile.values.last()].map(|end| end.map_or(0.0, |end| key.on_axis(*end)));
     let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, colour, width };
-    let best = key.value(best);
+    let best = key.on_axis(best);
     let mut contents = vec![
         line(vec![[best, 0.0], [best, top]], FAINT, LINE),
         line(vec![[ends[0], profile.threshold], [ends[1], profile.threshold]], DERIVED, LINE + 1),
     ];
-    let place = |(value, rise): (&f64, &f64)| [key.value(*value), *rise];
+    let place = |(value, rise): (&f64, &f64)| [key.on_axis(*value), *rise];
     let places: Vec<[f64; 2]> = profile.values.iter().zip(&profile.rises).map(place).collect();
     contents.extend(below(&places, top).into_iter().map(|points| line(points, DATA, LINE + 2)));
     contents
@@ -116,7 +116,7 @@ fn region(result: &FitResult, pair: &Pair, keys: &[FittedKey], runs: &[Vec<f64>]
             let place = place / FINER as f64;
             let index = (place as usize).min(values.len() - 2);
             let share = place - index as f64;
-            let (from, to) = (own[which].value(values[index]), own[which].value(values[index + 1]));
+            let (from, to) = (own[which].on_axis(values[index]), own[which].on_axis(values[index + 1]));
             if own[which].logarithmic { from * libm::pow(to / from, share) } else { from + share * (to - from) }
         };
         [at(column, 0), at(row, 1)]
@@ -128,11 +128,13 @@ fn region(result: &FitResult, pair: &Pair, keys: &[FittedKey], runs: &[Vec<f64>]
             contents.push(Content::Line { points, colour: *colour, width: LINE + 2 });
         }
     }
-    let of_run = |run: &Vec<f64>| [0, 1].map(|at| own[at].value(run[pair.keys[at]]));
+    let of_run = |run: &Vec<f64>| [0, 1].map(|at| own[at].on_axis(run[pair.keys[at]]));
     let mut points: Vec<[f64; 2]> = runs.iter().map(of_run).collect();
     points.dedup();
+    let is_shown = |[x, y]: &[f64; 2]| axes[0].range.contains(x) && axes[1].range.contains(y);
+    points.retain(is_shown);
     contents.push(Content::Marks { points, colour: FAINT, mark: Mark::Point });
-    let best = [0, 1].map(|at| own[at].value(result.best[pair.keys[at]]));
+    let best = [0, 1].map(|at| own[at].on_axis(result.best[pair.keys[at]]));
     contents.push(Content::Marks { points: vec![best], colour: INK, mark: Mark::Cross });
     let mut meanings: Vec<Meaning> = levels
         .into_iter()
@@ -147,36 +149,52 @@ fn region(result: &FitResult, pair: &Pair, keys: &[FittedKey], runs: &[Vec<f64>]
         name,
         title: format!("Region of {one} and {other}"),
         caption: format!(
-            "Values of {one} and {other} that the measurements allow, with all other keys as likely as they can be. A region \
-             that reaches the end of a range goes on beyond it as far as these data tell; a long one is a ridge."
+            "Values of {one} and {other} that the measurements allow, with all other keys as likely as they can be; the axes show \
+             the part of the ranges about them. A region that reaches the edge goes on to the end of a range and beyond, as far \
+             as these data tell; a long one is a ridge."
         ),
         page: page(COLUMN, 1.4 * HEIGHT, 1, vec![chart], &meanings),
     }
 }
 
-/// Rises column by column on a finer grid, linear between places of the root, which is smooth where the rise is a square.
+/// Rises column by column on a finer grid, by cubic convolution, which gives every polynomial of second degree as it is. R. G.
+/// Keys, IEEE Trans. Acoust. Speech Signal Process. 29(6), 1153–1160 (1981), doi:10.1109/TASSP.1981.1163711.
 fn finer(pair: &Pair) -> Vec<f64> {
     let columns = pair.values[0].len();
-    let root = |column: usize, row: usize| pair.rises[row * columns + column].min(HIGH).sqrt();
-    let (wide, high) = (columns - 1, pair.values[1].len() - 1);
-    let at = |column: usize, row: usize| {
-        let split = |place: usize, last: usize| {
-            let index = (place / FINER).min(last - 1);
-            (index, (place - index * FINER) as f64 / FINER as f64)
-        };
-        let ((c, x), (r, y)) = (split(column, wide), split(row, high));
-        let along = |row: usize| (1.0 - x) * root(c, row) + x * root(c + 1, row);
-        ((1.0 - y) * along(r) + y * along(r + 1)).powi(2)
+    let rows = pair.values[1].len();
+    let value = |column: usize, row: usize| pair.rises[row * columns + column].min(HIGH);
+    // First along the columns, then along the rows.
+    let along: Vec<Vec<f64>> =
+        (0..rows).map(|row| convolved(&(0..columns).map(|column| value(column, row)).collect::<Vec<_>>())).collect();
+    let wide = (columns - 1) * FINER + 1;
+    let column = |column: usize| convolved(&along.iter().map(|row| row[column]).collect::<Vec<_>>());
+    (0..wide).flat_map(column).map(|rise| rise.max(0.0)).collect()
+}
+
+/// Values between values.
+fn convolved(values: &[f64]) -> Vec<f64> {
+    let at = |index: isize| match usize::try_from(index) {
+        // Beyond the ends the parabola through the last three.
+        Err(_) => 3.0 * values[0] - 3.0 * values[1] + values[2],
+        Ok(index) if index < values.len() => values[index],
+        Ok(_) => {
+            let last = values.len() - 1;
+            3.0 * values[last] - 3.0 * values[last - 1] + values[last - 2]
+        }
     };
-    (0..=wide * FINER)
-        .flat_map(|column| (0..=high * FINER).map(move |row| (column, row)))
-        .map(|(c, r)| at(c, r))
-        .collect()
+    let fine = |place: usize| {
+        let index = (place / FINER).min(values.len() - 2);
+        let t = (place - index * FINER) as f64 / FINER as f64;
+        let index = index as isize;
+        let [a, b, c, d] = [at(index - 1), at(index), at(index + 1), at(index + 2)];
+        b + 0.5 * t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a)))
+    };
+    (0..=(values.len() - 1) * FINER).map(fine).collect()
 }
 
 /// A key as an axis over its range.
 fn axis(key: &FittedKey, values: &[f64]) -> Axis {
-    let ends = [values.first(), values.last()].map(|end| end.map_or(0.0, |end| key.value(*end)));
+    let ends = [values.first(), values.last()].map(|end| end.map_or(0.0, |end| key.on_axis(*end)));
     let range: RangeInclusive<f64> = ends[0]..=ends[1];
     if key.logarithmic { Axis::logarithmic(range, key.label()) } else { Axis::linear(range, key.label()) }
 }
@@ -200,16 +218,17 @@ mod tests {
 
     #[test]
     fn a_finer_region_has_the_places_it_was_given() {
-        // (x + 2 y)² has the root x + 2 y, which linear interpolation gives exactly.
+        // (x − y)² + y², a polynomial of second degree.
         let values = [vec![0.0, 1.0, 2.0], vec![0.0, 1.0, 2.0]];
-        let rises = (0..9).map(|at| (f64::from(at % 3) + 2.0 * f64::from(at / 3)).powi(2)).collect();
+        let rise = |x: f64, y: f64| (x - y).powi(2) + y * y;
+        let rises = (0..9).map(|at| rise(f64::from(at % 3), f64::from(at / 3))).collect();
         let pair = Pair { keys: [0, 1], values, rises, threshold: 5.99 };
         let field = finer(&pair);
         let side = 2 * FINER + 1;
         assert_eq!(field.len(), side * side);
         for (at, value) in field.iter().enumerate() {
             let (x, y) = ((at / side) as f64 / FINER as f64, (at % side) as f64 / FINER as f64);
-            assert!((value - (x + 2.0 * y).powi(2)).abs() < 1e-9);
+            assert!((value - rise(x, y)).abs() < 1e-9);
         }
     }
 }

@@ -22,7 +22,12 @@ pub struct FittedKey {
     /// Whether equal steps of its range are equal ratios.
     pub logarithmic: bool,
     reading: Reading,
+    /// Power of ten that the axes of figures have, so that their numbers are short.
+    power: i32,
 }
+
+/// Numbers of these sizes stand on axes without a power of ten.
+const PLAIN: std::ops::Range<f64> = 0.01..1e5;
 
 impl FittedKey {
     /// A factor of the study.
@@ -32,7 +37,12 @@ impl FittedKey {
             Values::Range { low, high, logarithmic } => (vec![high, low], *logarithmic),
             Values::Levels(levels) => (levels.iter().collect(), false),
         };
-        Self { name: factor.name.clone(), logarithmic, reading: Reading::of(stated, false) }
+        let largest = stated.iter().filter_map(|level| level.number).map(f64::abs).fold(0.0, f64::max);
+        let reading = Reading::of(stated, false);
+        let size = reading.value(largest);
+        let is_plain = PLAIN.contains(&size) || !(size > 0.0 && size.is_finite());
+        let power = if is_plain { 0 } else { 3 * (libm::log10(size) / 3.0).floor() as i32 };
+        Self { name: factor.name.clone(), logarithmic, reading, power }
     }
 
     /// A value in the unit in which the study states the key.
@@ -45,9 +55,18 @@ impl FittedKey {
         &self.reading.unit
     }
 
+    /// A value as it lies on an axis.
+    pub fn on_axis(&self, si: f64) -> f64 {
+        self.value(si) / libm::pow(10.0, f64::from(self.power))
+    }
+
     /// What an axis says.
     pub fn label(&self) -> String {
-        if self.unit().is_empty() { self.name.clone() } else { format!("{}, {}", self.name, self.unit()) }
+        let power = if self.power == 0 { String::new() } else { format!("10{} ", number::raised(self.power)) };
+        match format!("{power}{}", self.unit()).trim_end() {
+            "" => self.name.clone(),
+            unit => format!("{}, {unit}", self.name),
+        }
     }
 
     /// A value with its unit.

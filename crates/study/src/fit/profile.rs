@@ -5,8 +5,14 @@ use crate::quasi_newton::minimise;
 
 /// Places of a profile.
 const PLACES: usize = 41;
-/// Places of a region along each of its two keys.
-const SIDE: usize = 25;
+/// Places that are added where an interval is, so that a short one is seen as well as a long one.
+const ADDED: usize = 20;
+/// How far these reach beyond it, as a part of it.
+const BEYOND: f64 = 0.5;
+/// Places of a region along each of its two keys: where there are no other keys, and where each place is a search.
+const SIDES: [usize; 2] = [61, 31];
+/// Up to which multiple of the threshold profiles are within the part of the ranges in which a region is told.
+const AROUND: f64 = 1.6;
 /// Halvings of the step in which an interval ends.
 const HALVINGS: usize = 14;
 /// Where the gradient of −2 ln L by coded units is taken for nothing.
@@ -41,7 +47,7 @@ pub struct Piece {
 pub struct Pair {
     /// Which keys, by index.
     pub keys: [usize; 2],
-    /// Values of both, in ascending order.
+    /// Values of both, in ascending order, about where the region is.
     pub values: [Vec<f64>; 2],
     /// Rises of −2 ln of the likelihood, for each value of the second key those of the first.
     pub rises: Vec<f64>,
@@ -71,55 +77,75 @@ impl Fit {
 
     /// The profile of a key.
     pub(super) fn profile(&self, key: usize) -> Profile {
-        let scan = self.scan(key);
+        let mut scan = self.scan(key);
         let threshold = self.threshold(1);
-        let rise = |value: f64| (value - self.least).max(0.0);
-        let mut pieces: Vec<[f64; 2]> = Vec::new();
-        let mut begin = (rise(scan[0].2) <= threshold).then_some(-1.0);
-        for step in scan.windows(2) {
-            let (from, to) = (&step[0], &step[1]);
-            let inside = [rise(from.2) <= threshold, rise(to.2) <= threshold];
-            if inside[0] == inside[1] {
-                continue;
+        let pieces = self.pieces(key, &scan, threshold);
+        for [low, high] in &pieces {
+            let reach = BEYOND * (high - low);
+            let (from, to) = ((low - reach).max(-1.0), (high + reach).min(1.0));
+            for value in (0..=ADDED).map(|step| from + (to - from) * step as f64 / ADDED as f64) {
+                let near = scan.iter().min_by(|one, other| (one.0 - value).abs().total_cmp(&(other.0 - value).abs()));
+                let near = near.map_or_else(|| self.best.clone(), |(_, place, _)| place.clone());
+                let (place, least) = self.best_with(&[(key, value)], &[&near]);
+                scan.push((value, place, least));
             }
-            let crossing = self.crossing(key, from, to, threshold);
+        }
+        scan.sort_by(|one, other| one.0.total_cmp(&other.0));
+        scan.dedup_by(|one, other| one.0 == other.0);
+        let of = &self.keys[key];
+        let piece =
+            |[low, high]: [f64; 2]| Piece { ends: [of.value(low), of.value(high)], open: [low <= -1.0, high >= 1.0] };
+        Profile {
+            values: scan.iter().map(|(coded, ..)| of.value(*coded)).collect(),
+            rises: scan.iter().map(|(_, _, value)| (value - self.least).max(0.0)).collect(),
+            threshold,
+            pieces: pieces.into_iter().map(piece).collect(),
+        }
+    }
+
+    /// The pieces of a range in which a profile stays below a threshold, in coded units.
+    fn pieces(&self, key: usize, scan: &[(f64, Vec<f64>, f64)], threshold: f64) -> Vec<[f64; 2]> {
+        let is_inside = |(_, _, value): &(f64, Vec<f64>, f64)| value - self.least <= threshold;
+        let mut pieces: Vec<[f64; 2]> = Vec::new();
+        let mut begin = scan.first().filter(|first| is_inside(first)).map(|_| -1.0);
+        for step in scan.windows(2).filter(|step| is_inside(&step[0]) != is_inside(&step[1])) {
+            let crossing = self.crossing(key, &step[0], &step[1], threshold);
             match begin.take() {
                 Some(low) => pieces.push([low, crossing]),
                 None => begin = Some(crossing),
             }
         }
         pieces.extend(begin.map(|low| [low, 1.0]));
-        let of = &self.keys[key];
-        let piece =
-            |[low, high]: [f64; 2]| Piece { ends: [of.value(low), of.value(high)], open: [low <= -1.0, high >= 1.0] };
-        Profile {
-            values: scan.iter().map(|(coded, ..)| of.value(*coded)).collect(),
-            rises: scan.iter().map(|(_, _, value)| rise(*value)).collect(),
-            threshold,
-            pieces: pieces.into_iter().map(piece).collect(),
-        }
+        pieces
     }
 
     /// The region of two keys.
     pub(super) fn pair(&self, keys: [usize; 2]) -> Pair {
-        let coded = |step: usize| 2.0 * step as f64 / (SIDE - 1) as f64 - 1.0;
-        let mut rises = Vec::with_capacity(SIDE * SIDE);
+        let threshold = self.threshold(2);
+        let side = SIDES[usize::from(self.keys.len() > 2)];
+        let coded: [Vec<f64>; 2] = keys.map(|key| {
+            let pieces = self.pieces(key, &self.scan(key), AROUND * threshold);
+            let from = pieces.first().map_or(-1.0, |piece| piece[0]);
+            let to = pieces.last().map_or(1.0, |piece| piece[1]);
+            (0..side).map(|step| from + (to - from) * step as f64 / (side - 1) as f64).collect()
+        });
+        let mut rises = Vec::with_capacity(side * side);
         let mut last = self.best.clone();
-        for row in 0..SIDE {
-            for step in 0..SIDE {
+        for row in 0..side {
+            for step in 0..side {
                 // There and back again, so that each search begins beside where the last one ended.
-                let column = if row % 2 == 0 { step } else { SIDE - 1 - step };
-                let held = [(keys[0], coded(column)), (keys[1], coded(row))];
+                let column = if row % 2 == 0 { step } else { side - 1 - step };
+                let held = [(keys[0], coded[0][column]), (keys[1], coded[1][row])];
                 let (place, value) = self.best_with(&held, &[&last]);
                 last = place;
                 rises.push((value - self.least).max(0.0));
             }
             if row % 2 == 1 {
-                rises[row * SIDE..].reverse();
+                rises[row * side..].reverse();
             }
         }
-        let values = keys.map(|key| (0..SIDE).map(|step| self.keys[key].value(coded(step))).collect());
-        Pair { keys, values, rises, threshold: self.threshold(2) }
+        let values = [0, 1].map(|at| coded[at].iter().map(|coded| self.keys[keys[at]].value(*coded)).collect());
+        Pair { keys, values, rises, threshold }
     }
 
     /// Coded values of a key with the most likely place and −2 ln of its likelihood: evenly over the range, with the most

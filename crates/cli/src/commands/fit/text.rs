@@ -64,7 +64,7 @@ fn responses(told: &Told<'_>) -> Vec<Vec<String>> {
             with_error(measured.value, measured.uncertainty),
             with_error(response.forecast, deviation),
             scatter.map_or_else(|| "not known".to_owned(), |scatter| unit.with_symbol(&scatter)),
-            format!("{} deviations", number::with_minus(&format!("{away:.1}"))),
+            format!("{} deviations", number::with_minus(&format!("{:.1}", away + 0.0)).replace("−0.0", "0.0")),
         ]
     };
     names.map(row).collect()
