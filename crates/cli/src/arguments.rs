@@ -1,6 +1,7 @@
 //! The command line.
 
 mod accuracy;
+mod fit;
 mod new;
 mod surface;
 mod sweep;
@@ -21,9 +22,13 @@ use plateau_run::ExecutionOptions;
 use crate::failure::Failure;
 
 pub use accuracy::AccuracyArguments;
+pub use fit::FitArguments;
 pub use new::NewArguments;
 pub use surface::SurfaceArguments;
-pub use sweep::{CollectArguments, EffectsArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
+pub use sweep::{
+    CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
+    SweepRunArguments,
+};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]
@@ -100,6 +105,10 @@ pub enum Command {
     /// Make many runs of a scene with other values, and tell what these values do
     #[command(subcommand, after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
     Sweep(SweepCommand),
+    /// Find values of a scene's keys with which runs give what was measured, and how far the measurements determine them
+    #[command(after_help = "Example:\n  plateau fit data/studies/fit-captured-fraction.toml --plan\n\n\
+                      Without --plan the fit is made. It can be stopped and started again at any time: runs that are there are not made again.")]
+    Fit(FitArguments),
     /// Describe surfaces by the parameters of ISO 25178-2, draw and convert them
     #[command(after_help = "Examples:\n  plateau surface data/surfaces/afm_256x256.sdf --plot afm.png\n  \
                       plateau surface --prepare data/scenes/quick.toml")]

@@ -101,13 +101,34 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
     finite(value, || UnitError::NotFinite { text: shown(), expected })
 }
 
+/// Reads a number with a unit that measures the same as `si_unit`, a product of SI units such as `m2` or `kg s-1`; in that unit.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, String> {
+    let (number, unit) = split_number(text.trim()).ok_or("it does not start with a number")?;
+    if unit.is_empty() {
+        return Err("it has no unit".to_owned());
+    }
+    let scale = if si_unit == "K" && is_celsius(unit) {
+        return finite(shift_decimal(number, 0) + CELSIUS, || "it is not finite".to_owned());
+    } else {
+        Scale::parse(unit)?
+    };
+    let expected = Scale::parse(&si_unit.replace('-', "^-"))?;
+    if scale.powers != expected.powers {
+        return Err(format!("it is {}", meaning(scale.powers)));
+    }
+    finite(shift_decimal(number, scale.tens) * scale.times / scale.over, || "it is not finite".to_owned())
+}
+
 /// Degrees Celsius are no multiple of a kelvin, and have a meaning only as a temperature alone.
 fn is_celsius(unit: &str) -> bool {
     matches!(unit, "degC" | "°C")
 }
 
 /// The number without the sign of −0, if it is finite.
-fn finite(value: f64, error: impl Fn() -> UnitError) -> Result<f64, UnitError> {
+fn finite<E>(value: f64, error: impl Fn() -> E) -> Result<f64, E> {
     if value.is_finite() { Ok(value + 0.0) } else { Err(error()) }
 }
 

@@ -26,3 +26,5 @@ pub mod report;
 pub mod study;
 pub mod table;
 pub mod watch;
+
+pub use quantity::Unit;

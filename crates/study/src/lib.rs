@@ -5,4 +5,7 @@
 
 pub mod design;
 pub mod effects;
+pub mod fit;
+mod quasi_newton;
+pub mod sensitivity;
 pub mod surrogate;

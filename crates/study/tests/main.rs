@@ -4,3 +4,5 @@ mod coverage;
 mod designs;
 mod effects;
 mod effects_of_odd_data;
+mod fit_coverage;
+mod surrogate;

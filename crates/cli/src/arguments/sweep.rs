@@ -28,6 +28,9 @@ pub enum SweepCommand {
     /// Tell what the factors do: effects, analysis of variance, figures
     #[command(after_help = "Example:\n  plateau sweep effects data/studies/pad-properties.toml")]
     Effects(EffectsArguments),
+    /// Tell which part of each response's variation every factor has, over the whole of all ranges
+    #[command(after_help = "Example:\n  plateau sweep sensitivity data/studies/pad-properties.toml")]
+    Sensitivity(SensitivityArguments),
 }
 
 /// Arguments of `plateau sweep plan`.
@@ -137,6 +140,22 @@ pub struct EffectsArguments {
     #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
     pub confidence: f64,
     /// Folder for tables, figures and the page; "effects" in the study's own unless given
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Print one JSON document instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `plateau sweep sensitivity`.
+#[derive(Debug, Args)]
+pub struct SensitivityArguments {
+    /// Study file (TOML)
+    pub study: PathBuf,
+    /// Confidence level of intervals
+    #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
+    pub confidence: f64,
+    /// Folder for table and figures; "sensitivity" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Print one JSON document instead of text

@@ -6,6 +6,7 @@ mod check_cycle;
 mod check_outline;
 mod completions;
 mod export;
+mod fit;
 mod man;
 mod new;
 mod plot;
@@ -40,6 +41,7 @@ pub fn perform(arguments: Arguments) -> Result<(), Failure> {
         Command::Export(arguments) => export::export(&arguments),
         Command::Accuracy(arguments) => accuracy::accuracy(&arguments),
         Command::Sweep(command) => sweep::sweep(command),
+        Command::Fit(arguments) => fit::fit(&arguments),
         Command::Surface(arguments) => surface::surface(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments),
         Command::Repair(arguments) => repair::repair(&arguments),

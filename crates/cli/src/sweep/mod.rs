@@ -6,10 +6,12 @@
 //! | what they will cost | [`estimate`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
+//! | what those that are made at a time share | [`floor`] |
 //! | what is kept of those that are under way | [`under_way`] |
 //! | how far they are | [`progress`] |
 
 pub mod estimate;
+pub mod floor;
 pub mod make;
 pub mod progress;
 pub mod resolved;
@@ -20,6 +22,7 @@ use std::path::{Path, PathBuf};
 use plateau_io::study::Study;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
+use plateau_run::execution::cores;
 
 use crate::failure::Failure;
 use crate::machine;
@@ -30,6 +33,11 @@ use crate::machine;
 /// [`Failure::Input`] with everything that is wrong.
 pub fn plan(path: &Path) -> Result<Plan, Failure> {
     Study::load(path).and_then(Plan::new).map_err(Failure::input)
+}
+
+/// Runs at a time: as many as are asked for, else as there are cores for their workers.
+pub fn runs_at_a_time(jobs: Option<u32>, workers: u32) -> usize {
+    jobs.map_or_else(|| (cores() / workers as usize).max(1), |jobs| jobs as usize)
 }
 
 /// Folder of the study's journal.

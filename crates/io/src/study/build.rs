@@ -13,7 +13,7 @@ use super::factor::{Factor, Level, Values};
 use super::place::Place;
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent};
-use super::{DesignSource, Order, Replicates, Study, points_of_file};
+use super::{DesignSource, Order, Replicates, Study, measured, points_of_file};
 use crate::scene::{Origin, Problem, schema};
 use crate::text::odd_character;
 use crate::units::{self, Dimension};
@@ -25,7 +25,7 @@ const VERSION: i64 = 1;
 const MOST_PROBLEMS: usize = 100;
 
 /// Designs by their name in a study.
-const DESIGNS: [&str; 8] = [
+const DESIGNS: [&str; 9] = [
     "full-factorial",
     "fractional-factorial",
     "plackett-burman",
@@ -33,8 +33,13 @@ const DESIGNS: [&str; 8] = [
     "box-behnken",
     "latin-hypercube",
     "sobol",
+    "morris",
     "csv",
 ];
+
+/// Trajectories of a Morris design and levels of its ranges, unless given.
+const TRAJECTORIES: usize = 10;
+const GRID_LEVELS: usize = 4;
 
 pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Result<Study, Vec<Problem>> {
     let mut problems = Vec::new();
@@ -56,6 +61,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
     };
     let replicates = document.replicates.as_ref().map(|given| replicates(given, place, &mut problems));
     let responses = responses(&document.response, place, &mut problems);
+    let fit = measured::settings(&document, &responses, place, &mut problems);
     let series = document.series.as_ref().map(|series| {
         let few = |problems: &[Problem]| problems.len() < MOST_PROBLEMS;
         let names =
@@ -84,6 +90,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         replicates,
         order,
         responses,
+        fit,
         series,
     })
 }
@@ -205,6 +212,8 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
     only("resolution", start(&document.resolution), &["fractional-factorial"])?;
     only("generators", start(&document.generators), &["fractional-factorial"])?;
     only("points", start(&document.points), &["latin-hypercube", "sobol"])?;
+    only("trajectories", start(&document.trajectories), &["morris"])?;
+    only("levels", start(&document.levels), &["morris"])?;
     only("alpha", start(&document.alpha), &["central-composite"])?;
     only("centre_points", start(&document.centre_points), &["central-composite", "box-behnken"])?;
     only("file", start(&document.file), &["csv"])?;
@@ -243,6 +252,11 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
         "sobol" => match points() {
             Some(points) => Kind::Sobol { points },
             None => return missing("points = 32, at least 1"),
+        },
+        "morris" => Kind::Morris {
+            trajectories: document.trajectories.as_ref().map_or(TRAJECTORIES, |count| *count.get_ref()),
+            levels: document.levels.as_ref().map_or(GRID_LEVELS, |count| *count.get_ref()),
+            seed: document.seed.as_ref().map_or(0, |seed| *seed.get_ref()),
         },
         "csv" => {
             let Some(file) = &document.file else { return missing("file = \"points.csv\"") };

@@ -19,6 +19,8 @@ pub(super) struct Document {
     pub resolution: Option<Spanned<u32>>,
     pub generators: Option<Spanned<Vec<String>>>,
     pub points: Option<Spanned<usize>>,
+    pub trajectories: Option<Spanned<usize>>,
+    pub levels: Option<Spanned<usize>>,
     pub alpha: Option<Spanned<String>>,
     pub centre_points: Option<Spanned<usize>>,
     pub file: Option<Spanned<String>>,
@@ -31,6 +33,7 @@ pub(super) struct Document {
     pub factor: Vec<Factor>,
     #[serde(default)]
     pub response: Vec<Response>,
+    pub fit: Option<Fit>,
 }
 
 /// `[replicates]`.
@@ -80,6 +83,16 @@ pub(super) struct Response {
     pub mean: Option<Spanned<Mean>>,
     pub reaches: Option<Spanned<f64>>,
     pub event: Option<Spanned<Value>>,
+    pub measured: Option<Spanned<Value>>,
+    pub uncertainty: Option<Spanned<Value>>,
+}
+
+/// `[fit]`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Fit {
+    pub runs: Option<Spanned<usize>>,
+    pub confidence: Option<Spanned<f64>>,
 }
 
 /// Over what a mean is taken.

@@ -3,6 +3,7 @@
 //! ```text
 //! study file     document       the text
 //!                build          what its keys say together -> Study
+//!                measured       what was measured of the responses
 //!                plan           the design, its points and replicates -> the runs, each a list of --set arguments
 //! results        identity       what a result is the result of
 //!                record         what is kept of a run
@@ -17,6 +18,7 @@ mod document;
 pub mod factor;
 pub mod identity;
 pub mod journal;
+pub mod measured;
 mod place;
 pub mod plan;
 mod points_of_file;
@@ -34,6 +36,7 @@ use crate::scene::{Origin, Problem};
 use crate::{limits, regular};
 use document::Document;
 use factor::Factor;
+use measured::FitSettings;
 use place::Place;
 use points_of_file::Points;
 use response::Response;
@@ -65,6 +68,8 @@ pub struct Study {
     pub order: Order,
     /// What is asked of the runs.
     pub responses: Vec<Response>,
+    /// What was measured of them, and how they are fitted to it.
+    pub fit: FitSettings,
     /// The series that are kept; all unless given.
     pub series: Option<Vec<String>>,
 }

@@ -19,6 +19,8 @@
 //! | the figures of runs | [`run`] |
 //! | the figures of studies | [`effects`] |
 //! | error against run time | [`accuracy`] |
+//! | what a fit to an experiment tells of the keys | [`fit`] |
+//! | parts of a response's variation | [`sensitivity`] |
 
 pub mod accuracy;
 mod axes;
@@ -28,6 +30,7 @@ mod colour_bar;
 mod contour;
 pub mod effects;
 pub mod fibre_map;
+pub mod fit;
 mod font;
 mod format;
 mod histogram;
@@ -36,6 +39,7 @@ mod page;
 mod picture;
 mod raster;
 pub mod run;
+pub mod sensitivity;
 mod simplify;
 pub mod surface_description;
 mod ticks;

@@ -51,12 +51,11 @@ impl Choice {
                     false => NoSquares::TwoValues.to_string(),
                 })
             }
-            DesignSource::Kind(Kind::LatinHypercube { .. } | Kind::Sobol { .. }) | DesignSource::File(_) => {
-                match no_squares(factors, observations, blocks) {
-                    None => Self { model: Model::Quadratic, reason: String::new() },
-                    Some(reason) => without_squares(reason.to_string()),
-                }
-            }
+            DesignSource::Kind(Kind::LatinHypercube { .. } | Kind::Sobol { .. } | Kind::Morris { .. })
+            | DesignSource::File(_) => match no_squares(factors, observations, blocks) {
+                None => Self { model: Model::Quadratic, reason: String::new() },
+                Some(reason) => without_squares(reason.to_string()),
+            },
         }
     }
 

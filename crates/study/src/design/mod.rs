@@ -11,6 +11,7 @@ mod full_factorial;
 mod generators;
 mod latin_hypercube;
 mod minimum_aberration;
+mod morris;
 mod plackett_burman;
 mod sobol;
 
@@ -77,6 +78,16 @@ pub enum Kind {
     Sobol {
         /// How many, from the beginning of the sequence.
         points: usize,
+    },
+    /// Trajectories of points of which each differs from the one before in one factor, for elementary effects of many
+    /// factors; by lot.
+    Morris {
+        /// How many trajectories, each of one point more than there are factors.
+        trajectories: usize,
+        /// Levels of each range, an even number.
+        levels: usize,
+        /// Seed of the random numbers.
+        seed: u64,
     },
 }
 
@@ -155,6 +166,7 @@ pub fn design(kind: &Kind, factors: &[Factor]) -> Result<Design, DesignError> {
         Kind::BoxBehnken { centre } => box_behnken::box_behnken(*centre, factors),
         Kind::LatinHypercube { points, seed } => latin_hypercube::latin_hypercube(*points, *seed, factors),
         Kind::Sobol { points } => sobol::sobol(*points, factors),
+        Kind::Morris { trajectories, levels, seed } => morris::morris(*trajectories, *levels, *seed, factors),
     }
 }
 

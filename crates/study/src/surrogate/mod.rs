@@ -3,6 +3,11 @@
 //! A polynomial and a Gaussian process answer the same questions, so what predicts, searches for an optimum or tells
 //! sensitivities asks a [`Surrogate`] and does not know which one it has.
 
+mod choice;
+pub mod gaussian_process;
+
+pub use choice::{Choice, choose};
+
 use crate::design::Setting;
 use crate::effects::EffectsError;
 

@@ -5,6 +5,7 @@ mod effects;
 mod effects_files;
 mod plan;
 mod run;
+mod sensitivity;
 mod slurm;
 
 use crate::arguments::SweepCommand;
@@ -18,5 +19,6 @@ pub fn sweep(command: SweepCommand) -> Result<(), Failure> {
         SweepCommand::Slurm(arguments) => slurm::slurm(&arguments),
         SweepCommand::Collect(arguments) => collect::collect(&arguments),
         SweepCommand::Effects(arguments) => effects::effects(&arguments),
+        SweepCommand::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
     }
 }

@@ -1,0 +1,126 @@
+//! What `plateau fit --json` prints.
+
+use plateau_present::study::fit::{determined, notes};
+use serde::Serialize;
+
+use super::Told;
+use super::rounds::End;
+use crate::failure::Failure;
+
+/// The document; numbers in SI units.
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    study: &'a str,
+    keys: Vec<KeyReport<'a>>,
+    responses: Vec<ResponseReport<'a>>,
+    /// Level of intervals.
+    confidence: f64,
+    misfit: f64,
+    degrees_of_freedom: usize,
+    p: Option<f64>,
+    /// What is determined where single keys are not.
+    determined: Option<String>,
+    notes: Vec<String>,
+    runs: usize,
+    runs_at_most: usize,
+    rounds: usize,
+    /// Why no more runs were made: settled, budget or nowhere else.
+    ended: &'static str,
+    /// The largest variance of a forecast over that of its measurement, where the measurements are likely.
+    surrogate_share: f64,
+    files: &'a [String],
+}
+
+#[derive(Debug, Serialize)]
+struct KeyReport<'a> {
+    name: &'a str,
+    keys: &'a [String],
+    unit: &'static str,
+    most_likely: f64,
+    /// Pieces of the interval.
+    interval: Vec<PieceReport>,
+    /// Whether the interval is the whole range.
+    undetermined: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct PieceReport {
+    low: f64,
+    high: f64,
+    /// Whether it goes on below and above, as far as the data tell.
+    open_below: bool,
+    open_above: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct ResponseReport<'a> {
+    name: &'a str,
+    unit: &'a str,
+    measured: f64,
+    uncertainty: f64,
+    forecast: f64,
+    surrogate_deviation: f64,
+    seeds_deviation: f64,
+    seed_to_seed: Option<f64>,
+    leave_one_out_error: f64,
+}
+
+/// The document as text.
+///
+/// # Errors
+/// [`Failure::Run`] when it cannot be written as JSON.
+pub fn text(told: &Told<'_>, files: &[String]) -> Result<String, Failure> {
+    let study = told.fitted.plan.study();
+    let keys = study.factors.iter().zip(&told.result.best).zip(&told.result.profiles);
+    let keys = keys.map(|((factor, best), profile)| KeyReport {
+        name: &factor.name,
+        keys: &factor.keys,
+        unit: factor.unit(),
+        most_likely: *best,
+        interval: profile
+            .pieces
+            .iter()
+            .map(|piece| PieceReport {
+                low: piece.ends[0],
+                high: piece.ends[1],
+                open_below: piece.open[0],
+                open_above: piece.open[1],
+            })
+            .collect(),
+        undetermined: profile.is_undetermined(),
+    });
+    let responses = told.names().into_iter().zip(told.units()).zip(&told.result.responses);
+    let responses = responses.map(|((name, unit), response)| ResponseReport {
+        name,
+        unit,
+        measured: response.measurement.value,
+        uncertainty: response.measurement.uncertainty,
+        forecast: response.forecast,
+        surrogate_deviation: response.surrogate_deviation,
+        seeds_deviation: response.seeds_deviation,
+        seed_to_seed: response.scatter,
+        leave_one_out_error: response.leave_one_out_error,
+    });
+    let document = Document {
+        study: &study.title,
+        keys: keys.collect(),
+        responses: responses.collect(),
+        confidence: told.result.confidence,
+        misfit: told.result.misfit,
+        degrees_of_freedom: told.result.freedom,
+        p: told.result.p,
+        determined: determined(told.result, told.keys),
+        notes: notes(told.result, &told.names()),
+        runs: told.fitted.plan.runs(),
+        runs_at_most: study.fit.runs,
+        rounds: told.fitted.rounds,
+        ended: match told.fitted.end {
+            End::Settled => "settled",
+            End::Budget => "budget",
+            End::NowhereElse => "nowhere else",
+        },
+        surrogate_share: told.result.surrogate_share,
+        files,
+    };
+    Ok(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n")
+}

@@ -1,0 +1,62 @@
+//! `plateau fit`: values of a scene's keys with which runs give what was measured.
+
+mod document;
+mod files;
+mod plan;
+mod rounds;
+mod text;
+
+use plateau_present::study::fit::FittedKey;
+use plateau_study::fit::FitResult;
+
+use crate::arguments::FitArguments;
+use crate::failure::{Failure, in_job};
+use crate::sweep;
+use crate::table::print;
+use rounds::{Fitted, Task};
+
+/// What all outputs are made of.
+struct Told<'a> {
+    fitted: &'a Fitted,
+    task: &'a Task,
+    result: &'a FitResult,
+    keys: &'a [FittedKey],
+}
+
+/// Makes runs and fits, and says what came of it.
+pub fn fit(arguments: &FitArguments) -> Result<(), Failure> {
+    let plan = sweep::plan(&arguments.study)?;
+    let task = Task::of(plan.study())?;
+    if arguments.plan {
+        return plan::say(&plan, &task, arguments);
+    }
+    in_job(|job| {
+        if job.ranks() > 1 {
+            return Err(Failure::input(
+                "a fit is one process that makes several runs at a time: start it without mpirun, or make its first runs with \
+                 plateau sweep run",
+            ));
+        }
+        let fitted = rounds::fitted(plan, &task, arguments, job)?;
+        let result = fitted.fit.result();
+        let keys: Vec<FittedKey> = fitted.plan.study().factors.iter().map(FittedKey::of).collect();
+        let told = Told { fitted: &fitted, task: &task, result: &result, keys: &keys };
+        let files = files::write(&told, arguments)?;
+        if arguments.json { print(&document::text(&told, &files)?) } else { print(&text::text(&told, &files)) }
+    })
+}
+
+impl Told<'_> {
+    /// Names of the responses that were measured.
+    fn names(&self) -> Vec<&str> {
+        let responses = &self.fitted.plan.study().responses;
+        self.task.responses.iter().map(|at| responses[*at].name.as_str()).collect()
+    }
+
+    /// Their SI units.
+    fn units(&self) -> Vec<&str> {
+        let responses = &self.fitted.plan.study().responses;
+        let unit = |at: &usize| responses[*at].unit(plateau_io::study::collected::unit_of(&responses[*at].series));
+        self.task.responses.iter().map(unit).collect()
+    }
+}

@@ -1,0 +1,249 @@
+//! The runs of a fit: those of the study's design first, then further ones where they teach most.
+
+use std::collections::BTreeSet;
+use std::io::IsTerminal as _;
+
+use plateau_io::study::collected::{Collected, CollectedRun};
+use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::study::journal::Entry;
+use plateau_io::study::measured::Measured;
+use plateau_io::study::plan::Plan;
+use plateau_io::study::{DesignSource, Order, Study};
+use plateau_run::Job;
+use plateau_study::design::Setting;
+use plateau_study::effects::Observation;
+use plateau_study::fit::{Fit, FitError, Key, Measurement};
+
+use crate::arguments::FitArguments;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::sweep::floor::Floor;
+use crate::sweep::progress::Progress;
+use crate::sweep::resolved::Resolved;
+use crate::sweep::{journal, journal_folder, runs_at_a_time};
+use crate::{message, number};
+
+/// Points that are added before the next fit: as many runs can be made at a time, each with all seeds.
+const AT_A_TIME: usize = 4;
+
+/// What is fitted: keys, and the responses that were measured.
+pub struct Task {
+    /// Keys, in SI units.
+    pub keys: Vec<Key>,
+    /// The responses that were measured, by their place in the study.
+    pub responses: Vec<usize>,
+    /// What was measured of each.
+    pub measurements: Vec<Measurement>,
+}
+
+/// A fit and the runs that it rests on.
+pub struct Fitted {
+    /// All runs.
+    pub plan: Plan,
+    /// Their results.
+    pub collected: Collected,
+    /// The fit.
+    pub fit: Fit,
+    /// Fits that were made one after the other.
+    pub rounds: usize,
+    /// Points of the study's design.
+    pub first_points: usize,
+    /// Why no more runs were made.
+    pub end: End,
+}
+
+/// Why no more runs were made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// They would change little.
+    Settled,
+    /// As many runs were made as the study allows.
+    Budget,
+    /// Every place that counts was run.
+    NowhereElse,
+}
+
+impl Task {
+    /// What a study is to fit.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] when nothing was measured, or a factor has no range.
+    pub fn of(study: &Study) -> Result<Self, Failure> {
+        let at = study.path.display();
+        let measured = study.fit.measured.iter().enumerate();
+        let measured: Vec<(usize, Measured)> = measured.filter_map(|(at, of)| Some((at, (*of)?))).collect();
+        if measured.is_empty() {
+            return Err(Failure::input(format_args!(
+                "{at}: nothing was measured: give a [[response]] what was measured of it, such as measured = 0.70, \
+                 uncertainty = 0.02"
+            )));
+        }
+        let key = |factor: &Factor| match &factor.values {
+            Values::Range { low, high, logarithmic } => {
+                let (low, high) = low.number.zip(high.number)?;
+                Some(Key { name: factor.name.clone(), low, high, logarithmic: *logarithmic })
+            }
+            Values::Levels(_) => None,
+        };
+        let keys = study.factors.iter().map(|factor| {
+            key(factor).ok_or_else(|| {
+                let name = &factor.name;
+                Failure::input(format_args!(
+                    "{at}: factor \"{name}\" has levels; a fit looks for values between two ends: range = [lower, upper]"
+                ))
+            })
+        });
+        Ok(Self {
+            keys: keys.collect::<Result<_, _>>()?,
+            responses: measured.iter().map(|(at, _)| *at).collect(),
+            measurements: measured
+                .iter()
+                .map(|(_, of)| Measurement { value: of.value, uncertainty: of.uncertainty })
+                .collect(),
+        })
+    }
+
+    /// The fit to what the runs gave.
+    fn fit(&self, study: &Study, collected: &Collected) -> Result<Fit, Failure> {
+        let observe = |response: usize| {
+            let observation = |run: &CollectedRun| Observation {
+                settings: self.keys.iter().zip(&run.run.levels).map(|(key, level)| setting(key, level)).collect(),
+                replicate: run.run.replicate,
+                run: run.first,
+                response: run.responses[response],
+            };
+            collected.runs.iter().map(observation).collect::<Vec<_>>()
+        };
+        let observations: Vec<Vec<Observation>> = self.responses.iter().map(|at| observe(*at)).collect();
+        Fit::new(&self.keys, &self.measurements, &observations, study.fit.confidence).map_err(|error| match &error {
+            FitError::Response { index, error } => {
+                let name = &study.responses[self.responses[*index]].name;
+                Failure::run(format_args!(
+                    "response \"{name}\": {error}; {} of {} finished",
+                    collected.count("finished"),
+                    number::count(collected.runs.len(), "run")
+                ))
+            }
+            error => Failure::input(format_args!("{}: {error}", study.path.display())),
+        })
+    }
+}
+
+fn setting(key: &Key, level: &Level) -> Setting {
+    Setting::Coded(level.number.map_or(0.0, |value| key.coded(value)))
+}
+
+/// Makes runs and fits in turn until more runs would change little, or as many were made as the study allows. Everything is
+/// the same whenever it is done again, so runs that are in the journal are not made again.
+///
+/// # Errors
+/// [`Failure::Input`] when scenes cannot be built, [`Failure::Run`] when runs fail, [`Failure::Stopped`] after a signal.
+pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) -> Result<Fitted, Failure> {
+    let interrupt = Interrupt::listen().map_err(Failure::run)?;
+    interrupt.listen_for_save().map_err(Failure::run)?;
+    let (study, seeds) = (plan.study().clone(), plan.replicates());
+    let mut points: Vec<Vec<Level>> = (0..plan.points()).map(|point| plan.run(1 + point * seeds).levels).collect();
+    let first_points = points.len();
+    let mut tried = BTreeSet::new();
+    for round in 1.. {
+        let source = DesignSource::File(points.clone());
+        let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::input)?;
+        let collected = made(&plan, arguments, job, &interrupt, &mut tried)?;
+        let fit = task.fit(&study, &collected)?;
+        let affordable = study.fit.runs.saturating_sub(plan.runs()) / seeds;
+        let next = fit.next_points(AT_A_TIME.min(affordable), seeds);
+        let end = match (fit.is_settled(), affordable, next.is_empty()) {
+            (true, ..) => Some(End::Settled),
+            (_, 0, _) => Some(End::Budget),
+            (.., true) => Some(End::NowhereElse),
+            _ => None,
+        };
+        if let Some(end) = end {
+            return Ok(Fitted { plan, collected, fit, rounds: round, first_points, end });
+        }
+        note_to_terminal(format_args!(
+            "{} of at most {}: {}; {} more",
+            plan.runs(),
+            number::count(study.fit.runs, "run"),
+            so_far(&study, &task.keys, &fit),
+            number::count(next.len() * seeds, "run")
+        ));
+        for place in &next {
+            points.push(levels(&study, place)?);
+        }
+    }
+    Err(Failure::run("the fit did not end"))
+}
+
+/// A note for those who look on, as the bar of the runs is.
+fn note_to_terminal(note: std::fmt::Arguments<'_>) {
+    if std::io::stderr().is_terminal() {
+        message::note(note);
+    }
+}
+
+/// The most likely values so far, in words.
+fn so_far(study: &Study, keys: &[Key], fit: &Fit) -> String {
+    let label = |((factor, key), value): ((&Factor, &Key), f64)| {
+        let level = factor.at(Setting::Coded(key.coded(value).clamp(-1.0, 1.0)));
+        let label = level.map_or_else(|| number::short(value), |level| shortened(&level.label));
+        format!("{} {label}", factor.name)
+    };
+    study.factors.iter().zip(keys).zip(fit.best()).map(label).collect::<Vec<_>>().join(", ")
+}
+
+/// A quantity with four digits of its number.
+fn shortened(label: &str) -> String {
+    let (number, unit) = label.split_once(' ').unwrap_or((label, ""));
+    let short = number.parse().map_or_else(|_| number.to_owned(), |value| number::rounded(value, 4));
+    format!("{short} {unit}").trim_end().to_owned()
+}
+
+/// The values of a place in coded units.
+fn levels(study: &Study, place: &[f64]) -> Result<Vec<Level>, Failure> {
+    let level = |(factor, coded): (&Factor, &f64)| {
+        let level = factor.at(Setting::Coded(*coded));
+        level.ok_or_else(|| Failure::run(format_args!("\"{}\" has no value at {coded}", factor.name)))
+    };
+    study.factors.iter().zip(place).map(level).collect()
+}
+
+/// Makes the runs that are not there yet, and gives the results of all.
+fn made(
+    plan: &Plan,
+    arguments: &FitArguments,
+    job: &mut Job,
+    interrupt: &Interrupt,
+    tried: &mut BTreeSet<String>,
+) -> Result<Collected, Failure> {
+    let resolved = Resolved::of(plan)?;
+    let known = journal(plan.study())?;
+    let is_pending = |number: &usize| match known.get(&resolved.identities[number - 1]) {
+        Some(Entry { failure: None, .. }) => false,
+        // Once each time that the command is given.
+        Some(_) => arguments.retry && !tried.contains(&resolved.identities[number - 1]),
+        None => true,
+    };
+    let pending: Vec<usize> =
+        plan.order().filter(|number| !resolved.is_repeat(number - 1)).filter(is_pending).collect();
+    let known = if pending.is_empty() {
+        known
+    } else {
+        tried.extend(pending.iter().map(|number| resolved.identities[number - 1].clone()));
+        let workers = arguments.workers as usize;
+        let jobs = runs_at_a_time(arguments.jobs, arguments.workers);
+        let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+        let own = Interrupt::listen().map_err(Failure::run)?;
+        let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, true));
+        let shared = job.share(&pending, jobs, None, &|number| floor.make(number));
+        floor.end(shared.map_err(Failure::run))?;
+        if let Some(signal) = interrupt.signal() {
+            let message = Some(format!("stopped by signal {signal}; the same command goes on"));
+            return Err(Failure::Stopped { signal, message });
+        }
+        journal(plan.study())?
+    };
+    let folder = || journal_folder(plan.study());
+    Collected::new(plan, &resolved.identities, &known)
+        .map_err(|error| Failure::run(format_args!("{}: {error}", folder().display())))
+}

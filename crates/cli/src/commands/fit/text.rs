@@ -1,0 +1,101 @@
+//! What a fit says in the terminal.
+
+use plateau_present::study::fit::{determined, notes, unit};
+
+use super::Told;
+use super::rounds::End;
+use crate::number;
+use crate::table::{columns, list, table};
+
+/// Digits of values.
+const DIGITS: usize = 4;
+
+/// The whole text.
+pub fn text(told: &Told<'_>, files: &[String]) -> String {
+    let study = told.fitted.plan.study();
+    let mut text = columns("Keys", &["key", "most likely", &format!("{} interval", level(told))], &keys(told));
+    text.push_str(&columns(
+        "\nResponses at the most likely values",
+        &["response", "measured", "runs give", "seed to seed", "apart"],
+        &responses(told),
+    ));
+    let mut said: Vec<String> = determined(told.result, told.keys).into_iter().collect();
+    said.extend(notes(told.result, &told.names()));
+    if !said.is_empty() {
+        text.push_str(&list("\nTo be known", &said));
+    }
+    let mut rows = vec![("runs", runs(told)), ("misfit", misfit(told))];
+    let is_figure = |file: &&String| file.ends_with(".png");
+    let is_table = |file: &&String| file.ends_with(".csv");
+    rows.extend(files.iter().filter(is_table).map(|file| ("written", file.clone())));
+    let figures = files.iter().filter(is_figure).count();
+    rows.push(("written", format!("{} as PNG, SVG and PDF beside them", number::count(figures, "figure"))));
+    text.push('\n');
+    text.push_str(&table(&study.title, &rows));
+    text
+}
+
+/// The level of intervals.
+pub fn level(told: &Told<'_>) -> String {
+    format!("{} %", number::rounded(100.0 * told.result.confidence, DIGITS))
+}
+
+fn keys(told: &Told<'_>) -> Vec<Vec<String>> {
+    let row = |at: usize| {
+        let key = &told.keys[at];
+        vec![key.name.clone(), key.words(told.result.best[at]), key.interval(&told.result.profiles[at])]
+    };
+    (0..told.keys.len()).map(row).collect()
+}
+
+fn responses(told: &Told<'_>) -> Vec<Vec<String>> {
+    let names = told.names().into_iter().zip(told.units()).zip(&told.result.responses);
+    let row = |((name, si), response): ((&str, &str), &plateau_study::fit::FittedResponse)| {
+        let unit = unit(si, response);
+        let with_error = |value: f64, error: f64| {
+            unit.with_symbol(&number::with_error(unit.value(value), Some(unit.difference(error)).filter(|e| *e > 0.0)))
+        };
+        let measured = response.measurement;
+        let deviation = response.surrogate_deviation.hypot(response.seeds_deviation);
+        let away = (response.forecast - measured.value) / measured.uncertainty.hypot(deviation);
+        let scatter = response.scatter.map(|scatter| number::significant(unit.difference(scatter), 2));
+        vec![
+            name.to_owned(),
+            with_error(measured.value, measured.uncertainty),
+            with_error(response.forecast, deviation),
+            scatter.map_or_else(|| "not known".to_owned(), |scatter| unit.with_symbol(&scatter)),
+            format!("{} deviations", number::with_minus(&format!("{:.1}", away + 0.0)).replace("−0.0", "0.0")),
+        ]
+    };
+    names.map(row).collect()
+}
+
+fn runs(told: &Told<'_>) -> String {
+    let (runs, study) = (told.fitted.plan.runs(), told.fitted.plan.study());
+    let why = match told.fitted.end {
+        End::Settled => "more would change little",
+        End::Budget => "as many as [fit] allows",
+        End::NowhereElse => "every place that counts was run",
+    };
+    let (points, first, seeds) = (told.fitted.plan.points(), told.fitted.first_points, told.fitted.plan.replicates());
+    let seeds = if seeds > 1 { format!(", {seeds} seeds each") } else { String::new() };
+    format!(
+        "{runs} of at most {}: {first} points of the design and {} more{seeds}; {why}",
+        study.fit.runs.max(runs),
+        points - first
+    )
+}
+
+fn misfit(told: &Told<'_>) -> String {
+    let chi = format!("χ² = {}", number::rounded(told.result.misfit, 3));
+    match told.result.p {
+        Some(p) => {
+            format!(
+                "{chi} with {} of freedom, p = {}",
+                number::count(told.result.freedom, "degree"),
+                number::significant(p, 2)
+            )
+        }
+        None => format!("{chi}; no more measurements than keys, so nothing is left to test"),
+    }
+}

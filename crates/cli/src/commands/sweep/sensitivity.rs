@@ -1,0 +1,339 @@
+//! `plateau sweep sensitivity`: which part of a response's variation each factor has.
+
+use plateau_io::study::DesignSource;
+use plateau_io::study::collected::Collected;
+use plateau_io::study::plan::Plan;
+use plateau_present::Unit;
+use plateau_present::figure::effects::file_names;
+use plateau_present::figure::{Figure, Format, sensitivity as figures};
+use plateau_present::study::analysis::Analysis;
+use plateau_study::design::{Kind, Setting};
+use plateau_study::effects::{Factor, Observation};
+use plateau_study::sensitivity::{ElementaryEffect, Index, Options, SobolIndices, elementary_effects, sobol_indices};
+use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
+use plateau_study::surrogate::{Surrogate, choose};
+use serde::Serialize;
+
+use super::collect::collected;
+use crate::arguments::SensitivityArguments;
+use crate::csv_table::csv_table;
+use crate::failure::Failure;
+use crate::sweep;
+use crate::table::{columns, print, table};
+use crate::{message, number, output};
+
+/// Tells the sensitivities of all responses.
+pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
+    let plan = sweep::plan(&arguments.study)?;
+    let study = plan.study();
+    if study.responses.is_empty() {
+        return Err(Failure::input(format_args!(
+            "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
+             at = \"end\"",
+            study.path.display()
+        )));
+    }
+    let results = collected(&plan)?;
+    let left_out = results.runs.len() - results.count("finished");
+    if left_out > 0 {
+        let runs = number::count(results.runs.len(), "run");
+        message::warning(format_args!("{left_out} of {runs} have no results and are left out"));
+    }
+    let told = Told::new(&plan, &results, arguments);
+    let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("sensitivity"));
+    output::make_directory(&folder)?;
+    let mut files = Vec::new();
+    let mut add = |name: &str, content: &[u8]| {
+        let path = folder.join(name);
+        files.push(path.display().to_string());
+        output::write(&path, content, true)
+    };
+    add("sensitivity.csv", csv_table(told.lines()).as_bytes())?;
+    for figure in told.figures() {
+        for format in Format::ALL {
+            let content = match format {
+                Format::Svg => figure.svg().map_err(Failure::run)?.into_bytes(),
+                format => figure.draw(format).map_err(Failure::run)?,
+            };
+            add(&format!("{}.{}", figure.name, format.ending()), &content)?;
+        }
+    }
+    if arguments.json {
+        let document = Document { study: &study.title, responses: told.reports(), files };
+        return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
+    }
+    let pictures = files.iter().filter(|file| file.ends_with(".png")).count();
+    let rows = [
+        ("written", files[0].clone()),
+        ("written", format!("{} as PNG, SVG and PDF beside it", number::count(pictures, "figure"))),
+    ];
+    print(&(told.text() + &table(&study.title, &rows)))
+}
+
+/// What is known of one response, or why nothing is.
+enum Known {
+    /// Indices from a surrogate, and which one it is and why.
+    Indices(SobolIndices, String),
+    /// Elementary effects from the runs themselves.
+    Effects(Vec<ElementaryEffect>),
+    /// Why there are none.
+    Nothing(String),
+}
+
+/// The sensitivities of all responses.
+struct Told {
+    factors: Vec<String>,
+    /// Name, SI unit, largest size.
+    responses: Vec<(String, &'static str, f64, Known)>,
+    confidence: f64,
+}
+
+impl Told {
+    fn new(plan: &Plan, results: &Collected, arguments: &SensitivityArguments) -> Self {
+        let analysis = Analysis::new(plan.study(), results, None, arguments.confidence);
+        let factors: Vec<Factor> = analysis.factors.iter().map(|factor| factor.factor.clone()).collect();
+        let is_morris = matches!(plan.study().source, DesignSource::Kind(Kind::Morris { .. }));
+        let options = Options { confidence: arguments.confidence, ..Options::default() };
+        let known = |at: usize| {
+            let observations: Vec<Observation> = results
+                .runs
+                .iter()
+                .zip(&analysis.runs)
+                .map(|(run, (settings, responses))| Observation {
+                    settings: settings.clone(),
+                    replicate: run.run.replicate,
+                    run: run.first,
+                    response: responses[at],
+                })
+                .collect();
+            match is_morris {
+                true => Known::Effects(elementary_effects(&factors, &means(&observations, plan.replicates()))),
+                false => indices(&factors, &observations, &options, analysis.responses[at].unit),
+            }
+        };
+        let size = |at: usize| {
+            let sizes = analysis.runs.iter().map(|(_, responses)| responses[at].abs());
+            sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+        };
+        let responses = analysis.responses.iter().enumerate();
+        Self {
+            responses: responses
+                .map(|(at, response)| (response.name.clone(), response.unit, size(at), known(at)))
+                .collect(),
+            factors: plan.study().factors.iter().map(|factor| factor.name.clone()).collect(),
+            confidence: arguments.confidence,
+        }
+    }
+
+    fn names(&self) -> Vec<&str> {
+        self.factors.iter().map(String::as_str).collect()
+    }
+
+    fn level(&self) -> String {
+        format!("{} %", number::rounded(100.0 * self.confidence, 4))
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let files = file_names(self.responses.iter().map(|(name, ..)| name.as_str()));
+        let figure = |((name, unit, size, known), file): (&(String, &'static str, f64, Known), String)| match known {
+            Known::Indices(indices, _) => Some(figures::indices(name, &file, &self.names(), indices, &self.level())),
+            Known::Effects(effects) => {
+                let unit = Unit::readable_with_differences(unit, *size);
+                Some(figures::effects(name, &file, &self.names(), effects, &unit))
+            }
+            Known::Nothing(_) => None,
+        };
+        self.responses.iter().zip(files).filter_map(figure).collect()
+    }
+
+    /// The table, a line for each response and factor.
+    fn lines(&self) -> Vec<Vec<String>> {
+        let heads = [
+            "response",
+            "factor",
+            "first_order",
+            "first_order_low",
+            "first_order_high",
+            "total",
+            "total_low",
+            "total_high",
+            "mean_size",
+            "mean",
+            "deviation",
+            "standard_error",
+        ];
+        let shown = |value: f64| if value.is_finite() { format!("{value:?}") } else { String::new() };
+        let of_index = |index: &Index| {
+            let [low, high] = index.interval.unwrap_or([f64::NAN; 2]);
+            [index.value, low, high]
+        };
+        let mut lines = vec![heads.map(str::to_owned).to_vec()];
+        for (name, .., known) in &self.responses {
+            for (at, factor) in self.factors.iter().enumerate() {
+                let numbers = match known {
+                    Known::Indices(indices, _) => [
+                        of_index(&indices.first[at]).to_vec(),
+                        of_index(&indices.total[at]).to_vec(),
+                        vec![f64::NAN; 4],
+                    ]
+                    .concat(),
+                    Known::Effects(effects) => {
+                        let ElementaryEffect { mean_size, mean, deviation, error, .. } = effects[at];
+                        [vec![f64::NAN; 6], vec![mean_size, mean, deviation, error]].concat()
+                    }
+                    Known::Nothing(_) => continue,
+                };
+                let cells = numbers.into_iter().map(shown);
+                lines.push([name.clone(), factor.clone()].into_iter().chain(cells).collect());
+            }
+        }
+        lines
+    }
+
+    fn text(&self) -> String {
+        self.responses.iter().map(|(name, unit, size, known)| self.text_of(name, unit, *size, known) + "\n").collect()
+    }
+
+    fn text_of(&self, name: &str, unit: &str, size: f64, known: &Known) -> String {
+        match known {
+            Known::Nothing(why) => format!("{name}\n  {why}\n"),
+            Known::Indices(indices, reason) => {
+                let shown = |index: &Index| {
+                    let interval = index.interval.map(|[low, high]| format!(" ({low:.3} … {high:.3})"));
+                    number::with_minus(&format!("{:.3}{}", index.value, interval.unwrap_or_default()))
+                };
+                let mut order: Vec<usize> = (0..self.factors.len()).collect();
+                order.sort_by(|one, other| indices.total[*other].value.total_cmp(&indices.total[*one].value));
+                let row = |at: &usize| {
+                    vec![self.factors[*at].clone(), shown(&indices.first[*at]), shown(&indices.total[*at])]
+                };
+                let rows: Vec<Vec<String>> = order.iter().map(row).collect();
+                let names = ["factor", "alone (first order)", "with interactions (total)"];
+                columns(&format!("{name}: parts of the variance\n  {reason}"), &names, &rows)
+            }
+            Known::Effects(effects) => {
+                let unit = Unit::readable_with_differences(unit, size);
+                let shown = |value: f64| {
+                    if value.is_finite() { number::rounded(unit.difference(value), 4) } else { "–".to_owned() }
+                };
+                let mut order: Vec<usize> = (0..self.factors.len()).collect();
+                order.sort_by(|one, other| effects[*other].mean_size.total_cmp(&effects[*one].mean_size));
+                let row = |at: &usize| {
+                    let ElementaryEffect { mean_size, mean, deviation, error, count } = effects[*at];
+                    let numbers = [mean_size, error, mean, deviation].map(shown);
+                    [self.factors[*at].clone()].into_iter().chain(numbers).chain([count.to_string()]).collect()
+                };
+                let rows: Vec<Vec<String>> = order.iter().map(row).collect();
+                let names = ["factor", "mean size μ*", "its error", "mean", "deviation σ", "effects"];
+                columns(&format!("{}: elementary effects per whole range", unit.label(name)), &names, &rows)
+            }
+        }
+    }
+
+    fn reports(&self) -> Vec<Report<'_>> {
+        let report = |(name, unit, _, known): &'_ (String, &'static str, f64, Known)| {
+            let mut report = Report { unit, ..Report::default() };
+            name.clone_into(&mut report.name);
+            match known {
+                Known::Nothing(why) => report.error = Some(why.clone()),
+                Known::Indices(indices, reason) => {
+                    report.surrogate = Some(reason.clone());
+                    report.variance = Some(indices.variance);
+                    let index = |index: &Index| IndexReport { value: index.value, interval: index.interval };
+                    let of = |at: usize| (index(&indices.first[at]), index(&indices.total[at]));
+                    report.indices = (0..self.factors.len())
+                        .map(|at| FactorIndices { factor: &self.factors[at], first_order: of(at).0, total: of(at).1 })
+                        .collect();
+                }
+                Known::Effects(effects) => {
+                    report.elementary_effects = (self.factors.iter().zip(effects))
+                        .map(|(factor, effect)| FactorEffects {
+                            factor,
+                            mean_size: effect.mean_size,
+                            mean: effect.mean,
+                            deviation: effect.deviation,
+                            standard_error: effect.error,
+                            effects: effect.count,
+                        })
+                        .collect();
+                }
+            }
+            report
+        };
+        self.responses.iter().map(report).collect()
+    }
+}
+
+/// Indices from the surrogate that forecasts points best.
+fn indices(factors: &[Factor], observations: &[Observation], options: &Options, unit: &str) -> Known {
+    let mut candidates: Vec<Box<dyn Surrogate>> = Vec::new();
+    let mut problems = Vec::new();
+    match GaussianProcess::fit(factors, observations, &ProcessOptions::default()) {
+        Ok(process) => candidates.push(Box::new(process)),
+        Err(error) => problems.push(error.to_string()),
+    }
+    let size = observations.iter().map(|each| each.response.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max);
+    let unit = Unit::readable_with_differences(unit, size);
+    let shown = |error: f64| unit.with_symbol(&number::rounded(unit.difference(error), 3));
+    let Some(choice) = choose(candidates, shown) else { return Known::Nothing(problems.join("; ")) };
+    match sobol_indices(factors, choice.surrogate.as_ref(), options) {
+        Ok(indices) => Known::Indices(indices, format!("of the {}; {}", choice.surrogate.name(), choice.reason)),
+        Err(error) => Known::Nothing(error.to_string()),
+    }
+}
+
+/// Points in the order of the design, with the mean over the seeds; NaN where one of them has no response, for its other seeds
+/// would be compared with other ones.
+fn means(observations: &[Observation], seeds: usize) -> Vec<(Vec<Setting>, f64)> {
+    let mean = |point: &[Observation]| {
+        let sum: f64 = point.iter().map(|each| each.response).sum();
+        (point[0].settings.clone(), sum / point.len() as f64)
+    };
+    observations.chunks(seeds.max(1)).map(mean).collect()
+}
+
+/// What `plateau sweep sensitivity --json` prints.
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    study: &'a str,
+    responses: Vec<Report<'a>>,
+    files: Vec<String>,
+}
+
+/// A response in it.
+#[derive(Debug, Serialize, Default)]
+struct Report<'a> {
+    name: String,
+    unit: &'a str,
+    /// Why nothing is known.
+    error: Option<String>,
+    /// What the indices are of, and why.
+    surrogate: Option<String>,
+    /// Variance of the response over all ranges.
+    variance: Option<f64>,
+    indices: Vec<FactorIndices<'a>>,
+    elementary_effects: Vec<FactorEffects<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct FactorIndices<'a> {
+    factor: &'a str,
+    first_order: IndexReport,
+    total: IndexReport,
+}
+
+#[derive(Debug, Serialize)]
+struct IndexReport {
+    value: f64,
+    interval: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Serialize)]
+struct FactorEffects<'a> {
+    factor: &'a str,
+    mean_size: f64,
+    mean: f64,
+    deviation: f64,
+    standard_error: f64,
+    effects: usize,
+}

@@ -1,0 +1,203 @@
+//! What a fit to an experiment tells, in words and in the units of the study.
+
+use plateau_io::number;
+use plateau_io::study::factor::{Factor, Values};
+use plateau_study::fit::{Combination, FitResult, FittedResponse, Piece, Profile};
+
+use super::reading::Reading;
+use crate::quantity::Unit;
+
+/// Probability below which a misfit is said.
+const SIGNIFICANT: f64 = 0.05;
+/// Deviation of a single response, by its standard deviation, that is said where there are no degrees of freedom.
+const FAR: f64 = 2.0;
+/// Digits of values.
+const DIGITS: usize = 4;
+
+/// A key of a fit as people read it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedKey {
+    /// Its name.
+    pub name: String,
+    /// Whether equal steps of its range are equal ratios.
+    pub logarithmic: bool,
+    reading: Reading,
+    /// Power of ten that the axes of figures have, so that their numbers are short.
+    power: i32,
+}
+
+/// Numbers of these sizes stand on axes without a power of ten.
+const PLAIN: std::ops::Range<f64> = 0.01..1e5;
+
+impl FittedKey {
+    /// A factor of the study.
+    pub fn of(factor: &Factor) -> Self {
+        let (stated, logarithmic) = match &factor.values {
+            // One end may be zero, which is so in any unit.
+            Values::Range { low, high, logarithmic } => (vec![high, low], *logarithmic),
+            Values::Levels(levels) => (levels.iter().collect(), false),
+        };
+        let largest = stated.iter().filter_map(|level| level.number).map(f64::abs).fold(0.0, f64::max);
+        let reading = Reading::of(stated, false);
+        let size = reading.value(largest);
+        let is_plain = PLAIN.contains(&size) || !(size > 0.0 && size.is_finite());
+        let power = if is_plain { 0 } else { 3 * (libm::log10(size) / 3.0).floor() as i32 };
+        Self { name: factor.name.clone(), logarithmic, reading, power }
+    }
+
+    /// A value in the unit in which the study states the key.
+    pub fn value(&self, si: f64) -> f64 {
+        self.reading.value(si)
+    }
+
+    /// The unit; empty for plain numbers.
+    pub fn unit(&self) -> &str {
+        &self.reading.unit
+    }
+
+    /// A value as it lies on an axis.
+    pub fn on_axis(&self, si: f64) -> f64 {
+        self.value(si) / libm::pow(10.0, f64::from(self.power))
+    }
+
+    /// What an axis says.
+    pub fn label(&self) -> String {
+        let power = if self.power == 0 { String::new() } else { format!("10{} ", number::raised(self.power)) };
+        match format!("{power}{}", self.unit()).trim_end() {
+            "" => self.name.clone(),
+            unit => format!("{}, {unit}", self.name),
+        }
+    }
+
+    /// A value with its unit.
+    pub fn words(&self, si: f64) -> String {
+        format!("{} {}", number::rounded(self.value(si), DIGITS), self.unit()).trim_end().to_owned()
+    }
+
+    /// An interval in words, with what the data do not determine of it.
+    pub fn interval(&self, profile: &Profile) -> String {
+        let number = |si: f64| number::rounded(self.value(si), DIGITS);
+        let piece = |Piece { ends: [low, high], open }: &Piece| match open {
+            [false, false] => format!("{} … {}", number(*low), self.words(*high)),
+            [true, false] => format!("up to {}, not determined below", self.words(*high)),
+            [false, true] => format!("from {} on, not determined above", self.words(*low)),
+            [true, true] => {
+                format!("not determined by these data: anywhere from {} to {}", number(*low), self.words(*high))
+            }
+        };
+        profile.pieces.iter().map(piece).collect::<Vec<_>>().join(" or ")
+    }
+}
+
+/// The unit in which a response and its deviations are read.
+pub fn unit(si: &str, response: &FittedResponse) -> Unit {
+    Unit::readable_with_differences(si, response.measurement.value.abs().max(response.forecast.abs()))
+}
+
+/// What is determined where single keys are not; none where there is nothing to say.
+pub fn determined(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
+    let combinations = result.combinations.as_ref()?;
+    if combinations.is_empty() {
+        return Some("Near the most likely values these data determine none of the keys.".to_owned());
+    }
+    // Single keys have their intervals.
+    if combinations.iter().all(|combination| combination.powers.len() < 2) {
+        return None;
+    }
+    let words: Vec<String> = combinations.iter().map(|combination| product(combination, keys)).collect();
+    let verb = if words.len() == 1 { "is" } else { "are" };
+    Some(format!("Only {} {verb} determined by these data, near the most likely values.", words.join(" and ")))
+}
+
+/// A product of powers.
+fn product(combination: &Combination, keys: &[FittedKey]) -> String {
+    let power = |(key, exponent): &(usize, f64)| {
+        let name = &keys[*key].name;
+        match number::rounded(*exponent, 2) {
+            one if one == "1" => name.clone(),
+            exponent => format!("{name}^{exponent}"),
+        }
+    };
+    combination.powers.iter().map(power).collect::<Vec<_>>().join(" × ")
+}
+
+/// What is to be known before the intervals are trusted: misfit, scatter between seeds, want of runs.
+pub fn notes(result: &FitResult, names: &[&str]) -> Vec<String> {
+    let mut notes = Vec::new();
+    if let Some(p) = result.p.filter(|p| *p < SIGNIFICANT) {
+        notes.push(format!(
+            "No values within these ranges give all that was measured: misfit χ² = {} with {}, p = {}. The intervals are those \
+             of a model that does not fit.",
+            number::rounded(result.misfit, 3),
+            number::count(result.freedom, "degree") + " of freedom",
+            number::significant(p, 2)
+        ));
+    }
+    for (response, name) in result.responses.iter().zip(names) {
+        let fixed =
+            response.measurement.uncertainty.hypot(response.seeds_deviation).hypot(response.surrogate_deviation);
+        let far = (response.forecast - response.measurement.value).abs() / fixed;
+        if result.freedom == 0 && far > FAR {
+            notes.push(format!(
+                "No values within these ranges give the measured {name}: the nearest forecast is {} standard deviations away.",
+                number::rounded(far, 2)
+            ));
+        }
+        if response.scatter.is_some_and(|scatter| scatter > response.measurement.uncertainty) {
+            notes.push(format!(
+                "Runs with other seeds scatter in {name} by more than the uncertainty of the measurement. Specimens may do the \
+                 same: unless it is a mean of many of them, that scatter belongs into the uncertainty."
+            ));
+        }
+        if response.seeds_deviation > 0.5 * response.measurement.uncertainty {
+            notes.push(format!(
+                "The mean of {name} over the seeds is known no better than to half the uncertainty of the measurement: more \
+                 seeds in [replicates] make the intervals shorter."
+            ));
+        }
+    }
+    if !result.settled {
+        notes.push(format!(
+            "Where the measurements are likely, the forecasts' own variance is up to {} of that of a measurement: more runs in \
+             [fit] make the intervals shorter.",
+            number::percent(result.surrogate_share)
+        ));
+    }
+    notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use plateau_io::study::factor::Level;
+
+    fn key(name: &str, ends: [&str; 2]) -> FittedKey {
+        let level = |text: &str| Level::new("operation.normal_force", &toml::Value::String(text.to_owned()));
+        let [low, high] = ends.map(level);
+        let values = Values::Range { low, high, logarithmic: false };
+        FittedKey::of(&Factor { name: name.into(), keys: vec!["operation.normal_force".into()], values })
+    }
+
+    #[test]
+    fn intervals_say_what_is_not_determined() {
+        let load = key("load", ["1 kN", "2 kN"]);
+        let profile = |ends: [f64; 2], open: [bool; 2]| Profile {
+            values: Vec::new(),
+            rises: Vec::new(),
+            threshold: 3.84,
+            pieces: vec![Piece { ends, open }],
+        };
+        let words = |ends, open| load.interval(&profile(ends, open));
+        assert_eq!(words([1200.0, 1500.0], [false, false]), "1.2 … 1.5 kN");
+        assert_eq!(words([1000.0, 1500.0], [true, false]), "up to 1.5 kN, not determined below");
+        assert_eq!(words([1200.0, 2000.0], [false, true]), "from 1.2 kN on, not determined above");
+        assert_eq!(words([1000.0, 2000.0], [true, true]), "not determined by these data: anywhere from 1 to 2 kN");
+    }
+
+    #[test]
+    fn a_ridge_in_words() {
+        let keys = [key("captured fraction", ["1 N", "2 N"]), key("load", ["1 N", "2 N"])];
+        let combination = Combination { powers: vec![(0, 1.0), (1, 0.9)] };
+        assert_eq!(product(&combination, &keys), "captured fraction × load^0.9");
+    }
+}

@@ -1,0 +1,170 @@
+//! Fits to an experiment: which values of some keys make a program give what was measured.
+//!
+//! Runs are dear, so every response gets a Gaussian process, and the likelihood of the measurements is that of the processes:
+//! normal, with the variance of the measurement and that of the process added. A [`Fit`] tells where further runs teach most,
+//! and when the processes' part of the variance is small against the measurements'. What is known then is told by the profile
+//! likelihood: of each key, of each pair, and which products of keys are determined where the keys themselves are not.
+//!
+//! M. C. Kennedy, A. O'Hagan, J. R. Stat. Soc. B 63(3), 425–464 (2001), doi:10.1111/1467-9868.00294 (calibration with Gaussian
+//! processes); A. Raue et al., Bioinformatics 25(15), 1923–1929 (2009), doi:10.1093/bioinformatics/btp358 (profile likelihood and
+//! what data do not determine).
+//!
+//! | what | where |
+//! |---|---|
+//! | the likelihood of the measurements | [`likelihood`] |
+//! | places in the ranges that are looked at | [`places`] |
+//! | where the next runs teach most | [`next`] |
+//! | intervals of keys, regions of pairs | [`profile`] |
+//! | which products of keys are determined | [`combination`] |
+//! | all of it | [`result`] |
+
+mod combination;
+mod key;
+mod likelihood;
+mod next;
+mod places;
+mod profile;
+mod result;
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+use thiserror::Error;
+
+use crate::effects::{Factor, FactorKind, Observation};
+use crate::surrogate::gaussian_process::{GaussianProcess, GaussianProcessError, Options as ProcessOptions};
+pub use combination::Combination;
+pub use key::Key;
+use likelihood::Likelihood;
+use places::Places;
+pub use profile::{Pair, Piece, Profile};
+pub use result::{FitResult, FittedResponse};
+
+/// Something that was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measurement {
+    /// The value.
+    pub value: f64,
+    /// Its standard uncertainty, in the same unit.
+    pub uncertainty: f64,
+}
+
+/// Why there is no fit.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FitError {
+    /// Nothing to fit, or nothing to fit to.
+    #[error("a fit needs at least one key and one measurement, found {keys} and {measurements}")]
+    Empty {
+        /// Keys.
+        keys: usize,
+        /// Measurements.
+        measurements: usize,
+    },
+    /// A range that is none.
+    #[error("key `{key}`: the range {low} to {high} is none")]
+    Range {
+        /// Its name.
+        key: String,
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+    /// A measurement that tells nothing.
+    #[error(
+        "measurement {index}, counted from 0: {value} ± {uncertainty}, expected two numbers, the uncertainty above 0"
+    )]
+    Measurement {
+        /// Which, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// Its uncertainty.
+        uncertainty: f64,
+    },
+    /// A response that gets no Gaussian process.
+    #[error("response {index}, counted from 0: {error}")]
+    Response {
+        /// Which, from 0.
+        index: usize,
+        /// Why.
+        error: GaussianProcessError,
+    },
+    /// The likelihood is no number anywhere.
+    #[error("the likelihood of the measurements is no number anywhere in the ranges")]
+    NoLikelihood,
+}
+
+/// What is known of the keys from the runs so far.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    keys: Vec<Key>,
+    likelihood: Likelihood,
+    places: Places,
+    /// The most likely place, in coded units.
+    best: Vec<f64>,
+    /// −2 ln of the likelihood there.
+    least: f64,
+    confidence: f64,
+}
+
+impl Fit {
+    /// Fits a process to each response and finds the most likely values of the keys. `observations` are those of each
+    /// response, with a coded setting for each key; `confidence` is the level of intervals, between 0 and 1.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn new(
+        keys: &[Key],
+        measurements: &[Measurement],
+        observations: &[Vec<Observation>],
+        confidence: f64,
+    ) -> Result<Self, FitError> {
+        check(keys, measurements)?;
+        let factor = |key: &Key| Factor { name: key.name.clone(), kind: FactorKind::Range { low: -1.0, high: 1.0 } };
+        let factors: Vec<Factor> = keys.iter().map(factor).collect();
+        let process = |(index, observations): (usize, &Vec<Observation>)| {
+            let fitted = GaussianProcess::fit(&factors, observations, &ProcessOptions::default());
+            fitted.map_err(|error| FitError::Response { index, error })
+        };
+        let processes = observations.iter().enumerate().map(process).collect::<Result<_, _>>()?;
+        let likelihood = Likelihood::new(processes, measurements);
+        let places = Places::new(keys.len(), &likelihood);
+        let (best, least) = places.most_likely(&likelihood).ok_or(FitError::NoLikelihood)?;
+        let places = places.with_near(&best, &likelihood);
+        Ok(Self { keys: keys.to_vec(), likelihood, places, best, least, confidence })
+    }
+
+    /// Most likely values of the keys so far.
+    pub fn best(&self) -> Vec<f64> {
+        self.keys.iter().zip(&self.best).map(|(key, coded)| key.value(*coded)).collect()
+    }
+
+    /// How far −2 ln of the likelihood is above the least where the keys have these values; a rise below the quantile of χ² with
+    /// as many degrees of freedom as keys is in their region.
+    pub fn rise(&self, values: &[f64]) -> f64 {
+        let place: Vec<f64> = self.keys.iter().zip(values).map(|(key, value)| key.coded(*value)).collect();
+        self.likelihood.value(&place) - self.least
+    }
+
+    /// How far −2 ln of the likelihood rises within the region of so many keys together at the level of the fit.
+    fn threshold(&self, keys: usize) -> f64 {
+        ChiSquared::new(keys as f64).map_or(f64::NAN, |of| of.inverse_cdf(self.confidence))
+    }
+}
+
+fn check(keys: &[Key], measurements: &[Measurement]) -> Result<(), FitError> {
+    if keys.is_empty() || measurements.is_empty() {
+        return Err(FitError::Empty { keys: keys.len(), measurements: measurements.len() });
+    }
+    if let Some(key) = keys.iter().find(|key| !key.is_range()) {
+        return Err(FitError::Range { key: key.name.clone(), low: key.low, high: key.high });
+    }
+    let is_wrong =
+        |given: &Measurement| !(given.value.is_finite() && given.uncertainty.is_finite() && given.uncertainty > 0.0);
+    match measurements.iter().position(is_wrong) {
+        None => Ok(()),
+        Some(index) => {
+            let Measurement { value, uncertainty } = measurements[index];
+            Err(FitError::Measurement { index, value, uncertainty })
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! What a Gaussian process expects where no run was made, and how that changes from place to place.
+
+use nalgebra::DVector;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::GaussianProcess;
+use super::kernel::{self, Axis};
+use crate::design::Setting;
+use crate::effects::EffectsError;
+use crate::surrogate::{Forecast, Surrogate};
+
+/// Mean and variance of the response at a point, of the mean over the seeds of the study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Local {
+    /// What is expected.
+    pub mean: f64,
+    /// How far off that may be: the variance of the process there, with that of its trend (universal kriging).
+    pub variance: f64,
+}
+
+/// The same with the derivatives by the coded settings.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Slopes {
+    pub local: Local,
+    pub mean: Vec<f64>,
+    pub variance: Vec<f64>,
+}
+
+impl GaussianProcess {
+    /// Mean and variance at settings, numbers in coded units.
+    ///
+    /// # Errors
+    /// If the settings do not fit the factors, or a category was never observed.
+    pub fn local(&self, settings: &[Setting]) -> Result<Local, EffectsError> {
+        Ok(self.local_at(&self.inputs.point(settings)?))
+    }
+
+    /// The same of coordinates.
+    pub(crate) fn local_at(&self, point: &[f64]) -> Local {
+        let known = self.correlations(point);
+        let solved = &self.solved.inverse * &known;
+        self.local_of(point, &known, &solved).0
+    }
+
+    /// The same with derivatives; those by categories are 0.
+    pub(crate) fn slopes_at(&self, point: &[f64]) -> Slopes {
+        let known = self.correlations(point);
+        let solved = &self.solved.inverse * &known;
+        let (local, of_trend) = self.local_of(point, &known, &solved);
+        // The variance is σ²(1 − rᵀc + hᵀGh) with c = C⁻¹r, h = f − Fᵀc and G = (FᵀC⁻¹F)⁻¹.
+        let pull = &self.solved.inverse_trend * &of_trend;
+        let (axes, lengths) = (&self.inputs.axes, &self.hyperparameters.lengths);
+        let (mut mean, mut variance) = (vec![0.0; point.len()], vec![0.0; point.len()]);
+        let mut number = 0;
+        for (at, axis) in axes.iter().enumerate().filter(|(_, axis)| **axis == Axis::Number) {
+            for (run, other) in self.averages.points.iter().enumerate() {
+                let change = known[run] * kernel::log_derivative(lengths[at], point[at], other[at]);
+                mean[at] += change * self.solved.weights[run];
+                variance[at] -= 2.0 * change * (solved[run] + pull[run]);
+            }
+            number += 1;
+            if self.trend == super::Trend::Linear && *axis == Axis::Number {
+                mean[at] += self.solved.coefficients[number];
+                variance[at] += 2.0 * of_trend[number];
+            }
+            variance[at] *= self.solved.variance;
+        }
+        Slopes { local, mean, variance }
+    }
+
+    /// Mean and variance, and Gh.
+    fn local_of(&self, point: &[f64], known: &DVector<f64>, solved: &DVector<f64>) -> (Local, DVector<f64>) {
+        let row = DVector::from_vec(self.trend.row(&self.inputs.axes, point));
+        let mean = self.averages.offset + row.dot(&self.solved.coefficients) + known.dot(&self.solved.weights);
+        let left = &row - self.solved.inverse_trend.transpose() * known;
+        let of_trend = &self.solved.trend_inverse * &left;
+        // Rounding may leave less than nothing at a point that was run.
+        let share = (1.0 - known.dot(solved) + left.dot(&of_trend)).max(0.0);
+        (Local { mean, variance: self.solved.variance * share }, of_trend)
+    }
+
+    /// Correlations of a point with those that were run.
+    fn correlations(&self, point: &[f64]) -> DVector<f64> {
+        let (axes, lengths) = (&self.inputs.axes, &self.hyperparameters.lengths);
+        let points = self.averages.points.iter();
+        let known = points.map(|other| kernel::between(axes, lengths, point, other));
+        DVector::from_iterator(self.averages.points.len(), known)
+    }
+}
+
+impl Surrogate for GaussianProcess {
+    fn name(&self) -> String {
+        "Gaussian process".to_owned()
+    }
+
+    fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError> {
+        if !(confidence > 0.0 && confidence < 1.0) {
+            return Err(EffectsError::Confidence(confidence));
+        }
+        let local = self.local(settings)?;
+        // σ² is estimated: its most likely value is that of n, its unbiased one that of n − p degrees of freedom.
+        let freedom = self.freedom();
+        let count = (self.averages.means.len() + self.averages.freedom) as f64;
+        let quantile = StudentsT::new(0.0, 1.0, freedom).map(|of| of.inverse_cdf(0.5 + 0.5 * confidence));
+        let of_mean = local.variance * count / freedom + self.seeds_variance();
+        let of_run = of_mean + self.run_variance() * count / freedom + self.averages.of_seeds;
+        let interval = |variance: f64| {
+            let reach = quantile.as_ref().ok()? * variance.sqrt();
+            Some([local.mean - reach, local.mean + reach])
+        };
+        Ok(Forecast { value: local.mean, mean_interval: interval(of_mean), run_interval: interval(of_run) })
+    }
+
+    fn leave_one_out_error(&self) -> Option<f64> {
+        let left_out = self.left_out();
+        let square = |point: &super::LeftOut| (point.observed - point.forecast).powi(2);
+        let mean = left_out.iter().map(square).sum::<f64>() / left_out.len() as f64;
+        Some(mean.sqrt()).filter(|error| error.is_finite())
+    }
+}
