@@ -33,6 +33,7 @@ mod schedule;
 mod shell;
 mod surface_command;
 mod sweep;
+mod sweep_answers;
 mod sweep_effects;
 mod vectors;
 mod watch;

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod accuracy;
+mod answers;
 mod new;
 mod surface;
 mod sweep;
@@ -16,9 +17,12 @@ use plateau_present::figure::Format;
 use plateau_run::ExecutionOptions;
 
 pub use accuracy::AccuracyArguments;
+pub use answers::{ImportArguments, OptimizeArguments, PredictArguments};
 pub use new::NewArguments;
 pub use surface::SurfaceArguments;
-pub use sweep::{CollectArguments, EffectsArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments};
+pub use sweep::{
+    CollectArguments, EffectsArguments, PlanArguments, SlurmArguments, SweepCommand, SweepRunArguments, Terms,
+};
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.
 #[derive(Debug, Parser)]

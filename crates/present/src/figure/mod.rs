@@ -17,7 +17,7 @@
 //! | labels beside points | [`labels`] |
 //! | lines of equal value | [`contour`] |
 //! | the figures of runs | [`run`] |
-//! | the figures of studies | [`effects`] |
+//! | the figures of studies | [`effects`], [`optimum`] |
 //! | error against run time | [`accuracy`] |
 
 pub mod accuracy;
@@ -32,6 +32,7 @@ mod font;
 mod format;
 mod histogram;
 mod labels;
+pub mod optimum;
 mod page;
 mod picture;
 mod raster;

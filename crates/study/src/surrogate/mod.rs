@@ -3,8 +3,12 @@
 //! A polynomial and a Gaussian process answer the same questions, so what predicts, searches for an optimum or tells
 //! sensitivities asks a [`Surrogate`] and does not know which one it has.
 
+mod polynomial;
+
 use crate::design::Setting;
 use crate::effects::EffectsError;
+
+pub use polynomial::{PolynomialSurrogate, Scale};
 
 /// What a surrogate expects of a response, in the unit of the response.
 #[derive(Debug, Clone, Copy, PartialEq)]

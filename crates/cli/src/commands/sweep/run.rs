@@ -1,29 +1,22 @@
 //! `plateau sweep run`: make the runs of a study that are not there yet.
 
-use std::sync::Mutex;
-use std::sync::PoisonError;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use plateau_io::dataset_file::now;
-use plateau_io::study::journal::{Entry, Journal, Shard};
-use plateau_io::study::plan::Plan;
-use plateau_io::study::record::{Outcome, Record};
+use plateau_io::study::journal::{Entry, Journal};
 use plateau_run::Job;
 use plateau_run::execution::cores;
-use plateau_run::job::{Agreement, PieceEnd};
+use plateau_run::job::Agreement;
 use serde::Serialize;
 
 use crate::arguments::SweepRunArguments;
 use crate::failure::{Failure, in_job};
 use crate::interrupt::Interrupt;
-use crate::sweep::make::{Stopped, Watcher, make};
+use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::under_way::UnderWay;
 use crate::sweep::{self, journal, journal_folder};
 use crate::table::{print, table};
-use crate::{machine, message, number};
+use crate::{message, number};
 
 /// Makes the runs, together with the other processes of the job if there are any.
 pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
@@ -66,29 +59,12 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let jobs = arguments.jobs.map_or_else(|| (cores() / workers).max(1), |jobs| jobs as usize);
     let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
     let start = Instant::now();
-    let floor = Floor {
-        progress: Progress::new(pending.len(), steps, job.leads()),
-        plan: &plan,
-        resolved: &resolved,
-        workers,
-        interrupt,
-        shard: Mutex::new(None),
-        finished: AtomicUsize::new(0),
-        failed: AtomicUsize::new(0),
-        broken: Mutex::new(None),
-    };
+    let progress = Progress::new(pending.len(), steps, job.leads());
+    let floor = Floor::new(&plan, &resolved, workers, interrupt, progress);
     let limit = arguments.max_failures.map(|limit| limit as usize);
     let shared = job.share(&pending, jobs, limit, &|number| floor.make(number));
-    floor.progress.finish();
-    let shard = floor.shard.lock().unwrap_or_else(PoisonError::into_inner).take();
-    let closed = shard.map_or(Ok(()), Shard::close);
-    shared.map_err(Failure::run)?;
-    if let Some(failure) = floor.broken.lock().unwrap_or_else(PoisonError::into_inner).take() {
-        return Err(failure);
-    }
-    closed.map_err(|error| Failure::run(format_args!("cannot complete the journal: {error}")))?;
-    let [finished, failed] = [&floor.finished, &floor.failed].map(|count| count.load(Ordering::Relaxed));
-    let (finished, failed) = job.sum(finished, failed).map_err(Failure::run)?;
+    let made = floor.end(shared.map_err(Failure::run))?;
+    let (finished, failed) = job.sum(made.finished, made.failed).map_err(Failure::run)?;
     let summary = Summary {
         study: plan.study().title.clone(),
         runs: plan.runs(),
@@ -104,7 +80,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     if job.leads() {
         summary.print(arguments, if job.ranks() > 1 { job.ranks() } else { jobs })?;
     }
-    let own = Agreement { signal: floor.interrupt.signal(), ..Agreement::default() };
+    let own = Agreement { signal: floor.signal(), ..Agreement::default() };
     let signal = job.agree(own).map_err(Failure::run)?.signal;
     if let Some(signal) = signal {
         let message =
@@ -128,91 +104,6 @@ struct Before {
     failed: usize,
     /// Not made, for they repeat another run.
     repeats: usize,
-}
-
-/// What the runs that are made at the same time share.
-struct Floor<'a> {
-    plan: &'a Plan,
-    resolved: &'a Resolved,
-    workers: usize,
-    interrupt: Interrupt,
-    progress: Progress,
-    /// Made with the first record.
-    shard: Mutex<Option<Shard>>,
-    finished: AtomicUsize,
-    failed: AtomicUsize,
-    /// Why no result can be kept any more.
-    broken: Mutex<Option<Failure>>,
-}
-
-impl Watcher for Floor<'_> {
-    fn steps(&self, count: u64) -> Option<u8> {
-        self.progress.steps(count);
-        self.interrupt.signal()
-    }
-
-    fn goes_on(&self, steps: u64) {
-        self.progress.steps(steps);
-        self.progress.say(|| message::note(format_args!("a run that was stopped goes on from step {steps}")));
-    }
-}
-
-impl Floor<'_> {
-    /// Makes a run and keeps its result.
-    fn make(&self, number: usize) -> PieceEnd {
-        if self.interrupt.signal().is_some() {
-            return PieceEnd::Stopped;
-        }
-        let start = Instant::now();
-        let run = self.plan.run(number);
-        let (study, identity) = (self.plan.study(), &self.resolved.identities[number - 1]);
-        let mut under_way = UnderWay::new(&study.directory, identity);
-        let outcome = match self.plan.scene(&run) {
-            Ok(scene) => {
-                under_way.keep_every(scene.output.checkpoint_every);
-                make(study, &scene, self.workers, self, &mut under_way)
-            }
-            // It could be built a moment ago.
-            Err(error) => Ok(Outcome::Failed { error: error.to_string() }),
-        };
-        let Ok(outcome) = outcome.map_err(|Stopped(_)| ()) else { return PieceEnd::Stopped };
-        let failure = if let Outcome::Failed { error } = &outcome { Some(error.clone()) } else { None };
-        let record = Record {
-            identity: identity.clone(),
-            run: number,
-            outcome,
-            wall_time: start.elapsed().as_secs_f64(),
-            host: machine::host(),
-            end_time: now(),
-        };
-        if let Err(error) = self.keep(&record) {
-            let folder = journal_folder(self.plan.study());
-            let message = format!("cannot write to {}: {error}; what was finished before is safe", folder.display());
-            *self.broken.lock().unwrap_or_else(PoisonError::into_inner) = Some(Failure::run(message));
-            return PieceEnd::Stopped;
-        }
-        under_way.forget();
-        self.progress.ended(failure.is_some());
-        match failure {
-            None => {
-                self.finished.fetch_add(1, Ordering::Relaxed);
-                PieceEnd::Done
-            }
-            Some(error) => {
-                self.failed.fetch_add(1, Ordering::Relaxed);
-                self.progress.say(|| message::warning(format_args!("run {number} failed: {error}")));
-                PieceEnd::Failed
-            }
-        }
-    }
-
-    fn keep(&self, record: &Record) -> std::io::Result<()> {
-        let mut shard = self.shard.lock().unwrap_or_else(PoisonError::into_inner);
-        if shard.is_none() {
-            *shard = Some(Shard::create(&journal_folder(self.plan.study()), &machine::host())?);
-        }
-        shard.as_mut().map_or(Ok(()), |shard| shard.append(record))
-    }
 }
 
 /// What `plateau sweep run` reports.
