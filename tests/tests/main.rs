@@ -38,6 +38,7 @@ mod schedule;
 mod shell;
 mod surface_command;
 mod sweep;
+mod sweep_answers;
 mod sweep_effects;
 mod sweep_sensitivity;
 mod vectors;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use plateau_tests::figure::{Figure, Frame};
+use plateau_tests::figure::{Figure, Frame, Text};
 use plateau_tests::program::{Outcome, WorkingDirectory, scene};
 use plateau_tests::table::{Row, number, rows};
 use serde_json::Value;
@@ -116,9 +116,10 @@ fn replicated() -> WorkingDirectory {
 fn figures_show_the_means_and_effects_of_the_table() {
     let directory = replicated();
     let text = effects(&directory, &[]).stdout;
-    let names = ["half-normal", "interactions", "main-effects", "pareto"].map(|name| format!("contact-area-{name}"));
+    let names = ["half-normal", "interactions", "main-effects", "pareto", "residuals"]
+        .map(|name| format!("contact-area-{name}"));
     assert_eq!(figures(&directory), names);
-    assert!(text.contains("effects.html") && text.contains("4 figures as PNG, SVG and PDF"), "{text}");
+    assert!(text.contains("effects.html") && text.contains("5 figures as PNG, SVG and PDF"), "{text}");
 
     // Means of the runs at a level, and their difference: the effect.
     let main = figure(&directory, "contact-area-main-effects");
@@ -195,7 +196,7 @@ fn the_page_holds_every_term_and_loads_nothing() {
     let directory = replicated();
     let report: Value = serde_json::from_str(&effects(&directory, &["--json"]).stdout).unwrap();
     let files: Vec<&str> = report["files"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
-    assert_eq!(files.len(), 2 + 3 * 4);
+    assert_eq!(files.len(), 2 + 3 * 5);
     assert!(files.iter().all(|file| directory.path(file).is_file()), "{files:?}");
     let page = read(&directory, "effects.html");
     for row in rows(&read(&directory, "effects.csv")) {
@@ -296,7 +297,7 @@ fn a_central_composite_has_a_surface() {
     let head = "design = \"central-composite\"\nalpha = \"rotatable\"";
     let directory = studied(head, &[&factors[0], &factors[1], &factors[2], AREA]);
     effects(&directory, &[]);
-    let names = ["half-normal", "interactions", "main-effects", "pareto", "surface"];
+    let names = ["half-normal", "interactions", "main-effects", "pareto", "residuals", "surface"];
     assert_eq!(figures(&directory), names.map(|name| format!("contact-area-{name}")));
     let surface = figure(&directory, "contact-area-surface");
     let panel = surface.panel(surface.boxes()[0]);
@@ -317,7 +318,7 @@ fn ranges_have_lines_of_predictions() {
         [format!("{LOAD}range = [\"5 N\", \"20 N\"]"), format!("{FIBRES}range = [0.02, 0.4]\nscale = \"logarithmic\"")];
     let directory = studied("design = \"latin-hypercube\"\npoints = 24", &[&factors[0], &factors[1], POOL, AREA]);
     effects(&directory, &[]);
-    assert_eq!(figures(&directory).len(), 5, "a surface, for there are squares");
+    assert_eq!(figures(&directory).len(), 6, "a surface, for there are squares");
     let main = figure(&directory, "contact-area-main-effects");
     let boxes = main.boxes();
     let y = main.y_axis(boxes[0]);
@@ -327,7 +328,13 @@ fn ranges_have_lines_of_predictions() {
     let rise = y.value(line[line.len() - 1][1]) - y.value(line[0][1]);
     let pixel = (y.value(0.0) - y.value(1.0)).abs();
     assert!((rise - effect).abs() < 2.5 * pixel, "{rise} and {effect}");
-    assert!(width(boxes[1]) > 100.0 && main.texts.iter().any(|text| text.text == "log\u{2081}\u{2080} fibres"));
+    assert!(width(boxes[1]) > 100.0 && main.texts.iter().any(|text| text.text == "fibres"));
+    // Equal ratios are equally long: a decade is a decade of the axis.
+    let ticks = ["0.02", "0.05", "0.1", "0.2"].map(|tick| {
+        let own = |text: &&Text| text.text == tick && text.place[0] > boxes[1].x[0] && text.place[0] < boxes[1].x[1];
+        main.texts.iter().find(own).unwrap_or_else(|| panic!("{tick}")).place[0]
+    });
+    assert!(((ticks[3] - ticks[2]) - (ticks[2] - ticks[1])).abs() < 2.0 && ticks[1] > ticks[0], "{ticks:?}");
     assert_eq!(main.dots(DATA, boxes[2]).len(), 2, "words have means");
 }
 

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod accuracy;
+mod answers;
 mod fit;
 mod new;
 mod surface;
@@ -22,12 +23,13 @@ use plateau_run::ExecutionOptions;
 use crate::failure::Failure;
 
 pub use accuracy::AccuracyArguments;
+pub use answers::{ImportArguments, OptimizeArguments, PredictArguments};
 pub use fit::FitArguments;
 pub use new::NewArguments;
 pub use surface::SurfaceArguments;
 pub use sweep::{
     CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
-    SweepRunArguments,
+    SweepRunArguments, Terms,
 };
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use super::answers::{ImportArguments, OptimizeArguments, PredictArguments};
+
 /// What to do with a study.
 #[derive(Debug, Subcommand)]
 pub enum SweepCommand {
@@ -28,6 +30,19 @@ pub enum SweepCommand {
     /// Tell what the factors do: effects, analysis of variance, figures
     #[command(after_help = "Example:\n  plateau sweep effects data/studies/pad-properties.toml")]
     Effects(EffectsArguments),
+    /// Tell what responses are expected to be where no run was made
+    #[command(after_help = "Examples:\n  plateau sweep run data/studies/quick-answers.toml\n  \
+                      plateau sweep predict data/studies/quick-answers.toml --at load=\"12 N\" --at fibres=0.3\n  \
+                      plateau sweep predict data/studies/quick-answers.toml --grid 5 -o predicted.csv")]
+    Predict(PredictArguments),
+    /// Find the settings at which responses are best
+    #[command(after_help = "Examples:\n  plateau sweep run data/studies/quick-answers.toml\n  \
+                      plateau sweep optimize data/studies/quick-answers.toml --maximize \"contact area\" --limit \"worn<=0.02 mm3\"\n\n\
+                      Several goals are weighed by the geometric mean of their desirabilities (Derringer and Suich).")]
+    Optimize(OptimizeArguments),
+    /// Take in responses that were measured or computed elsewhere
+    #[command(after_help = "Example:\n  plateau sweep import data/studies/tyre.toml data/studies/tyre.csv --force")]
+    Import(ImportArguments),
     /// Tell which part of each response's variation every factor has, over the whole of all ranges
     #[command(after_help = "Example:\n  plateau sweep sensitivity data/studies/pad-properties.toml")]
     Sensitivity(SensitivityArguments),
@@ -139,6 +154,9 @@ pub struct EffectsArguments {
     /// Confidence level of intervals
     #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
     pub confidence: f64,
+    /// Which terms of it
+    #[arg(long, value_enum, default_value = "all")]
+    pub terms: Terms,
     /// Folder for tables, figures and the page; "effects" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
@@ -161,6 +179,15 @@ pub struct SensitivityArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
+}
+
+/// Which terms of a model are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Terms {
+    /// All of them
+    All,
+    /// Those that the runs support, by the corrected criterion of Akaike
+    Aicc,
 }
 
 /// What is fitted to the responses.
@@ -188,7 +215,7 @@ impl From<Model> for plateau_study::effects::Model {
 }
 
 /// A value of `--confidence`.
-fn confidence(text: &str) -> Result<f64, &'static str> {
+pub fn confidence(text: &str) -> Result<f64, &'static str> {
     let expected = "expected a number between 0 and 1, such as 0.95";
     text.parse().ok().filter(|level| *level > 0.0 && *level < 1.0).ok_or(expected)
 }

@@ -29,6 +29,9 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Where nothing is run.
+    pub const NOTHING: Self = Self { memory: 0, mean_time: 0.0, longest_time: 0.0 };
+
     /// Looks at some of the runs.
     ///
     /// # Errors

@@ -7,9 +7,11 @@
 //! | one run, from its scene to its record | [`make`] |
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what those that are made at a time share | [`floor`] |
+//! | extra runs that confirm a prediction | [`confirmation`] |
 //! | what is kept of those that are under way | [`under_way`] |
 //! | how far they are | [`progress`] |
 
+pub mod confirmation;
 pub mod estimate;
 pub mod floor;
 pub mod make;

@@ -13,6 +13,7 @@ use super::factor::{Factor, Level, Values};
 use super::place::Place;
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent};
+use super::response_keys::{dataset, imported, is_imported, transform};
 use super::{DesignSource, Order, Replicates, Study, measured, points_of_file};
 use crate::scene::{Origin, Problem, schema};
 use crate::text::odd_character;
@@ -62,6 +63,11 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
     let replicates = document.replicates.as_ref().map(|given| replicates(given, place, &mut problems));
     let responses = responses(&document.response, place, &mut problems);
     let fit = measured::settings(&document, &responses, place, &mut problems);
+    if document.base.is_none() && !responses.iter().all(Response::is_imported) {
+        let message =
+            "missing, expected base = \"SCENE.toml\"; it may be left out where all responses have imported = true";
+        problems.push(Problem::new(&Origin::File(place.file.clone()), "base", message));
+    }
     let series = document.series.as_ref().map(|series| {
         let few = |problems: &[Problem]| problems.len() < MOST_PROBLEMS;
         let names =
@@ -80,7 +86,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
     Ok(Study {
         title: document.title.unwrap_or(stem),
         path: path.to_owned(),
-        base: folder.join(document.base.get_ref()),
+        base: document.base.map(|base| folder.join(base.get_ref())),
         directory: folder.join(directory),
         design: document.design.into_inner(),
         sets: document.set.into_iter().map(Spanned::into_inner).collect(),
@@ -260,7 +266,9 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
         },
         "csv" => {
             let Some(file) = &document.file else { return missing("file = \"points.csv\"") };
-            let points = points_of_file::read(&folder.join(file.get_ref()), factors);
+            let imported = document.response.iter().filter(|table| table.imported.is_some());
+            let others: Vec<&str> = imported.map(|table| table.name.get_ref().as_str()).collect();
+            let points = points_of_file::read(&folder.join(file.get_ref()), factors, &others);
             return points.map(DesignSource::File).map_err(|message| place.problem(file, "file", message));
         }
         other => {
@@ -310,12 +318,24 @@ fn responses(tables: &[document::Response], place: &Place<'_>, problems: &mut Ve
         if !names.insert(name.clone()) {
             problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
         }
-        let series = match &table.event {
-            Some(_) => event_name(&table.dataset, place, problems).unwrap_or_default(),
-            None => series_name(&table.dataset, "response.dataset", place, problems).unwrap_or_default(),
+        let asked = match is_imported(table, place) {
+            Ok(true) => imported(table, place).map(|question| (String::new(), question)),
+            Ok(false) => dataset(table, place).and_then(|dataset| {
+                let series = match &table.event {
+                    Some(_) => event_name(dataset, place, problems),
+                    None => series_name(dataset, "response.dataset", place, problems),
+                };
+                Ok((series.unwrap_or_default(), question(table, place)?))
+            }),
+            Err(problem) => Err(problem),
         };
-        match question(table, place) {
-            Ok(question) => responses.push(Response { name, series, question }),
+        let response = asked.and_then(|(series, question)| {
+            let response = Response { name, series, question, transform: None };
+            let transform = transform(table, &response, place)?;
+            Ok(Response { transform, ..response })
+        });
+        match response {
+            Ok(response) => responses.push(response),
             Err(problem) => problems.push(problem),
         }
     }

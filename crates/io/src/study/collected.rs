@@ -17,9 +17,11 @@ use plateau_core::observe::{EXTRAS, quantities};
 use thiserror::Error;
 
 use super::identity::firsts;
+use super::imported::Imported;
 use super::journal::{Entry, Journal};
 use super::plan::{Plan, Run};
 use super::record::{EVENT, Outcome, Series};
+use super::response::Response;
 use crate::dataset_file::{Attribute, Content, Coordinate, DatasetFileError, Name, Rows, Values, Variable, write_rows};
 
 /// The results of the runs of a study, as far as there are any.
@@ -92,6 +94,11 @@ impl Collected {
     /// [`CollectError::Read`].
     pub fn new(plan: &Plan, identities: &[String], journal: &Journal) -> Result<Self, CollectError> {
         let responses = &plan.study().responses;
+        let is_imported = responses.iter().any(Response::is_imported);
+        let read = || {
+            Imported::read(plan).map_err(|error| CollectError::Read(io::Error::new(io::ErrorKind::InvalidData, error)))
+        };
+        let imported = if is_imported { read()? } else { Imported::default() };
         let run = |((number, identity), first): ((usize, &String), usize)| {
             let mut collected = CollectedRun {
                 run: plan.run(number),
@@ -118,6 +125,12 @@ impl Collected {
                     collected.responses = responses.iter().map(|response| known(response.of(&series))).collect();
                     collected.errors = responses.iter().map(|response| known(response.error_of(&series))).collect();
                 }
+            }
+            for at in (0..responses.len()).filter(|at| responses[*at].is_imported()) {
+                collected.responses[at] = imported.value(number - 1, at);
+            }
+            if plan.study().is_imported() && collected.responses.iter().any(|value| value.is_finite()) {
+                collected.state = State::Finished;
             }
             Ok(collected)
         };
@@ -213,7 +226,8 @@ impl Collected {
         for (at, response) in study.responses.iter().enumerate() {
             let values = self.runs.iter().map(|run| run.responses[at]).collect();
             let unit = response.unit(unit_of(&response.series));
-            let meaning = format!("{} (of {})", response.name, response.series);
+            let origin = if response.is_imported() { "imported".to_owned() } else { format!("of {}", response.series) };
+            let meaning = format!("{} ({origin})", response.name);
             content.variables.push(variable(
                 names.free(&response.name, "response"),
                 unit,
@@ -244,7 +258,7 @@ impl Collected {
 
     /// The times of the samples, if they are those of all runs, and the names of all series.
     fn samples(&self) -> (Option<&[f64]>, BTreeSet<&str>) {
-        let mut finished = self.runs.iter().filter(|run| run.state == State::Finished);
+        let mut finished = self.runs.iter().filter(|run| run.state == State::Finished && run.entry.is_some());
         let series = finished.clone().flat_map(|run| run.series.iter().map(String::as_str)).collect();
         let first = finished.next().map_or(&[][..], |run| &run.time);
         (finished.all(|run| run.time == first).then_some(first), series)

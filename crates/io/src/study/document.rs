@@ -12,7 +12,7 @@ use toml::{Spanned, Value};
 pub(super) struct Document {
     pub version: Spanned<i64>,
     pub title: Option<String>,
-    pub base: Spanned<String>,
+    pub base: Option<Spanned<String>>,
     #[serde(default)]
     pub set: Vec<Spanned<String>>,
     pub design: Spanned<String>,
@@ -78,7 +78,10 @@ impl<'de> Deserialize<'de> for Keys {
 #[serde(deny_unknown_fields)]
 pub(super) struct Response {
     pub name: Spanned<String>,
-    pub dataset: Spanned<String>,
+    pub dataset: Option<Spanned<String>>,
+    pub imported: Option<Spanned<bool>>,
+    pub unit: Option<Spanned<String>>,
+    pub transform: Option<Spanned<String>>,
     pub at: Option<Spanned<String>>,
     pub mean: Option<Spanned<Mean>>,
     pub reaches: Option<Spanned<f64>>,

@@ -55,6 +55,13 @@ impl Level {
         Self { text: value.to_string(), number: number(key, value), label }
     }
 
+    /// What a text means for a key: a value in TOML; what is none is a text.
+    pub fn parse(key: &str, text: &str) -> Self {
+        let table: Result<toml::Table, _> = format!("value = {text}").parse();
+        let value = table.ok().filter(|table| table.len() == 1).and_then(|mut table| table.remove("value"));
+        Self::new(key, &value.unwrap_or_else(|| toml::Value::String(text.to_owned())))
+    }
+
     /// The number before the unit, and the unit.
     fn split(&self) -> Option<(f64, &str)> {
         let (number, unit) = self.label.trim().split_once(' ').unwrap_or((self.label.trim(), ""));
@@ -114,6 +121,17 @@ impl Factor {
         let value =
             if unit.is_empty() { toml::Value::Float(value) } else { toml::Value::String(format!("{value} {unit}")) };
         Some(Level::new(self.keys.first()?, &value))
+    }
+
+    /// Whether its keys hold whole numbers, so that nothing lies between two of them.
+    pub fn is_whole(&self) -> bool {
+        let kind = self.keys.first().and_then(|key| schema::find(key)).map(|key| &key.kind);
+        kind.is_some_and(|kind| matches!(kind, Kind::Integer(_) | Kind::CountOr(_)))
+    }
+
+    /// Whether a name means this factor: its own, or one of its keys.
+    pub fn is_called(&self, name: &str) -> bool {
+        name == self.name || self.keys.iter().any(|key| key == name)
     }
 
     /// SI unit of its numbers; empty for words, `1` for plain numbers.

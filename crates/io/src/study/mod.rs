@@ -8,6 +8,7 @@
 //! results        identity       what a result is the result of
 //!                record         what is kept of a run
 //!                journal        where records are kept while many processes make them
+//!                imported       responses that come from elsewhere, in a value_table
 //!                collected      all of them in one file
 //!                results_table  all of them as text, a line for each run
 //! ```
@@ -17,6 +18,7 @@ pub mod collected;
 mod document;
 pub mod factor;
 pub mod identity;
+pub mod imported;
 pub mod journal;
 pub mod measured;
 mod place;
@@ -24,7 +26,9 @@ pub mod plan;
 mod points_of_file;
 pub mod record;
 pub mod response;
+mod response_keys;
 pub mod results_table;
+pub mod value_table;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -48,8 +52,8 @@ pub struct Study {
     pub title: String,
     /// The study file.
     pub path: PathBuf,
-    /// The scene that is varied.
-    pub base: PathBuf,
+    /// The scene that is varied; none of a study whose responses are all imported.
+    pub base: Option<PathBuf>,
     /// Where results are kept.
     pub directory: PathBuf,
     /// Name of the design.
@@ -107,6 +111,11 @@ pub enum Order {
 pub struct StudyError(pub Vec<Problem>);
 
 impl Study {
+    /// Whether all responses come from elsewhere, so that runs need not be made.
+    pub fn is_imported(&self) -> bool {
+        !self.responses.is_empty() && self.responses.iter().all(Response::is_imported)
+    }
+
     /// Reads the study at `path`. Whether the scenes of its runs can be built is seen when they are planned.
     ///
     /// # Errors

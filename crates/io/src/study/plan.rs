@@ -139,7 +139,9 @@ impl Plan {
     /// # Errors
     /// [`SceneError`] as [`scene::load`].
     pub fn scene(&self, run: &Run) -> Result<Scene, SceneError> {
-        scene::load(Path::new(&self.study.base), &run.sets)
+        // Without a base there is no scene; the message of the empty path says so.
+        let base = self.study.base.as_deref().unwrap_or(Path::new(""));
+        scene::load(base, &run.sets)
     }
 }
 

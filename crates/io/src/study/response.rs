@@ -1,6 +1,10 @@
 //! Responses: one number that a run gives for each question of a study.
 
+use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
+use plateau_core::observe::{EXTRAS, quantities};
+
+use plateau_study::effects::Transform;
 
 use super::record::{EVENT, REVOLUTIONS, Series};
 
@@ -13,6 +17,8 @@ pub struct Response {
     pub series: String,
     /// What of it.
     pub question: Question,
+    /// What is done to the answers before a model is fitted to them, if anything.
+    pub transform: Option<Transform>,
 }
 
 /// What is asked of a series.
@@ -28,6 +34,8 @@ pub enum Question {
     MeanOfLastTenth,
     /// The value of an event.
     Event(WhichEvent),
+    /// Nothing: the answers come from elsewhere, by `plateau sweep import`, in this SI unit.
+    Imported(&'static str),
     /// The time, s, at which the series first comes to this fraction of its last value; from above, to the last value over
     /// the fraction.
     Reaches(f64),
@@ -65,7 +73,7 @@ impl Response {
                 mean(time, values, from, to)
             }
             Question::Reaches(fraction) => reaches(time, values, fraction),
-            Question::Event(_) => None,
+            Question::Event(_) | Question::Imported(_) => None,
         }
     }
 
@@ -104,8 +112,27 @@ impl Response {
 
     /// SI unit of the answer, given that of the series.
     pub fn unit<'a>(&self, of_series: &'a str) -> &'a str {
-        if matches!(self.question, Question::Reaches(_)) { "s" } else { of_series }
+        match self.question {
+            Question::Reaches(_) => "s",
+            Question::Imported(unit) => unit,
+            _ => of_series,
+        }
     }
+
+    /// Whether its answers come from elsewhere, not from the series of runs.
+    pub fn is_imported(&self) -> bool {
+        matches!(self.question, Question::Imported(_))
+    }
+}
+
+/// The SI units that responses have, each once: those of series and events, and `N`.
+pub fn units() -> Vec<&'static str> {
+    let series = quantities(EXTRAS).map(|quantity| quantity.unit);
+    let mut units: Vec<&str> =
+        series.chain(EVENT_QUANTITIES.iter().map(|quantity| quantity.unit)).chain(["N"]).collect();
+    units.sort_unstable();
+    units.dedup();
+    units
 }
 
 /// Simulated revolutions at the samples; nothing where the run was recorded without them.
@@ -172,7 +199,7 @@ mod tests {
     fn ask(question: Question, values: &[f64]) -> Option<f64> {
         let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
         let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]);
-        Response { name: "r".into(), series: "pool".into(), question }.of(&run)
+        Response { name: "r".into(), series: "pool".into(), question, transform: None }.of(&run)
     }
 
     #[test]
@@ -200,7 +227,7 @@ mod tests {
         let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
         let ask = |which| {
             let question = Question::Event(which);
-            Response { name: "w".into(), series: "event/worn".into(), question }.of(&run)
+            Response { name: "w".into(), series: "event/worn".into(), question, transform: None }.of(&run)
         };
         assert_eq!(ask(WhichEvent::Number(1)), Some(3.0));
         assert_eq!([ask(WhichEvent::Number(2)), ask(WhichEvent::Number(4)), ask(WhichEvent::Number(0))], [None; 3]);
@@ -213,7 +240,7 @@ mod tests {
         let run = Series::new(columns, vec![vec![1.0, 2.0], vec![7.0, 7.0], vec![3.0, 8.0]]);
         let mean = |from, to| {
             let question = Question::Mean(from, to);
-            Response { name: "a".into(), series: "contact_area".into(), question }.of(&run)
+            Response { name: "a".into(), series: "contact_area".into(), question, transform: None }.of(&run)
         };
         assert_eq!([mean(0.0, 2.0), mean(1.0, 2.0)], [Some(4.0), Some(5.0)]);
     }
@@ -231,7 +258,8 @@ mod tests {
             let known =
                 names.into_iter().zip(columns).filter_map(|(name, column)| Some((name.into(), column?.clone())));
             let (names, columns) = known.unzip();
-            let response = Response { name: "r".into(), series: series.into(), question: Question::MeanOfLastTenth };
+            let question = Question::MeanOfLastTenth;
+            let response = Response { name: "r".into(), series: series.into(), question, transform: None };
             let run = Series::new(names, columns);
             (response.of(&run), response.error_of(&run).is_some())
         };

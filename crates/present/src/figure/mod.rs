@@ -17,7 +17,7 @@
 //! | labels beside points | [`labels`] |
 //! | lines of equal value | [`contour`] |
 //! | the figures of runs | [`run`] |
-//! | the figures of studies | [`effects`] |
+//! | the figures of studies | [`effects`], [`optimum`] |
 //! | error against run time | [`accuracy`] |
 //! | what a fit to an experiment tells of the keys | [`fit`] |
 //! | parts of a response's variation | [`sensitivity`] |
@@ -35,6 +35,7 @@ mod font;
 mod format;
 mod histogram;
 mod labels;
+pub mod optimum;
 mod page;
 mod picture;
 mod raster;

@@ -130,6 +130,11 @@ impl Unit {
         found.map_or_else(|| ladder.usual.clone(), |(_, unit)| unit.clone())
     }
 
+    /// All units in which a quantity of this SI unit is read.
+    pub fn known(si: &str) -> Vec<Self> {
+        ladder(si).map_or_else(Vec::new, |ladder| ladder.units.iter().map(|(_, unit)| unit.clone()).collect())
+    }
+
     /// The unit for numbers of any size.
     pub fn usual(si: &str) -> Self {
         ladder(si).map_or_else(|| Self::itself(si), |ladder| ladder.usual.clone())

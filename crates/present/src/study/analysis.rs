@@ -5,15 +5,22 @@ use std::collections::BTreeSet;
 use plateau_io::study::Study;
 use plateau_io::study::collected::{Collected, unit_of};
 use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::study::plan::Plan;
 use plateau_study::design::Setting;
-use plateau_study::effects::{self, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, analyse};
+use plateau_study::effects::{
+    self, BoxCox, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, Selection, analyse, select,
+};
 
+use super::fit_scale::FitScale;
 use super::model::Choice;
 use super::reading::Reading;
 
 /// Values of a table of one's own up to which a factor has levels; with more it has a range, and where its values mostly
 /// come once.
 const MOST_LEVELS: usize = 10;
+
+/// What stands before the name of a factor whose logarithm is analysed.
+pub const LOGARITHM: &str = "log₁₀ ";
 
 /// A study's factors as the analysis sees them, and what became of every response.
 #[derive(Debug)]
@@ -25,6 +32,8 @@ pub struct Analysis {
     /// Settings of the runs that were analysed, of all factors in their order, and the values of all responses (NaN where
     /// there is none): for plots of single runs.
     pub runs: Vec<(Vec<Setting>, Vec<f64>)>,
+    /// Which one, from 1, each of the runs is in the order in which they are made.
+    pub order: Vec<usize>,
 }
 
 /// A factor.
@@ -45,17 +54,62 @@ pub struct AnalysedResponse {
     pub name: String,
     /// Its SI unit.
     pub unit: &'static str,
+    /// On which scale a model is fitted to it.
+    pub scale: FitScale,
     /// What is fitted to it.
     pub choice: Choice,
-    /// What the factors do to it.
+    /// What the factors do to it, on that scale.
     pub effects: Result<Effects, EffectsError>,
     /// What the model misses.
     pub misfit: Option<Misfit>,
+    /// The power of the response that the model fits best.
+    pub box_cox: Option<BoxCox>,
+    /// The choice among the terms of the model; none where all are kept.
+    pub selected: Option<Selected>,
+}
+
+impl AnalysedResponse {
+    /// What is fitted: its name, or `log(contact area, mm²)`.
+    pub fn title(&self) -> String {
+        self.scale.title(&self.name)
+    }
+
+    /// SI unit of what is fitted.
+    pub fn unit_of_fit(&self) -> &'static str {
+        self.scale.unit_of_fit(self.unit)
+    }
+}
+
+/// A choice among the terms of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selected {
+    /// Terms that were left out.
+    pub left_out: Vec<String>,
+    /// The criterion of those that were kept.
+    pub aicc: f64,
+    /// That of all; none where so many leave nothing for an error.
+    pub aicc_of_all: Option<f64>,
+}
+
+/// How responses are to be analysed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// The model; one that the design allows unless given.
+    pub model: Option<Model>,
+    /// Whether terms that the runs do not support are left out.
+    pub by_aicc: bool,
+    /// Confidence level of intervals.
+    pub confidence: f64,
 }
 
 impl Analysis {
     /// Analyses every response of a study, with the model that is asked for or one that the design allows.
     pub fn new(study: &Study, collected: &Collected, asked: Option<Model>, confidence: f64) -> Self {
+        Self::of(study, collected, Asked { model: asked, by_aicc: false, confidence })
+    }
+
+    /// Analyses every response of a study as it is asked for.
+    pub fn of(study: &Study, collected: &Collected, asked: Asked) -> Self {
         let different = collected.runs.iter().enumerate().filter(|(place, run)| run.first == *place);
         let points = different.map(|(_, run)| run.run.point).collect::<BTreeSet<_>>().len();
         let factors: Vec<AnalysedFactor> = study
@@ -73,28 +127,67 @@ impl Analysis {
                 levels.map(|((factor, analysed), level)| setting(factor, analysed, level)).collect()
             })
             .collect();
-        let of_response = |at: usize| {
-            let runs = collected.runs.iter().zip(&settings);
-            let observation = |(run, settings): (&plateau_io::study::collected::CollectedRun, &Vec<Setting>)| {
-                let (replicate, response) = (run.run.replicate, run.responses[at]);
-                Observation { settings: settings.clone(), replicate, run: run.first, response }
-            };
-            let observations: Vec<Observation> = runs.map(observation).collect();
-            let options = Options { confidence, ..Options::default() };
-            let choice = Choice::new(asked, study, &plain, &observations, options.blocks);
-            let options = Options { model: choice.model, ..options };
-            (choice, analyse(&plain, &observations, &options))
-        };
-        let responses = study.responses.iter().enumerate().map(|(at, response)| {
-            let (choice, effects) = of_response(at);
-            let unit = response.unit(unit_of(&response.series));
-            let misfit = effects.as_ref().ok().and_then(Effects::misfit);
-            AnalysedResponse { name: response.name.clone(), unit, choice, effects, misfit }
-        });
+        let responses =
+            (0..study.responses.len()).map(|at| analyse_one(study, collected, &plain, &settings, at, asked));
         let responses = responses.collect();
-        let runs = settings.into_iter().zip(collected.runs.iter().map(|run| run.responses.clone())).collect();
-        Self { factors, responses, runs }
+        let runs: Vec<_> = settings.into_iter().zip(collected.runs.iter().map(|run| run.responses.clone())).collect();
+        let order = (1..=runs.len()).collect();
+        Self { factors, responses, runs, order }
     }
+
+    /// The same with the order in which a plan makes its runs.
+    #[must_use]
+    pub fn in_order_of(mut self, plan: &Plan) -> Self {
+        for (place, number) in plan.order().enumerate() {
+            if let Some(own) = self.order.get_mut(number - 1) {
+                *own = place + 1;
+            }
+        }
+        self
+    }
+}
+
+/// The analysis of a response, by its place in the study.
+fn analyse_one(
+    study: &Study,
+    collected: &Collected,
+    factors: &[effects::Factor],
+    settings: &[Vec<Setting>],
+    at: usize,
+    asked: Asked,
+) -> AnalysedResponse {
+    let response = &study.responses[at];
+    let unit = response.unit(unit_of(&response.series));
+    let finite = collected.runs.iter().map(|run| run.responses[at].abs()).filter(|value| value.is_finite());
+    let scale = FitScale::new(response.transform, unit, finite.fold(0.0, f64::max));
+    let (mut observations, mut beyond) = (Vec::new(), None);
+    for (place, (run, settings)) in collected.runs.iter().zip(settings).enumerate() {
+        let value = scale.scale.of(run.responses[at]);
+        if value.is_none() && beyond.is_none() {
+            beyond = Some(scale.beyond(run.run.number, run.responses[at]));
+        }
+        // What was measured elsewhere was measured for each run by itself.
+        let own = if response.is_imported() { place } else { run.first };
+        let (replicate, settings) = (run.run.replicate, settings.clone());
+        observations.push(Observation { settings, replicate, run: own, response: value.unwrap_or(f64::NAN) });
+    }
+    let options = Options { confidence: asked.confidence, ..Options::default() };
+    let choice = Choice::new(asked.model, study, factors, &observations, options.blocks);
+    let options = Options { model: choice.model, ..options };
+    let mut selected = None;
+    let effects = match beyond {
+        Some(error) => Err(error),
+        None if asked.by_aicc => select(factors, &observations, &options).map(|selection| {
+            let Selection { effects, left_out, aicc, aicc_of_all } = selection;
+            selected = Some(Selected { left_out, aicc, aicc_of_all });
+            effects
+        }),
+        None => analyse(factors, &observations, &options),
+    };
+    // Terms were left out because the runs do not support them: it would be no news that they explain something.
+    let misfit = effects.as_ref().ok().filter(|_| selected.is_none()).and_then(Effects::misfit);
+    let box_cox = effects.as_ref().ok().and_then(|effects| effects.box_cox(response.transform));
+    AnalysedResponse { name: response.name.clone(), unit, scale, choice, effects, misfit, box_cox, selected }
 }
 
 /// The different levels that a factor has in the runs, in the order in which they appear.
@@ -128,7 +221,7 @@ fn analysed(factor: &Factor, found: &[Level], points: usize) -> AnalysedFactor {
         Values::Range { low, high, logarithmic } => {
             let (low, high) = (low.number.unwrap_or(-1.0), high.number.unwrap_or(1.0));
             if *logarithmic {
-                return range(format!("log₁₀ {}", factor.name), libm::log10(low), libm::log10(high));
+                return range(format!("{LOGARITHM}{}", factor.name), libm::log10(low), libm::log10(high));
             }
             return range(factor.name.clone(), low, high);
         }
@@ -153,7 +246,7 @@ fn analysed(factor: &Factor, found: &[Level], points: usize) -> AnalysedFactor {
 }
 
 /// Where a level lies along a factor.
-fn setting(factor: &Factor, analysed: &AnalysedFactor, level: &Level) -> Setting {
+pub(super) fn setting(factor: &Factor, analysed: &AnalysedFactor, level: &Level) -> Setting {
     match analysed.factor.kind {
         FactorKind::Range { low, high } => {
             let coded = factor.coded(level);

@@ -1,19 +1,42 @@
 //! What is said of a study: how well a model fits, what cannot be told apart, what repeats.
 
 use plateau_io::study::plan::Plan;
-use plateau_study::effects::Effects;
+use plateau_study::effects::{Advice, Effects};
 
 use plateau_io::number;
 
-/// How well the model fits, in a line; `shown` makes a text of a value in the response's unit.
+use super::analysis::{AnalysedResponse, Selected};
+
+/// How well the model fits, in a line: shares that it explains, and whether it misses something.
+pub fn fit(effects: &Effects) -> String {
+    let shares = [("adjusted R²", effects.adjusted_r_squared), ("predicted R²", effects.predicted_r_squared)];
+    let shares = shares.into_iter().filter_map(|(name, share)| Some(format!("{name} {:.4}", share?)));
+    let mut parts = vec![format!("R² {:.4}", effects.r_squared)];
+    parts.extend(shares);
+    parts.push(match effects.residual.parts {
+        None => "lack of fit not tested: no point has replicates".to_owned(),
+        Some(parts) => match parts.test {
+            Some(test) => format!("lack of fit p {}", probability(test.p)),
+            None => "lack of fit not tested: nothing is left for it".to_owned(),
+        },
+    });
+    parts.join(", ")
+}
+
+fn probability(p: f64) -> String {
+    if p < LEAST_PROBABILITY { format!("< {LEAST_PROBABILITY}") } else { format!("= {}", number::significant(p, 2)) }
+}
+
+/// Probabilities below this are said to be less.
+const LEAST_PROBABILITY: f64 = 1e-4;
+
+/// What the fit was made of and how large its error is, in a line; `shown` makes a text of a value in the response's unit.
 pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
     let missing = if effects.missing > 0 { format!(", {} without a response", effects.missing) } else { String::new() };
     let mut parts = vec![
         format!("{}{missing}", number::count(effects.observations, "run")),
         format!("mean {}", shown(effects.mean)),
-        format!("R² {:.4}", effects.r_squared),
     ];
-    parts.extend(effects.predicted_r_squared.map(|share| format!("predicted R² {share:.4}")));
     parts.extend(
         effects
             .residual_standard_deviation
@@ -27,6 +50,27 @@ pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
         format!("margin of error {margin}, simultaneous {simultaneous} (Lenth)")
     }));
     parts.join(", ")
+}
+
+/// Which power of the response fits best, and what to try; none where the one that was fitted does.
+pub fn box_cox(response: &AnalysedResponse) -> Option<String> {
+    let found = response.box_cox?;
+    let advice = found.advice(response.scale.transform())?;
+    let [low, high] = found.interval.map(|end| number::rounded(end, 2));
+    let advice = match advice {
+        Advice::Try(transform) => format!("try transform = \"{}\"", transform.name()),
+        Advice::NoTransform => "try it without transform".to_owned(),
+        Advice::OtherPower => "none of the transforms is this power".to_owned(),
+    };
+    Some(format!("Box-Cox: lambda = {} ({low} to {high}): {advice}", number::rounded(found.power, 2)))
+}
+
+/// Which terms were left out, and why; none where all are kept.
+pub fn selected(response: &AnalysedResponse) -> Option<String> {
+    let Selected { left_out, aicc, aicc_of_all } = response.selected.as_ref()?;
+    let all = aicc_of_all.map_or_else(String::new, |all| format!(" instead of {} with all", number::rounded(all, 5)));
+    let left_out = if left_out.is_empty() { "none".to_owned() } else { left_out.join(", ") };
+    Some(format!("terms left out: {left_out}; AICc {}{all}", number::rounded(*aicc, 5)))
 }
 
 /// Sets of effects that are listed.

@@ -7,11 +7,11 @@ use super::error::EffectsError;
 use super::factor::Factor;
 use super::fit::Fit;
 use super::lenth::Lenth;
-use super::model::Model;
+use super::model::{Model, Parts};
 use super::observation::{Observation, Usable};
 use super::regressors::Regressors;
-use super::residual::{Residuals, error_source};
-use super::result::{Effects, Fitted, Inner, Squares, Term};
+use super::residual::{Residuals, error_source, left_out};
+use super::result::{Effects, Fitted, Inner, LeftOut, Squares, Term};
 use super::terms::{Judge, terms};
 
 /// Residuals below this, relative to the largest response, are rounding.
@@ -46,13 +46,24 @@ impl Default for Options {
 /// If there is no response or it is the same everywhere, a factor has less than two levels or no range, settings do not
 /// fit the factors, or the model has too many coefficients.
 pub fn analyse(factors: &[Factor], observations: &[Observation], options: &Options) -> Result<Effects, EffectsError> {
+    analyse_terms(factors, observations, options, None)
+}
+
+/// The same with some of the terms of the model.
+pub(super) fn analyse_terms(
+    factors: &[Factor],
+    observations: &[Observation],
+    options: &Options,
+    kept: Option<&[Parts]>,
+) -> Result<Effects, EffectsError> {
     let Options { model, blocks, confidence } = *options;
     if !(confidence > 0.0 && confidence < 1.0) {
         return Err(EffectsError::Confidence(confidence));
     }
     factors.iter().try_for_each(Factor::check)?;
     let usable = Usable::new(factors, observations)?;
-    let regressors = Regressors::new(factors, &usable, model, blocks)?;
+    let mut regressors = Regressors::new(factors, &usable, model, blocks)?;
+    let is_chosen = kept.is_some_and(|kept| regressors.keep(kept));
     let matrix = regressors.matrix(&usable)?;
     let count = usable.responses.len();
     let largest = usable.responses.iter().fold(0.0_f64, |largest, response| largest.max(response.abs()));
@@ -74,7 +85,10 @@ pub fn analyse(factors: &[Factor], observations: &[Observation], options: &Optio
     let adjusted = residual.squares.mean().zip(total.mean()).map(|(residual, total)| 1.0 - residual / total);
     let judge = Judge { total: total.sum, error: variance.map(|_| residual.squares), quantile };
     let (blocks, terms) = terms(&regressors, &fit, &judge);
-    let error = error_source(&residual, exact, &regressors, &usable, model);
+    let error = match is_chosen {
+        true => error_source(&residual, exact, LeftOut::Other),
+        false => error_source(&residual, exact, left_out(&regressors, &usable, model)),
+    };
     let lenth = if deviation.is_none() { Lenth::new(&effects_of(&terms), confidence) } else { None };
     if exact {
         fit.residuals.fill(0.0);

@@ -33,7 +33,7 @@ pub(super) fn t_tails(value: f64, freedom: f64) -> f64 {
 }
 
 /// The value that t is beyond with the given probability, in both directions together.
-pub(super) fn t_quantile(both_tails: f64, freedom: f64) -> f64 {
+pub(crate) fn t_quantile(both_tails: f64, freedom: f64) -> f64 {
     let Ok(distribution) = StudentsT::new(0.0, 1.0, freedom) else { return f64::NAN };
     let mut quantile = -distribution.inverse_cdf(0.5 * both_tails);
     // With many degrees of freedom that has five digits only: two steps of Newton's rule give the others.
@@ -63,6 +63,11 @@ pub(super) fn f_quantile(tail: f64, numerator: f64, denominator: f64) -> f64 {
 /// The value that half-normal deviates lie below with the given probability.
 pub(super) fn half_normal_quantile(probability: f64) -> f64 {
     Normal::standard().inverse_cdf(0.5 + 0.5 * probability)
+}
+
+/// Where so many normal deviates of unit standard deviation are expected, from the least: the quantiles of (i − ½)/m.
+pub fn normal_quantiles(count: usize) -> Vec<f64> {
+    (0..count).map(|index| Normal::standard().inverse_cdf((index as f64 + 0.5) / count as f64)).collect()
 }
 
 #[cfg(test)]

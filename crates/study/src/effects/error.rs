@@ -27,6 +27,21 @@ pub enum EffectsError {
         /// The response.
         value: f64,
     },
+    /// A response that its transform is not for.
+    #[error(
+        "run {run} has the response {value}, and transform = \"{transform}\" takes values {domain}: leave the transform out, \
+         or ask for another response"
+    )]
+    Domain {
+        /// Number of the run.
+        run: usize,
+        /// The response, with its unit.
+        value: String,
+        /// What the study calls the transform.
+        transform: &'static str,
+        /// What it takes.
+        domain: &'static str,
+    },
     /// A factor that is none.
     #[error("factor `{factor}`: {problem}")]
     Factor {

@@ -34,10 +34,13 @@
 //! ```
 
 mod analysis;
+mod box_cox;
 mod distribution;
+mod equation;
 mod error;
 mod factor;
 mod fit;
+mod held_out;
 mod lenth;
 mod means;
 mod misfit;
@@ -50,9 +53,16 @@ mod regressors;
 mod residual;
 mod response_surface;
 mod result;
+mod selection;
+mod spread;
 mod terms;
+mod transform;
 
 pub use analysis::{Options, analyse};
+pub use box_cox::{Advice, BoxCox};
+pub use distribution::normal_quantiles;
+pub(crate) use distribution::t_quantile;
+pub use equation::{Equation, EquationTerm, Variable};
 pub use error::EffectsError;
 pub use factor::{Factor, FactorKind};
 pub use lenth::{Lenth, half_normal_quantiles};
@@ -66,3 +76,6 @@ pub use result::{
     Effects, ErrorSource, Estimate, Fitted, HalfNormal, LeftOut, Prediction, Residual, ResidualParts, Squares, Term,
     Test, Uncertainty,
 };
+pub use selection::{Selection, select};
+pub(crate) use spread::Variance;
+pub use transform::Transform;

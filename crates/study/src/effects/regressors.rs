@@ -43,7 +43,7 @@ impl Coding {
     }
 
     /// The contrasts of a level; none if it was not observed.
-    fn contrasts(levels: &[usize], level: usize) -> Option<Vec<f64>> {
+    pub fn contrasts(levels: &[usize], level: usize) -> Option<Vec<f64>> {
         let position = levels.iter().position(|other| *other == level)?;
         let contrast = |own: usize| match position {
             0 => -1.0,
@@ -77,6 +77,18 @@ impl Regressors {
         let count = count(&usable.blocks);
         let blocks = (blocks && count > 1).then(|| Coding::Classes((0..count).collect()));
         Ok(Self { factors: factors.to_vec(), codings, blocks, terms })
+    }
+
+    /// Keeps these terms; whether others were there.
+    pub fn keep(&mut self, kept: &[Parts]) -> bool {
+        let before = self.terms.len();
+        self.terms.retain(|term| kept.contains(term));
+        self.terms.len() < before
+    }
+
+    /// How the settings of each factor become numbers.
+    pub fn codings(&self) -> &[Coding] {
+        &self.codings
     }
 
     /// Whether there are blocks.
@@ -128,6 +140,10 @@ impl Regressors {
             (Coding::Number, _) => {
                 self.factors[factor].coded(self.factors[factor].canonical(setting)?).map(|x| vec![x])
             }
+            // Between two levels that are numbers the model is straight.
+            (Coding::Classes(levels), Setting::Coded(coded)) if levels.len() == 2 && self.is_between(factor, coded) => {
+                Some(vec![coded])
+            }
             (Coding::Classes(levels), _) => {
                 let canonical = self.factors[factor].canonical(setting)?;
                 Coding::contrasts(levels, key(canonical) as usize)
@@ -137,6 +153,12 @@ impl Regressors {
             factor: self.factors[factor].name.clone(),
             problem: "has no observation at this level".to_owned(),
         })
+    }
+
+    /// Whether a coded value is none of the two levels of a number.
+    fn is_between(&self, factor: usize, coded: f64) -> bool {
+        let has_two = matches!(&self.factors[factor].kind, FactorKind::Levels(values) if values.len() == 2);
+        has_two && coded.is_finite() && coded.abs() != 1.0
     }
 
     /// The numbers of all factors, or 1 for numeric factors if their values do not matter.

@@ -55,28 +55,26 @@ pub(super) fn test(squares: Squares, error: Squares) -> Option<Test> {
     Some(Test { f, p: f_tail(f, squares.freedom as f64, error.freedom as f64) })
 }
 
-/// What tells the error.
-pub(super) fn error_source(
-    residual: &Residual,
-    exact: bool,
-    regressors: &Regressors,
-    usable: &Usable,
-    model: Model,
-) -> ErrorSource {
+/// What tells the error, where the model leaves this out.
+pub(super) fn error_source(residual: &Residual, exact: bool, left_out: LeftOut) -> ErrorSource {
     if residual.squares.freedom == 0 {
         return ErrorSource::Saturated;
     }
     if exact {
         return ErrorSource::Exact;
     }
-    let left_out = match model {
-        Model::MainEffects if regressors.leave_interactions_only(usable) => LeftOut::Interactions,
-        Model::Interactions if regressors.leave_interactions_only(usable) => LeftOut::HigherInteractions,
-        _ => LeftOut::Other,
-    };
     match residual.parts {
         None => ErrorSource::Pooled(left_out),
         Some(parts) if parts.lack_of_fit.freedom == 0 => ErrorSource::Replicates,
         Some(_) => ErrorSource::Both(left_out),
+    }
+}
+
+/// What a model with all its terms leaves out.
+pub(super) fn left_out(regressors: &Regressors, usable: &Usable, model: Model) -> LeftOut {
+    match model {
+        Model::MainEffects if regressors.leave_interactions_only(usable) => LeftOut::Interactions,
+        Model::Interactions if regressors.leave_interactions_only(usable) => LeftOut::HigherInteractions,
+        _ => LeftOut::Other,
     }
 }

@@ -5,11 +5,14 @@
 
 mod choice;
 pub mod gaussian_process;
+mod polynomial;
 
 pub use choice::{Choice, choose};
 
 use crate::design::Setting;
 use crate::effects::EffectsError;
+
+pub use polynomial::{PolynomialSurrogate, Scale};
 
 /// What a surrogate expects of a response, in the unit of the response.
 #[derive(Debug, Clone, Copy, PartialEq)]

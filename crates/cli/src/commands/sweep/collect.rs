@@ -2,6 +2,7 @@
 
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::study::collected::{CollectError, Collected, State};
+use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::results_table::table as table_of;
 use plateau_io::{limits, regular};
@@ -46,6 +47,11 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
 /// # Errors
 /// [`Failure::Input`] when a run's scene cannot be built, [`Failure::Run`] when the journal cannot be read.
 pub fn collected(plan: &Plan) -> Result<Collected, Failure> {
+    if plan.study().base.is_none() {
+        // Each run is one of its own, for it was measured by itself.
+        let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
+        return Collected::new(plan, &numbers, &Journal::default()).map_err(failure);
+    }
     let resolved = Resolved::of(plan)?;
     let journal = journal(plan.study())?;
     let collected = Collected::new(plan, &resolved.identities, &journal).map_err(failure)?;
@@ -71,16 +77,20 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
             .map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
     };
     let state = if collected.count("finished") == collected.runs.len() { "complete" } else { "partial" };
-    Ok(vec![
+    let mut attributes = vec![
         ("title", text(&study.title)),
         ("state", text(state)),
         ("program", Attribute::Text(version::program())),
         ("source_revision", text(version::REVISION)),
         ("study", Attribute::Text(read(&study.path)?)),
-        ("base_scene", Attribute::Text(plan.scene(&plan.run(1)).map_err(Failure::input)?.resolved)),
         ("design", text(&study.design)),
         ("collected", Attribute::Text(now())),
-    ])
+    ];
+    if study.base.is_some() {
+        let scene = plan.scene(&plan.run(1)).map_err(Failure::input)?.resolved;
+        attributes.push(("base_scene", Attribute::Text(scene)));
+    }
+    Ok(attributes)
 }
 
 /// What `plateau sweep collect` reports.

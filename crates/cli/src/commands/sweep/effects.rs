@@ -3,58 +3,43 @@
 use std::path::Path;
 
 use plateau_present::figure::Format;
-use plateau_present::study::analysis::{AnalysedResponse, Analysis};
-use plateau_present::study::model::{lack_of_fit, name};
-use plateau_present::study::words::{quality, repeats_in_words};
-use plateau_study::effects::{self, Effects, Term};
-use serde::Serialize;
+use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis, Asked};
+use plateau_present::study::equation::paragraphs;
+use plateau_present::study::model::lack_of_fit;
+use plateau_present::study::words::{box_cox, fit, quality, repeats_in_words, selected};
+use plateau_study::effects::{self, Term};
 
-use super::collect::collected;
+use super::analysed::Analysed;
+use super::effects_document::Document;
 use super::effects_files;
-use crate::arguments::EffectsArguments;
+use crate::arguments::{EffectsArguments, Terms};
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
-use crate::sweep;
 use crate::table::{columns, print, table};
-use crate::{message, number, output};
+use crate::{number, output};
 
 /// Analyses the results.
 pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
-    let plan = sweep::plan(&arguments.study)?;
+    let asked = Asked {
+        model: arguments.model.map(Into::into),
+        by_aicc: arguments.terms == Terms::Aicc,
+        confidence: arguments.confidence,
+    };
+    let Analysed { plan, collected, analysis } = Analysed::of(&arguments.study, asked)?;
     let study = plan.study();
-    if study.responses.is_empty() {
-        return Err(Failure::input(format_args!(
-            "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
-             at = \"end\"",
-            study.path.display()
-        )));
-    }
-    let collected = collected(&plan)?;
-    let left_out = collected.runs.len() - collected.count("finished");
-    if left_out > 0 {
-        message::warning(format_args!(
-            "{} of {} have no results and are left out: {} failed, {} not made yet",
-            left_out,
-            number::count(collected.runs.len(), "run"),
-            collected.count("failed"),
-            collected.count("missing")
-        ));
-    }
-    let analysis = Analysis::new(study, &collected, arguments.model.map(Into::into), arguments.confidence);
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("effects"));
     output::make_directory(&folder)?;
     let csv = folder.join("effects.csv");
     output::write(&csv, rows(&analysis).as_bytes(), true)?;
     let mut files = vec![csv.display().to_string()];
     files.extend(effects_files::write(&folder, &plan, &collected, &analysis)?);
-    let reports: Vec<Report> = analysis.responses.iter().map(Report::new).collect();
     if arguments.json {
-        let report = Document { study: &study.title, repeats: collected.repeats(), responses: reports, files };
+        let report = Document::new(&study.title, collected.repeats(), &analysis, files);
         return print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"));
     }
     let repeats = Some(collected.repeats()).filter(|repeats| *repeats > 0);
     let mut text = repeats.map_or_else(String::new, |repeats| repeats_in_words(repeats, collected.runs.len()) + "\n\n");
-    text.extend(analysis.responses.iter().map(|response| text_of(response) + "\n"));
+    text.extend(analysis.responses.iter().map(|response| text_of(response, &analysis.factors) + "\n"));
     text.push_str(&table(&study.title, &told(&folder, &files)));
     print(&text)
 }
@@ -136,7 +121,7 @@ fn rows(analysis: &Analysis) -> String {
 }
 
 /// What is said of a response.
-fn text_of(response: &AnalysedResponse) -> String {
+fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
     let unit = if response.unit == "1" { String::new() } else { format!(" ({})", response.unit) };
     let heading = format!("{}{unit}", response.name);
     let effects = match &response.effects {
@@ -144,16 +129,28 @@ fn text_of(response: &AnalysedResponse) -> String {
         Err(error) => return format!("{heading}\n  {error}\n"),
     };
     let misfit = response.misfit.as_ref().map(|misfit| lack_of_fit(misfit, effects.r_squared));
-    let notes = [Some(response.choice.words()), misfit].into_iter().flatten();
-    let heading = notes.fold(heading, |heading, note| format!("{heading}\n  {note}"));
+    let transformed = response.scale.transform().map(|_| format!("all results are those of {}", response.title()));
+    let notes = [
+        Some(response.choice.words()),
+        misfit,
+        Some(fit(effects)),
+        Some(quality(effects, number::short)),
+        transformed,
+        selected(response),
+        box_cox(response),
+    ];
+    let heading = notes.into_iter().flatten().fold(heading, |heading, note| format!("{heading}\n  {note}"));
     let names = ["term", "effect", "interval", "share", "F", "p"];
     let mut rows: Vec<&Term> = effects.rows().collect();
     rows.sort_by(|a, b| b.share.total_cmp(&a.share));
     let rows: Vec<Vec<String>> = rows.into_iter().map(cells).collect();
     let mut text = columns(&heading, &names, &rows);
-    text.push_str(&format!("  {}\n", quality(effects, number::short)));
     for term in effects.rows().filter(|term| !term.aliased_with.is_empty()) {
         text.push_str(&format!("  {} cannot be told from {}\n", term.label, term.aliased_with.join(", ")));
+    }
+    for (what, lines) in paragraphs(response, effects, factors) {
+        text.push_str(&format!("  {what}:\n"));
+        text.extend(lines.iter().map(|line| format!("    {line}\n")));
     }
     text
 }
@@ -176,129 +173,4 @@ fn cells(term: &Term) -> Vec<String> {
         test(|test| test.f),
         test(|test| test.p),
     ]
-}
-
-/// What `plateau sweep effects --json` prints.
-#[derive(Debug, Serialize)]
-struct Document<'a> {
-    study: &'a str,
-    /// Runs that repeat another one and count once with it.
-    repeats: usize,
-    responses: Vec<Report>,
-    files: Vec<String>,
-}
-
-/// A response in it.
-#[derive(Debug, Serialize)]
-struct Report {
-    name: String,
-    unit: &'static str,
-    /// Why there are no effects.
-    error: Option<String>,
-    /// As `--model` calls it.
-    model: &'static str,
-    /// Why it is that one.
-    model_reason: String,
-    /// Runs that have a response, each counted once.
-    runs: usize,
-    missing: usize,
-    /// Mean of the responses.
-    mean: f64,
-    /// What the model says where all ranges are in the middle, averaged over levels.
-    middle: f64,
-    r_squared: f64,
-    adjusted_r_squared: Option<f64>,
-    predicted_r_squared: Option<f64>,
-    residual_standard_deviation: Option<f64>,
-    error_from: String,
-    lack_of_fit: Option<MisfitReport>,
-    lenth: Option<LenthReport>,
-    terms: Vec<TermReport>,
-}
-
-/// A lack of fit that is significant.
-#[derive(Debug, Serialize)]
-struct MisfitReport {
-    /// Absent where the other model leaves nothing.
-    f: Option<f64>,
-    p: f64,
-    /// Whether replicates tell it; else the model to try does.
-    by_replicates: bool,
-    model_to_try: Option<&'static str>,
-    /// Of the model to try.
-    r_squared: Option<f64>,
-}
-
-/// What judges effects where there is no error.
-#[derive(Debug, Serialize)]
-struct LenthReport {
-    pseudo_standard_error: f64,
-    margin_of_error: f64,
-    simultaneous_margin_of_error: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct TermReport {
-    label: String,
-    degrees_of_freedom: usize,
-    sum_of_squares: f64,
-    share: f64,
-    f: Option<f64>,
-    p: Option<f64>,
-    effect: Option<f64>,
-    standard_error: Option<f64>,
-    interval: Option<[f64; 2]>,
-    aliased_with: Vec<String>,
-}
-
-impl Report {
-    fn new(response: &AnalysedResponse) -> Self {
-        let effects = response.effects.as_ref().ok();
-        let number = |value: fn(&Effects) -> f64| effects.map_or(f64::NAN, value);
-        let optional = |value: fn(&Effects) -> Option<f64>| effects.and_then(value);
-        let term = |term: &Term| {
-            let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
-            TermReport {
-                label: term.label.clone(),
-                degrees_of_freedom: term.freedom,
-                sum_of_squares: term.sum_of_squares,
-                share: term.share,
-                f: term.test.map(|test| test.f),
-                p: term.test.map(|test| test.p),
-                effect: term.estimate.map(|estimate| estimate.effect),
-                standard_error: uncertainty.map(|uncertainty| uncertainty.standard_error),
-                interval: uncertainty.map(|uncertainty| uncertainty.interval),
-                aliased_with: term.aliased_with.clone(),
-            }
-        };
-        Self {
-            name: response.name.clone(),
-            unit: response.unit,
-            error: response.effects.as_ref().err().map(ToString::to_string),
-            model: name(response.choice.model),
-            model_reason: response.choice.reason.clone(),
-            runs: effects.map_or(0, |effects| effects.observations),
-            missing: effects.map_or(0, |effects| effects.missing),
-            mean: number(|effects| effects.mean),
-            middle: number(|effects| effects.constant.value),
-            r_squared: number(|effects| effects.r_squared),
-            adjusted_r_squared: optional(|effects| effects.adjusted_r_squared),
-            predicted_r_squared: optional(|effects| effects.predicted_r_squared),
-            residual_standard_deviation: optional(|effects| effects.residual_standard_deviation),
-            error_from: effects.map_or_else(String::new, |effects| effects.error.to_string()),
-            lack_of_fit: response.misfit.map(|misfit| MisfitReport {
-                f: Some(misfit.test.f).filter(|f| f.is_finite()),
-                p: misfit.test.p,
-                by_replicates: misfit.by_replicates,
-                model_to_try: misfit.better.map(|better| name(better.model)),
-                r_squared: misfit.better.map(|better| better.r_squared),
-            }),
-            lenth: effects.and_then(|effects| effects.lenth).map(|lenth| LenthReport {
-                pseudo_standard_error: lenth.pseudo_standard_error,
-                margin_of_error: lenth.margin,
-                simultaneous_margin_of_error: lenth.simultaneous_margin,
-            }),
-            terms: effects.map_or_else(Vec::new, |effects| effects.rows().map(term).collect()),
-        }
-    }
 }

@@ -13,9 +13,9 @@ use crate::failure::Failure;
 use crate::{output, version};
 
 /// A figure in the formats of files, and for the page.
-struct Drawn {
-    files: Vec<(Format, Vec<u8>)>,
-    picture: Picture,
+pub struct Drawn {
+    pub files: Vec<(Format, Vec<u8>)>,
+    pub picture: Picture,
 }
 
 /// Writes the figures of all responses and the page with them; their paths.
@@ -47,7 +47,7 @@ pub fn write(folder: &Path, plan: &Plan, collected: &Collected, analysis: &Analy
 }
 
 /// Draws figures, each in a thread of its own: there are as many as a response has, and most of the time is theirs.
-fn draw_all(figures: &[Figure]) -> Result<Vec<Drawn>, Failure> {
+pub fn draw_all(figures: &[Figure]) -> Result<Vec<Drawn>, Failure> {
     std::thread::scope(|scope| {
         let threads: Vec<_> = figures.iter().map(|figure| scope.spawn(|| draw(figure))).collect();
         let drawn = |thread: std::thread::ScopedJoinHandle<'_, Result<Drawn, Failure>>| {

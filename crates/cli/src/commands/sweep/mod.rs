@@ -1,9 +1,15 @@
 //! `plateau sweep`: studies of many runs.
 
+mod analysed;
 mod collect;
 mod effects;
+mod effects_document;
 mod effects_files;
+mod import;
+mod optimize;
 mod plan;
+mod predict;
+mod prediction_table;
 mod run;
 mod sensitivity;
 mod slurm;
@@ -20,5 +26,8 @@ pub fn sweep(command: SweepCommand) -> Result<(), Failure> {
         SweepCommand::Collect(arguments) => collect::collect(&arguments),
         SweepCommand::Effects(arguments) => effects::effects(&arguments),
         SweepCommand::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
+        SweepCommand::Predict(arguments) => predict::predict(&arguments),
+        SweepCommand::Optimize(arguments) => optimize::optimize(&arguments),
+        SweepCommand::Import(arguments) => import::import(&arguments),
     }
 }

@@ -26,10 +26,11 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         output::check(csv, arguments.force, std::slice::from_ref(&arguments.study))?;
     }
     let plan = sweep::plan(&arguments.study)?;
-    let estimate = Estimate::of(&plan)?;
+    let has_scene = plan.study().base.is_some();
+    let estimate = if has_scene { Estimate::of(&plan)? } else { Estimate::NOTHING };
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
     let (mut ended, mut repeats) = (None, None);
-    if plan.runs() <= RESOLVED {
+    if plan.runs() <= RESOLVED && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
         let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
         let entries: Vec<&Entry> = different.filter_map(|place| journal.get(&resolved.identities[place])).collect();
@@ -52,7 +53,8 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
 #[derive(Debug, Serialize)]
 struct Report {
     title: String,
-    base: String,
+    /// Absent where all responses are imported.
+    base: Option<String>,
     design: String,
     factors: Vec<FactorReport>,
     points: usize,
@@ -96,7 +98,7 @@ impl Report {
         let aliases = plan.aliases();
         Self {
             title: study.title.clone(),
-            base: study.base.display().to_string(),
+            base: study.base.as_ref().map(|base| base.display().to_string()),
             design: study.design.clone(),
             factors: study
                 .factors
@@ -129,7 +131,7 @@ impl Report {
         let replicates =
             if self.replicates > 1 { format!(" × {} replicates", self.replicates) } else { String::new() };
         let mut rows = vec![
-            ("base scene", self.base.clone()),
+            ("base scene", self.base.clone().unwrap_or_else(|| "none: all responses are imported".to_owned())),
             ("design", self.design.clone()),
             ("runs", format!("{} points{replicates} = {}", self.points, number::grouped(self.runs as u64))),
         ];
@@ -141,16 +143,18 @@ impl Report {
             let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
             rows.push(("ended before", format!("{finished} finished{failed}")));
         }
-        let [mean, longest] = self.run_time.map(number::duration);
-        rows.push((
-            "memory",
-            format!("{} for {} at a time", number::bytes(self.memory), number::count(self.jobs, "run")),
-        ));
-        rows.push(("time of a run", format!("about {mean}, the longest {longest}")));
-        rows.push((
-            "estimated time",
-            format!("{} for what is left, {} at a time", number::duration(self.estimated_time), self.jobs),
-        ));
+        if self.base.is_some() {
+            let [mean, longest] = self.run_time.map(number::duration);
+            rows.push((
+                "memory",
+                format!("{} for {} at a time", number::bytes(self.memory), number::count(self.jobs, "run")),
+            ));
+            rows.push(("time of a run", format!("about {mean}, the longest {longest}")));
+            rows.push((
+                "estimated time",
+                format!("{} for what is left, {} at a time", number::duration(self.estimated_time), self.jobs),
+            ));
+        }
         rows.push(("results", self.directory.clone()));
         let mut text = table(&self.title, &rows);
         let factors: Vec<(String, String)> = self

@@ -8,7 +8,7 @@ use plateau_study::effects::FactorKind;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::TEXT;
 use crate::figure::font::{shortened, text_width};
-use crate::study::analysis::AnalysedFactor;
+use crate::study::analysis::{AnalysedFactor, LOGARITHM};
 use crate::study::reading::split;
 use plateau_io::number::{self, raised};
 
@@ -72,8 +72,45 @@ impl<'a> FactorAxis<'a> {
 
     /// The value of a coded setting of a number, in the unit of the study.
     pub fn natural(&self, coded: f64) -> f64 {
+        let value = self.analysed(coded);
+        if self.factor.reading.is_logarithmic() { 10_f64.powf(value) } else { value }
+    }
+
+    /// The same as the analysis has it, which may be a logarithm.
+    fn analysed(&self, coded: f64) -> f64 {
         let [low, high] = self.factor.factor.range().unwrap_or([-1.0, 1.0]);
         self.factor.reading.value(0.5 * ((1.0 - coded) * low + (1.0 + coded) * high))
+    }
+
+    /// Where a setting lies on a straight axis of what the analysis has: a logarithm for a range of equal ratios.
+    pub fn straight_place(&self, setting: Setting) -> f64 {
+        match setting {
+            Setting::Coded(coded) => self.analysed(coded),
+            Setting::Level(_) => self.place(setting),
+        }
+    }
+
+    /// A place beside another one, by a part of the axis.
+    pub fn beside(&self, place: f64, part: f64) -> f64 {
+        let range = self.range();
+        let (start, end) = (*range.start(), *range.end());
+        if self.has_equal_ratios() { place * (end / start).powf(part) } else { place + part * (end - start) }
+    }
+
+    fn has_equal_ratios(&self) -> bool {
+        self.is_range() && self.factor.reading.is_logarithmic()
+    }
+
+    /// What the study calls the factor.
+    pub fn plain_name(&self) -> &str {
+        let name = self.factor.factor.name.as_str();
+        if self.has_equal_ratios() { name.strip_prefix(LOGARITHM).unwrap_or(name) } else { name }
+    }
+
+    /// An axis of a range between two values.
+    pub fn between(&self, range: RangeInclusive<f64>, length: f64) -> Axis {
+        let label = shortened(&self.label(), TEXT, length);
+        if self.has_equal_ratios() { Axis::logarithmic(range, label) } else { Axis::linear(range, label) }
     }
 
     /// Where a setting lies on the axis.
@@ -88,8 +125,6 @@ impl<'a> FactorAxis<'a> {
     pub fn name(&self, setting: Setting) -> String {
         match setting {
             Setting::Level(level) => self.names.get(level).map_or_else(String::new, |name| self.with_unit(name)),
-            // A logarithm has no unit.
-            Setting::Coded(coded) if self.factor.reading.is_logarithmic() => number::rounded(self.natural(coded), 4),
             Setting::Coded(coded) => self.with_unit(&number::rounded(self.natural(coded), 3)),
         }
     }
@@ -100,8 +135,8 @@ impl<'a> FactorAxis<'a> {
 
     /// What the axis says: name and unit.
     pub fn label(&self) -> String {
-        let name = &self.factor.factor.name;
-        if self.unit.is_empty() { name.clone() } else { format!("{name}, {}", self.unit) }
+        let name = self.plain_name();
+        if self.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", self.unit) }
     }
 
     /// Settings on the axis: all levels from the left, or so many values from end to end.
@@ -134,10 +169,10 @@ impl<'a> FactorAxis<'a> {
 
     /// The axis where it is so long, pixels.
     pub fn axis(&self, length: f64) -> Axis {
-        let label = shortened(&self.label(), TEXT, length);
         if self.is_range() {
-            return Axis::linear(self.range(), label);
+            return self.between(self.range(), length);
         }
+        let label = shortened(&self.label(), TEXT, length);
         let room = length / self.distances() - 0.5 * BETWEEN;
         let mark = |(name, rank): (&String, &usize)| (*rank as f64, shortened(name, TEXT, room));
         Axis::marked(self.range(), label, self.names.iter().zip(&self.ranks).map(mark).collect())

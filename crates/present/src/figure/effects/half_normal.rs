@@ -68,7 +68,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         x: Axis::linear(x, "half-normal quantile"),
         y: Axis::linear(
             y,
-            shortened(&subject.unit.label(&format!("|effect| on {}", subject.response.name)), TEXT, HEIGHT),
+            shortened(&subject.unit.label(&format!("|effect| on {}", subject.response.title())), TEXT, HEIGHT),
         ),
         contents,
     };

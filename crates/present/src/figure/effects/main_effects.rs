@@ -132,10 +132,11 @@ fn contents(shown: &Shown, axis: &FactorAxis, mean: f64) -> Vec<Content> {
         contents.push(line(shown.points.clone(), DATA, LINE + 2));
         return contents;
     }
-    let cap = CAP * (range.end() - range.start());
     for [x, low, high] in &shown.intervals {
         contents.push(line(vec![[*x, *low], [*x, *high]], DATA, LINE));
-        contents.extend([low, high].map(|end| line(vec![[x - cap, *end], [x + cap, *end]], DATA, LINE)));
+        contents.extend(
+            [low, high].map(|end| line([-CAP, CAP].map(|part| [axis.beside(*x, part), *end]).to_vec(), DATA, LINE)),
+        );
     }
     contents.push(line(shown.points.clone(), DATA, LINE));
     contents.push(Content::Marks { points: shown.points.clone(), colour: DATA, mark: Mark::Dot });

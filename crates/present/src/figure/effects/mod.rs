@@ -7,8 +7,9 @@
 //! | how far effects are beyond their error, sorted | [`pareto`] |
 //! | effects as if they were nothing but error | [`half_normal`] |
 //! | the response over two factors | [`response_surface`] |
+//! | what the model leaves | [`residuals`] |
 //!
-//! What they have in common: a factor as an axis in [`factor_axis`].
+//! What they have in common: a factor as an axis in [`factor_axis`], a map over two factors in [`factor_map`].
 
 use std::ops::RangeInclusive;
 
@@ -21,10 +22,12 @@ use crate::study::analysis::{AnalysedResponse, Analysis};
 use plateau_io::number;
 
 mod factor_axis;
+pub(super) mod factor_map;
 mod half_normal;
 mod interactions;
 mod main_effects;
 mod pareto;
+mod residuals;
 mod response_surface;
 
 pub use factor_axis::FactorAxis;
@@ -52,6 +55,7 @@ pub fn figures(analysis: &Analysis) -> Vec<ResponseFigures> {
             pareto::add(&subject, &mut figures);
             half_normal::add(&subject, &mut figures);
             response_surface::add(&subject, &mut figures);
+            residuals::add(&subject, &mut figures);
         }
         figures
     });
@@ -66,7 +70,7 @@ pub fn axes(analysis: &Analysis) -> Vec<FactorAxis<'_>> {
 
 /// The unit in which a response is shown.
 pub fn unit(response: &AnalysedResponse, effects: &Effects) -> Unit {
-    Unit::readable_with_differences(response.unit, responses(effects).map(f64::abs).fold(0.0, f64::max))
+    Unit::readable_with_differences(response.unit_of_fit(), responses(effects).map(f64::abs).fold(0.0, f64::max))
 }
 
 /// The responses of the runs that have one.
@@ -89,7 +93,7 @@ struct Subject<'a> {
 impl Subject<'_> {
     /// What an axis of the response says.
     fn label(&self) -> String {
-        self.unit.label(&self.response.name)
+        self.unit.label(&self.response.title())
     }
 
     /// The confidence level in per cent.
@@ -101,7 +105,7 @@ impl Subject<'_> {
     fn add(&self, figures: &mut ResponseFigures, figure: &str, title: &str, caption: String, page: Page) {
         figures.figures.push(Figure {
             name: format!("{}-{figure}", self.name),
-            title: format!("{title} {}", self.response.name),
+            title: format!("{title} {}", self.response.title()),
             caption,
             page,
         });
@@ -109,7 +113,7 @@ impl Subject<'_> {
 }
 
 /// A range with a little room round values; any where there are none.
-fn range_of(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {
+pub(super) fn range_of(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {
     let (low, high) = values
         .filter(|value| value.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));

@@ -70,7 +70,8 @@ impl Parallel {
             })
             .collect();
         let values = |(settings, responses): &(Vec<Setting>, Vec<f64>)| {
-            let settings = factors.iter().zip(settings).map(|(axis, setting)| six_digits(axis.place(*setting)));
+            let settings =
+                factors.iter().zip(settings).map(|(axis, setting)| six_digits(axis.straight_place(*setting)));
             let responses = responses.iter().zip(&units).map(|(value, unit)| six_digits(unit.value(*value)));
             settings.chain(responses).collect()
         };
@@ -181,7 +182,7 @@ impl Parallel {
 impl PlotAxis {
     fn of_factor(axis: &FactorAxis) -> Self {
         let settings = axis.settings(2);
-        let places: Vec<f64> = settings.iter().map(|setting| axis.place(*setting)).collect();
+        let places: Vec<f64> = settings.iter().map(|setting| axis.straight_place(*setting)).collect();
         let (low, high) = (places.first().copied().unwrap_or(0.0), places.last().copied().unwrap_or(1.0));
         let level = |setting: &Setting| match setting {
             Setting::Level(level) => axis.names.get(*level).cloned(),

@@ -7,9 +7,10 @@ use crate::figure::effects::{FactorAxis, unit};
 use crate::quantity::Unit;
 use crate::report::html::{self, capital};
 use crate::report::picture::{Picture, Pictures};
-use crate::study::analysis::AnalysedResponse;
+use crate::study::analysis::{AnalysedFactor, AnalysedResponse};
+use crate::study::equation;
 use crate::study::model::lack_of_fit;
-use crate::study::words::quality;
+use crate::study::words::{box_cox, fit, quality, selected};
 use plateau_io::number;
 
 /// Digits of numbers.
@@ -32,9 +33,15 @@ pub fn html(response: &AnalysedResponse, axes: &[FactorAxis], pictures: &Picture
         Err(error) => return format!("<p class=\"notice\">{}</p>\n", html::escape(&capital(&error.to_string()))),
     };
     let unit = unit(response, effects);
-    let caption = format!("Analysis of variance of {}", response.name);
-    let mut text = format!("<p>{}</p>\n", html::escape(&sentence(effects, &unit)));
-    text.push_str(&format!("<p>{}.</p>\n", html::escape(&capital(&response.choice.words()))));
+    let caption = format!("Analysis of variance of {}", response.title());
+    let paragraph = |text: &str| format!("<p>{}.</p>\n", html::escape(&capital(text)));
+    let mut text =
+        paragraph(&fit(effects)) + &paragraph(&quality(effects, |value| unit.with_symbol(&rounded(unit.value(value)))));
+    if response.scale.transform().is_some() {
+        text.push_str(&paragraph(&format!("all results are those of {}", response.title())));
+    }
+    text.push_str(&paragraph(&response.choice.words()));
+    text.extend([selected(response), box_cox(response)].into_iter().flatten().map(|note| paragraph(&note)));
     if let Some(misfit) = &response.misfit {
         let misfit = capital(&lack_of_fit(misfit, effects.r_squared));
         text.push_str(&format!("<p class=\"notice\">{}.</p>\n", html::escape(&misfit)));
@@ -47,15 +54,29 @@ pub fn html(response: &AnalysedResponse, axes: &[FactorAxis], pictures: &Picture
     if !aliased.is_empty() {
         text.push_str(&html::list(&aliased));
     }
+    text.push_str(&equations(response, effects, axes));
     if let Some(stationary) = stationary(effects, axes, &unit) {
         text.push_str(&format!("<p>{}</p>\n", html::escape(&stationary)));
     }
     text + &pictures.pictures.iter().map(figure).collect::<String>()
 }
 
-fn sentence(effects: &Effects, unit: &Unit) -> String {
-    let value = |value: f64| unit.with_symbol(&rounded(unit.value(value)));
-    format!("{}.", capital(&quality(effects, value)))
+/// The fitted model in coded units and in those of the study.
+fn equations(response: &AnalysedResponse, effects: &Effects, axes: &[FactorAxis]) -> String {
+    let factors: Vec<AnalysedFactor> = axes.iter().map(|axis| axis.factor.clone()).collect();
+    let title = response.scale.unit.label(&response.name);
+    equation::paragraphs(response, effects, &factors)
+        .into_iter()
+        .map(|(heading, lines)| {
+            let lines: Vec<String> = lines.iter().map(|line| html::escape(line)).collect();
+            format!(
+                "<p>{} {}:</p>\n<pre>{}</pre>\n",
+                html::escape(&capital(&title)),
+                html::escape(&heading),
+                lines.join("\n")
+            )
+        })
+        .collect()
 }
 
 fn rounded(value: f64) -> String {
@@ -141,7 +162,7 @@ fn stationary(effects: &Effects, axes: &[FactorAxis], unit: &Unit) -> Option<Str
     let place = |(factor, coded): (&usize, &f64)| {
         let axis = &axes[*factor];
         let value = rounded(axis.natural(*coded));
-        format!("{} = {}", axis.factor.factor.name, format!("{value} {}", axis.factor.reading.unit).trim_end())
+        format!("{} = {}", axis.plain_name(), format!("{value} {}", axis.factor.reading.unit).trim_end())
     };
     let places: Vec<String> = surface.factors.iter().zip(&point.coded).map(place).collect();
     let beyond = if point.within_ranges { "" } else { " Some of that is beyond the ranges of the study." };

@@ -20,10 +20,10 @@ pub fn html(of: &StudyPage) -> String {
         states.into_iter().filter(|(_, count)| *count > 0).map(|(state, count)| format!("{count} {state}")).collect();
     let mut facts = vec![
         ("Study", study.path.display().to_string()),
-        ("Base scene", study.base.display().to_string()),
         ("Design", study.design.clone()),
         ("Runs", format!("{runs}: {}", states.join(", "))),
     ];
+    facts.extend(study.base.as_ref().map(|base| ("Base scene", base.display().to_string())));
     if !study.sets.is_empty() {
         facts.push(("Set in all runs", study.sets.join("\n")));
     }

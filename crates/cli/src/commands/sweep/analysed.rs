@@ -1,0 +1,59 @@
+//! A study whose results were collected and analysed: what `effects`, `predict` and `optimize` begin with.
+
+use std::path::Path;
+
+use plateau_io::number;
+use plateau_io::study::collected::Collected;
+use plateau_io::study::plan::Plan;
+use plateau_present::study::analysis::{Analysis, Asked};
+use plateau_study::effects::EffectsError;
+
+use super::collect::collected;
+use crate::failure::Failure;
+use crate::{message, sweep};
+
+/// A study, its results and what they tell.
+#[derive(Debug)]
+pub struct Analysed {
+    pub plan: Plan,
+    pub collected: Collected,
+    pub analysis: Analysis,
+}
+
+impl Analysed {
+    /// Of the study at a path. Runs without results are said.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] when the study is wrong, has no response, or one that its transform is not for; [`Failure::Run`] when
+    /// the results cannot be read.
+    pub fn of(path: &Path, asked: Asked) -> Result<Self, Failure> {
+        let plan = sweep::plan(path)?;
+        let study = plan.study();
+        if study.responses.is_empty() {
+            return Err(Failure::input(format_args!(
+                "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
+                 at = \"end\"",
+                study.path.display()
+            )));
+        }
+        let collected = collected(&plan)?;
+        let left_out = collected.runs.len() - collected.count("finished");
+        if left_out > 0 {
+            message::warning(format_args!(
+                "{} of {} have no results and are left out: {} failed, {} not made yet",
+                left_out,
+                number::count(collected.runs.len(), "run"),
+                collected.count("failed"),
+                collected.count("missing")
+            ));
+        }
+        let analysis = Analysis::of(study, &collected, asked).in_order_of(&plan);
+        for response in &analysis.responses {
+            if let Err(error @ EffectsError::Domain { .. }) = &response.effects {
+                let path = study.path.display();
+                return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
+            }
+        }
+        Ok(Self { plan, collected, analysis })
+    }
+}

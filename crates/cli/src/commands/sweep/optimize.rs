@@ -1,0 +1,261 @@
+//! `plateau sweep optimize`: the settings at which the responses of a study are best.
+
+use std::path::Path;
+
+use plateau_io::number;
+use plateau_present::figure::Format;
+use plateau_present::figure::optimum::{Shown, figures};
+use plateau_present::study::forecasts::heads;
+use plateau_present::study::goals::{self, Aim};
+use plateau_present::study::place::{Place, Space};
+use plateau_study::design::Setting;
+use plateau_study::optimum::{Axis, Goal, Limit, Optimum, Wish, optimum};
+use plateau_study::surrogate::{Forecast, Surrogate};
+use serde::Serialize;
+
+use super::analysed::Analysed;
+use super::effects_files::draw_all;
+use super::predict::{ForecastReport, SettingReport, confirmed_text, forecasts_of, settings_of};
+use crate::arguments::OptimizeArguments;
+use crate::failure::Failure;
+use crate::sweep::confirmation::{Confirmed, confirm};
+use crate::table::{columns, print};
+use crate::{message, output};
+
+/// Looks for the best settings.
+pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
+    let analysed = Analysed::of(&arguments.study, arguments.fit.asked())?;
+    let analysis = &analysed.analysis;
+    let (goals, limits) = wanted(&analysed, arguments)?;
+    let space = Space::new(analysed.plan.study(), analysis);
+    let axes = axes(&analysed, &space, arguments)?;
+    let contour = arguments.contour.as_deref().map(|names| pair(&space, names, &axes)).transpose()?;
+    // A response without a model may be there as long as nothing is wanted of it.
+    let wanted = |response: usize| {
+        goals.iter().any(|goal| goal.response == response) || limits.iter().any(|limit| limit.response == response)
+    };
+    let mut surrogates: Vec<Box<dyn Surrogate + '_>> = Vec::new();
+    let mut places = vec![None; analysis.responses.len()];
+    for (at, response) in analysis.responses.iter().enumerate() {
+        match (response.surrogate(), &response.effects) {
+            (Some(surrogate), _) => {
+                places[at] = Some(surrogates.len());
+                surrogates.push(surrogate);
+            }
+            (None, Err(error)) if wanted(at) => {
+                let path = analysed.plan.study().path.display();
+                return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
+            }
+            _ => {}
+        }
+    }
+    let known: Vec<&dyn Surrogate> = surrogates.iter().map(AsRef::as_ref).collect();
+    let moved = |response: usize| places[response].unwrap_or(0);
+    let own_goals: Vec<Goal> = goals.iter().map(|goal| Goal { response: moved(goal.response), ..*goal }).collect();
+    let own_limits: Vec<Limit> =
+        limits.iter().map(|limit| Limit { response: moved(limit.response), ..*limit }).collect();
+    let best = optimum(&known, &own_goals, &own_limits, &axes, arguments.fit.confidence).map_err(Failure::input)?;
+    if best.overall <= 0.0 || !best.keeps_limits {
+        message::warning(match best.keeps_limits {
+            false => "no settings within the ranges keep all limits; these miss least",
+            true => {
+                "a goal is worth nothing wherever the others are worth something; give wider values, such as NAME=LOW..HIGH"
+            }
+        });
+    }
+    let place = space.of(best.settings.clone()).map_err(Failure::input)?;
+    let forecasts: Vec<Option<Forecast>> =
+        places.iter().map(|place| place.map(|place| best.forecasts[place])).collect();
+    let folder = arguments.output.clone().unwrap_or_else(|| analysed.plan.study().directory.join("optimum"));
+    let shown = Shown {
+        analysis,
+        goals: &goals,
+        limits: &limits,
+        axes: &axes,
+        best: &best.settings,
+        confidence: arguments.fit.confidence,
+    };
+    let files = write(&folder, &shown, contour)?;
+    let confirmed = if arguments.confirm { Some(confirm(&analysed.plan, &place.levels, &forecasts)?) } else { None };
+    if arguments.json {
+        let document = Document {
+            study: &analysed.plan.study().title,
+            confidence: arguments.fit.confidence,
+            settings: settings_of(&analysed, &place),
+            responses: forecasts_of(&analysed, &forecasts),
+            goals: goals
+                .iter()
+                .zip(&best.desirabilities)
+                .map(|(goal, worth)| GoalReport::new(&analysed, goal, *worth))
+                .collect(),
+            desirability: best.overall,
+            keeps_limits: best.keeps_limits,
+            confirmed,
+            files,
+        };
+        return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
+    }
+    let mut text = text_of(&analysed, &place, &forecasts, &goals, &best, arguments.fit.confidence);
+    if let Some(confirmed) = &confirmed {
+        text.push_str(&confirmed_text(&analysed, confirmed));
+    }
+    let count = files.iter().filter(|file| file.ends_with(".png")).count();
+    text.push_str(&format!("written {} as PNG, SVG and PDF in {}\n", number::count(count, "figure"), folder.display()));
+    print(&text)
+}
+
+/// Goals and limits of the command line.
+fn wanted(analysed: &Analysed, arguments: &OptimizeArguments) -> Result<(Vec<Goal>, Vec<Limit>), Failure> {
+    let analysis = &analysed.analysis;
+    let given =
+        [(Aim::Maximize, &arguments.maximize), (Aim::Minimize, &arguments.minimize), (Aim::Target, &arguments.target)];
+    let mut goals: Vec<Goal> = Vec::new();
+    for (aim, text) in given.into_iter().flat_map(|(aim, texts)| texts.iter().map(move |text| (aim, text))) {
+        let (response, wish) = goals::wish(analysis, aim, text).map_err(Failure::input)?;
+        if goals.iter().any(|goal| goal.response == response) {
+            let name = &analysis.responses[response].name;
+            return Err(Failure::input(format_args!(
+                "\"{name}\" has two goals, expected one; a --limit may stand beside it"
+            )));
+        }
+        goals.push(Goal { response, wish, weight: 1.0, importance: 1.0 });
+    }
+    if goals.is_empty() {
+        return Err(Failure::input("no goal: give --maximize, --minimize or --target with a response"));
+    }
+    let powers = [("--importance", &arguments.importance), ("--weight", &arguments.weight)];
+    for (option, text) in powers.into_iter().flat_map(|(option, texts)| texts.iter().map(move |text| (option, text))) {
+        let (response, power) = goals::power(analysis, option, text).map_err(Failure::input)?;
+        let Some(goal) = goals.iter_mut().find(|goal| goal.response == response) else {
+            return Err(Failure::input(format_args!("{option} \"{text}\": this response has no goal")));
+        };
+        if option == "--weight" { goal.weight = power } else { goal.importance = power }
+    }
+    let limits = arguments.limit.iter().map(|text| goals::limit(analysis, text)).collect::<Result<_, _>>();
+    Ok((goals, limits.map_err(Failure::input)?))
+}
+
+/// Where each factor may be.
+fn axes(analysed: &Analysed, space: &Space<'_>, arguments: &OptimizeArguments) -> Result<Vec<Axis>, Failure> {
+    let held = space.named(&arguments.hold).map_err(|error| Failure::input(format_args!("--hold: {error}")))?;
+    if !held.beyond.is_empty() {
+        return Err(Failure::input(format_args!(
+            "--hold: {}; the search stays within the ranges",
+            held.beyond.join(", ")
+        )));
+    }
+    let axis = |(factor, setting): (usize, Setting)| match () {
+        () if !held.assumed.contains(&analysed.plan.study().factors[factor].name) => Axis::Settings(vec![setting]),
+        () if space.is_continuous(factor) => Axis::Range,
+        () => Axis::Settings(space.levels(factor)),
+    };
+    Ok(held.settings.iter().copied().enumerate().map(axis).collect())
+}
+
+/// The two factors of a contour.
+fn pair(space: &Space<'_>, names: &str, axes: &[Axis]) -> Result<[usize; 2], Failure> {
+    let at = |error: String| Failure::input(format_args!("--contour {names}: {error}"));
+    let (one, other) =
+        names.split_once(',').ok_or_else(|| at("expected two factors with a comma between".to_owned()))?;
+    let pair = [space.factor(one.trim()).map_err(at)?, space.factor(other.trim()).map_err(at)?];
+    match pair.iter().all(|factor| axes[*factor] == Axis::Range) && pair[0] != pair[1] {
+        true => Ok(pair),
+        false => Err(at("expected two different factors that are numbers and not held".to_owned())),
+    }
+}
+
+/// Draws the figures; their files.
+fn write(folder: &Path, shown: &Shown<'_>, contour: Option<[usize; 2]>) -> Result<Vec<String>, Failure> {
+    let drawn = draw_all(&figures(shown, contour))?;
+    output::make_directory(folder)?;
+    let mut files = Vec::new();
+    for (name, format, content) in drawn
+        .iter()
+        .flat_map(|drawn| drawn.files.iter().map(move |(format, content)| (&drawn.picture.name, format, content)))
+    {
+        let path = folder.join(format!("{name}.{}", Format::ending(*format)));
+        output::write(&path, content, true)?;
+        files.push(path.display().to_string());
+    }
+    Ok(files)
+}
+
+/// What is said of the optimum.
+fn text_of(
+    analysed: &Analysed,
+    place: &Place,
+    forecasts: &[Option<Forecast>],
+    goals: &[Goal],
+    best: &Optimum,
+    confidence: f64,
+) -> String {
+    let words = Space::new(analysed.plan.study(), &analysed.analysis).words(place);
+    let heading = format!(
+        "{}\n  best at {words}\n  desirability {}",
+        analysed.plan.study().title,
+        number::rounded(best.overall, 3)
+    );
+    let heads = heads(confidence);
+    let names: Vec<&str> = heads.iter().map(String::as_str).chain(["goal", "desirability"]).collect();
+    let line = |(at, forecast): (usize, &Option<Forecast>)| {
+        let response = &analysed.analysis.responses[at];
+        let mut cells = response.cells(forecast.as_ref()?);
+        let goal = goals.iter().zip(&best.desirabilities).find(|(goal, _)| goal.response == at);
+        cells.extend(goal.map_or([String::new(), String::new()], |(goal, worth)| {
+            [goal_words(analysed, goal), number::rounded(*worth, 3)]
+        }));
+        Some(cells)
+    };
+    let rows: Vec<Vec<String>> = forecasts.iter().enumerate().filter_map(line).collect();
+    columns(&heading, &names, &rows)
+}
+
+/// A goal in words.
+fn goal_words(analysed: &Analysed, goal: &Goal) -> String {
+    let response = &analysed.analysis.responses[goal.response];
+    let all = |values: &[f64]| values.iter().map(|value| response.shown(*value)).collect::<Vec<_>>().join(" … ");
+    match goal.wish {
+        Wish::Maximum(ends) => format!("large, {}", all(&ends)),
+        Wish::Minimum(ends) => format!("small, {}", all(&ends)),
+        Wish::Target(values) => format!("near {}, {}", response.shown(values[1]), all(&[values[0], values[2]])),
+    }
+}
+
+/// What `plateau sweep optimize --json` prints. Numbers are in SI units.
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    study: &'a str,
+    confidence: f64,
+    settings: Vec<SettingReport>,
+    responses: Vec<ForecastReport>,
+    goals: Vec<GoalReport>,
+    /// The mean of all goals.
+    desirability: f64,
+    keeps_limits: bool,
+    confirmed: Option<Vec<Option<Confirmed>>>,
+    files: Vec<String>,
+}
+
+/// A goal in it.
+#[derive(Debug, Serialize)]
+struct GoalReport {
+    response: String,
+    aim: &'static str,
+    /// From worth nothing to worth most, or for a target to worth nothing again.
+    values: Vec<f64>,
+    weight: f64,
+    importance: f64,
+    desirability: f64,
+}
+
+impl GoalReport {
+    fn new(analysed: &Analysed, goal: &Goal, desirability: f64) -> Self {
+        let (aim, values) = match goal.wish {
+            Wish::Maximum([low, high]) => ("maximize", vec![low, high]),
+            Wish::Minimum([low, high]) => ("minimize", vec![high, low]),
+            Wish::Target(values) => ("target", values.to_vec()),
+        };
+        let response = analysed.analysis.responses[goal.response].name.clone();
+        Self { response, aim, values, weight: goal.weight, importance: goal.importance, desirability }
+    }
+}

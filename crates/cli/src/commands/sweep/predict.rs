@@ -1,0 +1,244 @@
+//! `plateau sweep predict`: what responses are expected to be where no run was made.
+
+use plateau_io::study::value_table::ValueTable;
+use plateau_present::study::forecasts::heads;
+use plateau_present::study::place::{Place, Space};
+use plateau_study::design::Setting;
+use plateau_study::surrogate::{Forecast, Surrogate};
+use serde::Serialize;
+
+use super::analysed::Analysed;
+use super::prediction_table;
+use crate::arguments::PredictArguments;
+use crate::failure::Failure;
+use crate::output;
+use crate::sweep::confirmation::{Confirmed, confirm};
+use crate::table::{columns, print};
+
+/// Most places of a grid: 200 MB of table.
+const MOST_PLACES: usize = 1_000_000;
+
+/// Predicts the responses of a study.
+pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
+    if let Some(path) = &arguments.output {
+        output::check(path, arguments.force, std::slice::from_ref(&arguments.study))?;
+    }
+    let analysed = Analysed::of(&arguments.study, arguments.fit.asked())?;
+    let places = places(&analysed, arguments)?;
+    let study = analysed.plan.study();
+    if let Some((at, place)) = places.iter().enumerate().find(|(_, place)| !place.beyond.is_empty())
+        && !arguments.extrapolate
+    {
+        let which = if places.len() > 1 { format!("place {}: ", at + 1) } else { String::new() };
+        return Err(Failure::input(format_args!(
+            "{which}{}; the model knows nothing there, give --extrapolate to see what it says nevertheless",
+            place.beyond.join(", ")
+        )));
+    }
+    let surrogates: Vec<_> = analysed.analysis.responses.iter().map(|response| response.surrogate()).collect();
+    let forecast = |place: &Place| -> Result<Vec<Option<Forecast>>, Failure> {
+        let of = |surrogate: &Option<Box<dyn Surrogate + '_>>| {
+            let forecast =
+                surrogate.as_ref().map(|surrogate| surrogate.forecast(&place.settings, arguments.fit.confidence));
+            forecast.transpose().map_err(|error| Failure::input(format_args!("{}: {error}", study.path.display())))
+        };
+        surrogates.iter().map(of).collect()
+    };
+    let forecasts = places.iter().map(forecast).collect::<Result<Vec<_>, Failure>>()?;
+    if let Some(path) = &arguments.output {
+        let table = prediction_table::table(&analysed, &places, &forecasts);
+        output::write(path, table.as_bytes(), arguments.force)?;
+    }
+    let confirmed = match (arguments.confirm, &places[..]) {
+        (true, [place]) => Some(confirm(&analysed.plan, &place.levels, &forecasts[0])?),
+        _ => None,
+    };
+    let reports: Vec<PlaceReport> =
+        places.iter().zip(&forecasts).map(|(place, forecasts)| PlaceReport::new(&analysed, place, forecasts)).collect();
+    if arguments.json {
+        let names = surrogates.iter().map(|surrogate| surrogate.as_ref().map(|surrogate| surrogate.name())).collect();
+        let document = Document {
+            study: &study.title,
+            confidence: arguments.fit.confidence,
+            models: names,
+            places: reports,
+            confirmed,
+        };
+        return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
+    }
+    let mut text = String::new();
+    match (&arguments.output, places.len()) {
+        (Some(path), count) if count > 1 => {
+            let places = plateau_io::number::count(count, "place");
+            text.push_str(&format!("{}\n  predicted at {places}, written {}\n", study.title, path.display()));
+        }
+        _ => {
+            for (place, forecasts) in places.iter().zip(&forecasts) {
+                text.push_str(&text_of(&analysed, place, forecasts, arguments.fit.confidence));
+            }
+        }
+    }
+    if let Some(confirmed) = &confirmed {
+        text.push_str(&confirmed_text(&analysed, confirmed));
+    }
+    print(&text)
+}
+
+/// The places that the command line asks for.
+fn places(analysed: &Analysed, arguments: &PredictArguments) -> Result<Vec<Place>, Failure> {
+    let study = analysed.plan.study();
+    let space = Space::new(study, &analysed.analysis);
+    let at = |error: String| Failure::input(format_args!("--at: {error}"));
+    let given = space.named(&arguments.at).map_err(at)?;
+    if let Some(path) = &arguments.points {
+        let table = ValueTable::read(path).map_err(Failure::input)?;
+        let columns = table.factor_columns(&study.factors).map_err(Failure::input)?;
+        if let Some(unknown) = table.heads().iter().enumerate().find(|(at, _)| !columns.contains(&Some(*at))) {
+            return Err(Failure::input(format_args!(
+                "{}: column \"{}\" is no factor of the study",
+                path.display(),
+                unknown.1
+            )));
+        }
+        let place = |row: &plateau_io::study::value_table::Row| {
+            let levels =
+                study.factors.iter().zip(&columns).zip(&given.levels).map(|((factor, column), held)| match column {
+                    Some(column) => table.level(row, *column, factor).map(Some),
+                    // What --at says, where the table has nothing.
+                    None => Ok((!given.assumed.contains(&factor.name)).then(|| held.clone())),
+                });
+            let levels = levels.collect::<Result<Vec<_>, String>>()?;
+            space.at(levels).map_err(|error| format!("{}:{}: {error}", path.display(), row.line))
+        };
+        return table.rows().iter().map(place).collect::<Result<_, String>>().map_err(Failure::input);
+    }
+    let Some(count) = arguments.grid.map(|count| count as usize) else { return Ok(vec![given]) };
+    let mut all: Vec<Vec<Setting>> = vec![Vec::new()];
+    for (factor, held) in given.settings.iter().enumerate() {
+        let is_given = !given.assumed.contains(&study.factors[factor].name);
+        let last = (count.max(2) - 1) as f64;
+        let settings: Vec<Setting> = match () {
+            () if is_given => vec![*held],
+            () if space.is_continuous(factor) => {
+                (0..count).map(|at| Setting::Coded(-1.0 + 2.0 * at as f64 / last)).collect()
+            }
+            () => space.levels(factor),
+        };
+        if all.len().saturating_mul(settings.len()) > MOST_PLACES {
+            return Err(Failure::input(format_args!(
+                "--grid {count}: more than {MOST_PLACES} places; hold factors with --at"
+            )));
+        }
+        all = all.iter().flat_map(|before| settings.iter().map(|own| [before.as_slice(), &[*own]].concat())).collect();
+    }
+    all.into_iter().map(|settings| space.of(settings)).collect::<Result<_, String>>().map_err(Failure::input)
+}
+
+/// What is said of a place.
+fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], confidence: f64) -> String {
+    let study = analysed.plan.study();
+    let words = Space::new(study, &analysed.analysis).words(place);
+    let mut heading = format!("{}\n  at {words}", study.title);
+    if !place.assumed.is_empty() {
+        heading.push_str("\n  not given: in the middle of the range, or at the first level");
+    }
+    let beyond = place.beyond.join(", ");
+    let heads = heads(confidence);
+    let names: Vec<&str> = heads.iter().map(String::as_str).chain([""]).collect();
+    let line = |(response, forecast): (&plateau_present::study::analysis::AnalysedResponse, &Option<Forecast>)| {
+        let mut cells = match (forecast, &response.effects) {
+            (Some(forecast), _) => response.cells(forecast),
+            (None, Err(error)) => vec![response.head(), format!("– ({error})")],
+            (None, Ok(_)) => vec![response.head(), "–".to_owned()],
+        };
+        cells.resize(heads.len(), String::new());
+        cells.push(beyond.clone());
+        cells
+    };
+    let rows: Vec<Vec<String>> = analysed.analysis.responses.iter().zip(forecasts).map(line).collect();
+    columns(&heading, &names, &rows)
+}
+
+/// What the extra runs gave.
+pub(super) fn confirmed_text(analysed: &Analysed, confirmed: &[Option<Confirmed>]) -> String {
+    let rows = confirmed.iter().enumerate();
+    let rows: Vec<Vec<String>> = rows
+        .filter_map(|(response, confirmed)| Some(confirmed.as_ref()?.cells(&analysed.analysis, response)))
+        .collect();
+    columns("Confirmed by extra runs", &["response", "mean", "runs", ""], &rows)
+}
+
+/// What `plateau sweep predict --json` prints. All numbers are in SI units.
+#[derive(Debug, Serialize)]
+struct Document<'a> {
+    study: &'a str,
+    confidence: f64,
+    models: Vec<Option<String>>,
+    places: Vec<PlaceReport>,
+    confirmed: Option<Vec<Option<Confirmed>>>,
+}
+
+/// A place in it.
+#[derive(Debug, Serialize)]
+struct PlaceReport {
+    settings: Vec<SettingReport>,
+    beyond: Vec<String>,
+    responses: Vec<ForecastReport>,
+}
+
+/// A factor's value.
+#[derive(Debug, Serialize)]
+pub(super) struct SettingReport {
+    pub factor: String,
+    pub value: String,
+    /// SI; absent of words.
+    pub number: Option<f64>,
+    pub given: bool,
+}
+
+/// What is expected of a response.
+#[derive(Debug, Serialize)]
+pub(super) struct ForecastReport {
+    pub name: String,
+    pub unit: &'static str,
+    pub value: Option<f64>,
+    pub mean_interval: Option<[f64; 2]>,
+    pub run_interval: Option<[f64; 2]>,
+    pub error: Option<String>,
+}
+
+/// The settings of a place.
+pub(super) fn settings_of(analysed: &Analysed, place: &Place) -> Vec<SettingReport> {
+    let each = analysed.plan.study().factors.iter().zip(&place.levels);
+    each.map(|(factor, level)| SettingReport {
+        factor: factor.name.clone(),
+        value: level.label.clone(),
+        number: level.number,
+        given: !place.assumed.contains(&factor.name),
+    })
+    .collect()
+}
+
+/// What is expected of each response.
+pub(super) fn forecasts_of(analysed: &Analysed, forecasts: &[Option<Forecast>]) -> Vec<ForecastReport> {
+    let each = analysed.analysis.responses.iter().zip(forecasts);
+    each.map(|(response, forecast)| ForecastReport {
+        name: response.name.clone(),
+        unit: response.unit,
+        value: forecast.map(|forecast| forecast.value),
+        mean_interval: forecast.and_then(|forecast| forecast.mean_interval),
+        run_interval: forecast.and_then(|forecast| forecast.run_interval),
+        error: response.effects.as_ref().err().map(ToString::to_string),
+    })
+    .collect()
+}
+
+impl PlaceReport {
+    fn new(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>]) -> Self {
+        Self {
+            settings: settings_of(analysed, place),
+            beyond: place.beyond.clone(),
+            responses: forecasts_of(analysed, forecasts),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Extra runs at a place where the responses were foretold, with all seeds of the study.
+//!
+//! They have a journal of their own, `confirm` in the folder of the results: the fit is never made of them, so they judge it,
+//! and asking again makes none twice.
+
+use plateau_io::number;
+use plateau_io::study::collected::Collected;
+use plateau_io::study::factor::Level;
+use plateau_io::study::journal::Entry;
+use plateau_io::study::plan::Plan;
+use plateau_io::study::{DesignSource, Order, Study};
+use plateau_present::study::analysis::Analysis;
+use plateau_run::Job;
+use plateau_run::execution::cores;
+use plateau_study::surrogate::Forecast;
+use serde::Serialize;
+
+use super::floor::Floor;
+use super::journal;
+use super::progress::Progress;
+use super::resolved::Resolved;
+use crate::failure::{Failure, in_job};
+use crate::interrupt::Interrupt;
+use crate::message;
+
+/// What the extra runs gave of a response.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Confirmed {
+    /// Runs that have the response.
+    pub runs: usize,
+    /// Mean over them, SI.
+    pub mean: f64,
+    /// Its standard error, from what the runs differ by; none of a single run.
+    pub standard_error: Option<f64>,
+    /// Whether the mean is within the interval that was foretold for a run; none where there is no interval.
+    pub within_run_interval: Option<bool>,
+}
+
+/// Makes the runs that are not there yet, and looks at each response of the study beside what was expected of it.
+///
+/// # Errors
+/// [`Failure::Input`] when a scene cannot be built there, [`Failure::Run`] when no run ends well, [`Failure::Stopped`].
+pub fn confirm(
+    plan: &Plan,
+    levels: &[Level],
+    expected: &[Option<Forecast>],
+) -> Result<Vec<Option<Confirmed>>, Failure> {
+    let study = Study {
+        source: DesignSource::File(vec![levels.to_vec()]),
+        directory: plan.study().directory.join("confirm"),
+        order: Order::Standard,
+        ..plan.study().clone()
+    };
+    let extra = Plan::new(study).map_err(Failure::input)?;
+    let resolved = Resolved::of(&extra)?;
+    in_job(|job| make(&extra, &resolved, job))?;
+    let journal = journal(extra.study())?;
+    let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
+    if collected.count("finished") == 0 {
+        return Err(Failure::run("no run at this place ended well, so nothing is confirmed"));
+    }
+    Ok(expected.iter().enumerate().map(|(response, expected)| Confirmed::of(&collected, response, *expected)).collect())
+}
+
+fn make(plan: &Plan, resolved: &Resolved, job: &mut Job) -> Result<(), Failure> {
+    if job.ranks() > 1 {
+        return Err(Failure::input("confirming runs are made by one process: call this without mpirun"));
+    }
+    let journal = journal(plan.study())?;
+    let is_missing = |place: &usize| {
+        let entry = journal.get(&resolved.identities[*place]);
+        !resolved.is_repeat(*place) && !matches!(entry, Some(Entry { failure: None, .. }))
+    };
+    let pending: Vec<usize> = (0..plan.runs()).filter(is_missing).map(|place| place + 1).collect();
+    if pending.is_empty() {
+        return Ok(());
+    }
+    let interrupt = Interrupt::listen().map_err(Failure::run)?;
+    interrupt.listen_for_save().map_err(Failure::run)?;
+    let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+    let progress = Progress::new(pending.len(), steps, job.leads());
+    let floor = Floor::new(plan, resolved, 1, interrupt, progress);
+    let shared = job.share(&pending, cores(), None, &|number| floor.make(number));
+    let made = floor.end(shared.map_err(Failure::run))?;
+    if let Some(signal) = floor.signal() {
+        let message = format!("stopped by signal {signal}; the same command goes on");
+        return Err(Failure::Stopped { signal, message: Some(message) });
+    }
+    if made.failed > 0 {
+        message::warning(format_args!("{} failed and are left out", number::count(made.failed, "confirming run")));
+    }
+    Ok(())
+}
+
+impl Confirmed {
+    fn of(collected: &Collected, response: usize, expected: Option<Forecast>) -> Option<Self> {
+        let different = collected.runs.iter().enumerate().filter(|(place, run)| run.first == *place);
+        let values = different.filter_map(|(_, run)| run.responses.get(response).copied());
+        let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+        if values.is_empty() {
+            return None;
+        }
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let standard_error = (values.len() > 1).then(|| (squares / (count - 1.0) / count).sqrt());
+        let interval = expected.and_then(|expected| expected.run_interval);
+        let within_run_interval = interval.map(|[low, high]| (low..=high).contains(&mean));
+        Some(Self { runs: values.len(), mean, standard_error, within_run_interval })
+    }
+
+    /// The cells of a line: name, mean with standard error, runs, and what the interval says.
+    pub fn cells(&self, analysis: &Analysis, response: usize) -> Vec<String> {
+        let own = &analysis.responses[response];
+        let error = self.standard_error.map(|error| own.scale.unit.difference(error));
+        let verdict = match self.within_run_interval {
+            Some(true) => "within the interval of runs",
+            Some(false) => "outside the interval of runs",
+            None => "there is no interval",
+        };
+        let mean = number::with_error(own.scale.unit.value(self.mean), error);
+        vec![own.head(), mean, self.runs.to_string(), verdict.to_owned()]
+    }
+}

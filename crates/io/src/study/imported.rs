@@ -1,0 +1,333 @@
+//! Responses that come from elsewhere: which run each line of a table is of, and where its values are kept.
+//!
+//! They are kept in one table, `imported.csv` in the folder of the results, a line for each run that has any: factors in SI
+//! units, the replicate, and the responses. It is replaced as a whole, and the new one is on the disk before it has the name of
+//! the old one. Lines belong to points, not to numbers of runs: levels that are added later move no value.
+
+use std::collections::HashMap;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use super::Study;
+use super::factor::{Factor, Level};
+use super::plan::Plan;
+use super::value_table::{Row, ValueTable};
+use crate::temporary::Temporary;
+
+/// Numbers of a table and of the design are the same if they differ by less than this part of the factor's largest one: tables
+/// are rounded by those who write them.
+const ROUNDED: f64 = 1e-6;
+/// What the column of replicates is called.
+const REPLICATE: &str = "replicate";
+
+/// The values of imported responses, by run (in the order of the design) and response of the study; NaN where there is none.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Imported {
+    values: Vec<Vec<f64>>,
+    /// Lines that are of no point of the design as it is now.
+    pub strange: usize,
+}
+
+/// What a table brought.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Taken {
+    /// Lines of the table.
+    pub lines: usize,
+    /// Names of the responses in it.
+    pub responses: Vec<String>,
+    /// Values that were not there before.
+    pub new: usize,
+    /// Values that were there and have changed.
+    pub changed: usize,
+    /// Runs of the study that have all imported responses now.
+    pub complete: usize,
+}
+
+impl Imported {
+    /// The values of a study, as far as there are any.
+    ///
+    /// # Errors
+    /// What is wrong with the table in the folder of the results.
+    pub fn read(plan: &Plan) -> Result<Self, String> {
+        let responses = plan.study().responses.len();
+        let mut imported = Self { values: vec![vec![f64::NAN; responses]; plan.runs()], strange: 0 };
+        let path = file(plan.study());
+        if !path.exists() {
+            return Ok(imported);
+        }
+        let table = ValueTable::read(&path)?;
+        let columns = Columns::of(&table, plan.study(), true)?;
+        let mut places = Places::new(plan);
+        for row in table.rows() {
+            let key = columns.key(&table, row, plan.study(), &places)?;
+            match key.and_then(|key| places.take(&key)) {
+                Some(run) => columns.put(&table, row, &mut imported.values[run])?,
+                None => imported.strange += 1,
+            }
+        }
+        Ok(imported)
+    }
+
+    /// The value of a run, by its place in the design, and of a response; NaN where there is none.
+    pub fn value(&self, run: usize, response: usize) -> f64 {
+        self.values.get(run).and_then(|values| values.get(response)).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Takes in a table, and keeps the values. Values that are there and differ are replaced if asked to, else refused.
+    ///
+    /// # Errors
+    /// A line that fits no point of the design, a wrong value, a value that is there already, each with its line; or that the
+    /// values cannot be kept.
+    pub fn take_in(plan: &Plan, path: &Path, replace: bool) -> Result<Taken, String> {
+        let study = plan.study();
+        let mut imported = Self::read(plan)?;
+        let table = ValueTable::read(path)?;
+        let columns = Columns::of(&table, study, false)?;
+        let mut places = Places::new(plan);
+        let (mut new, mut changed) = (0, 0);
+        for row in table.rows() {
+            let place = table.place(row);
+            let key = columns.key(&table, row, study, &places)?;
+            let key = key.ok_or_else(|| format!("{place}: {}", columns.misfit(&table, row, study, &places)))?;
+            let run = places.take(&key).ok_or_else(|| {
+                format!(
+                    "{place}: the design has this point {}, and lines before have it as often",
+                    times(places.count(&key))
+                )
+            })?;
+            let mut values = imported.values[run].clone();
+            columns.put(&table, row, &mut values)?;
+            for (before, now) in imported.values[run].iter().zip(&values) {
+                // NaN is not there, so it differs from whatever comes.
+                if before.is_nan() && !now.is_nan() {
+                    new += 1;
+                } else if !before.is_nan() && before != now {
+                    changed += 1;
+                    if !replace {
+                        return Err(format!(
+                            "{place}: {before} was imported before and {now} differs; --force replaces it"
+                        ));
+                    }
+                }
+            }
+            imported.values[run] = values;
+        }
+        imported.write(plan).map_err(|error| format!("cannot write {}: {error}", file(study).display()))?;
+        let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
+        let is_complete = |values: &&Vec<f64>| wanted.iter().all(|at| !values[*at].is_nan());
+        let complete = imported.values.iter().filter(is_complete).count();
+        let responses = columns.responses.iter().map(|(_, response)| study.responses[*response].name.clone()).collect();
+        Ok(Taken { lines: table.rows().len(), responses, new, changed, complete })
+    }
+
+    /// Keeps all values.
+    fn write(&self, plan: &Plan) -> io::Result<()> {
+        let study = plan.study();
+        std::fs::create_dir_all(&study.directory)?;
+        let (temporary, mut file) = Temporary::create(&file(study))?;
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
+        let mut head: Vec<String> = study.factors.iter().map(|factor| with_unit(&factor.name, factor.unit())).collect();
+        head.push(REPLICATE.to_owned());
+        head.extend(wanted.iter().map(|at| with_unit(&study.responses[*at].name, study.responses[*at].unit(""))));
+        writer.write_record(&head)?;
+        for (place, values) in self.values.iter().enumerate() {
+            if wanted.iter().all(|at| values[*at].is_nan()) {
+                continue;
+            }
+            let run = plan.run(place + 1);
+            let cell = |(factor, level): (&Factor, &Level)| {
+                let number = level.number.filter(|_| !["", "1"].contains(&factor.unit()));
+                number.map_or_else(|| level.label.clone(), |number| format!("{number:?}"))
+            };
+            let mut cells: Vec<String> = study.factors.iter().zip(&run.levels).map(cell).collect();
+            cells.push((run.replicate + 1).to_string());
+            cells.extend(
+                wanted.iter().map(|at| if values[*at].is_nan() { String::new() } else { format!("{:?}", values[*at]) }),
+            );
+            writer.write_record(&cells)?;
+        }
+        file.write_all(&writer.into_inner().map_err(|error| io::Error::other(error.to_string()))?)?;
+        file.sync_all()?;
+        temporary.publish_durably()
+    }
+}
+
+/// Where a study keeps them.
+pub fn file(study: &Study) -> PathBuf {
+    study.directory.join("imported.csv")
+}
+
+/// The head of a column.
+fn with_unit(name: &str, unit: &str) -> String {
+    if ["", "1"].contains(&unit) { name.to_owned() } else { format!("{name} [{unit}]") }
+}
+
+fn times(count: usize) -> String {
+    if count == 1 { "once".to_owned() } else { format!("{count} times") }
+}
+
+/// What tells the runs of a study apart: the place of each factor's level among all its levels, and the replicate, if it is
+/// given.
+type Key = (Vec<usize>, Option<usize>);
+
+/// The runs of a study by their points, in the order of the design.
+struct Places {
+    /// Different levels of each factor.
+    levels: Vec<Vec<Level>>,
+    /// Runs of each point, with their replicates, that no line is of so far.
+    free: HashMap<Vec<usize>, Vec<(usize, usize)>>,
+    counts: HashMap<Vec<usize>, usize>,
+}
+
+impl Places {
+    fn new(plan: &Plan) -> Self {
+        let mut places =
+            Self { levels: vec![Vec::new(); plan.study().factors.len()], free: HashMap::new(), counts: HashMap::new() };
+        let mut known: Vec<HashMap<String, usize>> = vec![HashMap::new(); places.levels.len()];
+        for place in 0..plan.runs() {
+            let run = plan.run(place + 1);
+            let mut key = Vec::new();
+            for (factor, level) in run.levels.into_iter().enumerate() {
+                let levels = &mut places.levels[factor];
+                key.push(*known[factor].entry(level.text.clone()).or_insert_with(|| {
+                    levels.push(level);
+                    levels.len() - 1
+                }));
+            }
+            *places.counts.entry(key.clone()).or_insert(0) += 1;
+            places.free.entry(key).or_default().push((place, run.replicate));
+        }
+        places
+    }
+
+    /// The place of a level among those of its factor; none where it has no such level.
+    fn find(&self, factor: usize, level: &Level) -> Option<usize> {
+        let levels = &self.levels[factor];
+        let Some(number) = level.number else { return levels.iter().position(|own| own.label == level.label) };
+        let numbers = || levels.iter().enumerate().filter_map(|(at, own)| Some((at, own.number?)));
+        let largest = numbers().fold(0.0_f64, |largest, (_, own)| largest.max(own.abs()));
+        let distance = |own: f64| (own - number).abs();
+        let nearest = numbers().min_by(|one, other| distance(one.1).total_cmp(&distance(other.1)))?;
+        (distance(nearest.1) <= ROUNDED * largest).then_some(nearest.0)
+    }
+
+    /// The first run of a point that no line is of so far.
+    fn take(&mut self, key: &Key) -> Option<usize> {
+        let free = self.free.get_mut(&key.0)?;
+        let at = free.iter().position(|(_, replicate)| key.1.is_none_or(|wanted| wanted == *replicate))?;
+        Some(free.remove(at).0)
+    }
+
+    fn count(&self, key: &Key) -> usize {
+        self.counts.get(&key.0).copied().unwrap_or(0)
+    }
+}
+
+/// Which columns of a table are which.
+struct Columns {
+    factors: Vec<usize>,
+    replicate: Option<usize>,
+    /// Columns of responses, with their place in the study.
+    responses: Vec<(usize, usize)>,
+}
+
+impl Columns {
+    /// Those of a table; one that is `kept` by the study may have columns of responses that it had before.
+    fn of(table: &ValueTable, study: &Study, kept: bool) -> Result<Self, String> {
+        let at = |what: String| format!("{}: {what}", table.path().display());
+        let heads = || table.heads().join(", ");
+        let factors = table.factor_columns(&study.factors)?;
+        let missing = study.factors.iter().zip(&factors).find(|(_, column)| column.is_none());
+        if let Some((factor, _)) = missing {
+            return Err(at(format!("no column of the factor \"{}\"; it has {}", factor.name, heads())));
+        }
+        let factors: Vec<usize> = factors.into_iter().flatten().collect();
+        let mut columns = Self { factors, replicate: None, responses: Vec::new() };
+        for column in (0..table.heads().len()).filter(|column| !columns.factors.contains(column)) {
+            let (name, unit) = table.named(column);
+            if name == REPLICATE && unit.is_empty() {
+                columns.replicate = Some(column);
+                continue;
+            }
+            let head = &table.heads()[column];
+            let own = |response: &super::response::Response| response.name == name || response.name == *head;
+            let Some(response) =
+                study.responses.iter().position(own).filter(|at| kept || study.responses[*at].is_imported())
+            else {
+                if kept {
+                    continue;
+                }
+                let names: Vec<&str> =
+                    study.responses.iter().filter(|own| own.is_imported()).map(|own| own.name.as_str()).collect();
+                let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+                return Err(at(format!(
+                    "column \"{head}\" is no factor and no response with imported = true; of these the study has {known}"
+                )));
+            };
+            let wanted = study.responses[response].unit("");
+            let unit = if study.responses[response].name == *head { "" } else { unit };
+            if unit.is_empty() && wanted != "1" || !unit.is_empty() && unit != wanted {
+                let wanted = with_unit(&study.responses[response].name, wanted);
+                return Err(at(format!(
+                    "column \"{head}\": expected \"{wanted}\", with the unit that the study gives"
+                )));
+            }
+            columns.responses.push((column, response));
+        }
+        if columns.responses.is_empty() && !kept {
+            return Err(at(format!("no column of a response with imported = true; it has {}", heads())));
+        }
+        Ok(columns)
+    }
+
+    /// Which point a line is of; none where the design has no such level.
+    fn key(&self, table: &ValueTable, row: &Row, study: &Study, places: &Places) -> Result<Option<Key>, String> {
+        let mut found = Vec::new();
+        for (at, (factor, column)) in study.factors.iter().zip(&self.factors).enumerate() {
+            let level = table.level(row, *column, factor)?;
+            let Some(place) = places.find(at, &level) else { return Ok(None) };
+            found.push(place);
+        }
+        if !places.counts.contains_key(&found) {
+            return Ok(None);
+        }
+        let replicate = self.replicate.map(|column| table.number(row, column)).transpose()?.flatten();
+        let count = study.replicates.as_ref().map_or(1, |replicates| replicates.seeds.len());
+        let replicate = replicate.map(|number| {
+            let is_one = number.fract() == 0.0 && (1.0..=count as f64).contains(&number);
+            is_one
+                .then_some(number as usize - 1)
+                .ok_or_else(|| format!("{}: replicate {number}, expected a number from 1 to {count}", table.place(row)))
+        });
+        Ok(Some((found, replicate.transpose()?)))
+    }
+
+    /// Why a line is of no point.
+    fn misfit(&self, table: &ValueTable, row: &Row, study: &Study, places: &Places) -> String {
+        for (at, (factor, column)) in study.factors.iter().zip(&self.factors).enumerate() {
+            let Ok(level) = table.level(row, *column, factor) else { continue };
+            if places.find(at, &level).is_none() {
+                let known: Vec<&str> = places.levels[at].iter().take(12).map(|level| level.label.as_str()).collect();
+                let more = if places.levels[at].len() > known.len() { ", …" } else { "" };
+                return format!(
+                    "{} = {} is in no point of the design, which has {}{more}",
+                    factor.name,
+                    level.label,
+                    known.join(", ")
+                );
+            }
+        }
+        "no point of the design has these levels together; `plateau sweep plan --csv` writes all points".to_owned()
+    }
+
+    /// Puts the responses of a line where those of its run are; empty cells change nothing.
+    fn put(&self, table: &ValueTable, row: &Row, values: &mut [f64]) -> Result<(), String> {
+        for (column, response) in &self.responses {
+            if let Some(number) = table.number(row, *column)? {
+                values[*response] = number;
+            }
+        }
+        Ok(())
+    }
+}

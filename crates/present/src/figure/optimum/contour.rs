@@ -1,0 +1,41 @@
+//! The mean desirability over two factors, with the others at the optimum.
+
+use plateau_study::design::Setting;
+
+use super::Shown;
+use crate::figure::effects::axes;
+use crate::figure::effects::factor_map::FactorMap;
+use crate::figure::format::Figure;
+
+/// The figure; none where the desirability is the same all over.
+pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
+    let axes = axes(shown.analysis);
+    let surrogates = shown.surrogates();
+    let value = |coded: [f64; 2]| {
+        let changed = [0, 1].map(|at| (factors[at], Setting::Coded(coded[at])));
+        shown.desirability(&surrogates, &shown.with(&changed))
+    };
+    let map = FactorMap::new(shown.analysis, factors, factors.map(|factor| &axes[factor]), value)?;
+    if !map.varies() {
+        return None;
+    }
+    let best = factors.map(|factor| axes[factor].factor.factor.coded(shown.best[factor]));
+    let mark = if let [Some(x), Some(y)] = best { Some(([x, y], "optimum".to_owned())) } else { None };
+    let others = (0..axes.len()).filter(|factor| !factors.contains(factor));
+    let others: Vec<String> = others
+        .map(|factor| format!("{} = {}", axes[factor].plain_name(), axes[factor].name(shown.best[factor])))
+        .collect();
+    let held = if others.is_empty() {
+        String::new()
+    } else {
+        format!(" The others are at the optimum: {}.", others.join(", "))
+    };
+    Some(Figure {
+        name: "contour".to_owned(),
+        title: "Desirability over two factors".to_owned(),
+        caption: format!(
+            "How much all goals are met over two factors, with lines of equal desirability; 0 where a limit is missed.{held}"
+        ),
+        page: map.page("desirability", &map.runs(shown.analysis), mark),
+    })
+}

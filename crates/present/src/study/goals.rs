@@ -1,0 +1,171 @@
+//! Goals and limits of an optimum, as they are given in words: `contact area`, `filled=0.7`, `worn=0.1 mm3..0.3 mm3`.
+
+use plateau_study::optimum::{Limit, Wish};
+
+use super::analysis::{AnalysedResponse, Analysis};
+use crate::quantity::Unit;
+
+/// What is between the values of a goal.
+const TO: &str = "..";
+
+/// What is wanted of a response.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aim {
+    /// As large as can be.
+    Maximize,
+    /// As small as can be.
+    Minimize,
+    /// A value.
+    Target,
+}
+
+impl Aim {
+    /// The option of the command line.
+    pub fn option(self) -> &'static str {
+        match self {
+            Self::Maximize => "--maximize",
+            Self::Minimize => "--minimize",
+            Self::Target => "--target",
+        }
+    }
+}
+
+/// The number of the response of this name.
+///
+/// # Errors
+/// The names that there are.
+pub fn response(analysis: &Analysis, name: &str) -> Result<usize, String> {
+    let name = name.trim();
+    analysis.responses.iter().position(|response| response.name == name).ok_or_else(|| {
+        let names: Vec<String> = analysis.responses.iter().map(|response| format!("\"{}\"", response.name)).collect();
+        format!("\"{name}\" is no response of the study, expected one of {}", names.join(", "))
+    })
+}
+
+/// A response and what it should be: `NAME`, `NAME=LOW..HIGH`, for targets `NAME=VALUE` or `NAME=LOW..VALUE..HIGH`. Bounds that
+/// are not given are the least and the largest response of the runs.
+///
+/// # Errors
+/// What was found and what was expected.
+pub fn wish(analysis: &Analysis, aim: Aim, text: &str) -> Result<(usize, Wish), String> {
+    let (name, values) = match text.rsplit_once('=') {
+        Some((name, values)) => (name, values.split(TO).map(str::trim).collect()),
+        None => (text, Vec::new()),
+    };
+    let at = |error: String| format!("{} \"{text}\": {error}", aim.option());
+    let number = response(analysis, name).map_err(at)?;
+    let own = &analysis.responses[number];
+    let values =
+        values.into_iter().map(|value| self::value(own, value)).collect::<Result<Vec<f64>, _>>().map_err(at)?;
+    let [low, high] = observed(analysis, number).ok_or_else(|| at("no run has this response".to_owned()))?;
+    let wish = match (aim, &values[..]) {
+        (Aim::Maximize, []) => Wish::Maximum([low, high]),
+        (Aim::Minimize, []) => Wish::Minimum([low, high]),
+        (Aim::Maximize, [low, high]) => Wish::Maximum([*low, *high]),
+        (Aim::Minimize, [low, high]) => Wish::Minimum([*low, *high]),
+        (Aim::Target, [low, target, high]) => Wish::Target([*low, *target, *high]),
+        (Aim::Target, [target]) => {
+            if !(low..=high).contains(target) {
+                let range = [low, high].map(|end| own.shown_with_unit(end)).join(" to ");
+                return Err(at(format!(
+                    "the runs have {range}; to aim beyond them give all three values, LOW..VALUE..HIGH"
+                )));
+            }
+            // As far on both sides, so that the target is worth most whichever side it is come from.
+            let reach = (high - target).max(target - low);
+            Wish::Target([target - reach, *target, target + reach])
+        }
+        (Aim::Target, _) => return Err(at("expected NAME=VALUE or NAME=LOW..VALUE..HIGH".to_owned())),
+        _ => return Err(at("expected NAME or NAME=LOW..HIGH".to_owned())),
+    };
+    if wish.is_sound() { Ok((number, wish)) } else { Err(at("expected values that ascend".to_owned())) }
+}
+
+/// A limit: `NAME<=VALUE` or `NAME>=VALUE`.
+///
+/// # Errors
+/// What was found and what was expected.
+pub fn limit(analysis: &Analysis, text: &str) -> Result<Limit, String> {
+    let at = |error: String| format!("--limit \"{text}\": {error}");
+    let (split, is_least) = match (text.split_once("<="), text.split_once(">=")) {
+        (Some(split), None) => (split, false),
+        (None, Some(split)) => (split, true),
+        _ => return Err(at("expected \"NAME<=VALUE\" or \"NAME>=VALUE\"".to_owned())),
+    };
+    let response = response(analysis, split.0).map_err(at)?;
+    let value = value(&analysis.responses[response], split.1).map_err(at)?;
+    let [low, high] = observed(analysis, response).ok_or_else(|| at("no run has this response".to_owned()))?;
+    let scale = if high > low { high - low } else { 1.0 };
+    let (least, most) = if is_least { (Some(value), None) } else { (None, Some(value)) };
+    Ok(Limit { response, least, most, scale })
+}
+
+/// A power of a goal: `NAME=NUMBER`.
+///
+/// # Errors
+/// What was found and what was expected.
+pub fn power(analysis: &Analysis, option: &str, text: &str) -> Result<(usize, f64), String> {
+    let at = |error: String| format!("{option} \"{text}\": {error}");
+    let (name, power) = text.rsplit_once('=').ok_or_else(|| at("expected NAME=NUMBER".to_owned()))?;
+    let response = response(analysis, name).map_err(at)?;
+    let power: Option<f64> = power.trim().parse().ok().filter(|power: &f64| (0.01..=100.0).contains(power));
+    power.map(|power| (response, power)).ok_or_else(|| at("expected a number between 0.01 and 100".to_owned()))
+}
+
+/// The least and the largest response of the runs.
+pub fn observed(analysis: &Analysis, response: usize) -> Option<[f64; 2]> {
+    let values = analysis.runs.iter().map(|(_, responses)| responses[response]).filter(|value| value.is_finite());
+    values.fold(None, |range, value| {
+        Some(range.map_or([value; 2], |[low, high]: [f64; 2]| [low.min(value), high.max(value)]))
+    })
+}
+
+/// A value of a response with its unit, in SI.
+fn value(response: &AnalysedResponse, text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (number, unit) = text.split_once(' ').map_or((text, ""), |(number, unit)| (number, unit.trim()));
+    let known = Unit::known(response.unit);
+    let mut names: Vec<String> = known.iter().map(|unit| plain(&unit.symbol)).filter(|name| !name.is_empty()).collect();
+    names
+        .extend((!names.contains(&response.unit.to_owned()) && response.unit != "1").then(|| response.unit.to_owned()));
+    names.extend((response.unit == "1").then(|| "%".to_owned()));
+    let found: Option<f64> = number.parse().ok().filter(|number: &f64| number.is_finite());
+    let Some(number) = found else { return Err(format!("\"{text}\" is no number with a unit")) };
+    let unit = plain(unit);
+    if response.unit == "1" && (unit.is_empty() || unit == "%") {
+        return Ok(if unit == "%" { number / 100.0 } else { number });
+    }
+    if let Some(unit) = known.iter().find(|known| plain(&known.symbol) == unit) {
+        return Ok((number - unit.offset) / unit.per_si);
+    }
+    if unit == plain(response.unit) {
+        return Ok(number);
+    }
+    Err(format!("\"{text}\": expected a unit of {}", names.join(", ")))
+}
+
+/// A unit as it is typed: `mm²`, `mm^2` and `mm2` are the same.
+fn plain(unit: &str) -> String {
+    let letter = |letter: char| match letter {
+        '²' => Some('2'),
+        '³' => Some('3'),
+        '¹' => Some('1'),
+        '\u{207b}' | '\u{2212}' => Some('-'),
+        'µ' | 'μ' => Some('u'),
+        '^' => None,
+        other => Some(other),
+    };
+    unit.chars().filter_map(letter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn units_are_told_however_they_are_typed() {
+        assert_eq!(["mm²", "mm^2", "mm2"].map(plain), ["mm2"; 3]);
+        assert_eq!(plain("µm³"), "um3");
+        assert_eq!(plain("km⁻¹"), "km-1");
+    }
+}

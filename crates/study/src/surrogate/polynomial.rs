@@ -1,0 +1,81 @@
+//! A polynomial as a surrogate: least squares, on the scale of a transform where there is one.
+
+use super::{Forecast, Surrogate};
+use crate::design::Setting;
+use crate::effects::{Effects, EffectsError, Model, Transform, Variance, t_quantile};
+
+/// The scale on which a model was fitted to a response.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// How many of the unit that was transformed there are in the unit of the response.
+    pub unit: f64,
+    /// What was done to the response in that unit; none if it was fitted as it is.
+    pub transform: Option<Transform>,
+}
+
+impl Scale {
+    /// The response itself.
+    pub const PLAIN: Self = Self { unit: 1.0, transform: None };
+
+    /// A response on this scale; none beyond the domain of the transform.
+    pub fn of(&self, response: f64) -> Option<f64> {
+        self.transform.map_or(Some(response), |transform| transform.of(response * self.unit))
+    }
+
+    /// The response of a value on this scale.
+    pub fn back(&self, value: f64) -> f64 {
+        self.transform.map_or(value, |transform| transform.back(value) / self.unit)
+    }
+}
+
+/// A polynomial that was fitted to a response.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolynomialSurrogate<'a> {
+    effects: &'a Effects,
+    scale: Scale,
+    response: String,
+}
+
+impl<'a> PolynomialSurrogate<'a> {
+    /// What an analysis of the response, on this scale, expects.
+    pub fn new(response: &str, effects: &'a Effects, scale: Scale) -> Self {
+        Self { effects, scale, response: response.to_owned() }
+    }
+}
+
+impl Surrogate for PolynomialSurrogate<'_> {
+    fn name(&self) -> String {
+        let model = match self.effects.model {
+            Model::MainEffects => "main effects",
+            Model::Interactions => "main effects and interactions",
+            Model::Full => "interactions of all orders",
+            Model::Quadratic => "quadratic",
+        };
+        match self.scale.transform {
+            None => format!("{model} in {}", self.response),
+            Some(transform) => format!("{model} in {}({})", transform.name(), self.response),
+        }
+    }
+
+    fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError> {
+        if !(confidence > 0.0 && confidence < 1.0) {
+            return Err(EffectsError::Confidence(confidence));
+        }
+        let spread = self.effects.spread(settings)?;
+        let interval = |variance: Variance| {
+            let reach = t_quantile(1.0 - confidence, variance.freedom) * variance.estimate.sqrt();
+            [spread.value - reach, spread.value + reach].map(|end| self.scale.back(end))
+        };
+        Ok(Forecast {
+            value: self.scale.back(spread.value),
+            mean_interval: spread.mean.map(interval),
+            run_interval: spread.run.map(interval),
+        })
+    }
+
+    fn leave_one_out_error(&self) -> Option<f64> {
+        let held_out = self.effects.held_out()?;
+        let missed = |[response, without]: &[f64; 2]| (self.scale.back(*response) - self.scale.back(*without)).powi(2);
+        Some((held_out.iter().map(missed).sum::<f64>() / held_out.len() as f64).sqrt())
+    }
+}
