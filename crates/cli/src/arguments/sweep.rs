@@ -43,7 +43,7 @@ pub enum SweepCommand {
     /// Take in responses that were measured or computed elsewhere
     #[command(after_help = "Example:\n  plateau sweep import data/studies/tyre.toml data/studies/tyre.csv --force")]
     Import(ImportArguments),
-    /// Tell which part of each response's variation every factor has, over the whole of all ranges
+    /// Tell which part of a response's variation each factor has
     #[command(after_help = "Example:\n  plateau sweep sensitivity data/studies/pad-properties.toml")]
     Sensitivity(SensitivityArguments),
 }
