@@ -72,7 +72,7 @@ pub enum Command {
     /// Make many runs of a scene with other values, and tell what these values do
     #[command(subcommand, after_help = "Example:\n  plateau sweep plan data/studies/pad-properties.toml")]
     Sweep(SweepCommand),
-    /// Find values of a scene's keys with which runs give what was measured, and how far the measurements determine them
+    /// Find values of a scene's keys with which runs give what was measured
     #[command(after_help = "Example:\n  plateau fit data/studies/fit-captured-fraction.toml --plan\n\n\
                       Without --plan the fit is made. It can be stopped and started again at any time: runs that are there are not made again.")]
     Fit(FitArguments),

@@ -6,6 +6,7 @@ mod effects_files;
 mod plan;
 mod run;
 mod sensitivity;
+mod sensitivity_document;
 mod slurm;
 
 use crate::arguments::SweepCommand;
