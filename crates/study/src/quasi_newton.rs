@@ -59,19 +59,7 @@ pub(crate) fn minimise(
             let reach = reach.fold(0.0, f64::max);
             direction.iter_mut().for_each(|step| *step *= (0.1 / reach).min(1.0));
         }
-        let mut length = 1.0;
-        let mut found = None;
-        for _ in 0..MOST_HALVINGS {
-            let mut next: Vec<f64> = place.iter().zip(&direction).map(|(x, step)| x + length * step).collect();
-            clamp(&mut next);
-            let moved: Vec<f64> = next.iter().zip(&place).map(|(next, x)| next - x).collect();
-            let promised = dot(&moved, &gradient);
-            if let Some(slope) = function(&next).filter(|(next, _)| *next <= value + SUFFICIENT * promised) {
-                found = Some((next, moved, slope));
-                break;
-            }
-            length *= 0.5;
-        }
+        let found = search(&mut function, &place, (value, &gradient), &direction, &clamp);
         let Some((next, moved, (next_value, next_gradient))) = found else {
             if inverse.is_new {
                 break;
@@ -88,6 +76,28 @@ pub(crate) fn minimise(
         }
     }
     Some(Minimum { place, value })
+}
+
+/// The first step along a direction, halved until it brings enough: where it leads, how far it moved, and what is there.
+fn search(
+    function: &mut impl FnMut(&[f64]) -> Option<Slope>,
+    place: &[f64],
+    (value, gradient): (f64, &[f64]),
+    direction: &[f64],
+    clamp: &impl Fn(&mut [f64]),
+) -> Option<(Vec<f64>, Vec<f64>, Slope)> {
+    let mut length = 1.0;
+    for _ in 0..MOST_HALVINGS {
+        let mut next: Vec<f64> = place.iter().zip(direction).map(|(x, step)| x + length * step).collect();
+        clamp(&mut next);
+        let moved: Vec<f64> = next.iter().zip(place).map(|(next, x)| next - x).collect();
+        let promised = dot(&moved, gradient);
+        if let Some(slope) = function(&next).filter(|(next, _)| *next <= value + SUFFICIENT * promised) {
+            return Some((next, moved, slope));
+        }
+        length *= 0.5;
+    }
+    None
 }
 
 /// What the inverse Hessian is taken for.

@@ -109,7 +109,7 @@ fn same(found: &[f64], expected: &[f64], what: &str) {
 }
 
 #[test]
-fn processes_with_given_lengths_agree_with_scikit_learn() {
+fn processes_with_given_lengths_agree_with_scikit_learn_and_dicekriging() {
     for case in expected().processes {
         let name = &case.name;
         let trend = if case.linear { Trend::Linear } else { Trend::Constant };

@@ -42,6 +42,20 @@ pub fn runs_at_a_time(jobs: Option<u32>, workers: u32) -> usize {
     jobs.map_or_else(|| (cores() / workers as usize).max(1), |jobs| jobs as usize)
 }
 
+/// Refuses a study that has no scene to run.
+///
+/// # Errors
+/// [`Failure::Input`].
+fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
+    let path = plan.study().path.display();
+    match plan.study().base {
+        Some(_) => Ok(()),
+        None => Err(Failure::input(format_args!(
+            "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
+        ))),
+    }
+}
+
 /// Folder of the study's journal.
 pub fn journal_folder(study: &Study) -> PathBuf {
     study.directory.join("journal")

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Makes the numbers that tests/surrogate.rs compares with, with scikit-learn, scipy and SALib, and by definition with NumPy.
 
-    python3 -m venv /tmp/venv && /tmp/venv/bin/pip install scikit-learn==1.9.0 SALib==1.5.2 && /tmp/venv/bin/python make.py
+    python3 -m venv /tmp/venv && /tmp/venv/bin/pip install scikit-learn==1.9.1 SALib==1.6.0 && /tmp/venv/bin/python make.py
 
 Each Gaussian process is solved twice, by scikit-learn and by the definition of its likelihood, with every point left out in
-turn; the two have to agree to 1e-8, or nothing is written. Where R has the package DiceKriging, that is a third one. Data: the
-function of Branin on a grid, and the exercise data of Linnerud that come with scikit-learn.
+turn; the two have to agree to 1e-8, or nothing is written. Where R has the package DiceKriging, that is a third one, which has
+to agree as well. Data: the function of Branin on a grid, and the exercise data of Linnerud that come with scikit-learn.
 """
 
 import json
@@ -37,9 +37,10 @@ d <- ncol(new); x <- data[, 1:d, drop = FALSE]; y <- data[, d + 1]
 colnames(x) <- colnames(new) <- paste0("x", 1:d)
 lengths <- numbers[1:d]; variance <- numbers[d + 1]; noise <- numbers[d + 2]
 model <- km(formula = if (numbers[d + 3] == 1) ~. else ~1, design = data.frame(x), response = y, covtype = "matern5_2",
-            coef.cov = lengths, coef.var = variance, noise.var = rep(noise, nrow(x)), coef.trend = NULL)
+            coef.cov = lengths, coef.var = variance, noise.var = rep(noise, nrow(x)))
+likelihood <- -0.5 * (nrow(x) * log(2 * pi) + 2 * sum(log(diag(model@T))) + sum(model@z^2))
 found <- predict(model, data.frame(new), type = "UK", checkNames = FALSE)
-cat(sprintf("%.17g", c(logLik(model), found$mean, found$sd^2)), sep = "\\n")
+cat(sprintf("%.17g", c(likelihood, found$mean, found$sd^2)), sep = "\\n")
 """
 
 

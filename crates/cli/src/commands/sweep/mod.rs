@@ -12,6 +12,7 @@ mod predict;
 mod prediction_table;
 mod run;
 mod sensitivity;
+mod sensitivity_document;
 mod slurm;
 
 use crate::arguments::SweepCommand;

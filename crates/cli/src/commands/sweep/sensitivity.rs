@@ -12,9 +12,9 @@ use plateau_study::effects::{Factor, Observation};
 use plateau_study::sensitivity::{ElementaryEffect, Index, Options, SobolIndices, elementary_effects, sobol_indices};
 use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
 use plateau_study::surrogate::{Surrogate, choose};
-use serde::Serialize;
 
 use super::collect::collected;
+use super::sensitivity_document;
 use crate::arguments::SensitivityArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
@@ -59,7 +59,11 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
         }
     }
     if arguments.json {
-        let document = Document { study: &study.title, responses: told.reports(), files };
+        let document = sensitivity_document::Document {
+            study: &study.title,
+            responses: sensitivity_document::reports(&told),
+            files,
+        };
         return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
     }
     let pictures = files.iter().filter(|file| file.ends_with(".png")).count();
@@ -71,7 +75,7 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
 }
 
 /// What is known of one response, or why nothing is.
-enum Known {
+pub(super) enum Known {
     /// Indices from a surrogate, and which one it is and why.
     Indices(SobolIndices, String),
     /// Elementary effects from the runs themselves.
@@ -81,10 +85,11 @@ enum Known {
 }
 
 /// The sensitivities of all responses.
-struct Told {
-    factors: Vec<String>,
+pub(super) struct Told {
+    /// Names of the factors.
+    pub factors: Vec<String>,
     /// Name, SI unit, largest size.
-    responses: Vec<(String, &'static str, f64, Known)>,
+    pub responses: Vec<(String, &'static str, f64, Known)>,
     confidence: f64,
 }
 
@@ -229,39 +234,6 @@ impl Told {
             }
         }
     }
-
-    fn reports(&self) -> Vec<Report<'_>> {
-        let report = |(name, unit, _, known): &'_ (String, &'static str, f64, Known)| {
-            let mut report = Report { unit, ..Report::default() };
-            name.clone_into(&mut report.name);
-            match known {
-                Known::Nothing(why) => report.error = Some(why.clone()),
-                Known::Indices(indices, reason) => {
-                    report.surrogate = Some(reason.clone());
-                    report.variance = Some(indices.variance);
-                    let index = |index: &Index| IndexReport { value: index.value, interval: index.interval };
-                    let of = |at: usize| (index(&indices.first[at]), index(&indices.total[at]));
-                    report.indices = (0..self.factors.len())
-                        .map(|at| FactorIndices { factor: &self.factors[at], first_order: of(at).0, total: of(at).1 })
-                        .collect();
-                }
-                Known::Effects(effects) => {
-                    report.elementary_effects = (self.factors.iter().zip(effects))
-                        .map(|(factor, effect)| FactorEffects {
-                            factor,
-                            mean_size: effect.mean_size,
-                            mean: effect.mean,
-                            deviation: effect.deviation,
-                            standard_error: effect.error,
-                            effects: effect.count,
-                        })
-                        .collect();
-                }
-            }
-            report
-        };
-        self.responses.iter().map(report).collect()
-    }
 }
 
 /// Indices from the surrogate that forecasts points best.
@@ -290,50 +262,4 @@ fn means(observations: &[Observation], seeds: usize) -> Vec<(Vec<Setting>, f64)>
         (point[0].settings.clone(), sum / point.len() as f64)
     };
     observations.chunks(seeds.max(1)).map(mean).collect()
-}
-
-/// What `plateau sweep sensitivity --json` prints.
-#[derive(Debug, Serialize)]
-struct Document<'a> {
-    study: &'a str,
-    responses: Vec<Report<'a>>,
-    files: Vec<String>,
-}
-
-/// A response in it.
-#[derive(Debug, Serialize, Default)]
-struct Report<'a> {
-    name: String,
-    unit: &'a str,
-    /// Why nothing is known.
-    error: Option<String>,
-    /// What the indices are of, and why.
-    surrogate: Option<String>,
-    /// Variance of the response over all ranges.
-    variance: Option<f64>,
-    indices: Vec<FactorIndices<'a>>,
-    elementary_effects: Vec<FactorEffects<'a>>,
-}
-
-#[derive(Debug, Serialize)]
-struct FactorIndices<'a> {
-    factor: &'a str,
-    first_order: IndexReport,
-    total: IndexReport,
-}
-
-#[derive(Debug, Serialize)]
-struct IndexReport {
-    value: f64,
-    interval: Option<[f64; 2]>,
-}
-
-#[derive(Debug, Serialize)]
-struct FactorEffects<'a> {
-    factor: &'a str,
-    mean_size: f64,
-    mean: f64,
-    deviation: f64,
-    standard_error: f64,
-    effects: usize,
 }
