@@ -141,7 +141,7 @@ fn corpus(name: &str) -> std::path::PathBuf {
 fn assert_told(outcome: &Outcome, what: &str) {
     // The standard library has a note of its own behind what it says of memory.
     let told = |line: &str| line.starts_with("plateau: ") || line.starts_with("memory allocation of");
-    let told = outcome.stderr.lines().filter(|line| !line.starts_with("note: ")).last().is_some_and(told);
+    let told = outcome.stderr.lines().rfind(|line| !line.starts_with("note: ")).is_some_and(told);
     assert!(outcome.status == Some(0) || outcome.status == Some(1) && told, "{what}: {outcome:?}");
     assert!(!outcome.stderr.contains("panicked"), "{what}: {outcome:?}");
 }

@@ -289,7 +289,7 @@ impl Debris {
 fn loss_exponent(coefficients: &Coefficients) -> i32 {
     let [pin, disc] = largest_losses(coefficients);
     let largest = pin.max(disc);
-    if largest > 0.0 { libm::ilogb(largest) + 1 } else { 0 }
+    if largest > 0.0 { libm::ilogb(largest).saturating_add(1) } else { 0 }
 }
 
 /// What a pair of plateaus loses per overlap, at most.

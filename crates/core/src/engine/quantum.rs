@@ -26,7 +26,7 @@ impl Quantum {
     pub fn of(bound: f64, terms: usize) -> Self {
         let exponent = if bound > 0.0 { libm::ilogb(bound) } else { 0 };
         let room = room(terms);
-        Self::of_exponent(exponent + 2 - room as i32, room)
+        Self::of_exponent(exponent.saturating_add(2 - room as i32), room)
     }
 
     /// The finest quantum at which the sum of `terms` anchored terms up to `largest`, and some times as large, leaves room
