@@ -1,5 +1,6 @@
 """Progress of the program in notebooks and terminals: the program's own line, which it gives to a terminal only."""
 
+import codecs
 import fcntl
 import os
 import pty
@@ -68,6 +69,8 @@ def follow_terminal(start: Start, show: Callable[[str], None] | None) -> str:
 
 def _pieces(descriptor: int) -> Any:
     """What comes from a terminal, until nobody has its other end any more."""
+    # A letter may come in two pieces.
+    decoder = codecs.getincrementaldecoder("utf-8")(errors="replace")
     while True:
         try:
             piece = os.read(descriptor, 65536)
@@ -75,7 +78,7 @@ def _pieces(descriptor: int) -> Any:
             return
         if not piece:
             return
-        yield piece.decode(errors="replace")
+        yield decoder.decode(piece)
 
 
 def _messages(lines: list[str], show: Callable[[str], None] | None) -> str:

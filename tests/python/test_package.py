@@ -131,6 +131,12 @@ class Runs(InFolder):
             self.assertEqual(program.call(["run"], False), 1)
         self.assertEqual(shown.getvalue(), "")
 
+    def test_letters_that_come_in_pieces(self):
+        # µ is two bytes.
+        said = "printf 'plateau: warning: 5 \\302' >&2; sleep 0.3; printf '\\265m\\n' >&2; echo 1"
+        with stand_in(said), unittest.mock.patch("sys.stderr", io.StringIO()), self.assertWarnsRegex(plateau.PlateauWarning, "^5 µm$"):
+            program.call(["run"], True)
+
     def test_a_notebook_shows_progress_in_the_cell(self):
         # The least of IPython that is used: a kernel, and a place in the output that is updated.
         display, handle = unittest.mock.MagicMock(), unittest.mock.MagicMock()
