@@ -361,6 +361,38 @@ fn measured_responses_are_analysed_without_a_scene() {
     assert_eq!((table.len(), number(&table[3], "modulus")), (20, 2294.0));
 }
 
+/// A wave, which no polynomial of second order follows, and a polynomial of second order, at points all over a range.
+#[test]
+fn points_all_over_a_range_are_forecast_by_what_forecasts_them_better() {
+    let directory = WorkingDirectory::new();
+    let wave = |x: f64| (9.0 * x).sin();
+    let square = |x: f64| 1.0 + 2.0 * x - 3.0 * x * x;
+    let mut table = "fibres,wave,square\n".to_owned();
+    for point in 0..16 {
+        let x = (f64::from(point) + 0.5) / 16.0;
+        table.push_str(&format!("{x},{},{}\n", wave(x), square(x)));
+    }
+    directory.write("points.csv", table);
+    let mut study =
+        "version = 1\ntitle = \"Wave\"\ndesign = \"csv\"\nfile = \"points.csv\"\ndirectory = \"results\"\n".to_owned();
+    study.push_str("[[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\n");
+    study
+        .push_str("[[response]]\nname = \"wave\"\nimported = true\n[[response]]\nname = \"square\"\nimported = true\n");
+    directory.write("study.toml", study);
+    ask(&directory, "import", &["points.csv"]);
+    let predicted = ask(&directory, "predict", &["--at", "fibres=0.4"]);
+    assert_eq!(predicted["models"][0].as_str(), Some("Gaussian process"), "{predicted}");
+    assert_ne!(predicted["models"][1].as_str(), Some("Gaussian process"), "{predicted}");
+    // A sixteenth of a range is a twelfth of the wave's length: a smooth interpolation misses by far less than a hundredth.
+    assert!((value(&predicted, 0) - wave(0.4)).abs() < 0.01, "{predicted}");
+    assert!((value(&predicted, 1) - square(0.4)).abs() < 1e-9, "{predicted}");
+    let text = directory.plateau(["sweep", "predict", "study.toml", "--at", "fibres=0.4"]).quiet_success();
+    assert!(text.contains("wave: leave-one-out error: ") && text.contains("the smaller one is taken"), "{text}");
+    // Who asks for a model gets it.
+    let asked = ask(&directory, "predict", &["--at", "fibres=0.4", "--model", "quadratic"]);
+    assert_ne!(asked["models"][0].as_str(), Some("Gaussian process"), "{asked}");
+}
+
 #[test]
 fn tables_that_fit_no_point_are_refused_by_line() {
     let directory = rubber();

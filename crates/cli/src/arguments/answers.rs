@@ -24,7 +24,12 @@ pub struct FitArguments {
 impl FitArguments {
     /// What the analysis is asked for.
     pub fn asked(&self) -> Asked {
-        Asked { model: self.model.map(Into::into), by_aicc: self.terms == Terms::Aicc, confidence: self.confidence }
+        Asked {
+            model: self.model.map(Into::into),
+            by_aicc: self.terms == Terms::Aicc,
+            with_processes: self.model.is_none(),
+            confidence: self.confidence,
+        }
     }
 }
 

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use plateau_io::study::Study;
 use plateau_io::study::collected::{Collected, unit_of};
 use plateau_io::study::factor::{Factor, Level, Values};
 use plateau_io::study::plan::Plan;
-use plateau_study::design::Setting;
+use plateau_io::study::{DesignSource, Study};
+use plateau_study::design::{Kind, Setting};
 use plateau_study::effects::{
     self, BoxCox, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, Selection, analyse, select,
 };
+use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
 
 use super::fit_scale::FitScale;
 use super::model::Choice;
@@ -66,6 +67,8 @@ pub struct AnalysedResponse {
     pub box_cox: Option<BoxCox>,
     /// The choice among the terms of the model; none where all are kept.
     pub selected: Option<Selected>,
+    /// What may forecast it besides the model: a process of the response as it is, whatever the scale of the model.
+    pub process: Option<GaussianProcess>,
 }
 
 impl AnalysedResponse {
@@ -98,6 +101,8 @@ pub struct Asked {
     pub model: Option<Model>,
     /// Whether terms that the runs do not support are left out.
     pub by_aicc: bool,
+    /// Whether what forecasts a response may be a Gaussian process, where points fill the ranges.
+    pub with_processes: bool,
     /// Confidence level of intervals.
     pub confidence: f64,
 }
@@ -105,7 +110,7 @@ pub struct Asked {
 impl Analysis {
     /// Analyses every response of a study, with the model that is asked for or one that the design allows.
     pub fn new(study: &Study, collected: &Collected, asked: Option<Model>, confidence: f64) -> Self {
-        Self::of(study, collected, Asked { model: asked, by_aicc: false, confidence })
+        Self::of(study, collected, Asked { model: asked, by_aicc: false, with_processes: false, confidence })
     }
 
     /// Analyses every response of a study as it is asked for.
@@ -187,7 +192,22 @@ fn analyse_one(
     // Terms were left out because the runs do not support them: it would be no news that they explain something.
     let misfit = effects.as_ref().ok().filter(|_| selected.is_none()).and_then(Effects::misfit);
     let box_cox = effects.as_ref().ok().and_then(|effects| effects.box_cox(response.transform));
-    AnalysedResponse { name: response.name.clone(), unit, scale, choice, effects, misfit, box_cox, selected }
+    let process = (asked.with_processes && fills_ranges(study)).then(|| {
+        for (observation, run) in observations.iter_mut().zip(&collected.runs) {
+            observation.response = run.responses[at];
+        }
+        GaussianProcess::fit(factors, &observations, &ProcessOptions::default()).ok()
+    });
+    let process = process.flatten();
+    AnalysedResponse { name: response.name.clone(), unit, scale, choice, effects, misfit, box_cox, selected, process }
+}
+
+/// Whether points of the design lie all over the ranges, and not at few levels.
+fn fills_ranges(study: &Study) -> bool {
+    match &study.source {
+        DesignSource::Kind(kind) => matches!(kind, Kind::LatinHypercube { .. } | Kind::Sobol { .. }),
+        DesignSource::File(_) => true,
+    }
 }
 
 /// The different levels that a factor has in the runs, in the order in which they appear.

@@ -1,7 +1,7 @@
 //! What is expected of the responses of a study where no run was made.
 
 use plateau_io::number;
-use plateau_study::surrogate::{Forecast, PolynomialSurrogate, Surrogate};
+use plateau_study::surrogate::{Choice, Forecast, PolynomialSurrogate, Surrogate, choose};
 
 use super::analysis::AnalysedResponse;
 
@@ -9,10 +9,30 @@ use super::analysis::AnalysedResponse;
 const DIGITS: usize = 4;
 
 impl AnalysedResponse {
-    /// What foretells the response; none where nothing could be fitted.
+    /// What forecasts the response: the model or the process, whichever forecasts points better that it does not know; none
+    /// where nothing could be fitted.
     pub fn surrogate(&self) -> Option<Box<dyn Surrogate + '_>> {
-        let effects = self.effects.as_ref().ok()?;
-        Some(Box::new(PolynomialSurrogate::new(&self.name, effects, self.scale.scale)))
+        self.choice_of_surrogate().map(|choice| choice.surrogate)
+    }
+
+    /// Why it is that one; none where there was no choice.
+    pub fn reason_of_surrogate(&self) -> Option<String> {
+        self.process.as_ref().and(self.effects.as_ref().ok())?;
+        self.choice_of_surrogate().map(|choice| choice.reason)
+    }
+
+    fn choice_of_surrogate(&self) -> Option<Choice<'_>> {
+        let mut candidates: Vec<Box<dyn Surrogate + '_>> = Vec::new();
+        if let Ok(effects) = &self.effects {
+            candidates.push(Box::new(PolynomialSurrogate::new(&self.name, effects, self.scale.scale)));
+        }
+        if let Some(process) = &self.process {
+            candidates.push(Box::new(process.clone()));
+        }
+        choose(candidates, |error| {
+            let unit = &self.scale.unit;
+            unit.with_symbol(&number::rounded(unit.difference(error), DIGITS))
+        })
     }
 
     /// A value of the response, SI, in the unit in which it is read, without the unit.

@@ -23,6 +23,7 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
     let asked = Asked {
         model: arguments.model.map(Into::into),
         by_aicc: arguments.terms == Terms::Aicc,
+        with_processes: false,
         confidence: arguments.confidence,
     };
     let Analysed { plan, collected, analysis } = Analysed::of(&arguments.study, asked)?;

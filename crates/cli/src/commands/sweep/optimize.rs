@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::analysed::Analysed;
 use super::effects_files::draw_all;
-use super::predict::{ForecastReport, SettingReport, confirmed_text, forecasts_of, settings_of};
+use super::predict::{ForecastReport, SettingReport, confirmed_text, forecasts_of, reasons, settings_of};
 use crate::arguments::OptimizeArguments;
 use crate::failure::Failure;
 use crate::sweep::confirmation::{Confirmed, confirm};
@@ -216,7 +216,7 @@ fn text_of(
         Some(cells)
     };
     let rows: Vec<Vec<String>> = forecasts.iter().enumerate().filter_map(line).collect();
-    columns(&heading, &names, &rows)
+    columns(&heading, &names, &rows) + &reasons(analysed)
 }
 
 /// A goal in words.

@@ -173,7 +173,14 @@ fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], c
         cells
     };
     let rows: Vec<Vec<String>> = analysed.analysis.responses.iter().zip(forecasts).map(line).collect();
-    columns(&heading, &names, &rows)
+    columns(&heading, &names, &rows) + &reasons(analysed)
+}
+
+/// Why a response is forecast by what it is, a line for each of which there was a choice.
+pub(super) fn reasons(analysed: &Analysed) -> String {
+    let reason =
+        |response: &AnalysedResponse| Some(format!("  {}: {}\n", response.name, response.reason_of_surrogate()?));
+    analysed.analysis.responses.iter().filter_map(reason).collect()
 }
 
 /// What the extra runs gave.
