@@ -5,13 +5,10 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use clap::CommandFactory as _;
-use clap::error::{ContextKind, ContextValue, ErrorKind};
 use plateau_io::scene::SceneError;
 use plateau_run::{Job, Progress, RunError};
 use signal_hook::consts::SIGABRT;
 
-use crate::arguments::Arguments;
 use crate::{excerpt, message};
 
 /// Why a command failed, with the exit status that tells whose fault it is.
@@ -134,49 +131,4 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
 pub fn end_where_memory_does() {
     // Where the system takes no handler the signal tells, too.
     let _ = signal_hook::flag::register_conditional_shutdown(SIGABRT, 1, Arc::new(AtomicBool::new(true)));
-}
-
-/// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.
-pub fn answer(mut answer: clap::Error) -> ExitCode {
-    if !answer.use_stderr() || answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        // Nobody is left to tell when help cannot be written.
-        let _ = answer.print();
-        return ExitCode::from(answer.exit_code() as u8);
-    }
-    if let Some(tip) = tip(&answer) {
-        answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
-    }
-    let message = answer.to_string();
-    Failure::input(message.trim_start_matches("error: ").trim_end()).report()
-}
-
-/// What one who is new to the program may have meant.
-fn tip(answer: &clap::Error) -> Option<String> {
-    let word = |kind| answer.get(kind).map(ToString::to_string);
-    match answer.kind() {
-        ErrorKind::InvalidSubcommand => {
-            let word = word(ContextKind::InvalidSubcommand)?;
-            match word.rsplit_once('.').map_or("", |(_, ending)| ending) {
-                "toml" => Some(format!("to run a scene: plateau run {word}")),
-                "h5" => Some(format!("to see a run: plateau report {word}, or plateau plot {word}")),
-                _ => command_like(&word).map(|command| format!("did you mean plateau {command}?")),
-            }
-        }
-        ErrorKind::UnknownArgument => {
-            let set = std::env::args_os().any(|argument| argument == "--set");
-            word(ContextKind::InvalidArg).filter(|word| set && !word.starts_with('-'))?;
-            Some("quote a value with a space in it: --set operation.normal_force=\"20 N\"".to_owned())
-        }
-        _ => None,
-    }
-}
-
-/// The command whose name is the nearest to a word, if it is near: two letters that change places, one that is missing or
-/// wrong.
-fn command_like(word: &str) -> Option<String> {
-    let command = Arguments::command();
-    let names = command.get_subcommands().map(|command| command.get_name().to_owned());
-    let distance = |name: &String| strsim::osa_distance(name, word);
-    let most = 1 + word.len() / 5;
-    names.filter(|name| distance(name) <= most).min_by_key(distance)
 }

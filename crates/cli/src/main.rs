@@ -1,6 +1,7 @@
 //! The program `plateau`.
 
 mod accuracy;
+mod answer;
 mod arguments;
 mod commands;
 mod excerpt;
@@ -36,7 +37,7 @@ fn answer() -> ExitCode {
     }
     let arguments = match arguments::Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(answer) => return failure::answer(answer),
+        Err(answer) => return answer::answered(answer),
     };
     match commands::perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,0 +1,54 @@
+//! What a command line gets that names nothing to do: help, the version, or why it is wrong and what may have been meant.
+
+use std::process::ExitCode;
+
+use clap::CommandFactory as _;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+use crate::arguments::Arguments;
+use crate::failure::Failure;
+
+/// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.
+pub fn answered(mut answer: clap::Error) -> ExitCode {
+    if !answer.use_stderr() || answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // Nobody is left to tell when help cannot be written.
+        let _ = answer.print();
+        return ExitCode::from(answer.exit_code() as u8);
+    }
+    if let Some(tip) = tip(&answer) {
+        answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    }
+    let message = answer.to_string();
+    Failure::input(message.trim_start_matches("error: ").trim_end()).report()
+}
+
+/// What one who is new to the program may have meant.
+fn tip(answer: &clap::Error) -> Option<String> {
+    let word = |kind| answer.get(kind).map(ToString::to_string);
+    match answer.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let word = word(ContextKind::InvalidSubcommand)?;
+            match word.rsplit_once('.').map_or("", |(_, ending)| ending) {
+                "toml" => Some(format!("to run a scene: plateau run {word}")),
+                "h5" => Some(format!("to see a run: plateau report {word}, or plateau plot {word}")),
+                _ => command_like(&word).map(|command| format!("did you mean plateau {command}?")),
+            }
+        }
+        ErrorKind::UnknownArgument => {
+            let set = std::env::args_os().any(|argument| argument == "--set");
+            word(ContextKind::InvalidArg).filter(|word| set && !word.starts_with('-'))?;
+            Some("quote a value with a space in it: --set operation.normal_force=\"20 N\"".to_owned())
+        }
+        _ => None,
+    }
+}
+
+/// The command whose name is the nearest to a word, if it is near: two letters that change places, one that is missing or
+/// wrong.
+fn command_like(word: &str) -> Option<String> {
+    let command = Arguments::command();
+    let names = command.get_subcommands().map(|command| command.get_name().to_owned());
+    let distance = |name: &String| strsim::osa_distance(name, word);
+    let most = 1 + word.len() / 5;
+    names.filter(|name| distance(name) <= most).min_by_key(distance)
+}
