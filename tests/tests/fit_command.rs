@@ -4,9 +4,10 @@
 //! load (model.md, section 8). The distance is 2π · 20.5 mm · 850/60 s⁻¹ · 3 s.
 
 use std::fs;
+use std::process::Stdio;
 
 use plateau_tests::figure::Figure;
-use plateau_tests::program::{Outcome, WorkingDirectory, scene};
+use plateau_tests::program::{Outcome, WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::table::{Row, number, rows};
 use serde_json::Value;
 
@@ -125,6 +126,22 @@ fn a_measurement_that_no_value_gives_is_told() {
     let notes = found["notes"].to_string();
     assert!(notes.contains("No values within these ranges give the measured worn"), "{found}");
     assert_eq!(found["keys"][0]["most_likely"].as_f64(), Some(12.0), "{found}");
+}
+
+#[test]
+fn a_fit_that_is_killed_goes_on_to_the_same_end() {
+    let tables = [LOAD, RATE, &worn(7.0, 0.03), "[fit]\nruns = 18\n"];
+    let [undisturbed, killed] = [study(8, &tables), study(8, &tables)];
+    let expected = json(&fit(&undisturbed, &["--json"]));
+    let mut command = killed.command(["fit", "fit.toml", "--jobs", "1"]);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let has_some = || killed.path("results/journal").exists() && records(&killed) >= 2;
+    assert!(wait_until(has_some), "no result");
+    kill(child);
+    let before = records(&killed);
+    assert_eq!(json(&fit(&killed, &["--json"])), expected);
+    // What was there was not made again.
+    assert!(before >= 2 && records(&killed) == expected["runs"].as_u64().unwrap() as usize, "{before}");
 }
 
 #[test]
