@@ -79,6 +79,21 @@ pub struct WrongMesh {
     pub expected: usize,
 }
 
+impl Memory {
+    /// What of it is not as in another memory of the same run, in words; none where all of it is.
+    pub(crate) fn misfit(&self, own: &Self) -> Option<&'static str> {
+        let shape = |memory: &Self| memory.engine.as_ref().map(|engine| engine.contact.shape());
+        let both = shape(self).zip(shape(own));
+        [
+            (self.account.pools.len() != own.account.pools.len(), "debris pools"),
+            (both.is_some_and(|(found, own)| found != own), "sums of the contact"),
+            (self.accounts.is_some() != own.accounts.is_some(), "friction, heat and emission"),
+        ]
+        .into_iter()
+        .find_map(|(differs, what)| differs.then_some(what))
+    }
+}
+
 impl Checkpoint {
     /// Steps done.
     pub fn steps(&self) -> u64 {

@@ -71,6 +71,11 @@ impl Contact {
         }
     }
 
+    /// How many pools it has sums of, and whether it has sums by status.
+    pub fn shape(&self) -> (usize, bool) {
+        (self.pools.len(), self.statuses.is_some())
+    }
+
     /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of.
     ///
     /// # Errors

@@ -56,6 +56,12 @@ pub enum SimulationError {
     /// A checkpoint is of another mesh.
     #[error(transparent)]
     Checkpoint(#[from] WrongMesh),
+    /// A checkpoint is of another scene, or of nothing.
+    #[error("the checkpoint has other {what} than the scene asks for: it is of another scene, or damaged; begin again")]
+    OtherState {
+        /// What differs.
+        what: &'static str,
+    },
     /// A checkpoint is of the other engine.
     #[error(
         "the checkpoint is of the {found} engine, expected one of the {expected} engine; go on with --engine {found}"

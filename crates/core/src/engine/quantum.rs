@@ -10,12 +10,32 @@ use serde::{Deserialize, Serialize};
 /// Terms are counted by adding them to an anchor, a number whose last bit is worth one quantum. Sums of the bits of such
 /// anchored terms hold both how many terms there are and what they add up to, see [`Quantum::split`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Quantum {
     exponent: i32,
     value: f64,
     anchor: f64,
     /// The lowest bit of the anchor that is set: sums below it do not mix with the number of their terms.
     room: u32,
+}
+
+/// A quantum as it is read, which may be anything.
+#[derive(Deserialize)]
+struct Stored {
+    exponent: i32,
+    value: f64,
+    anchor: f64,
+    room: u32,
+}
+
+impl TryFrom<Stored> for Quantum {
+    type Error = &'static str;
+
+    fn try_from(Stored { exponent, value, anchor, room }: Stored) -> Result<Self, Self::Error> {
+        let found = Self { exponent, value, anchor, room };
+        let is_one = (1..=MOST_ROOM).contains(&room) && found == Self::of_exponent(exponent, room);
+        if is_one { Ok(found) } else { Err("the quantum of sums is none") }
+    }
 }
 
 impl Quantum {
@@ -97,12 +117,14 @@ impl Quantum {
     }
 }
 
+/// The room of the fewest terms.
+const MOST_ROOM: u32 = 51;
 /// Bits by which sums may grow from one step to the next and still leave room.
 const SPARE_BITS: i32 = 3;
 
 /// Bits below the number of up to `terms` terms.
 fn room(terms: usize) -> u32 {
-    51 - (terms + 1).div_ceil(1 << 13).next_power_of_two().trailing_zeros()
+    MOST_ROOM - (terms + 1).div_ceil(1 << 13).next_power_of_two().trailing_zeros()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// The values of the last steps, at most so many as a revolution has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Revolution {
     /// In a full revolution, the oldest is overwritten.
     values: Vec<f64>,
@@ -11,6 +12,23 @@ pub struct Revolution {
     oldest: usize,
     /// Steps of one revolution.
     steps: usize,
+}
+
+/// A revolution as it is read, which may be of anything.
+#[derive(Deserialize)]
+struct Stored {
+    values: Vec<f64>,
+    oldest: usize,
+    steps: usize,
+}
+
+impl TryFrom<Stored> for Revolution {
+    type Error = &'static str;
+
+    fn try_from(Stored { values, oldest, steps }: Stored) -> Result<Self, Self::Error> {
+        let is_one = values.len() < steps && oldest == 0 || values.len() == steps && oldest < steps;
+        if is_one { Ok(Self { values, oldest, steps }) } else { Err("the steps of a revolution do not fit it") }
+    }
 }
 
 impl Revolution {

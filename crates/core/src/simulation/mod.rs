@@ -133,9 +133,13 @@ impl Simulation {
     /// surfaces: the coming steps are bit for bit those that it would have taken.
     ///
     /// # Errors
-    /// [`SimulationError::Checkpoint`] when it is of another mesh, [`SimulationError::Worker`] when a worker failed.
+    /// [`SimulationError::Checkpoint`] and [`SimulationError::OtherState`] when it is of another mesh or scene,
+    /// [`SimulationError::Worker`] when a worker failed.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SimulationError> {
         checkpoint.check(&self.parameters.mesh)?;
+        if let Some(what) = checkpoint.memory.misfit(&self.workers.memory()?) {
+            return Err(SimulationError::OtherState { what });
+        }
         self.workers.restore(checkpoint)?;
         self.contact = checkpoint.contact.clone();
         Arc::make_mut(&mut self.parameters).time_acceleration = checkpoint.memory.time_acceleration;

@@ -18,8 +18,14 @@ const EXPLAINED: &[(&str, &str)] = &[
 ];
 const ONLY_RESIN: &str = "only materials.pin_resin loses a wear height: give specific_wear_rate";
 
+/// Letters of a name that may be mistyped: more than any has. To compare takes time in proportion to them, for each candidate.
+const LONGEST: usize = 200;
+
 /// The candidate that is most like `name`, if one is like enough.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST {
+        return None;
+    }
     let likeness = |candidate: &str| strsim::normalized_damerau_levenshtein(&name.to_lowercase(), candidate);
     candidates
         .into_iter()
