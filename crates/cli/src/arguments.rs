@@ -3,6 +3,7 @@
 mod accuracy;
 mod answers;
 mod fit;
+mod model;
 mod new;
 mod surface;
 mod sweep;
@@ -25,11 +26,12 @@ use crate::failure::Failure;
 pub use accuracy::AccuracyArguments;
 pub use answers::{ImportArguments, OptimizeArguments, PredictArguments};
 pub use fit::FitArguments;
+pub use model::Terms;
 pub use new::NewArguments;
 pub use surface::SurfaceArguments;
 pub use sweep::{
     CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
-    SweepRunArguments, Terms,
+    SweepRunArguments,
 };
 
 /// How a pin of friction material and a rough, coated brake disc wear into each other.

@@ -3,35 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use plateau_present::study::analysis::Asked;
 
-use super::sweep::{Model, Terms, confidence};
-
-/// What is fitted to the responses of a study.
-#[derive(Debug, Clone, Args)]
-pub struct FitArguments {
-    /// What is fitted; unless given, what `plateau sweep effects` fits
-    #[arg(long, value_enum)]
-    pub model: Option<Model>,
-    /// Which terms of it
-    #[arg(long, value_enum, default_value = "all")]
-    pub terms: Terms,
-    /// Confidence level of intervals
-    #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
-    pub confidence: f64,
-}
-
-impl FitArguments {
-    /// What the analysis is asked for.
-    pub fn asked(&self) -> Asked {
-        Asked {
-            model: self.model.map(Into::into),
-            by_aicc: self.terms == Terms::Aicc,
-            with_processes: self.model.is_none(),
-            confidence: self.confidence,
-        }
-    }
-}
+use super::model::ModelArguments;
 
 /// Arguments of `plateau sweep predict`.
 #[derive(Debug, Args)]
@@ -62,7 +35,7 @@ pub struct PredictArguments {
     #[arg(long)]
     pub confirm: bool,
     #[command(flatten)]
-    pub fit: FitArguments,
+    pub fit: ModelArguments,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
@@ -102,7 +75,7 @@ pub struct OptimizeArguments {
     #[arg(long)]
     pub confirm: bool,
     #[command(flatten)]
-    pub fit: FitArguments,
+    pub fit: ModelArguments,
     /// Folder for figures and table; "optimum" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,

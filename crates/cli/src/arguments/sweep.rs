@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+use super::model::{Model, Terms, confidence};
+
 use super::answers::{ImportArguments, OptimizeArguments, PredictArguments};
 
 /// What to do with a study.
@@ -181,43 +183,4 @@ pub struct SensitivityArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
-}
-
-/// Which terms of a model are kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Terms {
-    /// All of them
-    All,
-    /// Those that the runs support, by the corrected criterion of Akaike
-    Aicc,
-}
-
-/// What is fitted to the responses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum Model {
-    /// Main effects alone
-    Main,
-    /// Main effects and interactions of two factors
-    Interactions,
-    /// Interactions of all orders that the runs tell apart
-    Full,
-    /// Main effects, interactions of two factors and squares
-    Quadratic,
-}
-
-impl From<Model> for plateau_study::effects::Model {
-    fn from(model: Model) -> Self {
-        match model {
-            Model::Main => Self::MainEffects,
-            Model::Interactions => Self::Interactions,
-            Model::Full => Self::Full,
-            Model::Quadratic => Self::Quadratic,
-        }
-    }
-}
-
-/// A value of `--confidence`.
-pub fn confidence(text: &str) -> Result<f64, &'static str> {
-    let expected = "expected a number between 0 and 1, such as 0.95";
-    text.parse().ok().filter(|level| *level > 0.0 && *level < 1.0).ok_or(expected)
 }

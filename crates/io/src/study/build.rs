@@ -3,27 +3,20 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
-use plateau_core::observe::{EXTRAS, quantities};
 use plateau_study::design::{Alpha, Fraction, Kind};
-use toml::{Spanned, Value};
+use toml::Spanned;
 
 use super::document::{self, Document};
 use super::factor::{Factor, Level, Values};
-use super::place::Place;
-use super::record::EVENT;
-use super::response::{Question, Response, WhichEvent};
-use super::response_keys::{dataset, imported, is_imported, transform};
+use super::place::{MOST_PROBLEMS, Place};
+use super::response::Response;
+use super::response_keys::{responses, series_name};
 use super::{DesignSource, Order, Replicates, Study, measured, points_of_file};
 use crate::scene::{Origin, Problem, schema};
 use crate::text::odd_character;
-use crate::units::{self, Dimension};
 
 /// The newest version of the study format that this program reads.
 const VERSION: i64 = 1;
-
-/// Problems that are looked for: nobody reads more.
-const MOST_PROBLEMS: usize = 100;
 
 /// Designs by their name in a study.
 const DESIGNS: [&str; 9] = [
@@ -304,123 +297,4 @@ fn replicates(given: &document::Replicates, place: &Place<'_>, problems: &mut Ve
         problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
     }
     Replicates { keys: given.keys.get_ref().iter().map(|key| key.get_ref().clone()).collect(), seeds }
-}
-
-fn responses(tables: &[document::Response], place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
-    let mut responses: Vec<Response> = Vec::new();
-    let mut names = HashSet::new();
-    for table in tables {
-        if problems.len() >= MOST_PROBLEMS {
-            break;
-        }
-        let name = table.name.get_ref().clone();
-        place.check_name(&name, || place.at(table.name.span().start), "response.name", problems);
-        if !names.insert(name.clone()) {
-            problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
-        }
-        let asked = match is_imported(table, place) {
-            Ok(true) => imported(table, place).map(|question| (String::new(), question)),
-            Ok(false) => dataset(table, place).and_then(|dataset| {
-                let series = match &table.event {
-                    Some(_) => event_name(dataset, place, problems),
-                    None => series_name(dataset, "response.dataset", place, problems),
-                };
-                Ok((series.unwrap_or_default(), question(table, place)?))
-            }),
-            Err(problem) => Err(problem),
-        };
-        let response = asked.and_then(|(series, question)| {
-            let response = Response { name, series, question, transform: None };
-            let transform = transform(table, &response, place)?;
-            Ok(Response { transform, ..response })
-        });
-        match response {
-            Ok(response) => responses.push(response),
-            Err(problem) => problems.push(problem),
-        }
-    }
-    responses
-}
-
-fn question(table: &document::Response, place: &Place<'_>) -> Result<Question, Problem> {
-    let time = |text: &Spanned<String>, key: &str| {
-        let time = units::parse(text.get_ref(), Dimension::Time)
-            .map_err(|error| place.problem(text, key, error.to_string()))?;
-        if time >= 0.0 {
-            Ok(time)
-        } else {
-            Err(place.problem(text, key, format!("\"{}\" is before the run", text.get_ref())))
-        }
-    };
-    let refused = || {
-        let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
-                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"";
-        place.problem(&table.name, "response", message)
-    };
-    if let (Some(event), None, None, None) = (&table.event, &table.at, &table.mean, &table.reaches) {
-        return which_event(event.get_ref()).map(Question::Event).ok_or_else(|| {
-            place.problem(event, "response.event", "expected the number of an event, \"last\" or \"mean\"")
-        });
-    }
-    if table.event.is_some() {
-        return Err(refused());
-    }
-    match (&table.at, &table.mean, &table.reaches) {
-        (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
-        (Some(at), None, None) => Ok(Question::At(time(at, "response.at")?)),
-        (None, Some(mean), None) => {
-            let document::Mean::Between([from, to]) = mean.get_ref() else { return Ok(Question::MeanOfLastTenth) };
-            let (start, end) = (time(from, "response.mean")?, time(to, "response.mean")?);
-            if start < end {
-                return Ok(Question::Mean(start, end));
-            }
-            Err(place.problem(mean, "response.mean", "expected two times, the earlier one first"))
-        }
-        (None, None, Some(reaches)) if (0.0..1.0).contains(reaches.get_ref()) && *reaches.get_ref() > 0.0 => {
-            Ok(Question::Reaches(*reaches.get_ref()))
-        }
-        (None, None, Some(reaches)) => Err(place.problem(
-            reaches,
-            "response.reaches",
-            format!("{}, expected more than 0 and less than 1", reaches.get_ref()),
-        )),
-        _ => Err(refused()),
-    }
-}
-
-/// `/series/pool` or `pool`.
-fn which_event(value: &Value) -> Option<WhichEvent> {
-    match value {
-        Value::Integer(number) => usize::try_from(*number).ok().filter(|number| *number > 0).map(WhichEvent::Number),
-        Value::String(word) if word == "last" => Some(WhichEvent::Last),
-        Value::String(word) if word == "mean" => Some(WhichEvent::Mean),
-        _ => None,
-    }
-}
-
-/// The dataset of a quantity of events.
-fn event_name(found: &Spanned<String>, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
-    let name = found.get_ref().trim_start_matches('/').trim_start_matches(EVENT);
-    if event_quantity(name).is_some() {
-        return Some(format!("{EVENT}{name}"));
-    }
-    let known: Vec<_> = EVENT_QUANTITIES.iter().map(|quantity| format!("/{EVENT}{}", quantity.name)).collect();
-    let message =
-        format!("\"{}\" is nothing that is reported of events; expected {}", found.get_ref(), known.join(", "));
-    problems.push(place.problem(found, "response.dataset", message));
-    None
-}
-
-fn series_name(found: &Spanned<String>, key: &str, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
-    let name = found.get_ref().trim_start_matches("/series/");
-    let known = || quantities(EXTRAS).map(|quantity| quantity.name);
-    if known().any(|known| known == name) {
-        return Some(name.to_owned());
-    }
-    let nearest = schema::nearest(name, known()).map_or_else(
-        || format!("; the series are {}", known().collect::<Vec<_>>().join(", ")),
-        |nearest| format!("; did you mean /series/{nearest}?"),
-    );
-    problems.push(place.problem(found, key, format!("\"{}\" is no series of a run{nearest}", found.get_ref())));
-    None
 }

@@ -8,6 +8,9 @@ use toml::Spanned;
 use crate::scene::{Origin, Problem};
 use crate::text::odd_character;
 
+/// Problems that are looked for: nobody reads more.
+pub(super) const MOST_PROBLEMS: usize = 100;
+
 /// Turns a place in the text into line and column.
 pub(super) struct Place<'a> {
     pub file: Arc<Path>,

@@ -1,16 +1,147 @@
-//! Keys of a response beside its question: where its values come from, their unit, and how they are fitted.
+//! From the tables of responses to what they ask: where values come from, their unit, and how they are fitted.
 
+use std::collections::HashSet;
+
+use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
+use plateau_core::observe::{EXTRAS, quantities};
 use plateau_study::effects::Transform;
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 use super::collected::unit_of;
-use super::document::Response as Table;
-use super::place::Place;
-use super::response::{Question, Response, units};
-use crate::scene::Problem;
+use super::document::{Mean, Response as Table};
+use super::place::{MOST_PROBLEMS, Place};
+use super::record::EVENT;
+use super::response::{Question, Response, WhichEvent, units};
+use crate::scene::{Problem, schema};
+use crate::units::{Dimension, parse};
+
+/// The responses of a study.
+pub(super) fn responses(tables: &[Table], place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
+    let mut responses: Vec<Response> = Vec::new();
+    let mut names = HashSet::new();
+    for table in tables {
+        if problems.len() >= MOST_PROBLEMS {
+            break;
+        }
+        let name = table.name.get_ref().clone();
+        place.check_name(&name, || place.at(table.name.span().start), "response.name", problems);
+        if !names.insert(name.clone()) {
+            problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
+        }
+        let asked = match is_imported(table, place) {
+            Ok(true) => imported(table, place).map(|question| (String::new(), question)),
+            Ok(false) => dataset(table, place).and_then(|dataset| {
+                let series = match &table.event {
+                    Some(_) => event_name(dataset, place, problems),
+                    None => series_name(dataset, "response.dataset", place, problems),
+                };
+                Ok((series.unwrap_or_default(), question(table, place)?))
+            }),
+            Err(problem) => Err(problem),
+        };
+        let response = asked.and_then(|(series, question)| {
+            let response = Response { name, series, question, transform: None };
+            let transform = transform(table, &response, place)?;
+            Ok(Response { transform, ..response })
+        });
+        match response {
+            Ok(response) => responses.push(response),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    responses
+}
+
+fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
+    let time = |text: &Spanned<String>, key: &str| {
+        let time =
+            parse(text.get_ref(), Dimension::Time).map_err(|error| place.problem(text, key, error.to_string()))?;
+        if time >= 0.0 {
+            Ok(time)
+        } else {
+            Err(place.problem(text, key, format!("\"{}\" is before the run", text.get_ref())))
+        }
+    };
+    let refused = || {
+        let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
+                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"";
+        place.problem(&table.name, "response", message)
+    };
+    if let (Some(event), None, None, None) = (&table.event, &table.at, &table.mean, &table.reaches) {
+        return which_event(event.get_ref()).map(Question::Event).ok_or_else(|| {
+            place.problem(event, "response.event", "expected the number of an event, \"last\" or \"mean\"")
+        });
+    }
+    if table.event.is_some() {
+        return Err(refused());
+    }
+    match (&table.at, &table.mean, &table.reaches) {
+        (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
+        (Some(at), None, None) => Ok(Question::At(time(at, "response.at")?)),
+        (None, Some(mean), None) => {
+            let Mean::Between([from, to]) = mean.get_ref() else { return Ok(Question::MeanOfLastTenth) };
+            let (start, end) = (time(from, "response.mean")?, time(to, "response.mean")?);
+            if start < end {
+                return Ok(Question::Mean(start, end));
+            }
+            Err(place.problem(mean, "response.mean", "expected two times, the earlier one first"))
+        }
+        (None, None, Some(reaches)) if (0.0..1.0).contains(reaches.get_ref()) && *reaches.get_ref() > 0.0 => {
+            Ok(Question::Reaches(*reaches.get_ref()))
+        }
+        (None, None, Some(reaches)) => Err(place.problem(
+            reaches,
+            "response.reaches",
+            format!("{}, expected more than 0 and less than 1", reaches.get_ref()),
+        )),
+        _ => Err(refused()),
+    }
+}
+
+fn which_event(value: &Value) -> Option<WhichEvent> {
+    match value {
+        Value::Integer(number) => usize::try_from(*number).ok().filter(|number| *number > 0).map(WhichEvent::Number),
+        Value::String(word) if word == "last" => Some(WhichEvent::Last),
+        Value::String(word) if word == "mean" => Some(WhichEvent::Mean),
+        _ => None,
+    }
+}
+
+/// The dataset of a quantity of events.
+fn event_name(found: &Spanned<String>, place: &Place<'_>, problems: &mut Vec<Problem>) -> Option<String> {
+    let name = found.get_ref().trim_start_matches('/').trim_start_matches(EVENT);
+    if event_quantity(name).is_some() {
+        return Some(format!("{EVENT}{name}"));
+    }
+    let known: Vec<_> = EVENT_QUANTITIES.iter().map(|quantity| format!("/{EVENT}{}", quantity.name)).collect();
+    let message =
+        format!("\"{}\" is nothing that is reported of events; expected {}", found.get_ref(), known.join(", "));
+    problems.push(place.problem(found, "response.dataset", message));
+    None
+}
+
+/// `/series/pool` or `pool`.
+pub(super) fn series_name(
+    found: &Spanned<String>,
+    key: &str,
+    place: &Place<'_>,
+    problems: &mut Vec<Problem>,
+) -> Option<String> {
+    let name = found.get_ref().trim_start_matches("/series/");
+    let known = || quantities(EXTRAS).map(|quantity| quantity.name);
+    if known().any(|known| known == name) {
+        return Some(name.to_owned());
+    }
+    let nearest = schema::nearest(name, known()).map_or_else(
+        || format!("; the series are {}", known().collect::<Vec<_>>().join(", ")),
+        |nearest| format!("; did you mean /series/{nearest}?"),
+    );
+    problems.push(place.problem(found, key, format!("\"{}\" is no series of a run{nearest}", found.get_ref())));
+    None
+}
 
 /// Whether the values come from elsewhere.
-pub(super) fn is_imported(table: &Table, place: &Place<'_>) -> Result<bool, Problem> {
+fn is_imported(table: &Table, place: &Place<'_>) -> Result<bool, Problem> {
     let is_imported = table.imported.as_ref().is_some_and(|imported| *imported.get_ref());
     match (&table.unit, is_imported) {
         (Some(unit), false) => {
@@ -21,7 +152,7 @@ pub(super) fn is_imported(table: &Table, place: &Place<'_>) -> Result<bool, Prob
 }
 
 /// The question of a response whose values come from elsewhere.
-pub(super) fn imported(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
+fn imported(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
     let asks = table.dataset.is_some() || table.at.is_some() || table.mean.is_some();
     if asks || table.reaches.is_some() || table.event.is_some() {
         let message = "imported = true has no dataset, at, mean, reaches or event: its values come from a table";
@@ -39,7 +170,7 @@ pub(super) fn imported(table: &Table, place: &Place<'_>) -> Result<Question, Pro
 }
 
 /// The dataset that is asked.
-pub(super) fn dataset<'a>(table: &'a Table, place: &Place<'_>) -> Result<&'a Spanned<String>, Problem> {
+fn dataset<'a>(table: &'a Table, place: &Place<'_>) -> Result<&'a Spanned<String>, Problem> {
     table.dataset.as_ref().ok_or_else(|| {
         let message = "expected dataset = \"/series/...\", or imported = true for values that come from a table";
         place.problem(&table.name, "response", message)
@@ -47,7 +178,7 @@ pub(super) fn dataset<'a>(table: &'a Table, place: &Place<'_>) -> Result<&'a Spa
 }
 
 /// What is done to the values before a model is fitted to them.
-pub(super) fn transform(table: &Table, response: &Response, place: &Place<'_>) -> Result<Option<Transform>, Problem> {
+fn transform(table: &Table, response: &Response, place: &Place<'_>) -> Result<Option<Transform>, Problem> {
     let Some(found) = &table.transform else { return Ok(None) };
     let word = found.get_ref().as_str();
     let transform = Transform::of_name(word).ok_or_else(|| {

@@ -9,12 +9,12 @@ use plateau_present::figure::{Figure, Format, sensitivity as figures};
 use plateau_present::study::analysis::Analysis;
 use plateau_study::design::{Kind, Setting};
 use plateau_study::effects::{Factor, Observation};
-use plateau_study::sensitivity::{ElementaryEffect, Index, Options, SobolIndices, elementary_effects, sobol_indices};
+use plateau_study::sensitivity::{ElementaryEffect, Index, Options, elementary_effects, sobol_indices};
 use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
 use plateau_study::surrogate::{Surrogate, choose};
 
 use super::collect::collected;
-use super::sensitivity_document;
+use super::sensitivity_document::{self, Known, Told};
 use crate::arguments::SensitivityArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
@@ -72,25 +72,6 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
         ("written", format!("{} as PNG, SVG and PDF beside it", number::count(pictures, "figure"))),
     ];
     print(&(told.text() + &table(&study.title, &rows)))
-}
-
-/// What is known of one response, or why nothing is.
-pub(super) enum Known {
-    /// Indices from a surrogate, and which one it is and why.
-    Indices(SobolIndices, String),
-    /// Elementary effects from the runs themselves.
-    Effects(Vec<ElementaryEffect>),
-    /// Why there are none.
-    Nothing(String),
-}
-
-/// The sensitivities of all responses.
-pub(super) struct Told {
-    /// Names of the factors.
-    pub factors: Vec<String>,
-    /// Name, SI unit, largest size.
-    pub responses: Vec<(String, &'static str, f64, Known)>,
-    confidence: f64,
 }
 
 impl Told {

@@ -1,9 +1,27 @@
-//! What `plateau sweep sensitivity --json` prints.
+//! The sensitivities of a study, and what `plateau sweep sensitivity --json` prints of them.
 
-use plateau_study::sensitivity::Index;
+use plateau_study::sensitivity::{ElementaryEffect, Index, SobolIndices};
 use serde::Serialize;
 
-use super::sensitivity::{Known, Told};
+/// What is known of one response, or why nothing is.
+pub(super) enum Known {
+    /// Indices from a surrogate, and which one it is and why.
+    Indices(SobolIndices, String),
+    /// Elementary effects from the runs themselves.
+    Effects(Vec<ElementaryEffect>),
+    /// Why there are none.
+    Nothing(String),
+}
+
+/// The sensitivities of all responses.
+pub(super) struct Told {
+    /// Names of the factors.
+    pub factors: Vec<String>,
+    /// Name, SI unit, largest size.
+    pub responses: Vec<(String, &'static str, f64, Known)>,
+    /// Confidence level of intervals.
+    pub confidence: f64,
+}
 
 /// The reports of all responses.
 pub fn reports(told: &Told) -> Vec<Report<'_>> {
