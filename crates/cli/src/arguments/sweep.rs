@@ -31,17 +31,19 @@ pub enum SweepCommand {
     #[command(after_help = "Example:\n  plateau sweep effects data/studies/pad-properties.toml")]
     Effects(EffectsArguments),
     /// Tell what responses are expected to be where no run was made
-    #[command(after_help = "Examples:\n  plateau sweep run data/studies/quick-answers.toml\n  \
-                      plateau sweep predict data/studies/quick-answers.toml --at load=\"12 N\" --at fibres=0.3\n  \
-                      plateau sweep predict data/studies/quick-answers.toml --grid 5 -o predicted.csv")]
+    #[command(after_help = "Examples:\n  plateau sweep predict data/studies/pad-properties.toml --at load=\"7 N\"\n  \
+                      plateau sweep predict data/studies/pad-properties.toml --grid 5 -o predicted.csv")]
     Predict(PredictArguments),
     /// Find the settings at which responses are best
-    #[command(after_help = "Examples:\n  plateau sweep run data/studies/quick-answers.toml\n  \
-                      plateau sweep optimize data/studies/quick-answers.toml --maximize \"contact area\" --limit \"worn<=0.02 mm3\"\n\n\
-                      Several goals are weighed by the geometric mean of their desirabilities (Derringer and Suich).")]
+    #[command(
+        after_help = "Example:\n  plateau sweep optimize data/studies/pad-properties.toml --maximize \"contact area\" \
+                      --limit \"filled fraction<=0.3\"\n\n\
+                      Several goals are weighed by the geometric mean of their desirabilities (Derringer and Suich)."
+    )]
     Optimize(OptimizeArguments),
     /// Take in responses that were measured or computed elsewhere
-    #[command(after_help = "Example:\n  plateau sweep import data/studies/tyre.toml data/studies/tyre.csv --force")]
+    #[command(after_help = "Example:\n  plateau sweep import study.toml measured.csv\n\n\
+                            The table has a column for each factor, and one for each response with imported = true.")]
     Import(ImportArguments),
 }
 

@@ -37,6 +37,7 @@ impl Estimate {
     /// # Errors
     /// [`Failure::Input`] when their scenes or surfaces cannot be built.
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
+        super::refuse_without_scene(plan)?;
         let mut per_cell = 0.0_f64;
         for number in spread(plan.runs(), TIMED) {
             let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;

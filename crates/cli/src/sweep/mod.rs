@@ -36,6 +36,20 @@ pub fn plan(path: &Path) -> Result<Plan, Failure> {
     Study::load(path).and_then(Plan::new).map_err(Failure::input)
 }
 
+/// Refuses a study that has no scene to run.
+///
+/// # Errors
+/// [`Failure::Input`].
+fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
+    let path = plan.study().path.display();
+    match plan.study().base {
+        Some(_) => Ok(()),
+        None => Err(Failure::input(format_args!(
+            "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
+        ))),
+    }
+}
+
 /// Folder of the study's journal.
 pub fn journal_folder(study: &Study) -> PathBuf {
     study.directory.join("journal")

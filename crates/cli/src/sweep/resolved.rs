@@ -37,12 +37,7 @@ impl Resolved {
     /// # Errors
     /// [`Failure::Input`] with the runs whose scenes cannot be built, before any is made.
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
-        if plan.study().base.is_none() {
-            let path = plan.study().path.display();
-            return Err(Failure::input(format_args!(
-                "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
-            )));
-        }
+        super::refuse_without_scene(plan)?;
         let (digests, program) = (Digests::default(), version::this().build());
         let resolve = |number: usize| {
             let run = plan.run(number);

@@ -56,13 +56,8 @@ pub(super) fn analyse_terms(
     options: &Options,
     kept: Option<&[Parts]>,
 ) -> Result<Effects, EffectsError> {
-    let Options { model, blocks, confidence } = *options;
-    if !(confidence > 0.0 && confidence < 1.0) {
-        return Err(EffectsError::Confidence(confidence));
-    }
-    factors.iter().try_for_each(Factor::check)?;
-    let usable = Usable::new(factors, observations)?;
-    let mut regressors = Regressors::new(factors, &usable, model, blocks)?;
+    let Options { model, confidence, .. } = *options;
+    let (usable, mut regressors) = prepared(factors, observations, options)?;
     let is_chosen = kept.is_some_and(|kept| regressors.keep(kept));
     let matrix = regressors.matrix(&usable)?;
     let count = usable.responses.len();
@@ -85,21 +80,13 @@ pub(super) fn analyse_terms(
     let adjusted = residual.squares.mean().zip(total.mean()).map(|(residual, total)| 1.0 - residual / total);
     let judge = Judge { total: total.sum, error: variance.map(|_| residual.squares), quantile };
     let (blocks, terms) = terms(&regressors, &fit, &judge);
-    let error = match is_chosen {
-        true => error_source(&residual, exact, LeftOut::Other),
-        false => error_source(&residual, exact, left_out(&regressors, &usable, model)),
-    };
+    let left_out = if is_chosen { LeftOut::Other } else { left_out(&regressors, &usable, model) };
+    let error = error_source(&residual, exact, left_out);
     let lenth = if deviation.is_none() { Lenth::new(&effects_of(&terms), confidence) } else { None };
     if exact {
         fit.residuals.fill(0.0);
     }
-    let fitted = usable.indices.iter().zip(&usable.responses).zip(&fit.residuals);
-    let fitted = fitted.map(|((observation, response), residual)| Fitted {
-        observation: *observation,
-        fitted: response - residual,
-        residual: *residual,
-    });
-    let fitted = fitted.collect();
+    let fitted = fitted(&usable, &fit);
     let (mean, repeated) = (offset + centred_mean, usable.repeated);
     let mean_row = [vec![1.0], vec![0.0; matrix.ncols() - 1]].concat();
     let inner = Inner { factors: factors.to_vec(), usable, regressors, fit, offset, rounding, deviation, quantile };
@@ -124,6 +111,33 @@ pub(super) fn analyse_terms(
         lenth,
         inner,
     })
+}
+
+/// What can be analysed, and the regressors of the model.
+fn prepared(
+    factors: &[Factor],
+    observations: &[Observation],
+    options: &Options,
+) -> Result<(Usable, Regressors), EffectsError> {
+    let Options { model, blocks, confidence } = *options;
+    if !(confidence > 0.0 && confidence < 1.0) {
+        return Err(EffectsError::Confidence(confidence));
+    }
+    factors.iter().try_for_each(Factor::check)?;
+    let usable = Usable::new(factors, observations)?;
+    let regressors = Regressors::new(factors, &usable, model, blocks)?;
+    Ok((usable, regressors))
+}
+
+/// Each response beside the fit.
+fn fitted(usable: &Usable, fit: &Fit) -> Vec<Fitted> {
+    let each = usable.indices.iter().zip(&usable.responses).zip(&fit.residuals);
+    let fitted = each.map(|((observation, response), residual)| Fitted {
+        observation: *observation,
+        fitted: response - residual,
+        residual: *residual,
+    });
+    fitted.collect()
 }
 
 /// Sum of squares of what each response differs by from the fit to all others.

@@ -169,8 +169,9 @@ impl Problem<'_> {
     /// below 0 by how far, so that the search knows the way back.
     fn merit(&self, combination: usize, place: &[f64]) -> Result<f64, EffectsError> {
         let settings = self.settings(combination, place);
-        let values = self.forecasts(&settings)?;
-        let missed: f64 = self.limits.iter().map(|limit| limit.missed(values[limit.response].value)).sum();
+        let values = self.surrogates.iter().map(|surrogate| surrogate.value(&settings));
+        let values: Vec<f64> = values.collect::<Result<_, _>>()?;
+        let missed: f64 = self.limits.iter().map(|limit| limit.missed(values[limit.response])).sum();
         let desirabilities = self.desirabilities(&values);
         let overall = overall(self.goals, &desirabilities);
         if missed > 0.0 {
@@ -180,23 +181,21 @@ impl Problem<'_> {
         if overall > 0.0 {
             return Ok(overall);
         }
-        let short: f64 = self.goals.iter().map(|goal| goal.wish.part(values[goal.response].value).min(0.0)).sum();
+        let short: f64 = self.goals.iter().map(|goal| goal.wish.part(values[goal.response]).min(0.0)).sum();
         Ok((short / (1.0 - short)).max(-1.0))
     }
 
-    fn forecasts(&self, settings: &[Setting]) -> Result<Vec<Forecast>, EffectsError> {
-        self.surrogates.iter().map(|surrogate| surrogate.forecast(settings, self.confidence)).collect()
-    }
-
-    fn desirabilities(&self, forecasts: &[Forecast]) -> Vec<f64> {
-        self.goals.iter().map(|goal| goal.desirability(forecasts[goal.response].value)).collect()
+    fn desirabilities(&self, values: &[f64]) -> Vec<f64> {
+        self.goals.iter().map(|goal| goal.desirability(values[goal.response])).collect()
     }
 
     fn at(&self, settings: Vec<Setting>) -> Result<Optimum, OptimumError> {
-        let forecasts = self.forecasts(&settings)?;
-        let desirabilities = self.desirabilities(&forecasts);
+        let forecasts = self.surrogates.iter().map(|surrogate| surrogate.forecast(&settings, self.confidence));
+        let forecasts: Vec<Forecast> = forecasts.collect::<Result<_, _>>()?;
+        let values: Vec<f64> = forecasts.iter().map(|forecast| forecast.value).collect();
+        let desirabilities = self.desirabilities(&values);
         let overall = overall(self.goals, &desirabilities);
-        let keeps_limits = self.limits.iter().all(|limit| limit.missed(forecasts[limit.response].value) <= 0.0);
+        let keeps_limits = self.limits.iter().all(|limit| limit.missed(values[limit.response]) <= 0.0);
         Ok(Optimum { settings, forecasts, desirabilities, overall, keeps_limits })
     }
 }

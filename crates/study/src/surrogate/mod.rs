@@ -32,6 +32,14 @@ pub trait Surrogate {
     /// If the settings do not fit the factors, or a level was never observed.
     fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError>;
 
+    /// The response at settings alone, for those who ask often.
+    ///
+    /// # Errors
+    /// Those of [`forecast`](Self::forecast).
+    fn value(&self, settings: &[Setting]) -> Result<f64, EffectsError> {
+        Ok(self.forecast(settings, 0.95)?.value)
+    }
+
     /// Root mean square of what responses differ by from a fit without their point, in the unit of the response; none
     /// where a term depends on one point alone.
     fn leave_one_out_error(&self) -> Option<f64>;

@@ -73,6 +73,10 @@ impl Surrogate for PolynomialSurrogate<'_> {
         })
     }
 
+    fn value(&self, settings: &[Setting]) -> Result<f64, EffectsError> {
+        Ok(self.scale.back(self.effects.spread(settings)?.value))
+    }
+
     fn leave_one_out_error(&self) -> Option<f64> {
         let held_out = self.effects.held_out()?;
         let missed = |[response, without]: &[f64; 2]| (self.scale.back(*response) - self.scale.back(*without)).powi(2);

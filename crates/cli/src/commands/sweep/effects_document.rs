@@ -1,9 +1,9 @@
 //! What `plateau sweep effects --json` prints.
 
-use plateau_present::study::analysis::{AnalysedResponse, Analysis};
+use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis};
 use plateau_present::study::equation::{equations, product};
 use plateau_present::study::model::name;
-use plateau_study::effects::{Effects, Equation, Term, Transform};
+use plateau_study::effects::{Effects, Equation, EquationTerm, Term, Transform};
 use serde::Serialize;
 
 /// The whole document.
@@ -121,21 +121,6 @@ impl Report {
         let effects = response.effects.as_ref().ok();
         let number = |value: fn(&Effects) -> f64| effects.map_or(f64::NAN, value);
         let optional = |value: fn(&Effects) -> Option<f64>| effects.and_then(value);
-        let term = |term: &Term| {
-            let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
-            TermReport {
-                label: term.label.clone(),
-                degrees_of_freedom: term.freedom,
-                sum_of_squares: term.sum_of_squares,
-                share: term.share,
-                f: term.test.map(|test| test.f),
-                p: term.test.map(|test| test.p),
-                effect: term.estimate.map(|estimate| estimate.effect),
-                standard_error: uncertainty.map(|uncertainty| uncertainty.standard_error),
-                interval: uncertainty.map(|uncertainty| uncertainty.interval),
-                aliased_with: term.aliased_with.clone(),
-            }
-        };
         Self {
             name: response.name.clone(),
             unit: response.unit,
@@ -163,29 +148,46 @@ impl Report {
             box_cox: response.box_cox.map(|found| BoxCoxReport { lambda: found.power, interval: found.interval }),
             terms_left_out: response.selected.as_ref().map(|selected| selected.left_out.clone()),
             aicc: response.selected.as_ref().map(|selected| selected.aicc),
-            equations: effects.and_then(|effects| equations(effects, &analysis.factors)).map_or_else(
-                Vec::new,
-                |both| {
-                    let report = |(units, equation): (&'static str, &Equation)| EquationReport {
-                        units,
-                        terms: equation
-                            .terms
-                            .iter()
-                            .map(|term| EquationTermReport {
-                                variables: product(&term.variables, &analysis.factors),
-                                coefficient: term.coefficient,
-                            })
-                            .collect(),
-                    };
-                    ["coded", "of the study"].into_iter().zip(&both).map(report).collect()
-                },
-            ),
+            equations: effects.map_or_else(Vec::new, |effects| EquationReport::both(effects, &analysis.factors)),
             lenth: effects.and_then(|effects| effects.lenth).map(|lenth| LenthReport {
                 pseudo_standard_error: lenth.pseudo_standard_error,
                 margin_of_error: lenth.margin,
                 simultaneous_margin_of_error: lenth.simultaneous_margin,
             }),
-            terms: effects.map_or_else(Vec::new, |effects| effects.rows().map(term).collect()),
+            terms: effects.map_or_else(Vec::new, |effects| effects.rows().map(TermReport::new).collect()),
         }
+    }
+}
+
+impl TermReport {
+    fn new(term: &Term) -> Self {
+        let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
+        Self {
+            label: term.label.clone(),
+            degrees_of_freedom: term.freedom,
+            sum_of_squares: term.sum_of_squares,
+            share: term.share,
+            f: term.test.map(|test| test.f),
+            p: term.test.map(|test| test.p),
+            effect: term.estimate.map(|estimate| estimate.effect),
+            standard_error: uncertainty.map(|uncertainty| uncertainty.standard_error),
+            interval: uncertainty.map(|uncertainty| uncertainty.interval),
+            aliased_with: term.aliased_with.clone(),
+        }
+    }
+}
+
+impl EquationReport {
+    /// In coded units, and in those of the study; nothing where they are too long.
+    fn both(effects: &Effects, factors: &[AnalysedFactor]) -> Vec<Self> {
+        let report = |(units, equation): (&'static str, Equation)| {
+            let term = |term: &EquationTerm| EquationTermReport {
+                variables: product(&term.variables, factors),
+                coefficient: term.coefficient,
+            };
+            Self { units, terms: equation.terms.iter().map(term).collect() }
+        };
+        let both = equations(effects, factors).into_iter().flatten();
+        ["coded", "of the study"].into_iter().zip(both).map(report).collect()
     }
 }

@@ -30,31 +30,7 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let space = Space::new(analysed.plan.study(), analysis);
     let axes = axes(&analysed, &space, arguments)?;
     let contour = arguments.contour.as_deref().map(|names| pair(&space, names, &axes)).transpose()?;
-    // A response without a model may be there as long as nothing is wanted of it.
-    let wanted = |response: usize| {
-        goals.iter().any(|goal| goal.response == response) || limits.iter().any(|limit| limit.response == response)
-    };
-    let mut surrogates: Vec<Box<dyn Surrogate + '_>> = Vec::new();
-    let mut places = vec![None; analysis.responses.len()];
-    for (at, response) in analysis.responses.iter().enumerate() {
-        match (response.surrogate(), &response.effects) {
-            (Some(surrogate), _) => {
-                places[at] = Some(surrogates.len());
-                surrogates.push(surrogate);
-            }
-            (None, Err(error)) if wanted(at) => {
-                let path = analysed.plan.study().path.display();
-                return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
-            }
-            _ => {}
-        }
-    }
-    let known: Vec<&dyn Surrogate> = surrogates.iter().map(AsRef::as_ref).collect();
-    let moved = |response: usize| places[response].unwrap_or(0);
-    let own_goals: Vec<Goal> = goals.iter().map(|goal| Goal { response: moved(goal.response), ..*goal }).collect();
-    let own_limits: Vec<Limit> =
-        limits.iter().map(|limit| Limit { response: moved(limit.response), ..*limit }).collect();
-    let best = optimum(&known, &own_goals, &own_limits, &axes, arguments.fit.confidence).map_err(Failure::input)?;
+    let (best, forecasts) = search(&analysed, &goals, &limits, &axes, arguments.fit.confidence)?;
     if best.overall <= 0.0 || !best.keeps_limits {
         message::warning(match best.keeps_limits {
             false => "no settings within the ranges keep all limits; these miss least",
@@ -64,8 +40,6 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
         });
     }
     let place = space.of(best.settings.clone()).map_err(Failure::input)?;
-    let forecasts: Vec<Option<Forecast>> =
-        places.iter().map(|place| place.map(|place| best.forecasts[place])).collect();
     let folder = arguments.output.clone().unwrap_or_else(|| analysed.plan.study().directory.join("optimum"));
     let shown = Shown {
         analysis,
@@ -102,6 +76,41 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let count = files.iter().filter(|file| file.ends_with(".png")).count();
     text.push_str(&format!("written {} as PNG, SVG and PDF in {}\n", number::count(count, "figure"), folder.display()));
     print(&text)
+}
+
+/// The best settings, and what is expected of each response there; none of one without a model, of which nothing may be wanted.
+fn search(
+    analysed: &Analysed,
+    goals: &[Goal],
+    limits: &[Limit],
+    axes: &[Axis],
+    confidence: f64,
+) -> Result<(Optimum, Vec<Option<Forecast>>), Failure> {
+    let wanted = |response: usize| {
+        goals.iter().any(|goal| goal.response == response) || limits.iter().any(|limit| limit.response == response)
+    };
+    let mut surrogates: Vec<Box<dyn Surrogate + '_>> = Vec::new();
+    let mut places = Vec::new();
+    for (at, response) in analysed.analysis.responses.iter().enumerate() {
+        match (response.surrogate(), &response.effects) {
+            (Some(surrogate), _) => {
+                places.push(Some(surrogates.len()));
+                surrogates.push(surrogate);
+            }
+            (None, Err(error)) if wanted(at) => {
+                let path = analysed.plan.study().path.display();
+                return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
+            }
+            _ => places.push(None),
+        }
+    }
+    let known: Vec<&dyn Surrogate> = surrogates.iter().map(AsRef::as_ref).collect();
+    let moved = |response: usize| places[response].unwrap_or(0);
+    let goals: Vec<Goal> = goals.iter().map(|goal| Goal { response: moved(goal.response), ..*goal }).collect();
+    let limits: Vec<Limit> = limits.iter().map(|limit| Limit { response: moved(limit.response), ..*limit }).collect();
+    let best = optimum(&known, &goals, &limits, axes, confidence).map_err(Failure::input)?;
+    let forecasts = places.iter().map(|place| place.map(|place| best.forecasts[place])).collect();
+    Ok((best, forecasts))
 }
 
 /// Goals and limits of the command line.

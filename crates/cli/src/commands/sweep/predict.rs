@@ -1,6 +1,10 @@
 //! `plateau sweep predict`: what responses are expected to be where no run was made.
 
-use plateau_io::study::value_table::ValueTable;
+use std::path::Path;
+
+use plateau_io::number;
+use plateau_io::study::value_table::{Row, ValueTable};
+use plateau_present::study::analysis::AnalysedResponse;
 use plateau_present::study::forecasts::heads;
 use plateau_present::study::place::{Place, Space};
 use plateau_study::design::Setting;
@@ -24,27 +28,12 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
         output::check(path, arguments.force, std::slice::from_ref(&arguments.study))?;
     }
     let analysed = Analysed::of(&arguments.study, arguments.fit.asked())?;
+    let confidence = arguments.fit.confidence;
     let places = places(&analysed, arguments)?;
-    let study = analysed.plan.study();
-    if let Some((at, place)) = places.iter().enumerate().find(|(_, place)| !place.beyond.is_empty())
-        && !arguments.extrapolate
-    {
-        let which = if places.len() > 1 { format!("place {}: ", at + 1) } else { String::new() };
-        return Err(Failure::input(format_args!(
-            "{which}{}; the model knows nothing there, give --extrapolate to see what it says nevertheless",
-            place.beyond.join(", ")
-        )));
-    }
-    let surrogates: Vec<_> = analysed.analysis.responses.iter().map(|response| response.surrogate()).collect();
-    let forecast = |place: &Place| -> Result<Vec<Option<Forecast>>, Failure> {
-        let of = |surrogate: &Option<Box<dyn Surrogate + '_>>| {
-            let forecast =
-                surrogate.as_ref().map(|surrogate| surrogate.forecast(&place.settings, arguments.fit.confidence));
-            forecast.transpose().map_err(|error| Failure::input(format_args!("{}: {error}", study.path.display())))
-        };
-        surrogates.iter().map(of).collect()
-    };
-    let forecasts = places.iter().map(forecast).collect::<Result<Vec<_>, Failure>>()?;
+    refuse_beyond(&places, arguments.extrapolate)?;
+    let surrogates: Vec<_> = analysed.analysis.responses.iter().map(AnalysedResponse::surrogate).collect();
+    let forecasts = places.iter().map(|place| forecasts_at(&analysed, &surrogates, place, confidence));
+    let forecasts = forecasts.collect::<Result<Vec<_>, Failure>>()?;
     if let Some(path) = &arguments.output {
         let table = prediction_table::table(&analysed, &places, &forecasts);
         output::write(path, table.as_bytes(), arguments.force)?;
@@ -53,35 +42,52 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
         (true, [place]) => Some(confirm(&analysed.plan, &place.levels, &forecasts[0])?),
         _ => None,
     };
-    let reports: Vec<PlaceReport> =
-        places.iter().zip(&forecasts).map(|(place, forecasts)| PlaceReport::new(&analysed, place, forecasts)).collect();
+    let study = analysed.plan.study();
     if arguments.json {
-        let names = surrogates.iter().map(|surrogate| surrogate.as_ref().map(|surrogate| surrogate.name())).collect();
-        let document = Document {
-            study: &study.title,
-            confidence: arguments.fit.confidence,
-            models: names,
-            places: reports,
-            confirmed,
-        };
+        let reports =
+            places.iter().zip(&forecasts).map(|(place, forecasts)| PlaceReport::new(&analysed, place, forecasts));
+        let models = surrogates.iter().map(|surrogate| surrogate.as_ref().map(|surrogate| surrogate.name())).collect();
+        let document = Document { study: &study.title, confidence, models, places: reports.collect(), confirmed };
         return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
     }
-    let mut text = String::new();
-    match (&arguments.output, places.len()) {
-        (Some(path), count) if count > 1 => {
-            let places = plateau_io::number::count(count, "place");
-            text.push_str(&format!("{}\n  predicted at {places}, written {}\n", study.title, path.display()));
+    let mut text = match &arguments.output {
+        Some(path) if places.len() > 1 => {
+            let places = number::count(places.len(), "place");
+            format!("{}\n  predicted at {places}, written {}\n", study.title, path.display())
         }
         _ => {
-            for (place, forecasts) in places.iter().zip(&forecasts) {
-                text.push_str(&text_of(&analysed, place, forecasts, arguments.fit.confidence));
-            }
+            let each = places.iter().zip(&forecasts);
+            each.map(|(place, forecasts)| text_of(&analysed, place, forecasts, confidence)).collect()
         }
-    }
-    if let Some(confirmed) = &confirmed {
-        text.push_str(&confirmed_text(&analysed, confirmed));
-    }
+    };
+    text.extend(confirmed.iter().map(|confirmed| confirmed_text(&analysed, confirmed)));
     print(&text)
+}
+
+/// Refuses places beyond the runs, unless they were asked for.
+fn refuse_beyond(places: &[Place], extrapolate: bool) -> Result<(), Failure> {
+    let beyond = places.iter().enumerate().find(|(_, place)| !place.beyond.is_empty());
+    let Some((at, place)) = beyond.filter(|_| !extrapolate) else { return Ok(()) };
+    let which = if places.len() > 1 { format!("place {}: ", at + 1) } else { String::new() };
+    Err(Failure::input(format_args!(
+        "{which}{}; the model knows nothing there, give --extrapolate to see what it says nevertheless",
+        place.beyond.join(", ")
+    )))
+}
+
+/// What is expected of each response at a place; none of one without a model.
+fn forecasts_at(
+    analysed: &Analysed,
+    surrogates: &[Option<Box<dyn Surrogate + '_>>],
+    place: &Place,
+    confidence: f64,
+) -> Result<Vec<Option<Forecast>>, Failure> {
+    let path = &analysed.plan.study().path;
+    let of = |surrogate: &Option<Box<dyn Surrogate + '_>>| {
+        let forecast = surrogate.as_ref().map(|surrogate| surrogate.forecast(&place.settings, confidence));
+        forecast.transpose().map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))
+    };
+    surrogates.iter().map(of).collect()
 }
 
 /// The places that the command line asks for.
@@ -91,32 +97,40 @@ fn places(analysed: &Analysed, arguments: &PredictArguments) -> Result<Vec<Place
     let at = |error: String| Failure::input(format_args!("--at: {error}"));
     let given = space.named(&arguments.at).map_err(at)?;
     if let Some(path) = &arguments.points {
-        let table = ValueTable::read(path).map_err(Failure::input)?;
-        let columns = table.factor_columns(&study.factors).map_err(Failure::input)?;
-        if let Some(unknown) = table.heads().iter().enumerate().find(|(at, _)| !columns.contains(&Some(*at))) {
-            return Err(Failure::input(format_args!(
-                "{}: column \"{}\" is no factor of the study",
-                path.display(),
-                unknown.1
-            )));
-        }
-        let place = |row: &plateau_io::study::value_table::Row| {
-            let levels =
-                study.factors.iter().zip(&columns).zip(&given.levels).map(|((factor, column), held)| match column {
-                    Some(column) => table.level(row, *column, factor).map(Some),
-                    // What --at says, where the table has nothing.
-                    None => Ok((!given.assumed.contains(&factor.name)).then(|| held.clone())),
-                });
-            let levels = levels.collect::<Result<Vec<_>, String>>()?;
-            space.at(levels).map_err(|error| format!("{}:{}: {error}", path.display(), row.line))
-        };
-        return table.rows().iter().map(place).collect::<Result<_, String>>().map_err(Failure::input);
+        return points(analysed, &space, &given, path);
     }
-    let Some(count) = arguments.grid.map(|count| count as usize) else { return Ok(vec![given]) };
+    match arguments.grid {
+        Some(count) => grid(analysed, &space, &given, count as usize),
+        None => Ok(vec![given]),
+    }
+}
+
+/// The places of a table; factors that it has no column of are where `given` says.
+fn points(analysed: &Analysed, space: &Space<'_>, given: &Place, path: &Path) -> Result<Vec<Place>, Failure> {
+    let factors = &analysed.plan.study().factors;
+    let table = ValueTable::read(path).map_err(Failure::input)?;
+    let columns = table.factor_columns(factors).map_err(Failure::input)?;
+    if let Some((_, unknown)) = table.heads().iter().enumerate().find(|(at, _)| !columns.contains(&Some(*at))) {
+        return Err(Failure::input(format_args!("{}: column \"{unknown}\" is no factor of the study", path.display())));
+    }
+    let place = |row: &Row| {
+        let each = factors.iter().zip(&columns).zip(&given.levels);
+        let levels = each.map(|((factor, column), held)| match column {
+            Some(column) => table.level(row, *column, factor).map(Some),
+            None => Ok((!given.assumed.contains(&factor.name)).then(|| held.clone())),
+        });
+        let levels = levels.collect::<Result<Vec<_>, String>>()?;
+        space.at(levels).map_err(|error| format!("{}: {error}", table.place(row)))
+    };
+    table.rows().iter().map(place).collect::<Result<_, String>>().map_err(Failure::input)
+}
+
+/// So many values of each range with all levels; factors that are given stay.
+fn grid(analysed: &Analysed, space: &Space<'_>, given: &Place, count: usize) -> Result<Vec<Place>, Failure> {
     let mut all: Vec<Vec<Setting>> = vec![Vec::new()];
+    let last = (count.max(2) - 1) as f64;
     for (factor, held) in given.settings.iter().enumerate() {
-        let is_given = !given.assumed.contains(&study.factors[factor].name);
-        let last = (count.max(2) - 1) as f64;
+        let is_given = !given.assumed.contains(&analysed.plan.study().factors[factor].name);
         let settings: Vec<Setting> = match () {
             () if is_given => vec![*held],
             () if space.is_continuous(factor) => {
@@ -129,7 +143,10 @@ fn places(analysed: &Analysed, arguments: &PredictArguments) -> Result<Vec<Place
                 "--grid {count}: more than {MOST_PLACES} places; hold factors with --at"
             )));
         }
-        all = all.iter().flat_map(|before| settings.iter().map(|own| [before.as_slice(), &[*own]].concat())).collect();
+        let with = |before: &Vec<Setting>| {
+            settings.iter().map(|own| [before.as_slice(), &[*own]].concat()).collect::<Vec<_>>()
+        };
+        all = all.iter().flat_map(with).collect();
     }
     all.into_iter().map(|settings| space.of(settings)).collect::<Result<_, String>>().map_err(Failure::input)
 }
@@ -145,7 +162,7 @@ fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], c
     let beyond = place.beyond.join(", ");
     let heads = heads(confidence);
     let names: Vec<&str> = heads.iter().map(String::as_str).chain([""]).collect();
-    let line = |(response, forecast): (&plateau_present::study::analysis::AnalysedResponse, &Option<Forecast>)| {
+    let line = |(response, forecast): (&AnalysedResponse, &Option<Forecast>)| {
         let mut cells = match (forecast, &response.effects) {
             (Some(forecast), _) => response.cells(forecast),
             (None, Err(error)) => vec![response.head(), format!("– ({error})")],

@@ -10,7 +10,7 @@ mod profiler;
 
 use plateau_study::design::Setting;
 use plateau_study::optimum::{Axis, Goal, Limit, overall};
-use plateau_study::surrogate::{Forecast, Surrogate};
+use plateau_study::surrogate::Surrogate;
 
 use super::format::Figure;
 use crate::study::analysis::Analysis;
@@ -56,18 +56,16 @@ impl<'a> Shown<'a> {
 
     /// The mean desirability at settings; 0 where a limit is missed.
     fn desirability(&self, surrogates: &[Option<Box<dyn Surrogate + 'a>>], settings: &[Setting]) -> Option<f64> {
-        let value = |response: usize| -> Option<Forecast> {
-            surrogates.get(response)?.as_ref()?.forecast(settings, self.confidence).ok()
-        };
+        let value = |response: usize| surrogates.get(response)?.as_ref()?.value(settings).ok();
         for limit in self.limits {
-            let value = value(limit.response)?.value;
+            let value = value(limit.response)?;
             let is_missed =
                 limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most);
             if is_missed {
                 return Some(0.0);
             }
         }
-        let worth = self.goals.iter().map(|goal| Some(goal.desirability(value(goal.response)?.value)));
+        let worth = self.goals.iter().map(|goal| Some(goal.desirability(value(goal.response)?)));
         Some(overall(self.goals, &worth.collect::<Option<Vec<_>>>()?))
     }
 
