@@ -1,5 +1,7 @@
 //! `plateau sweep predict`, `optimize` and `import`: what the results of a study answer, as its users ask.
 
+mod import;
+
 use std::fs;
 
 use plateau_tests::program::{Outcome, WorkingDirectory, scene};
@@ -274,93 +276,6 @@ fn terms_are_chosen_and_transforms_are_said() {
     assert!(said.contains("\"lug\", expected one of \"log\", \"square root\", \"logit\""), "{said}");
 }
 
-/// The rubber compounds of Derringer and Suich (1980), as a table that is the design, too: three keys that hold plain numbers
-/// stand for silica, silane and sulphur in coded units.
-const RUBBER: &str = "silica,silane,sulphur,abrasion,modulus,elongation,hardness
--1,-1,1,102,900,470,67.5
-1,-1,-1,120,860,410,65
--1,1,-1,117,800,570,77.5
-1,1,1,198,2294,240,74.5
--1,-1,-1,103,490,640,62.5
-1,-1,1,132,1289,270,67
--1,1,1,132,1270,410,78
-1,1,-1,139,1090,380,70
--1.633,0,0,102,770,590,76
-1.633,0,0,154,1690,260,70
-0,-1.633,0,96,700,520,63
-0,1.633,0,163,1540,380,75
-0,0,-1.633,116,2184,520,65
-0,0,1.633,153,1784,290,71
-0,0,0,133,1300,380,70
-0,0,0,133,1300,380,68.5
-0,0,0,140,1145,430,68
-0,0,0,142,1090,430,68
-0,0,0,145,1260,390,69
-0,0,0,142,1344,390,70
-";
-
-/// A study of it without a scene.
-fn rubber() -> WorkingDirectory {
-    let mut study =
-        "version = 1\ntitle = \"Rubber\"\ndesign = \"csv\"\nfile = \"rubber.csv\"\ndirectory = \"results\"\n"
-            .to_owned();
-    let factors = [
-        ("silica", "pin.base.synthetic.fibre_fraction"),
-        ("silane", "plateaus.captured_fraction"),
-        ("sulphur", "numerics.time_acceleration"),
-    ];
-    for (name, key) in factors {
-        study.push_str(&format!("[[factor]]\nname = \"{name}\"\nkey = \"{key}\"\n"));
-    }
-    for name in ["abrasion", "modulus", "elongation", "hardness"] {
-        study.push_str(&format!("[[response]]\nname = \"{name}\"\nimported = true\n"));
-    }
-    let directory = WorkingDirectory::new();
-    directory.write("study.toml", study);
-    directory.write("rubber.csv", RUBBER);
-    directory
-}
-
-#[test]
-fn measured_responses_are_analysed_without_a_scene() {
-    let directory = rubber();
-    let said = refused(&directory, "run", &[]);
-    assert!(said.contains("no base scene, so there is nothing to run"), "{said}");
-    let taken = ask(&directory, "import", &["rubber.csv"]);
-    let counts = ["lines", "new", "changed", "runs", "complete"].map(|key| taken[key].as_u64());
-    assert_eq!(counts, [20, 80, 0, 20, 20].map(Some));
-    // Six runs at the centre are six measurements, not one: they tell the pure error, of five degrees of freedom.
-    let effects = ask(&directory, "effects", &["--model", "quadratic"]);
-    assert_eq!(effects["responses"][0]["runs"].as_u64(), Some(20));
-    assert!(directory.path("results/effects/abrasion-surface.png").is_file());
-    let best = ask(
-        &directory,
-        "optimize",
-        &[
-            "--model",
-            "quadratic",
-            "--maximize",
-            "abrasion=120..170",
-            "--maximize",
-            "modulus=1000..1300",
-            "--target",
-            "elongation=400..500..600",
-            "--target",
-            "hardness=60..67.5..75",
-        ],
-    );
-    // Published, rounded: (−0.05, 0.145, −0.868), 0.583.
-    for (factor, published) in [-0.05, 0.145, -0.868].into_iter().enumerate() {
-        let found = best["settings"][factor]["number"].as_f64().unwrap();
-        assert!((found - published).abs() < 0.01, "{found} {published}");
-    }
-    assert!((best["desirability"].as_f64().unwrap() - 0.583).abs() < 0.0006);
-    let collected = ask(&directory, "collect", &[]);
-    assert_eq!((collected["finished"].as_u64(), collected["missing"].as_u64()), (Some(20), Some(0)));
-    let table = rows(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
-    assert_eq!((table.len(), number(&table[3], "modulus")), (20, 2294.0));
-}
-
 /// A wave, which no polynomial of second order follows, and a polynomial of second order, at points all over a range.
 #[test]
 fn points_all_over_a_range_are_forecast_by_what_forecasts_them_better() {
@@ -391,46 +306,4 @@ fn points_all_over_a_range_are_forecast_by_what_forecasts_them_better() {
     // Who asks for a model gets it.
     let asked = ask(&directory, "predict", &["--at", "fibres=0.4", "--model", "quadratic"]);
     assert_ne!(asked["models"][0].as_str(), Some("Gaussian process"), "{asked}");
-}
-
-#[test]
-fn tables_that_fit_no_point_are_refused_by_line() {
-    let directory = rubber();
-    let head = RUBBER.lines().next().unwrap();
-    for (lines, message) in [
-        ("0,0,0.5,1,1,1,1", "t.csv:2: sulphur = 0.5 is in no point of the design, which has 1, -1, 0, -1.633, 1.633"),
-        ("1,1,0,1,1,1,1", "t.csv:2: no point of the design has these levels together"),
-        ("1,1,1,1,1,1,1\n1,1,1,2,2,2,2", "t.csv:3: the design has this point once, and lines before have it as often"),
-        ("1,1,1,1,one,1,1", "t.csv:2: \"modulus\" is \"one\", expected a number"),
-        ("1,1,,1,1,1,1", "t.csv:2: \"sulphur\" is empty"),
-        ("1,1,1,1,1", "t.csv:2: "),
-    ] {
-        directory.write("t.csv", format!("{head}\n{lines}\n"));
-        let said = refused(&directory, "import", &["t.csv"]);
-        assert!(said.contains(message), "{lines}: {said}");
-        assert!(!directory.path("results").exists(), "nothing is kept of a table that is refused");
-    }
-    for (head, message) in [
-        ("silica,silane,abrasion", "no column of the factor \"sulphur\""),
-        ("silica,silane,sulphur,abrasian", "column \"abrasian\" is no factor and no response with imported = true"),
-        ("silica,silane,sulphur", "no column of a response with imported = true"),
-        ("silica,silane,sulphur,abrasion [mm2]", "expected \"abrasion\", with the unit that the study gives"),
-    ] {
-        let cells = vec!["1"; head.split(',').count()].join(",");
-        directory.write("t.csv", format!("{head}\n{cells}\n"));
-        let said = refused(&directory, "import", &["t.csv"]);
-        assert!(said.contains(message), "{head}: {said}");
-    }
-    // Part after part; a value that differs only with --force. A line that is rounded is of its point.
-    directory.write("t.csv", "silica,silane,sulphur,modulus\n1,1,1,5\n-1.6330001,0,0,6\n");
-    assert_eq!(ask(&directory, "import", &["t.csv"])["new"].as_u64(), Some(2));
-    let said = refused(&directory, "import", &["rubber.csv"]);
-    assert!(said.contains("rubber.csv:5: 5 was imported before and 2294 differs; --force replaces it"), "{said}");
-    let forced = ask(&directory, "import", &["rubber.csv", "--force"]);
-    assert_eq!((forced["new"].as_u64(), forced["changed"].as_u64()), (Some(78), Some(2)));
-    assert_eq!(
-        ask(&directory, "import", &["rubber.csv"])["changed"].as_u64(),
-        Some(0),
-        "the same again changes nothing"
-    );
 }

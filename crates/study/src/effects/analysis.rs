@@ -56,13 +56,8 @@ pub(super) fn analyse_terms(
     options: &Options,
     kept: Option<&[Parts]>,
 ) -> Result<Effects, EffectsError> {
-    let Options { model, blocks, confidence } = *options;
-    if !(confidence > 0.0 && confidence < 1.0) {
-        return Err(EffectsError::Confidence(confidence));
-    }
-    factors.iter().try_for_each(Factor::check)?;
-    let usable = Usable::new(factors, observations)?;
-    let mut regressors = Regressors::new(factors, &usable, model, blocks)?;
+    let Options { model, confidence, .. } = *options;
+    let (usable, mut regressors) = prepared(factors, observations, options)?;
     let is_chosen = kept.is_some_and(|kept| regressors.keep(kept));
     let matrix = regressors.matrix(&usable)?;
     let count = usable.responses.len();
@@ -116,6 +111,22 @@ pub(super) fn analyse_terms(
         lenth,
         inner,
     })
+}
+
+/// What can be analysed, and the regressors of the model.
+fn prepared(
+    factors: &[Factor],
+    observations: &[Observation],
+    options: &Options,
+) -> Result<(Usable, Regressors), EffectsError> {
+    let Options { model, blocks, confidence } = *options;
+    if !(confidence > 0.0 && confidence < 1.0) {
+        return Err(EffectsError::Confidence(confidence));
+    }
+    factors.iter().try_for_each(Factor::check)?;
+    let usable = Usable::new(factors, observations)?;
+    let regressors = Regressors::new(factors, &usable, model, blocks)?;
+    Ok((usable, regressors))
 }
 
 /// Each response beside the fit.
