@@ -12,7 +12,7 @@ import xarray
 from plateau.errors import PlateauWarning
 from plateau.program import call
 from plateau.run_file import open_run
-from plateau.study import Study, open_study
+from plateau.study import Study, open_study, read_table
 
 # A path as everywhere in Python.
 Path = str | os.PathLike[str]
@@ -225,7 +225,7 @@ def effects(
         if value is not None:
             arguments += [flag, str(value)]
     document = call(arguments, progress=False)
-    table = pandas.read_csv(document["files"][0], float_precision="round_trip").set_index(["response", "term"])
+    table = read_table(document["files"][0]).set_index(["response", "term"])
     return Effects(table, document["responses"], document["files"])
 
 

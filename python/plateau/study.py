@@ -57,4 +57,21 @@ def open_study(path: str | os.PathLike[str]) -> Study:
     for file in (csv, hdf5):
         if not file.is_file():
             raise FileNotFoundError(f"{file}: there is no such file; `plateau sweep collect` writes it")
-    return Study(pandas.read_csv(csv, float_precision="round_trip"), xarray.load_dataset(hdf5, engine="h5netcdf"))
+    return Study(read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf"))
+
+
+def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:
+    """A table in CSV, with the numbers of the file to the bit.
+
+    Parameters
+    ----------
+    path : path
+
+    Returns
+    -------
+    pandas.DataFrame
+    """
+    # From version 3.1 on pandas does so anyway, and no longer wants to be told.
+    version = tuple(map(int, pandas.__version__.split(".")[:2]))
+    options = {} if version >= (3, 1) else {"float_precision": "round_trip"}
+    return pandas.read_csv(path, **options)

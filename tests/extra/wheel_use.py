@@ -14,7 +14,7 @@ assert pathlib.Path(program).parent == pathlib.Path(sysconfig.get_path("scripts"
 assert sys.prefix in plateau.__file__, plateau.__file__
 assert plateau.__version__ == subprocess.check_output([program, "--version"], text=True).split()[1]
 assert shutil.which("cargo") is None and shutil.which("rustc") is None
-assert plateau.check("quick.toml")["steps"] == 29325
+assert plateau.check("quick.toml", set={"output.file": "checked.h5"})["steps"] == 29325
 
 made = plateau.run("quick.toml", "quick.h5", workers=2, force=True)
 run = plateau.open_run("quick.h5")
