@@ -88,7 +88,7 @@ class Vectors(Comparison):
 
 class Program(Comparison):
     def run_program(self, scene, output):
-        command = [PROGRAM, "run", str(scene), "-o", str(output)]
+        command = [PROGRAM, "run", str(scene), "-o", str(output), "--force"]
         done = subprocess.run(command, capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stderr)
 
@@ -96,7 +96,6 @@ class Program(Comparison):
         """Both take all steps of a scene; the extended-precision series."""
         scene = small_scenes.write(self.folder, seed, sample_every_steps=every, **options)
         output = self.folder / "run.h5"
-        output.unlink(missing_ok=True)
         self.run_program(scene, output)
         parameters, state = small_scenes.read(scene)
         series = run(parameters, state, every)

@@ -1,9 +1,10 @@
 //! The program `plateau`, run as its users run it.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use plateau_io::checkpoint;
 use plateau_io::run_file::RunFile;
 use serde::Deserialize;
 use tempfile::TempDir;
@@ -60,8 +61,7 @@ impl Program {
     pub fn run(&self, source: &Source) -> Result<Run, BenchError> {
         let file = self.run_file();
         let run = self.write(source)?;
-        // The next run shall find what this one found.
-        fs::remove_file(&file).map_err(BenchError::file(&file))?;
+        remove(&file)?;
         Ok(run)
     }
 
@@ -70,7 +70,7 @@ impl Program {
         self.write(&source.with(["operation.steps=1".to_owned()]))?;
         let file = self.run_file();
         let revision = RunFile::open(&file).map_err(|error| self.problem(source, error))?.attribute("source_revision");
-        fs::remove_file(&file).map_err(BenchError::file(&file))?;
+        remove(&file)?;
         Ok(revision)
     }
 
@@ -96,4 +96,13 @@ impl Program {
         let (program, scene, sets) = (self.path.clone(), source.path.clone(), source.sets.join(" "));
         BenchError::Run { program, scene, sets, problem: problem.to_string() }
     }
+}
+
+/// Removes a run file and its checkpoints: the next run shall find what this one found.
+fn remove(file: &Path) -> Result<(), BenchError> {
+    fs::remove_file(file).map_err(BenchError::file(file))?;
+    for path in checkpoint::paths(file).into_iter().filter(|path| path.exists()) {
+        fs::remove_file(&path).map_err(BenchError::file(&path))?;
+    }
+    Ok(())
 }
