@@ -45,25 +45,6 @@ fn what_only_has_the_name_of_a_checkpoint_stays() {
 }
 
 #[test]
-fn checkpoints_of_a_run_whose_file_is_elsewhere_stay() {
-    let directory = WorkingDirectory::new();
-    assert_eq!(run(&directory, &[]).status, Some(0));
-    fs::rename(directory.path("run.h5"), directory.path("kept.h5")).unwrap();
-    let before = directory.content();
-    let refused = run(&directory, &[]);
-    assert!(
-        refused.status == Some(2) && refused.stderr.contains("run.h5.checkpoint is the checkpoint of"),
-        "{refused:?}"
-    );
-    assert!(directory.content() == before);
-    // With its file put back it is gone on with.
-    fs::rename(directory.path("kept.h5"), directory.path("run.h5")).unwrap();
-    assert_eq!(run(&directory, &["--extend-to", "3 s"]).status, Some(0));
-    fs::remove_file(directory.path("run.h5")).unwrap();
-    assert_eq!(run(&directory, &["--force"]).status, Some(0));
-}
-
-#[test]
 fn a_scene_is_not_replaced_by_its_own_checkpoint() {
     let directory = WorkingDirectory::new();
     let text = fs::read_to_string(scene("quick.toml")).unwrap();

@@ -79,18 +79,6 @@ pub enum InputError {
         /// What the system says.
         error: io::Error,
     },
-    /// A run that is to begin has checkpoints, but no file.
-    #[error(
-        "{} is the checkpoint of an earlier run, and there is no {}: put that run file back, give --force to replace the checkpoint, \
-         or write elsewhere with -o FILE",
-        checkpoint.display(), path.display()
-    )]
-    CheckpointAlone {
-        /// The run file.
-        path: PathBuf,
-        /// What is there.
-        checkpoint: PathBuf,
-    },
     /// A run that is to be extended has come further.
     #[error("--extend-to: {} has come to {} s already; give a later time", path.display(), number::short(*time))]
     Passed {

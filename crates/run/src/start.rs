@@ -92,22 +92,10 @@ impl Request<'_> {
             return Err(InputError::Written { path: path.to_owned(), process });
         }
         checkpoint::refuse_foreign(path, self.options.replace)?;
-        self.refuse_others_checkpoints()?;
         for target in [path].into_iter().chain(checkpoint::paths(path).iter().map(AsRef::as_ref)) {
             Temporary::remove_abandoned(target);
         }
         Ok(())
-    }
-
-    /// A run that begins has no checkpoints yet. Those that are there may be all that is left of another one.
-    fn refuse_others_checkpoints(&self) -> Result<(), InputError> {
-        if self.options.replace || self.options.mode.resumes() {
-            return Ok(());
-        }
-        match checkpoint::paths(self.path).into_iter().find(|path| path.exists()) {
-            None => Ok(()),
-            Some(checkpoint) => Err(InputError::CheckpointAlone { path: self.path.to_owned(), checkpoint }),
-        }
     }
 
     /// Whether all steps of the run are done, by its newest checkpoint and its file.

@@ -11,7 +11,7 @@ use super::factor::{Factor, Level, Values};
 use super::place::{MOST_PROBLEMS, Place};
 use super::response::Response;
 use super::response_keys::{responses, series_name};
-use super::{DesignSource, Order, Replicates, Study, measured, points_of_file};
+use super::{DesignSource, Order, Study, measured, points_of_file, replicates};
 use crate::scene::{Origin, Problem, schema};
 use crate::text::odd_character;
 
@@ -53,7 +53,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
             Order::Standard
         }
     };
-    let replicates = document.replicates.as_ref().map(|given| replicates(given, place, &mut problems));
+    let replicates = document.replicates.as_ref().map(|given| replicates::of(given, place, &mut problems));
     let responses = responses(&document.response, place, &mut problems);
     let fit = measured::settings(&document, &responses, place, &mut problems);
     if document.base.is_none() && !responses.iter().all(Response::is_imported) {
@@ -272,29 +272,4 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
         }
     };
     Ok(DesignSource::Kind(kind))
-}
-
-fn replicates(given: &document::Replicates, place: &Place<'_>, problems: &mut Vec<Problem>) -> Replicates {
-    for key in given.keys.get_ref() {
-        if !(key.get_ref().ends_with(".seed") && schema::find(key.get_ref()).is_some()) {
-            let message =
-                format!("\"{}\" is no seed; expected keys such as disc.surface.synthetic.seed", key.get_ref());
-            problems.push(place.problem(key, "replicates.keys", message));
-        }
-    }
-    let seeds: Vec<i64> = given.seeds.get_ref().iter().map(|seed| *seed.get_ref()).collect();
-    if seeds.is_empty() || given.keys.get_ref().is_empty() {
-        problems.push(place.problem(&given.seeds, "replicates", "expected at least one key and one seed"));
-    }
-    let mut known = HashSet::new();
-    for seed in given.seeds.get_ref() {
-        let message = match known.insert(*seed.get_ref()) {
-            _ if problems.len() >= MOST_PROBLEMS => break,
-            false => "is there twice: equal seeds give equal runs",
-            true if *seed.get_ref() < 0 => "is negative, expected a seed of at least 0",
-            true => continue,
-        };
-        problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
-    }
-    Replicates { keys: given.keys.get_ref().iter().map(|key| key.get_ref().clone()).collect(), seeds }
 }

@@ -25,6 +25,7 @@ mod place;
 pub mod plan;
 mod points_of_file;
 pub mod record;
+mod replicates;
 pub mod response;
 mod response_keys;
 pub mod results_table;

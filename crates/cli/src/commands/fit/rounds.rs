@@ -78,6 +78,12 @@ impl Task {
                  uncertainty = 0.02"
             )));
         }
+        if let Some((imported, _)) = measured.iter().find(|(at, _)| study.responses[*at].is_imported()) {
+            let name = &study.responses[*imported].name;
+            return Err(Failure::input(format_args!(
+                "{at}: response \"{name}\" is imported; a fit compares what runs of a scene give with what was measured"
+            )));
+        }
         let key = |factor: &Factor| match &factor.values {
             Values::Range { low, high, logarithmic } => {
                 let (low, high) = low.number.zip(high.number)?;

@@ -85,16 +85,21 @@ impl Told {
                 .runs
                 .iter()
                 .zip(&analysis.runs)
-                .map(|(run, (settings, responses))| Observation {
+                .enumerate()
+                .map(|(place, (run, (settings, responses)))| Observation {
                     settings: settings.clone(),
                     replicate: run.run.replicate,
-                    run: run.first,
+                    // What was measured elsewhere was measured for each run by itself.
+                    run: if plan.study().responses[at].is_imported() { place } else { run.first },
                     response: responses[at],
                 })
                 .collect();
             match is_morris {
                 true => Known::Effects(elementary_effects(&factors, &means(&observations, plan.replicates()))),
-                false => indices(&factors, &observations, &options, analysis.responses[at].unit),
+                false => {
+                    let polynomial = analysis.responses[at].surrogate();
+                    indices(&factors, &observations, polynomial, &options, analysis.responses[at].unit)
+                }
             }
         };
         let size = |at: usize| {
@@ -217,9 +222,15 @@ impl Told {
     }
 }
 
-/// Indices from the surrogate that forecasts points best.
-fn indices(factors: &[Factor], observations: &[Observation], options: &Options, unit: &str) -> Known {
-    let mut candidates: Vec<Box<dyn Surrogate>> = Vec::new();
+/// Indices from the surrogate that forecasts points best, of a polynomial and a Gaussian process.
+fn indices<'a>(
+    factors: &[Factor],
+    observations: &[Observation],
+    polynomial: Option<Box<dyn Surrogate + 'a>>,
+    options: &Options,
+    unit: &str,
+) -> Known {
+    let mut candidates: Vec<Box<dyn Surrogate + 'a>> = polynomial.into_iter().collect();
     let mut problems = Vec::new();
     match GaussianProcess::fit(factors, observations, &ProcessOptions::default()) {
         Ok(process) => candidates.push(Box::new(process)),
