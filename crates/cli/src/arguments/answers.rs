@@ -19,7 +19,7 @@ pub struct PredictArguments {
     #[arg(long, value_name = "N", requires = "output", conflicts_with_all = ["points", "confirm"],
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub grid: Option<u32>,
-    /// Predict at the points of a table in CSV: a column for each factor, such as "load [N]"
+    /// Predict at the points of a table in CSV: a column for each factor, with units in brackets as in results.csv
     #[arg(long, value_name = "FILE", requires = "output", conflicts_with = "confirm")]
     pub points: Option<PathBuf>,
     /// Write the predictions as a table in CSV

@@ -11,12 +11,12 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | the likelihood of the measurements | [`likelihood`] |
-//! | places in the ranges that are looked at | [`places`] |
-//! | where the next runs teach most | [`next`] |
-//! | intervals of keys, regions of pairs | [`profile`] |
-//! | which products of keys are determined | [`combination`] |
-//! | all of it | [`result`] |
+//! | the likelihood of the measurements | `likelihood` |
+//! | places in the ranges that are looked at | `places` |
+//! | where the next runs teach most | `next` |
+//! | intervals of keys, regions of pairs | `profile` |
+//! | which products of keys are determined | `combination` |
+//! | all of it | `result` |
 
 mod combination;
 mod key;

@@ -10,13 +10,13 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | settings as coordinates | [`inputs`] |
-//! | from runs to a mean for each point, with its noise | [`averages`] |
-//! | the correlation | [`kernel`] |
-//! | likelihood and equations with given lengths | [`solved`] |
-//! | the most likely lengths | [`likelihood`] |
-//! | forecasts and their slopes | [`prediction`] |
-//! | each point as the others forecast it | [`leave_one_out`] |
+//! | settings as coordinates | `inputs` |
+//! | from runs to a mean for each point, with its noise | `averages` |
+//! | the correlation | `kernel` |
+//! | likelihood and equations with given lengths | `solved` |
+//! | the most likely lengths | `likelihood` |
+//! | forecasts and their slopes | `prediction` |
+//! | each point as the others forecast it | `leave_one_out` |
 
 mod averages;
 mod inputs;
