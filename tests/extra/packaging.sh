@@ -12,6 +12,11 @@ root=$PWD
 . scripts/say.sh
 . scripts/python.sh
 
+if [ -z "${PLATEAU_LONG:-}" ]; then
+    echo "takes some minutes: PLATEAU_LONG=1 ./check extra runs it, and so do the weekly checks"
+    exit 77
+fi
+
 have_modules() { [ -f /usr/share/modules/init/sh ]; }
 provide 'Environment Modules' have_modules environment-modules
 if [ -n "${PLATEAU_PROGRAM:-}" ]; then program=$PLATEAU_PROGRAM; else sh scripts/build.sh || exit 1; fi

@@ -152,7 +152,8 @@ class Runs(InFolder):
 
     def test_an_interrupt_of_python_alone_closes_the_run_file(self):
         text = (
-            "import plateau\ntry:\n    plateau.run('quick.toml', 'long.h5', set={'operation.duration': '100000 s'})\n"
+            # A shell may have had what runs in its background ignore the signal.
+            "import signal, plateau\nsignal.signal(signal.SIGINT, signal.default_int_handler)\ntry:\n    plateau.run('quick.toml', 'long.h5', set={'operation.duration': '100000 s'})\n"
             "except KeyboardInterrupt:\n    print('interrupted')"
         )
         environment = os.environ | {"PYTHONPATH": str(ROOT / "python")}
