@@ -12,6 +12,33 @@ use super::collect::collected;
 use crate::failure::Failure;
 use crate::{message, sweep};
 
+/// The results of a study that asks for responses. Runs without results are said.
+///
+/// # Errors
+/// [`Failure::Input`] when the study has no response; [`Failure::Run`] when the results cannot be read.
+pub fn analysable(plan: &Plan) -> Result<Collected, Failure> {
+    let study = plan.study();
+    if study.responses.is_empty() {
+        return Err(Failure::input(format_args!(
+            "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
+             at = \"end\"",
+            study.path.display()
+        )));
+    }
+    let collected = collected(plan)?;
+    let left_out = collected.runs.len() - collected.count("finished");
+    if left_out > 0 {
+        message::warning(format_args!(
+            "{} of {} have no results and are left out: {} failed, {} not made yet",
+            left_out,
+            number::count(collected.runs.len(), "run"),
+            collected.count("failed"),
+            collected.count("missing")
+        ));
+    }
+    Ok(collected)
+}
+
 /// A study, its results and what they tell.
 #[derive(Debug)]
 pub struct Analysed {
@@ -29,24 +56,7 @@ impl Analysed {
     pub fn of(path: &Path, asked: Asked) -> Result<Self, Failure> {
         let plan = sweep::plan(path)?;
         let study = plan.study();
-        if study.responses.is_empty() {
-            return Err(Failure::input(format_args!(
-                "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
-                 at = \"end\"",
-                study.path.display()
-            )));
-        }
-        let collected = collected(&plan)?;
-        let left_out = collected.runs.len() - collected.count("finished");
-        if left_out > 0 {
-            message::warning(format_args!(
-                "{} of {} have no results and are left out: {} failed, {} not made yet",
-                left_out,
-                number::count(collected.runs.len(), "run"),
-                collected.count("failed"),
-                collected.count("missing")
-            ));
-        }
+        let collected = analysable(&plan)?;
         let analysis = Analysis::of(study, &collected, asked).in_order_of(&plan);
         for response in &analysis.responses {
             if let Err(error @ EffectsError::Domain { .. }) = &response.effects {

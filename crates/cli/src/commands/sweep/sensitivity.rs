@@ -13,32 +13,20 @@ use plateau_study::sensitivity::{ElementaryEffect, Index, Options, elementary_ef
 use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
 use plateau_study::surrogate::{Surrogate, choose};
 
-use super::collect::collected;
+use super::analysed::analysable;
 use super::sensitivity_document::{self, Known, Told};
 use crate::arguments::SensitivityArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep;
 use crate::table::{columns, print, table};
-use crate::{message, number, output};
+use crate::{number, output};
 
 /// Tells the sensitivities of all responses.
 pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let study = plan.study();
-    if study.responses.is_empty() {
-        return Err(Failure::input(format_args!(
-            "{}: no [[response]], so there is nothing to analyse; name one, such as dataset = \"/series/contact_area_mean\", \
-             at = \"end\"",
-            study.path.display()
-        )));
-    }
-    let results = collected(&plan)?;
-    let left_out = results.runs.len() - results.count("finished");
-    if left_out > 0 {
-        let runs = number::count(results.runs.len(), "run");
-        message::warning(format_args!("{left_out} of {runs} have no results and are left out"));
-    }
+    let results = analysable(&plan)?;
     let told = Told::new(&plan, &results, arguments);
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("sensitivity"));
     output::make_directory(&folder)?;
