@@ -59,7 +59,7 @@ fn changed_journals_are_read_or_passed_over() {
         [&own[..], format!("{:08x} ", crc32(&lines[1])).as_bytes(), &lines[1], b"\n"].concat()
     });
     let identities = ["a", "b"].map(str::to_owned);
-    Fuzz { corpus: "journals", cases: 120, least_accepted: 40 }.run(strategy, |content| {
+    Fuzz { corpus: "journals", cases: 600, least_accepted: 200 }.run(strategy, |content| {
         let _ = fs::remove_dir_all(&journal);
         fs::create_dir_all(&journal).unwrap();
         fs::write(journal.join("h_1_0-0.journal"), content).unwrap();
