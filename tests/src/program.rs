@@ -171,7 +171,9 @@ impl WorkingDirectory {
     pub fn command_after<A: AsRef<OsStr>>(&self, order: &str, arguments: impl IntoIterator<Item = A>) -> Command {
         let mut command = Command::new("sh");
         command.current_dir(self.directory.path());
-        command.arg("-c").arg(format!("{order}; exec \"$0\" \"$@\"")).arg(program()).args(arguments);
+        // Files that other tests have open at this moment would count as the program's.
+        let alone = "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-";
+        command.arg("-c").arg(format!("{alone}; {order}; exec \"$0\" \"$@\"")).arg(program()).args(arguments);
         command
     }
 
