@@ -79,7 +79,7 @@ fn text(arguments: &NewArguments) -> Result<String, Failure> {
 /// A key with a text and a remark, as the others stand in the scene.
 fn line(key: &str, value: &str, remark: &str) -> String {
     let pair = format!("{key} = {}", toml::Value::from(value));
-    format!("{pair:40}# {remark}")
+    format!("{pair:<39} # {remark}")
 }
 
 /// The disc of a measured surface: read as it is, levelled, filled where points are missing, and extended by its statistics.
