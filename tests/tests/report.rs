@@ -353,7 +353,7 @@ fn a_report_of_three_runs_of_the_papers_size_takes_five_megabytes_at_most() {
     let directory = WorkingDirectory::new();
     let cermet = scene("cermet.toml");
     let times = "output.maps_at=[\"0 s\", \"1 s\", \"2 s\", \"5 s\", \"10 s\", \"20 s\", \"30 s\"]";
-    for name in ["one", "two", "three"] {
+    for name in ["one", "two"] {
         let (file, title) = (format!("{name}.h5"), format!("title={name}"));
         // Rough to different degrees, as the paper's discs are.
         let scale = format!("disc.prepare.scale={}", if name == "one" { "1.0" } else { "0.1" });
@@ -361,6 +361,7 @@ fn a_report_of_three_runs_of_the_papers_size_takes_five_megabytes_at_most() {
         let sets = sets.iter().flat_map(|set| ["--set", set]);
         directory.plateau(["run", &cermet, "-o", &file].into_iter().chain(sets)).quiet_success();
     }
+    fs::copy(directory.path("two.h5"), directory.path("three.h5")).unwrap();
     let page = page(&directory, &["one.h5", "two.h5", "three.h5"]);
     assert!(page.len() <= 5_000_000, "{} bytes", page.len());
     let document = document(&page);

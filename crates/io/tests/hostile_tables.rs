@@ -10,6 +10,8 @@ use proptest::prelude::*;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use crate::few_or_all;
+
 fn corpus(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/surfaces").join(name)
 }
@@ -177,13 +179,8 @@ fn a_file_cut_at_any_byte_is_an_error_or_a_smaller_text() {
     }
 }
 
-/// Damaged files that are tried.
-fn cases() -> u32 {
-    if std::env::var_os("PLATEAU_LONG").is_some() { 3000 } else { 500 }
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: few_or_all(500, 3000), ..ProptestConfig::default() })]
     #[test]
     fn a_damaged_file_gets_an_answer(
         file in any::<prop::sample::Index>(),

@@ -218,34 +218,27 @@ fn a_cutoff_cuts_peaks() {
 }
 
 #[test]
-fn shipped_scenes_are_plausible() {
+fn shipped_studies_are_plausible() {
     let data = Path::new("../../data");
     let mut checked = 0;
-    for folder in ["scenes", "studies", "studies/riva2019"] {
-        let files = std::fs::read_dir(data.join(folder)).expect("the shipped scenes");
+    for folder in ["studies", "studies/riva2019"] {
+        let files = std::fs::read_dir(data.join(folder)).expect("the shipped studies");
         let files = files.map(|entry| entry.expect("an entry").path());
         for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")) {
-            let text = std::fs::read_to_string(&path).expect("a scene or a study");
-            if text.contains("\ndesign = ") {
-                let plan = Plan::new(Study::load(&path).unwrap_or_else(|error| panic!("{error}"))).expect("a plan");
-                let base = scene::load(plan.study().base.as_deref().expect("a base"), &[]).expect("the base");
-                // A study that varies the mesh does so to learn what a coarse one loses.
-                let scenes = (1..=plan.runs()).map(|number| plan.scene(&plan.run(number)).expect("a scene"));
-                let scenes = scenes.filter(|scene| scene.parameters.mesh == base.parameters.mesh);
-                let found: Vec<Warning> = scenes.flat_map(|scene| of_scene(&scene)).collect();
-                assert_eq!(found, [], "{}", path.display());
+            if !std::fs::read_to_string(&path).expect("a scene or a study").contains("\ndesign = ") {
                 continue;
             }
-            let scene = scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
-            let Ok(loaded) = surface::load(&scene) else {
-                println!("skipped: the surfaces of {} are made by a script", path.display());
-                continue;
-            };
-            assert_eq!(with_surfaces(scene, &loaded), [], "{}", path.display());
+            let plan = Plan::new(Study::load(&path).unwrap_or_else(|error| panic!("{error}"))).expect("a plan");
+            let base = scene::load(plan.study().base.as_deref().expect("a base"), &[]).expect("the base");
+            // A study that varies the mesh does so to learn what a coarse one loses.
+            let scenes = (1..=plan.runs()).map(|number| plan.scene(&plan.run(number)).expect("a scene"));
+            let scenes = scenes.filter(|scene| scene.parameters.mesh == base.parameters.mesh);
+            let found: Vec<Warning> = scenes.flat_map(|scene| of_scene(&scene)).collect();
+            assert_eq!(found, [], "{}", path.display());
             checked += 1;
         }
     }
-    assert!(checked >= 10, "{checked}");
+    assert!(checked >= 5, "{checked}");
 }
 
 /// What is said of a run of [`FLAT`] with these samples.

@@ -1,148 +1,16 @@
 //! Analyses beside those of statsmodels and R (the files in `effects`, made by `make.py` there), and those that other
 //! programs do not make beside published ones.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+mod expected;
 
-use plateau_study::design::Setting;
 use plateau_study::effects::{
-    Better, Cell, Effects, ErrorSource, Factor, FactorKind, Lenth, Model, Nature, Observation, Options, Prediction,
-    Squares, Term, Test, analyse, half_normal_quantiles,
+    Better, Cell, Effects, ErrorSource, Lenth, Model, Nature, Prediction, Squares, Term, Test, half_normal_quantiles,
 };
-use serde::Deserialize;
+
+use expected::{ExpectedCell, ExpectedSurface, ExpectedTerm, Study};
 
 /// What numbers have to agree to, relative to themselves.
 const TOLERANCE: f64 = 1e-8;
-
-#[derive(Deserialize)]
-struct Study {
-    factors: Vec<StudyFactor>,
-    model: String,
-    blocks: bool,
-    settings: Vec<Vec<f64>>,
-    replicates: Vec<usize>,
-    /// What is to be added to the responses.
-    shift: f64,
-    responses: Vec<Option<f64>>,
-    expected: Expected,
-}
-
-#[derive(Deserialize)]
-struct StudyFactor {
-    name: String,
-    categories: Option<Vec<String>>,
-    values: Option<Vec<f64>>,
-    range: Option<[f64; 2]>,
-}
-
-#[derive(Deserialize)]
-struct Expected {
-    constant: f64,
-    total: (usize, f64),
-    fitted: Vec<f64>,
-    residuals: Vec<f64>,
-    terms: BTreeMap<String, ExpectedTerm>,
-    residual: Option<(usize, f64)>,
-    r_squared: Option<[f64; 3]>,
-    deviation: Option<f64>,
-    pure_error: Option<(usize, f64)>,
-    lack_of_fit: Option<(usize, f64)>,
-    lack_of_fit_test: Option<[f64; 2]>,
-    #[serde(default)]
-    predictions: Vec<ExpectedPrediction>,
-    #[serde(default)]
-    level_means: Vec<Vec<ExpectedCell>>,
-    #[serde(default)]
-    cell_means: Vec<ExpectedCell>,
-    surface: Option<ExpectedSurface>,
-    /// F and p of the larger model against this one, and its share of the sum of squares.
-    misfit: Option<[f64; 3]>,
-}
-
-#[derive(Deserialize)]
-struct ExpectedTerm {
-    squares: (usize, f64),
-    test: Option<[f64; 2]>,
-    coefficient: Option<f64>,
-    /// Standard error, t, p, and interval of the coefficient.
-    uncertainty: Option<[f64; 5]>,
-}
-
-#[derive(Deserialize)]
-struct ExpectedPrediction {
-    settings: Vec<f64>,
-    /// Value, standard error, interval.
-    numbers: [f64; 4],
-}
-
-#[derive(Deserialize)]
-struct ExpectedCell {
-    settings: Vec<f64>,
-    count: usize,
-    /// Mean and interval.
-    numbers: [f64; 3],
-}
-
-#[derive(Deserialize)]
-struct ExpectedSurface {
-    settings: Vec<f64>,
-    constant: f64,
-    linear: Vec<f64>,
-    quadratic: Vec<Vec<f64>>,
-    eigenvalues: Vec<f64>,
-    stationary: Vec<f64>,
-    natural: Vec<f64>,
-    response: f64,
-}
-
-impl Study {
-    fn read(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/effects").join(name).with_extension("json");
-        serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
-    }
-
-    fn factors(&self) -> Vec<Factor> {
-        let kind = |factor: &StudyFactor| match (&factor.categories, &factor.values, factor.range) {
-            (Some(labels), ..) => FactorKind::Categorical(labels.clone()),
-            (_, Some(values), _) => FactorKind::Levels(values.clone()),
-            (_, _, Some([low, high])) => FactorKind::Range { low, high },
-            _ => panic!("{} is no factor", factor.name),
-        };
-        self.factors.iter().map(|factor| Factor { name: factor.name.clone(), kind: kind(factor) }).collect()
-    }
-
-    fn settings(&self, numbers: &[f64]) -> Vec<Setting> {
-        let setting = |(factor, number): (&StudyFactor, &f64)| match factor.range {
-            Some(_) => Setting::Coded(*number),
-            None => Setting::Level(*number as usize),
-        };
-        self.factors.iter().zip(numbers).map(setting).collect()
-    }
-
-    fn observations(&self) -> Vec<Observation> {
-        let each = self.settings.iter().zip(&self.replicates).zip(&self.responses);
-        each.enumerate()
-            .map(|(run, ((numbers, replicate), response))| Observation {
-                settings: self.settings(numbers),
-                replicate: *replicate,
-                run,
-                response: response.map_or(f64::NAN, |response| response + self.shift),
-            })
-            .collect()
-    }
-
-    fn effects(&self) -> Effects {
-        let model = match self.model.as_str() {
-            "interactions" => Model::Interactions,
-            "full" => Model::Full,
-            "quadratic" => Model::Quadratic,
-            other => panic!("{other} is no model"),
-        };
-        analyse(&self.factors(), &self.observations(), &Options { model, blocks: self.blocks, confidence: 0.95 })
-            .unwrap()
-    }
-}
 
 /// Compares numbers of one analysis.
 struct Comparison {

@@ -40,10 +40,10 @@ fn a_budget_for_no_finer_reference_is_too_small() {
 fn a_small_budget_has_a_reference_between_the_model_and_the_scene() {
     let directory = with_scene(&[]);
     // 1.3 million steps are needed.
-    let arguments = long("1000", "20 s");
+    let arguments = long("1000", "8 s");
     let (text, rows) = measured(&directory, &arguments.iter().map(String::as_str).collect::<Vec<_>>());
     assert!(
-        text.contains("the finest that the budget of 20.0 s allows; for 1, the model itself, give --budget"),
+        text.contains("the finest that the budget of 8.0 s allows; for 1, the model itself, give --budget"),
         "{text}"
     );
     let results = document(&directory);

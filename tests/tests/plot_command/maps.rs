@@ -1,0 +1,134 @@
+//! What the maps show.
+
+use image::{Rgb, RgbImage};
+use plateau_tests::figure::{Figure, Frame};
+use plateau_tests::run_file::RunFile;
+
+use super::{plotted, short};
+
+/// The bitmaps of maps put together from windows, so that they hold `cells` columns; from the top row.
+fn windows<'a>(images: &mut impl Iterator<Item = &'a (Frame, RgbImage)>, columns: usize) -> Vec<Vec<Rgb<u8>>> {
+    let mut map: Vec<Vec<Rgb<u8>>> = Vec::new();
+    while map.len() < columns {
+        let (_, image) = images.next().expect("a window");
+        map.extend((0..image.width()).map(|x| (0..image.height()).rev().map(|y| *image.get_pixel(x, y)).collect()));
+    }
+    assert_eq!(map.len(), columns);
+    map
+}
+
+/// Whether every cell has the colour that its value has on a colour bar; cells with `None` have none of them.
+fn expect_colours(
+    figure: &Figure,
+    (frame, bar): &(Frame, RgbImage),
+    map: &[Vec<Rgb<u8>>],
+    value: impl Fn(usize) -> Option<f64>,
+) {
+    let scale = figure.colour_scale(*frame);
+    // The middle of the colour's part of the bar; the first and the last colour begin at its ends.
+    let place = |pixel: u32| frame.y[0] + (frame.y[1] - frame.y[0]) * f64::from(pixel) / f64::from(bar.height() - 1);
+    let step = (frame.y[1] - frame.y[0]) / f64::from(bar.height() - 1);
+    for (column, cells) in map.iter().enumerate() {
+        for (row, colour) in cells.iter().enumerate() {
+            // Some colours are on it more than once, one after the other.
+            let on_bar: Vec<u32> = (0..bar.height()).filter(|pixel| bar.get_pixel(0, *pixel) == colour).collect();
+            match (value(column * cells.len() + row), &on_bar[..]) {
+                (None, []) => {}
+                (Some(value), [_, ..]) => {
+                    let expected = scale.place(value).clamp(frame.y[0], frame.y[1]);
+                    let distances = on_bar.iter().map(|pixel| (place(*pixel) - expected).abs());
+                    let distance = distances.fold(f64::INFINITY, f64::min);
+                    // Half a step, and what rounding places to pixels makes of the scale.
+                    assert!(distance < 0.5 * step + 1.5, "{value} in column {column}, row {row}: {distance} pixels");
+                }
+                (value, _) => panic!("{value:?} has the colour {colour:?} in column {column}, row {row}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn topography_shows_the_heights_of_every_cell() {
+    let directory = short();
+    let figure = plotted(&directory, "topography");
+    let run = RunFile::open(directory.path("run.h5"));
+    let (bars, images): (Vec<_>, Vec<_>) = figure.images.iter().partition(|(_, image)| image.width() == 1);
+    assert_eq!(bars.len(), 2);
+    let mut images = images.into_iter();
+    for moment in [0, 1] {
+        let heights = run.map("/disc/height", moment);
+        expect_colours(&figure, bars[0], &windows(&mut images, 690), |cell| Some(heights[cell] * 1e6));
+    }
+    for moment in [0, 1] {
+        let heights = run.map("/pin/height", moment);
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        expect_colours(&figure, bars[1], &windows(&mut images, 40), |cell| Some((heights[cell] - mean) * 1e6));
+    }
+    assert!(images.next().is_none());
+}
+
+#[test]
+fn pressure_shows_contact_and_its_pressure() {
+    let directory = short();
+    let figure = plotted(&directory, "pressure");
+    let pressures = RunFile::open(directory.path("run.h5")).last_map("/pin/pressure");
+    let (bars, images): (Vec<_>, Vec<_>) = figure.images.iter().partition(|(_, image)| image.width() == 1);
+    let map = windows(&mut images.into_iter(), 40);
+    let unit = if figure.texts.iter().any(|text| text.text == "pressure, MPa") { 1e-6 } else { 1e-3 };
+    expect_colours(&figure, bars[0], &map, |cell| (pressures[cell] > 0.0).then_some(pressures[cell] * unit));
+    assert!(pressures.contains(&0.0) && pressures.iter().any(|pressure| *pressure > 0.0));
+}
+
+#[test]
+fn status_shows_the_status_of_every_cell() {
+    let directory = short();
+    let figure = plotted(&directory, "status");
+    let run = RunFile::open(directory.path("run.h5"));
+    // Grey, blue and orange, as in the legend.
+    let colours = [Rgb([0xe4, 0xe4, 0xe4]), Rgb([0x00, 0x5a, 0x9c]), Rgb([0xe6, 0x9f, 0x00])];
+    let mut images = figure.images.iter();
+    for (dataset, columns) in [("/disc/status", 690), ("/pin/status", 40)] {
+        let statuses = run.statuses(dataset);
+        for moment in statuses.chunks(20 * columns) {
+            let map = windows(&mut images, columns).concat();
+            let same = map.iter().zip(moment).all(|(colour, status)| *colour == colours[*status as usize]);
+            assert!(same, "{dataset}");
+        }
+    }
+    // The series are area fractions as well.
+    let last = |name: &str| 100.0 * run.floats(&format!("/series/{name}")).last().unwrap();
+    let remark = figure.texts.iter().rfind(|text| text.text.starts_with("none ")).expect("fractions");
+    let numbers: Vec<f64> = remark.text.split(' ').filter_map(|word| word.trim_matches(',').parse().ok()).collect();
+    for (number, name) in numbers.iter().zip(["pin_none", "pin_primary", "pin_secondary"]) {
+        assert!((number - last(name)).abs() < 0.06, "{name}: {number}");
+    }
+}
+
+#[test]
+fn build_up_shows_how_thick_it_is() {
+    let directory = short();
+    let figure = plotted(&directory, "build-up");
+    let run = RunFile::open(directory.path("run.h5"));
+    for (body, toward) in [("disc", 1.0), ("pin", -1.0)] {
+        let last = |name: &str| -> Vec<f64> {
+            let values = run.floats(&format!("/{body}/{name}"));
+            let cells: usize = run.shape(&format!("/{body}/{name}"))[1..].iter().product();
+            values[values.len() - cells..].to_vec()
+        };
+        let (heights, substrates) = (last("height"), last("substrate"));
+        let thickness: Vec<f64> = heights.iter().zip(&substrates).map(|(z, b)| toward * (z - b)).collect();
+        assert!(thickness.iter().all(|thickness| *thickness >= 0.0), "{body}");
+        // Cells of one row are alike, and so each row counts with its radius.
+        let rows = run.shape(&format!("/{body}/height"))[2];
+        let radius = |cell: usize| 20.0 + ((cell % rows) as f64 + 0.5) / rows as f64;
+        let share = |covered: bool| -> f64 {
+            let cells = thickness.iter().enumerate().filter(|(_, thickness)| !covered || **thickness > 0.0);
+            cells.map(|(cell, _)| radius(cell)).sum()
+        };
+        let percent = 100.0 * share(true) / share(false);
+        let said = figure.texts.iter().filter_map(|text| text.text.strip_prefix("on ")?.split_once(" % of the area"));
+        let nearest = said.map(|(number, _)| (number.parse::<f64>().unwrap() - percent).abs()).fold(f64::MAX, f64::min);
+        // Three digits.
+        assert!(nearest <= 0.5e-2 * percent, "{body}: {percent} %, off by {nearest}");
+    }
+}
