@@ -84,16 +84,26 @@ fn status_shows_the_status_of_every_cell() {
     let directory = short();
     let figure = plotted(&directory, "status");
     let run = RunFile::open(directory.path("run.h5"));
-    // Grey, blue and orange, as in the legend.
-    let colours = [Rgb([0xe4, 0xe4, 0xe4]), Rgb([0x00, 0x5a, 0x9c]), Rgb([0xe6, 0x9f, 0x00])];
+    // Grey, blue and orange, as in the legend; paler orange where debris is thin.
+    let (colours, film) =
+        ([Rgb([0xe4, 0xe4, 0xe4]), Rgb([0x00, 0x5a, 0x9c]), Rgb([0xe6, 0x9f, 0x00])], Rgb([244, 212, 140]));
+    let thin = figure.texts.iter().find(|text| text.text.starts_with("the same, thinner than")).expect("a meaning");
     let mut images = figure.images.iter();
-    for (dataset, columns) in [("/disc/status", 690), ("/pin/status", 40)] {
-        let statuses = run.statuses(dataset);
-        for moment in statuses.chunks(20 * columns) {
+    for (body, columns, toward) in [("disc", 690, 1.0), ("pin", 40, -1.0)] {
+        let statuses = run.statuses(&format!("/{body}/status"));
+        let [heights, substrates] = ["height", "substrate"].map(|name| run.floats(&format!("/{body}/{name}")));
+        let least = thickness_in(&thin.text, body);
+        let mut films = 0;
+        for (number, moment) in statuses.chunks(20 * columns).enumerate() {
             let map = windows(&mut images, columns).concat();
-            let same = map.iter().zip(moment).all(|(colour, status)| *colour == colours[*status as usize]);
-            assert!(same, "{dataset}");
+            for (cell, (colour, status)) in map.iter().zip(moment).enumerate() {
+                let at = number * 20 * columns + cell;
+                let is_film = *status as u8 == 2 && toward * (heights[at] - substrates[at]) < least;
+                films += usize::from(is_film);
+                assert_eq!(*colour, if is_film { film } else { colours[*status as usize] }, "{body}, {at}");
+            }
         }
+        assert!(films > 0, "{body}: no film");
     }
     // The series are area fractions as well.
     let last = |name: &str| 100.0 * run.floats(&format!("/series/{name}")).last().unwrap();
@@ -102,6 +112,14 @@ fn status_shows_the_status_of_every_cell() {
     for (number, name) in numbers.iter().zip(["pin_none", "pin_primary", "pin_secondary"]) {
         assert!((number - last(name)).abs() < 0.06, "{name}: {number}");
     }
+}
+
+/// The thickness that a text says before `on the BODY`, m.
+fn thickness_in(text: &str, body: &str) -> f64 {
+    let before = text.split(&format!(" on the {body}")).next().expect("a part");
+    let words: Vec<&str> = before.split([' ', '\u{202f}', '\u{a0}']).collect();
+    let [number, unit] = words[words.len() - 2..] else { panic!("{text}") };
+    number.parse::<f64>().expect("a number") * if unit == "nm" { 1e-9 } else { 1e-6 }
 }
 
 #[test]

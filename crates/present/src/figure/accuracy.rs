@@ -4,10 +4,11 @@ use std::ops::RangeInclusive;
 
 use super::axes::Axis;
 use super::canvas::{Anchor, LINE, TEXT};
-use super::chart::{COLUMN, Chart, Meaning, colour, page};
+use super::chart::{COLUMN, Chart, Meaning, page};
 use super::format::Figure;
 use super::labels::Labels;
 use super::page::{Content, KeyStyle, Page};
+use super::stroke::Stroke;
 use crate::colour::{APART, FAINT};
 
 /// Height of the box, pixels.
@@ -119,7 +120,7 @@ fn contents(
     front: Vec<[f64; 2]>,
     [x, y]: [&RangeInclusive<f64>; 2],
 ) -> Vec<Content> {
-    let line = |points, colour, width| Content::Line { points, colour, width };
+    let line = |points, colour, width| Content::Line { points, stroke: Stroke::solid(colour, width) };
     let mut contents = Vec::new();
     if time > 0.0 {
         contents.push(line(vec![[time, *y.start()], [time, *y.end()]], FAINT, LINE));
@@ -130,18 +131,20 @@ fn contents(
     contents.push(line(front, APART, 5 * LINE));
     for (ladder, rungs) in ladders {
         let points: Vec<[f64; 2]> = rungs.iter().map(|rung| rung.point()).collect();
+        let stroke = Stroke { width: LINE, ..Stroke::of(ladder.colour, 1) };
         if ladder.is_joined {
-            contents.push(line(points.clone(), colour(ladder.colour), LINE));
+            contents.push(Content::Line { points: points.clone(), stroke });
         }
         // A line of one point is a dot.
-        contents.extend(points.into_iter().map(|point| line(vec![point], colour(ladder.colour), LINE)));
+        contents.extend(points.into_iter().map(|point| Content::Line { points: vec![point], stroke }));
     }
     contents
 }
 
 fn meanings(reference: &Reference, ladders: &[Shown], has_front: bool) -> Vec<Meaning> {
     let meaning = |colour, style, text: &str| Meaning { colour, style, text: text.to_owned() };
-    let ladders = ladders.iter().map(|(ladder, _)| meaning(colour(ladder.colour), KeyStyle::Area, ladder.name));
+    let ladders =
+        ladders.iter().map(|(ladder, _)| meaning(Stroke::of(ladder.colour, 1).colour, KeyStyle::Area, ladder.name));
     let mut meanings: Vec<Meaning> = ladders.collect();
     if has_front {
         meanings.push(meaning(APART, KeyStyle::Area, "no other run is as quick and as exact"));

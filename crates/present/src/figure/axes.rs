@@ -6,11 +6,13 @@ use plotters::prelude::DrawingBackend;
 
 use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
 use super::font::text_width;
-use super::ticks::{logarithmic_ticks, ticks};
+use super::ticks::{logarithmic_ticks, minor_ticks, ticks};
 use crate::colour::INK;
 
 /// Length of a tick, pixels.
 const TICK: f64 = 10.0;
+/// Length of a tick without a number, pixels.
+const MINOR_TICK: f64 = 5.0;
 /// Room between a tick and its label, pixels.
 const GAP: f64 = 6.0;
 /// Pixels along an axis for one tick, at least.
@@ -108,6 +110,11 @@ impl Axis {
         }
     }
 
+    /// Places of short ticks without numbers: 2 to 9 times the powers of ten of an axis of equal ratios, where they can be told apart.
+    pub fn minor_ticks(&self) -> Vec<f64> {
+        if self.scale == Scale::Linear || self.marks.is_some() { Vec::new() } else { minor_ticks(&self.range) }
+    }
+
     /// Room that an axis of this length takes to the left of its box, with numbers and label, pixels.
     pub fn room_beside(&self, length: f64) -> f64 {
         let labels = if self.numbered { self.ticks(most_ticks_upward(length)) } else { Vec::new() };
@@ -162,6 +169,14 @@ impl Axes {
             if self.x.numbered {
                 canvas.text(&label, (x, bottom + TICK + GAP), Anchor::Below, TEXT)?;
             }
+        }
+        for value in self.x.minor_ticks() {
+            let x = left + self.x.part(value) * self.frame.width();
+            canvas.line(&[(x, bottom), (x, bottom + MINOR_TICK)], INK, LINE)?;
+        }
+        for value in self.y.minor_ticks() {
+            let y = bottom - self.y.part(value) * self.frame.height();
+            canvas.line(&[(left - MINOR_TICK, y), (left, y)], INK, LINE)?;
         }
         let mut widest = 0.0_f64;
         for (value, label) in self.y.ticks(most_ticks_upward(self.frame.height())) {

@@ -8,7 +8,8 @@ use super::axes::{Axes, Axis, Frame};
 use super::canvas::{Anchor, LINE, TEXT};
 use super::font::{shortened, text_width};
 use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
-use crate::colour::{INK, RUNS, paler};
+use super::stroke::Stroke;
+use crate::colour::INK;
 
 /// Width of a figure of one column and of two columns of a journal, pixels: 88 mm and 180 mm.
 pub const COLUMN: f64 = 1056.0;
@@ -19,26 +20,6 @@ pub const MARGIN: f64 = 24.0;
 const BETWEEN: f64 = 48.0;
 /// Width of the sample of a colour, pixels.
 const KEY: f64 = 60.0;
-
-/// Colour of the first moment, as a part of the run's colour.
-const PALE: f64 = 0.45;
-
-/// Colour of a run at the first moment, or at the last.
-pub fn colour_at(number: usize, first: bool) -> RGBColor {
-    if first { paler(colour(number), PALE) } else { colour(number) }
-}
-
-/// Colour of a run.
-pub fn colour(number: usize) -> RGBColor {
-    RUNS[number % RUNS.len()]
-}
-
-/// Width of a run's lines, pixels: those that are drawn first are wider, or equal lines would hide each other.
-pub fn line_width(number: usize, runs: usize) -> u32 {
-    let after = runs.saturating_sub(number + 1) as u32;
-    let step = if runs > 4 { 1 } else { 2 };
-    LINE + 1 + step * after
-}
 
 /// One box of a chart, before it has a place.
 #[derive(Debug, Clone)]
@@ -67,16 +48,18 @@ pub struct Meaning {
 impl Meaning {
     /// Those of the lines of the first and the last moment, of all runs.
     pub fn of_moments() -> [Self; 2] {
-        [(INK, "last map"), (paler(INK, PALE), "first map")].map(|(colour, text)| Self {
-            colour,
-            style: KeyStyle::Line,
-            text: text.to_owned(),
-        })
+        let last = Stroke::solid(INK, LINE);
+        [(last, "last map"), (last.paler(), "first map")].map(|(stroke, text)| Self::of_line(stroke, text))
     }
 
     /// That of a run's lines.
     pub fn of_run(number: usize, label: &str) -> Self {
-        Self { colour: colour(number), style: KeyStyle::Line, text: label.to_owned() }
+        Self::of_line(Stroke::of(number, 1), label)
+    }
+
+    /// That of a line.
+    pub fn of_line(stroke: Stroke, text: &str) -> Self {
+        Self { colour: stroke.colour, style: KeyStyle::of_line(stroke.dashes), text: text.to_owned() }
     }
 }
 
@@ -119,7 +102,7 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
     let most = page.size[0] - 2.0 * MARGIN;
     let (mut x, mut y) = (MARGIN, top);
     for Meaning { colour, style, text } in meanings {
-        let key = if *style == KeyStyle::Line { KEY } else { 0.6 * KEY };
+        let key = if matches!(style, KeyStyle::Line | KeyStyle::Dashed(_)) { KEY } else { 0.6 * KEY };
         let text = shortened(text, TEXT, most - key - 16.0);
         let width = key + 16.0 + text_width(&text, TEXT);
         if x > MARGIN && x + width > page.size[0] - MARGIN {

@@ -11,6 +11,7 @@ use super::contour::Field;
 use super::effects::file_names;
 use super::format::Figure;
 use super::page::{Content, KeyStyle, Mark};
+use super::stroke::Stroke;
 use crate::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
 use crate::study::fit::FittedKey;
 use plateau_io::number;
@@ -70,7 +71,7 @@ fn profiles(result: &FitResult, keys: &[FittedKey]) -> Figure {
 
 fn profile_contents(key: &FittedKey, profile: &Profile, best: f64, top: f64) -> Vec<Content> {
     let ends = [profile.values.first(), profile.values.last()].map(|end| end.map_or(0.0, |end| key.on_axis(*end)));
-    let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, colour, width };
+    let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, stroke: Stroke::solid(colour, width) };
     let best = key.on_axis(best);
     let mut contents = vec![
         line(vec![[best, 0.0], [best, top]], FAINT, LINE),
@@ -125,7 +126,7 @@ fn region(result: &FitResult, pair: &Pair, keys: &[FittedKey], runs: &[Vec<f64>]
     for (threshold, colour, _) in &levels {
         for line in (Field { values: &field, rows }).contours(*threshold) {
             let points = line.into_iter().map(place).collect();
-            contents.push(Content::Line { points, colour: *colour, width: LINE + 2 });
+            contents.push(Content::Line { points, stroke: Stroke::solid(*colour, LINE + 2) });
         }
     }
     let of_run = |run: &Vec<f64>| [0, 1].map(|at| own[at].on_axis(run[pair.keys[at]]));

@@ -10,6 +10,7 @@
 //! | a bitmap of few colours | [`picture`] |
 //! | the colour bar of a map | [`colour_bar`] |
 //! | curves with no more places than there is to see | [`simplify`] |
+//! | colour, width and dashes of lines | [`stroke`] |
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
 //! | charts beside and below each other | [`chart`] |
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`] |
@@ -42,6 +43,7 @@ mod raster;
 pub mod run;
 pub mod sensitivity;
 mod simplify;
+mod stroke;
 pub mod surface_description;
 mod ticks;
 

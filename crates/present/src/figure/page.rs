@@ -10,6 +10,7 @@ use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
 use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
+use super::stroke::{Dashes, Stroke};
 use crate::colour::GROUND;
 
 /// Pixels of a millimetre on paper: letters are of 8 points then.
@@ -55,14 +56,23 @@ pub struct Key {
 }
 
 /// What a colour is the colour of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeyStyle {
     /// A line.
     Line,
+    /// A line with dashes.
+    Dashed(Dashes),
     /// An area.
     Area,
     /// A mark.
     Mark(Mark),
+}
+
+impl KeyStyle {
+    /// That of a line with these dashes.
+    pub fn of_line(dashes: Dashes) -> Self {
+        if dashes.is_empty() { Self::Line } else { Self::Dashed(dashes) }
+    }
 }
 
 /// A mark at a point.
@@ -94,10 +104,8 @@ pub enum Content {
     Line {
         /// The points.
         points: Vec<[f64; 2]>,
-        /// Its colour.
-        colour: RGBColor,
-        /// Its width, pixels.
-        width: u32,
+        /// How it is drawn.
+        stroke: Stroke,
     },
     /// What lies between two values.
     Band {
@@ -157,12 +165,17 @@ impl Key {
     fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
         let middle = 0.5 * (self.frame.y[0] + self.frame.y[1]);
         match self.style {
-            KeyStyle::Line => {
-                canvas.line(&[(self.frame.x[0], middle), (self.frame.x[1], middle)], self.colour, LINE + 2)
-            }
+            KeyStyle::Line => self.draw_line(canvas, &[]),
+            KeyStyle::Dashed(dashes) => self.draw_line(canvas, dashes),
             KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
             KeyStyle::Mark(mark) => mark.draw(canvas, (0.5 * (self.frame.x[0] + self.frame.x[1]), middle), self.colour),
         }
+    }
+
+    fn draw_line<B: DrawingBackend>(&self, canvas: &Canvas<B>, dashes: Dashes) -> Result<(), FigureError> {
+        let middle = 0.5 * (self.frame.y[0] + self.frame.y[1]);
+        let stroke = Stroke { dashes, ..Stroke::solid(self.colour, LINE + 2) };
+        stroke.draw(canvas, &self.frame.x.map(|x| (x, middle)))
     }
 }
 
@@ -170,11 +183,11 @@ impl Panel {
     fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
         for content in &self.contents {
             match content {
-                Content::Line { points, colour, width } => {
+                Content::Line { points, stroke } => {
                     let places: Vec<Place> = points.iter().map(|[x, y]| self.axes.place_within(*x, *y)).collect();
                     match simplified(&places)[..] {
-                        [place] => canvas.area(&around(place), *colour)?,
-                        ref places => canvas.line(places, *colour, *width)?,
+                        [place] => canvas.area(&around(place), stroke.colour)?,
+                        ref places => stroke.draw(canvas, places)?,
                     }
                 }
                 Content::Band { spans, colour, opacity } => {

@@ -9,6 +9,7 @@ use super::font::shortened;
 use super::format::Figure;
 use super::labels::Labels;
 use super::page::{Content, KeyStyle, Mark};
+use super::stroke::Stroke;
 use crate::colour::{DATA, DATA_AREA, FAINT, INK};
 use crate::figure::canvas::Anchor;
 use crate::quantity::Unit;
@@ -44,7 +45,7 @@ pub fn indices(response: &str, file: &str, factors: &[&str], indices: &SobolIndi
             if let Some([low, high]) = index.interval {
                 let y = 0.5 * (ends[0] + ends[1]);
                 let points = vec![[low.max(0.0), y], [high.max(0.0), y]];
-                contents.push(Content::Line { points, colour: INK, width: LINE });
+                contents.push(Content::Line { points, stroke: Stroke::solid(INK, LINE) });
                 longest = longest.max(high);
             }
         }
@@ -78,7 +79,7 @@ pub fn effects(response: &str, file: &str, factors: &[&str], effects: &[Elementa
     let (x, y) = (up_from_zero(1.06 * largest(0)), up_from_zero(1.06 * largest(1)));
     let end = x.end().min(*y.end());
     let contents = vec![
-        Content::Line { points: vec![[0.0, 0.0], [end, end]], colour: FAINT, width: LINE },
+        Content::Line { points: vec![[0.0, 0.0], [end, end]], stroke: Stroke::solid(FAINT, LINE) },
         Content::Marks { points: points.clone(), colour: DATA, mark: Mark::Dot },
     ];
     let chart = Chart {

@@ -12,6 +12,7 @@ use super::format::Figure;
 use super::histogram::Histogram;
 use super::page::{Content, Key, KeyStyle, Page, Panel};
 use super::raster::Raster;
+use super::stroke::Stroke;
 use crate::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT, MISSING};
 use crate::quantity::Unit;
 use plateau_io::number::{significant, with_minus};
@@ -198,7 +199,7 @@ impl DescribedSurface<'_> {
         let mut contents: Vec<Content> = filled.map(bar).collect();
         let steps = fractions.iter().enumerate();
         let points = steps.flat_map(|(number, fraction)| ends(number).map(|y| [100.0 * fraction, y])).collect();
-        contents.push(Content::Line { points, colour: DATA, width: LINE });
+        contents.push(Content::Line { points, stroke: Stroke::solid(DATA, LINE) });
         page.panels.push(Panel { axes: Axes { frame, x, y: height_axis(range.clone(), unit) }, contents });
         let (heights, outside) = (&self.description.heights, self.drawn.histogram.outside);
         let mut lines = vec![
@@ -216,7 +217,7 @@ impl DescribedSurface<'_> {
         let axes = Axes { frame, x: Axis::linear(0.0..=100.0, "material ratio, %"), y };
         let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, upper, lower } =
             self.description.core;
-        let line = |points, colour, width| Content::Line { points, colour, width };
+        let line = |points, colour, width| Content::Line { points, stroke: Stroke::solid(colour, width) };
         let mut contents = Vec::new();
         if peak_ratio.is_finite() {
             let span = |ratio: f64, ends: [f64; 2]| [100.0 * ratio, unit.value(ends[0]), unit.value(ends[1])];

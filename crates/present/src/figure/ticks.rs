@@ -49,6 +49,21 @@ pub fn logarithmic_ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, 
     (1..).map(|every| candidates(&[1], every)).find(|ticks| ticks.len() <= most).unwrap_or_default()
 }
 
+/// Powers of ten that an axis may have for ticks between them to be told apart.
+const MOST_POWERS: f64 = 8.0;
+
+/// Places of 1 to 9 times the powers of ten in a positive range; none where they would be too close to each other.
+pub fn minor_ticks(range: &RangeInclusive<f64>) -> Vec<f64> {
+    let (low, high) = (*range.start(), *range.end());
+    let are_apart = low > 0.0 && high > low && high.is_finite() && (high / low).log10() <= MOST_POWERS;
+    if !are_apart {
+        return Vec::new();
+    }
+    let powers = low.log10().floor() as i32..=high.log10().floor() as i32;
+    let ticks = powers.flat_map(|power| (1..10).map(move |digit| f64::from(digit) * 10_f64.powi(power)));
+    ticks.filter(|tick| range.contains(tick)).collect()
+}
+
 /// A digit times a power of ten.
 fn power_label(digit: i32, power: i32) -> String {
     match power {
@@ -63,7 +78,14 @@ fn power_label(digit: i32, power: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{logarithmic_ticks, ticks};
+    use super::{logarithmic_ticks, minor_ticks, ticks};
+
+    #[test]
+    fn ticks_between_powers_of_ten_are_their_multiples() {
+        let expected = [8.0, 9.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0, 100.0, 200.0];
+        assert_eq!(minor_ticks(&(7.5..=250.0)), expected);
+        assert_eq!(minor_ticks(&(1e-9..=1.0)).len() + minor_ticks(&(0.0..=1.0)).len(), 0);
+    }
 
     #[test]
     fn ticks_of_equal_ratios_are_powers_of_ten() {

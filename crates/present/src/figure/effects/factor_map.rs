@@ -10,6 +10,7 @@ use crate::figure::contour::Field;
 use crate::figure::font::{shortened, text_width};
 use crate::figure::page::{Content, Key, KeyStyle, Mark, Page, Panel};
 use crate::figure::picture::Picture;
+use crate::figure::stroke::Stroke;
 use crate::study::analysis::Analysis;
 
 /// Points of the map along each axis.
@@ -148,8 +149,7 @@ impl<'a> FactorMap<'a> {
         let mut contents = vec![Content::Map(self.picture())];
         let line = |(points, _): &(Vec<[f64; 2]>, String)| Content::Line {
             points: points.clone(),
-            colour: GROUND,
-            width: LINE - 1,
+            stroke: Stroke::solid(GROUND, LINE - 1),
         };
         contents.extend(lines.iter().map(line));
         contents.push(Content::Marks { points: runs.to_vec(), colour: INK, mark: Mark::Rimmed });

@@ -10,6 +10,7 @@ use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::labels::Labels;
 use crate::figure::page::{Content, KeyStyle, Mark};
+use crate::figure::stroke::Stroke;
 
 /// Height of the box, pixels.
 const HEIGHT: f64 = 860.0;
@@ -43,7 +44,8 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     if let Some(slope) = slope {
         // As far as it is in the box.
         let end = x.end().min(y.end() / slope);
-        contents.push(Content::Line { points: vec![[0.0, 0.0], [end, slope * end]], colour: FAINT, width: LINE });
+        contents
+            .push(Content::Line { points: vec![[0.0, 0.0], [end, slope * end]], stroke: Stroke::solid(FAINT, LINE) });
         let text = "if there were nothing but error".to_owned();
         meanings.push(Meaning { colour: FAINT, style: KeyStyle::Line, text });
     }

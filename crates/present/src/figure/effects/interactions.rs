@@ -7,12 +7,12 @@ use plateau_study::design::Setting;
 use plateau_study::effects::Model;
 
 use super::{FactorAxis, ResponseFigures, Subject, range_of};
-use crate::colour::RUNS;
 use crate::figure::axes::{Axes, Axis, Frame};
-use crate::figure::canvas::{Anchor, LINE, TEXT};
+use crate::figure::canvas::{Anchor, TEXT};
 use crate::figure::chart::{COLUMN, MARGIN, TWO_COLUMNS};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Mark, Page, Panel};
+use crate::figure::stroke::Stroke;
 
 /// Factors of the matrix, at most.
 const MOST_FACTORS: usize = 6;
@@ -174,13 +174,13 @@ fn matrix(subject: &Subject, rows: &[(usize, Vec<Setting>, Vec<Pair>)], y: &Axis
 
 fn contents(pair: &Pair) -> Vec<Content> {
     let of_line = |(number, line): (usize, &Line)| {
-        let colour = RUNS[number % RUNS.len()];
+        let stroke = Stroke::of(number, 1);
         let mut contents = Vec::new();
         if line.points.len() > 1 {
-            contents.push(Content::Line { points: line.points.clone(), colour, width: LINE + 1 });
+            contents.push(Content::Line { points: line.points.clone(), stroke });
         }
         if !line.predicted {
-            contents.push(Content::Marks { points: line.points.clone(), colour, mark: Mark::Dot });
+            contents.push(Content::Marks { points: line.points.clone(), colour: stroke.colour, mark: Mark::Dot });
         }
         contents
     };
@@ -194,7 +194,8 @@ fn legend(page: &mut Page, axis: &FactorAxis, settings: &[Setting], [left, top]:
     for (number, setting) in settings.iter().enumerate() {
         let middle = top + (number as f64 + 1.7) * LINE_OF_TEXT;
         let frame = Frame { x: [left, left + KEY], y: [middle - 13.0, middle + 13.0] };
-        page.keys.push(Key { frame, colour: RUNS[number % RUNS.len()], style: KeyStyle::Line });
+        let Stroke { colour, dashes, .. } = Stroke::of(number, 1);
+        page.keys.push(Key { frame, colour, style: KeyStyle::of_line(dashes) });
         let name = shortened(&axis.name(*setting), TEXT, room - KEY - 16.0);
         page.write(name, (left + KEY + 16.0, middle), Anchor::Right, TEXT);
     }

@@ -10,6 +10,7 @@ use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, page};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle, Mark};
+use crate::figure::stroke::Stroke;
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 620.0;
@@ -123,7 +124,7 @@ fn shown(subject: &Subject, factor: usize) -> Shown {
 
 fn contents(shown: &Shown, axis: &FactorAxis, mean: f64) -> Vec<Content> {
     let range = axis.range();
-    let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, colour, width };
+    let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, stroke: Stroke::solid(colour, width) };
     let mut contents = vec![line(vec![[*range.start(), mean], [*range.end(), mean]], FAINT, LINE)];
     if shown.predicted {
         if !shown.intervals.is_empty() {

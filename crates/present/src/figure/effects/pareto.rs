@@ -16,6 +16,7 @@ use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle};
+use crate::figure::stroke::Stroke;
 use plateau_io::number;
 
 /// Bars, at most.
@@ -131,14 +132,13 @@ fn contents(bars: &[Bar], simultaneous: Option<f64>) -> Vec<Content> {
         let to = from + bars[from..].iter().take_while(same).count();
         if let Some(limit) = bars[from].limit {
             let points = vec![[limit, count - from as f64], [limit, count - to as f64]];
-            contents.push(Content::Line { points, colour: DERIVED, width: LINE + 1 });
+            contents.push(Content::Line { points, stroke: Stroke::solid(DERIVED, LINE + 1) });
         }
         from = to;
     }
     contents.extend(simultaneous.map(|margin| Content::Line {
         points: vec![[margin, 0.0], [margin, count]],
-        colour: INK,
-        width: LINE + 1,
+        stroke: Stroke::solid(INK, LINE + 1),
     }));
     contents
 }

@@ -9,6 +9,7 @@ use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{Chart, TWO_COLUMNS, page};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, Mark};
+use crate::figure::stroke::Stroke;
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 640.0;
@@ -54,7 +55,7 @@ fn scatter(x: Axis, y: &Axis, places: &[f64], residuals: &[f64]) -> Chart {
     let zero = vec![[*x.range.start(), 0.0], [*x.range.end(), 0.0]];
     let points = places.iter().zip(residuals).map(|(place, residual)| [*place, *residual]).collect();
     let contents = vec![
-        Content::Line { points: zero, colour: FAINT, width: LINE },
+        Content::Line { points: zero, stroke: Stroke::solid(FAINT, LINE) },
         Content::Marks { points, colour: DATA, mark: Mark::Point },
     ];
     Chart { title: String::new(), x, y: y.clone(), contents }
@@ -73,7 +74,7 @@ fn normal(standardised: &[f64]) -> Chart {
         x: Axis::linear(range.clone(), "normal quantile"),
         y: Axis::linear(range, "residual by its standard deviation"),
         contents: vec![
-            Content::Line { points: ends.map(|end| [end, end]).to_vec(), colour: FAINT, width: LINE },
+            Content::Line { points: ends.map(|end| [end, end]).to_vec(), stroke: Stroke::solid(FAINT, LINE) },
             Content::Marks { points, colour: DATA, mark: Mark::Point },
         ],
     }

@@ -13,6 +13,7 @@ use crate::figure::effects::{FactorAxis, axes, range_of};
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
 use crate::figure::page::{Content, KeyStyle, Mark};
+use crate::figure::stroke::Stroke;
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 400.0;
@@ -108,21 +109,20 @@ fn row(shown: &Shown<'_>, axes: &[FactorAxis<'_>], curves: &[Vec<Point>], y: &Ax
         } else {
             let bar = |[x, low, high]: &[f64; 3]| Content::Line {
                 points: vec![[*x, *low], [*x, *high]],
-                colour: DATA,
-                width: LINE,
+                stroke: Stroke::solid(DATA, LINE),
             };
             contents.extend(spans.iter().map(bar));
         }
         let places: Vec<[f64; 2]> = points.iter().map(|(x, value, _)| [*x, *value]).collect();
         if axis.is_range() {
-            contents.push(Content::Line { points: places, colour: DATA, width: LINE + 2 });
+            contents.push(Content::Line { points: places, stroke: Stroke::solid(DATA, LINE + 2) });
         } else {
-            contents.push(Content::Line { points: places.clone(), colour: FAINT, width: LINE });
+            contents.push(Content::Line { points: places.clone(), stroke: Stroke::solid(FAINT, LINE) });
             contents.push(Content::Marks { points: places, colour: DATA, mark: Mark::Dot });
         }
         let best = place_of(axis, shown.best[factor]);
         let line = vec![[best, *y.range.start()], [best, *y.range.end()]];
-        contents.push(Content::Line { points: line, colour: DERIVED, width: LINE });
+        contents.push(Content::Line { points: line, stroke: Stroke::solid(DERIVED, LINE) });
         let x = axis.axis(axis.room());
         let x = if is_last { x } else { Axis { label: String::new(), numbered: false, ..x } };
         Chart { title: String::new(), x, y: if factor == 0 { y.clone() } else { y.clone().shared() }, contents }

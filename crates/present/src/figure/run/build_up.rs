@@ -1,19 +1,19 @@
 //! Thickness of what has built up on disc and pin at the last moment: height less substrate.
 
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::Map;
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
-use super::moments::{floats, leave_blank, moment};
+use super::moments::{leave_blank, moment};
 use super::shape::Shape;
+use super::thickness::{BODIES, Body, largest, last, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
 use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
-use crate::quantity::{BEYOND, MapLook, RobustRange};
+use crate::quantity::MapLook;
 
 const NAME: &str = "build-up";
 
@@ -21,10 +21,6 @@ const NAME: &str = "build-up";
 const NOTHING: u8 = COLOURS as u8;
 /// Number of the colour of what is no cell.
 const NO_CELL: u8 = NOTHING + 1;
-
-/// Height and substrate of a body.
-type Body = [Map; 2];
-const BODIES: [Body; 2] = [[Map::DiscHeight, Map::DiscSubstrate], [Map::PinHeight, Map::PinSubstrate]];
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Result<(), ReadError> {
@@ -65,36 +61,16 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     Ok(())
 }
 
-/// The last moment.
-fn last(subject: &Subject) -> Vec<usize> {
-    subject.run.map_time().len().checked_sub(1).into_iter().collect()
-}
-
-/// Thickness on every cell, m, column by column; nothing if there are no maps.
-fn thickness(subject: &Subject, [height, substrate]: Body, index: usize) -> Result<Vec<f64>, ReadError> {
-    let (heights, substrates) = (floats(subject.run, height, index)?, floats(subject.run, substrate, index)?);
-    let toward = MapLook::of(height).peaks();
-    Ok(heights.iter().zip(&substrates).map(|(height, substrate)| toward * (height - substrate)).collect())
-}
-
 /// The scale that all maps of a body share.
 fn scale(subjects: &[&Subject], body: Body) -> Result<Axis, ReadError> {
     let unit = &MapLook::of(body[0]).unit;
-    let mut range = RobustRange::default();
-    for subject in subjects {
-        for index in last(subject) {
-            let mut covered = thickness(subject, body, index)?;
-            covered.retain(|thickness| *thickness > 0.0);
-            range.add(covered.into_iter().map(|thickness| unit.value(thickness)));
-        }
-    }
-    let largest = range.quantile(1.0 - BEYOND).filter(|largest| *largest > 0.0).unwrap_or(1.0);
+    let largest = largest(subjects, body)?.map_or(1.0, |largest| unit.value(largest));
     Ok(Axis::linear(0.0..=largest, unit.label("thickness")))
 }
 
 fn painted(subject: &Subject, body: Body, index: usize, scale: &Axis) -> Result<Option<Painted>, ReadError> {
     let look = MapLook::of(body[0]);
-    let thickness = thickness(subject, body, index)?;
+    let thickness = thickness(subject.run, body, index)?;
     let colour = |thickness: &f64| match *thickness {
         thickness if thickness > 0.0 => colour_index(scale.part(look.unit.value(thickness))),
         _ => NOTHING,

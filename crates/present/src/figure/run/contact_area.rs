@@ -2,14 +2,14 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::operation;
 use super::spans::{band, means};
-use super::{Figures, Subject};
+use super::{Figures, Subject, operation, spans};
 use crate::colour::paler;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
-use crate::figure::chart::{COLUMN, Chart, Meaning, colour, line_width, page, up_from_zero};
+use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::{Unit, title};
 
 /// Colour of a line through single steps, as a part of the run's colour.
@@ -36,16 +36,18 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for (number, subject, single, mean) in &runs {
         let times: Vec<f64> = subject.run.time().iter().map(|seconds| time.value(*seconds)).collect();
         let single: Vec<f64> = single.iter().map(|value| area.value(*value)).collect();
-        steps.push(band(&times, &single, colour(*number)).unwrap_or_else(|| Content::Line {
+        let stroke = Stroke::of(*number, subjects.len());
+        steps.push(band(&times, &single, stroke.colour).unwrap_or_else(|| Content::Line {
             points: means(&times, &single),
-            colour: paler(colour(*number), PALE),
-            width: LINE,
+            stroke: Stroke::solid(paler(stroke.colour, PALE), LINE),
         }));
         let mean: Vec<f64> = mean.iter().map(|value| area.value(*value)).collect();
         let points = means(&times, &mean);
-        lines.push(Content::Line { points, colour: colour(*number), width: line_width(*number, subjects.len()) });
+        lines.push(Content::Line { points, stroke });
         meanings.push(Meaning::of_run(*number, &subject.label));
     }
+    let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
+    meanings.extend(spans::meanings(has_bands, "mean over a revolution", "least to greatest of single steps"));
     let mut charts = operation::charts(subjects, &time, end)?;
     let (with_operation, height) = (!charts.is_empty(), if charts.is_empty() { 760.0 } else { 420.0 });
     charts.push(Chart {

@@ -1,4 +1,5 @@
-//! Where the wear debris is: worn + returned = deposited + emitted + pool, stacked.
+//! Where the wear debris is: worn + returned = deposited + emitted + pool, stacked; and what of it is in the contact still, for most of
+//! it is emitted.
 
 use plateau_io::run_file::ReadError;
 use plotters::style::RGBColor;
@@ -9,15 +10,20 @@ use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
 use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::{Content, KeyStyle};
+use crate::figure::stroke::Stroke;
 use crate::quantity::{Unit, title};
 
 const NAME: &str = "debris";
 /// What debris becomes, from below in the stack.
 const PARTS: [&str; 4] = ["deposited_disc", "deposited_pin", "emitted", "pool"];
+/// Those of them that are in the contact still.
+const STAYED: [usize; 3] = [0, 1, 3];
 /// What debris comes from.
 const SOURCES: [&str; 4] = ["worn_pin", "worn_resin", "worn_disc", "returned"];
 /// Points along time, at most.
 const MOST_POINTS: usize = 400;
+/// Runs beside each other, at most.
+const MOST_ACROSS: usize = 3;
 
 /// One run's balance, m³.
 struct Balance {
@@ -38,30 +44,42 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let largest = balances.iter().flat_map(|(_, balance)| &balance.supply).copied().fold(0.0, f64::max);
     let end = balances.iter().filter_map(|(_, balance)| balance.times.last()).copied().fold(0.0, f64::max);
-    let (volume, time) = (Unit::for_size("m3", largest), Unit::for_size("s", end));
-    let chart = |(subject, balance): &(&Subject, Balance)| Chart {
+    let time = Unit::for_size("s", end);
+    let volume = Unit::for_size("m3", largest);
+    let of_all = |(subject, balance): &(&Subject, Balance)| Chart {
         title: subject.label.clone(),
         x: Axis::linear(0.0..=time.value(end), time.label("time")),
         y: Axis::linear(up_from_zero(volume.value(largest)), volume.label("debris")),
-        contents: stack(balance, &time, &volume),
+        contents: stack(balance, &[0, 1, 2, 3], &time, &volume)
+            .into_iter()
+            .chain([supply(balance, &time, &volume)])
+            .collect(),
     };
-    let charts: Vec<Chart> = balances.iter().map(chart).collect();
+    let most = balances.iter().map(|(_, balance)| balance.most(&STAYED)).fold(0.0, f64::max);
+    let kept = Unit::for_size("m3", most);
+    let of_kept = |(_, balance): &(&Subject, Balance)| Chart {
+        title: "without what was emitted".to_owned(),
+        x: Axis::linear(0.0..=time.value(end), time.label("time")),
+        y: Axis::linear(up_from_zero(kept.value(most)), kept.label("debris in the contact")),
+        contents: stack(balance, &STAYED, &time, &kept),
+    };
+    let across = balances.len().min(MOST_ACROSS);
+    let row =
+        |runs: &[(&Subject, Balance)]| runs.iter().map(of_all).chain(runs.iter().map(of_kept)).collect::<Vec<_>>();
+    let charts: Vec<Chart> = balances.chunks(across).flat_map(row).collect();
     let meaning = |(colour, text): (RGBColor, &str)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() };
     // As they lie on each other, from the top.
     let stacked = DEBRIS.into_iter().zip(PARTS.map(title)).rev();
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
     meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line, text: "worn + returned".to_owned() });
-    let (width, across) = match charts.len() {
-        1 => (COLUMN, 1),
-        2 => (TWO_COLUMNS, 2),
-        _ => (TWO_COLUMNS, 3),
-    };
+    let width = if across == 1 { COLUMN } else { TWO_COLUMNS };
     figures.add(
         NAME,
         "Debris balance",
         "Where the wear debris is, stacked: compacted on disc and pin, out of the contact, or loose in it. The line is what \
-         was worn, and what plateaus that lost their support returned: the stack must reach it.",
-        page(width, 640.0, across, charts, &meanings),
+         was worn, and what plateaus that lost their support returned: the stack must reach it. Below, the same on an axis of its own \
+         without what was emitted.",
+        page(width, 480.0, across, charts, &meanings),
     );
     Ok(())
 }
@@ -83,14 +101,28 @@ fn read(subject: &Subject) -> Result<Balance, ReadError> {
     Ok(Balance { times, parts, supply })
 }
 
-/// Bands on each other, and the line that they must reach.
-fn stack(balance: &Balance, time: &Unit, volume: &Unit) -> Vec<Content> {
-    let every = balance.times.len().div_ceil(MOST_POINTS).max(1);
-    let last = balance.times.len() - 1;
-    let chosen: Vec<usize> = (0..last).step_by(every).chain([last]).collect();
+impl Balance {
+    /// Numbers of the samples that are shown.
+    fn chosen(&self) -> Vec<usize> {
+        let every = self.times.len().div_ceil(MOST_POINTS).max(1);
+        let last = self.times.len() - 1;
+        (0..last).step_by(every).chain([last]).collect()
+    }
+
+    /// The most that these parts are together at any time, m³.
+    fn most(&self, parts: &[usize]) -> f64 {
+        let sum = |at: usize| parts.iter().map(|part| self.parts[*part][at]).sum::<f64>();
+        (0..self.times.len()).map(sum).fold(0.0, f64::max)
+    }
+}
+
+/// Bands of these parts on each other.
+fn stack(balance: &Balance, parts: &[usize], time: &Unit, volume: &Unit) -> Vec<Content> {
+    let chosen = balance.chosen();
     let mut floor = vec![0.0; chosen.len()];
     let mut contents = Vec::new();
-    for (values, colour) in balance.parts.iter().zip(DEBRIS) {
+    for part in parts {
+        let (values, colour) = (&balance.parts[*part], DEBRIS[*part]);
         let mut spans = Vec::with_capacity(chosen.len());
         for (index, floor) in chosen.iter().zip(&mut floor) {
             let low = *floor;
@@ -99,9 +131,13 @@ fn stack(balance: &Balance, time: &Unit, volume: &Unit) -> Vec<Content> {
         }
         contents.push(Content::Band { spans, colour, opacity: 1.0 });
     }
-    let point = |index: &usize| [time.value(balance.times[*index]), volume.value(balance.supply[*index])];
-    contents.push(Content::Line { points: chosen.iter().map(point).collect(), colour: INK, width: LINE + 2 });
     contents
+}
+
+/// The line that all bands together must reach.
+fn supply(balance: &Balance, time: &Unit, volume: &Unit) -> Content {
+    let point = |index: &usize| [time.value(balance.times[*index]), volume.value(balance.supply[*index])];
+    Content::Line { points: balance.chosen().iter().map(point).collect(), stroke: Stroke::solid(INK, LINE + 2) }
 }
 
 #[cfg(test)]
@@ -116,10 +152,14 @@ mod tests {
             parts: [1.0, 2.0, 3.0, 4.0].map(|value| vec![0.0, value]),
             supply: vec![0.0, 10.0],
         };
-        let contents = stack(&balance, &Unit::NUMBER, &Unit::NUMBER);
-        let Content::Band { spans, .. } = &contents[3] else { panic!("a band") };
+        let all = stack(&balance, &[0, 1, 2, 3], &Unit::NUMBER, &Unit::NUMBER);
+        let Content::Band { spans, .. } = &all[3] else { panic!("a band") };
         assert_eq!(spans, &[[1.0, 0.0, 0.0], [2.0, 6.0, 10.0]]);
-        let Content::Line { points, .. } = &contents[4] else { panic!("a line") };
-        assert_eq!(points, &[[1.0, 0.0], [2.0, 10.0]]);
+        let Content::Line { points, .. } = supply(&balance, &Unit::NUMBER, &Unit::NUMBER) else { panic!("a line") };
+        assert_eq!(points, [[1.0, 0.0], [2.0, 10.0]]);
+        // Without the third part: 1 + 2 + 4.
+        let stayed = stack(&balance, &STAYED, &Unit::NUMBER, &Unit::NUMBER);
+        let Content::Band { spans, .. } = &stayed[2] else { panic!("a band") };
+        assert_eq!((spans[1], balance.most(&STAYED)), ([2.0, 3.0, 7.0], 7.0));
     }
 }

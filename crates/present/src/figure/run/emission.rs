@@ -1,26 +1,24 @@
 //! Airborne mass and number of particles: what is added in a time, and for each kilometre of road (model section 12).
 
 use plateau_io::run_file::ReadError;
-use plotters::style::RGBColor;
 
 use super::rates::{Rate, per_metre, rates, steps};
 use super::{Figures, Subject, operation};
-use crate::colour::{INK, paler};
+use crate::colour::INK;
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
-use crate::figure::page::{Content, KeyStyle};
+use crate::figure::canvas::LINE;
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
+use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::Unit;
 
 const NAME: &str = "emission";
 const SERIES: [&str; 3] = ["pm10_mass", "pm25_mass", "particle_number"];
 const ROAD: &str = "road_distance";
-/// Colour of PM2.5, as a part of the run's colour.
-const PALE: f64 = 0.45;
 
 /// One of the series of a run as a curve, SI.
 struct Curve {
-    colour: RGBColor,
-    width: u32,
+    stroke: Stroke,
     points: Vec<[f64; 2]>,
 }
 
@@ -52,8 +50,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         operation::shade_events(subject.run, &time, &mut charts)?;
     }
     let runs = having.iter().map(|(number, subject)| Meaning::of_run(*number, &subject.label));
-    let sizes = [(INK, "PM10, particles"), (paler(INK, PALE), "PM2.5")];
-    let sizes = sizes.map(|(colour, text)| Meaning { colour, style: KeyStyle::Line, text: text.to_owned() });
+    let sizes = [(Stroke::solid(INK, LINE), "PM10, particles"), (Stroke::solid(INK, LINE).paler(), "PM2.5")];
+    let sizes = sizes.map(|(stroke, text)| Meaning::of_line(stroke, text));
     let meanings: Vec<Meaning> = runs.chain(sizes).collect();
     let of_road = if on_road.is_empty() {
         ""
@@ -83,11 +81,10 @@ fn curves(
     for (number, subject) in runs {
         let times = subject.run.time();
         let values = |name: &str| Ok(subject.run.values(name)?.unwrap_or_default());
-        let (way, own) = (values(ROAD)?, colour(*number));
-        let width = line_width(*number, count);
-        let curve = |name: &str, colour| Ok(Curve { colour, width, points: make(times, &values(name)?, &way) });
+        let (way, own) = (values(ROAD)?, Stroke::of(*number, count));
+        let curve = |name: &str, stroke| Ok(Curve { stroke, points: make(times, &values(name)?, &way) });
         // The smaller mass would be hidden below the larger one.
-        masses.extend([curve("pm10_mass", own)?, curve("pm25_mass", paler(own, PALE))?]);
+        masses.extend([curve("pm10_mass", own)?, curve("pm25_mass", own.paler())?]);
         numbers.push(curve("particle_number", own)?);
     }
     Ok([masses, numbers])
@@ -99,8 +96,7 @@ fn chart(title: &str, what: &str, si: &str, curves: &[Curve], time: &Unit, end: 
     let unit = Unit::readable(si, largest);
     let line = |curve: &Curve| Content::Line {
         points: curve.points.iter().map(|[at, value]| [time.value(*at), unit.value(*value)]).collect(),
-        colour: curve.colour,
-        width: curve.width,
+        stroke: curve.stroke,
     };
     Chart {
         title: title.to_owned(),
@@ -159,13 +155,13 @@ mod tests {
             |unit: f64| windows.clone().flat_map(move |(end, twice)| [[end - 1.0, unit * twice], [end, unit * twice]]);
         for run in [0, 1] {
             close(&lines_of(mass, RUNS[run])[0], &rate(2.0).collect::<Vec<_>>());
-            close(&lines_of(mass, paler(RUNS[run], PALE))[0], &rate(0.5).collect::<Vec<_>>());
+            close(&lines_of(mass, Stroke::of(run, 1).paler().colour)[0], &rate(0.5).collect::<Vec<_>>());
             close(&lines_of(number, RUNS[run])[0], &rate(2.0).collect::<Vec<_>>());
         }
         // 30 µg in 200 m are 0.15 mg/km, and 30 million particles 150 million for a kilometre.
         let last = |panel, colour| lines_of(panel, colour)[0].last().copied().unwrap();
         close(&[last(mass_of_way, RUNS[0])], &[[10.0, 0.15]]);
-        close(&[last(mass_of_way, paler(RUNS[0], PALE))], &[[10.0, 0.0375]]);
+        close(&[last(mass_of_way, Stroke::of(0, 1).paler().colour)], &[[10.0, 0.0375]]);
         close(&[last(number_of_way, RUNS[0])], &[[10.0, 150.0]]);
         assert!(lines_of(mass_of_way, RUNS[1]).is_empty());
         assert_eq!(notes(&figures, NAME), ["no series road_distance"]);

@@ -3,10 +3,11 @@
 use plateau_io::run_file::ReadError;
 
 use super::spans::{band, means_between_ends};
-use super::{Figures, Subject};
+use super::{Figures, Subject, spans};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour, line_width, page, up_from_zero};
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::{Unit, title};
 
 const NAME: &str = "filled";
@@ -18,6 +19,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let time = Unit::for_size("s", end);
     let mut charts = Vec::new();
     let mut shown = vec![false; subjects.len()];
+    let mut has_bands = false;
     for series in SERIES {
         let (mut bands, mut lines) = (Vec::new(), Vec::new());
         let mut largest = 0.0_f64;
@@ -27,14 +29,15 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
             let values: Vec<f64> = values.iter().map(|value| Unit::PERCENT.value(*value)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
-            bands.extend(band(&times, &values, colour(number)));
-            let width = line_width(number, subjects.len());
-            lines.push(Content::Line { points: means_between_ends(&times, &values), colour: colour(number), width });
+            let stroke = Stroke::of(number, subjects.len());
+            bands.extend(band(&times, &values, stroke.colour));
+            lines.push(Content::Line { points: means_between_ends(&times, &values), stroke });
         }
         if lines.is_empty() {
             continue;
         }
         let y = if series == "filled_fraction" { "part of the volume" } else { "part of the area" };
+        has_bands |= !bands.is_empty();
         charts.push(Chart {
             title: title(series).to_owned(),
             x: Axis::linear(0.0..=time.value(end), time.label("time")),
@@ -50,6 +53,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .enumerate()
         .filter(|(number, _)| shown[*number])
         .map(|(number, subject)| Meaning::of_run(number, &subject.label))
+        .chain(spans::meanings(has_bands, "mean of a span of time", "least to greatest"))
         .collect();
     figures.add(
         NAME,

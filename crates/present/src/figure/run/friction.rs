@@ -5,8 +5,9 @@ use plateau_io::run_file::ReadError;
 use super::spans::{means, pieces};
 use super::{Figures, Subject, operation};
 use crate::figure::axes::{Axis, Scale};
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, colour, line_width, page, up_from_zero};
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, page, up_from_zero};
 use crate::figure::page::{Content, Mark};
+use crate::figure::stroke::Stroke;
 use crate::quantity::{SeriesLook, Unit};
 
 const NAME: &str = "friction";
@@ -46,12 +47,12 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let (x, pressure) = pressure_axis(steps().map(|[pressure, _]| *pressure));
     let (mut lines, mut marks) = (Vec::new(), Vec::new());
     for course in &courses {
-        let (colour, width) = (colour(course.number), line_width(course.number, subjects.len()));
+        let stroke = Stroke::of(course.number, subjects.len());
         let times: Vec<f64> = course.subject.run.time().iter().map(|at| time.value(*at)).collect();
         let curve = pieces(&means(&times, &course.means));
-        lines.extend(curve.into_iter().map(|points| Content::Line { points, colour, width }));
+        lines.extend(curve.into_iter().map(|points| Content::Line { points, stroke }));
         let points = course.steps.iter().map(|[at, coefficient]| [pressure.value(*at), *coefficient]).collect();
-        marks.push(Content::Marks { points, colour, mark: Mark::Point });
+        marks.push(Content::Marks { points, colour: stroke.colour, mark: Mark::Point });
     }
     let mut charts = [
         Chart {

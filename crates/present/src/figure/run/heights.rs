@@ -10,9 +10,10 @@ use super::map_page::having;
 use super::moments::{ends, heights};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page};
 use crate::figure::histogram::Histogram;
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::{MapLook, RobustRange};
 
 const NAME: &str = "heights";
@@ -109,8 +110,7 @@ fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Resu
     let y = Axis::linear(range, look.unit.label(&format!("{body}, {}", look.what)));
     let line = |distribution: &Distribution, points| Content::Line {
         points,
-        colour: colour_at(distribution.run, distribution.first),
-        width: line_width(distribution.run, count),
+        stroke: Stroke::of(distribution.run, count).at(distribution.first),
     };
     let largest = |one: &Distribution| one.histogram.fractions.iter().copied().fold(1e-6, f64::max);
     let narrowest = distributions.iter().map(largest).fold(0.0, f64::max);
@@ -146,18 +146,23 @@ fn wider(range: &RangeInclusive<f64>) -> RangeInclusive<f64> {
     range.start() - margin..=range.end() + margin
 }
 
-/// Per cent of the cells that are in a class against the height in its middle: a line for all classes between two empty
-/// ones, those included.
+/// Steps of the per cent of the cells that are in a class between the heights at its ends: a line for all classes between two empty
+/// ones, to the axis at both ends.
 fn outlines(histogram: &Histogram) -> Vec<Vec<[f64; 2]>> {
     let (begin, end) = (*histogram.range.start(), *histogram.range.end());
     let fractions = &histogram.fractions;
     let class = (end - begin) / fractions.len() as f64;
-    let filled = |number: usize| fractions.get(number).is_some_and(|fraction| *fraction > 0.0);
-    let shown = |number: usize| filled(number) || filled(number + 1) || (number > 0 && filled(number - 1));
     let numbers: Vec<usize> = (0..fractions.len()).collect();
-    let runs = numbers.chunk_by(|one, next| shown(*one) == shown(*next)).filter(|run| shown(run[0]));
-    let point = |number: &usize| [100.0 * fractions[*number], begin + (*number as f64 + 0.5) * class];
-    runs.map(|run| run.iter().map(point).collect()).collect()
+    let filled = |number: &usize| fractions[*number] > 0.0;
+    let runs = numbers.chunk_by(|one, next| filled(one) == filled(next)).filter(|run| filled(&run[0]));
+    let at = |end: usize| begin + end as f64 * class;
+    let step = |number: &usize| [*number, number + 1].map(|end| [100.0 * fractions[*number], at(end)]);
+    let outline = |run: &[usize]| {
+        let (first, last) = (run[0], run[run.len() - 1] + 1);
+        let steps = run.iter().flat_map(step);
+        [[0.0, at(first)]].into_iter().chain(steps).chain([[0.0, at(last)]]).collect()
+    };
+    runs.map(outline).collect()
 }
 
 /// Height against the per cent of the cells that reach it.
@@ -171,12 +176,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_ends_where_there_are_no_heights() {
+    fn steps_end_where_there_are_no_heights() {
         let fractions = vec![0.0, 0.0, 0.5, 0.25, 0.0, 0.0, 0.0, 0.25];
         let outlines = outlines(&Histogram { range: 0.0..=8.0, fractions, outside: 0.0 });
         // By hand: classes are 1 wide.
-        let expected: [&[[f64; 2]]; 2] =
-            [&[[0.0, 1.5], [50.0, 2.5], [25.0, 3.5], [0.0, 4.5]], &[[0.0, 6.5], [25.0, 7.5]]];
+        let expected: [&[[f64; 2]]; 2] = [
+            &[[0.0, 2.0], [50.0, 2.0], [50.0, 3.0], [25.0, 3.0], [25.0, 4.0], [0.0, 4.0]],
+            &[[0.0, 7.0], [25.0, 7.0], [25.0, 8.0], [0.0, 8.0]],
+        ];
         assert_eq!(outlines, expected);
     }
 }

@@ -197,8 +197,8 @@ pub fn having<'a>(
     having
 }
 
-/// The runs of either list, in the order of all.
-pub fn any_of<'a>(subjects: &'a [Subject<'a>], lists: [&[&'a Subject<'a>]; 2]) -> Vec<&'a Subject<'a>> {
+/// The runs of any of the lists, in the order of all.
+pub fn any_of<'a, const N: usize>(subjects: &'a [Subject<'a>], lists: [&[&'a Subject<'a>]; N]) -> Vec<&'a Subject<'a>> {
     let has = |subject: &Subject| lists.iter().any(|list| list.iter().any(|other| std::ptr::eq(*other, subject)));
     subjects.iter().filter(|subject| has(subject)).collect()
 }

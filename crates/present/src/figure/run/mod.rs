@@ -41,6 +41,7 @@ mod shape;
 mod spans;
 mod status;
 mod temperature;
+mod thickness;
 mod topography;
 #[cfg(test)]
 mod written;

@@ -6,8 +6,9 @@ use super::Subject;
 use super::spans::means;
 use crate::colour::INK;
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, colour, line_width, up_from_zero};
+use crate::figure::chart::{Chart, up_from_zero};
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::{SeriesLook, Unit};
 
 /// How much of what lies below an event hides.
@@ -27,11 +28,7 @@ pub fn charts(subjects: &[Subject], time: &Unit, end: f64) -> Result<Vec<Chart>,
             let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
             let values: Vec<f64> = values.iter().map(|value| look.unit.value(*value)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
-            lines.push(Content::Line {
-                points: means(&times, &values),
-                colour: colour(number),
-                width: line_width(number, subjects.len()),
-            });
+            lines.push(Content::Line { points: means(&times, &values), stroke: Stroke::of(number, subjects.len()) });
         }
         if lines.is_empty() {
             return Ok(Vec::new());

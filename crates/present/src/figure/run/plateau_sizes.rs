@@ -1,4 +1,4 @@
-//! How large plateaus are: how many there are of at least an area, at the first and the last moment.
+//! How large contact spots and plateaus are: how many there are of at least an area, at the first and the last moment.
 
 use plateau_core::model::material::Status;
 use plateau_core::observe::Map;
@@ -6,24 +6,23 @@ use plateau_core::observe::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{any_of, having};
-use super::moments::{ends, statuses};
+use super::moments::{ends, floats, statuses};
 use super::{Figures, Subject};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, colour_at, line_width, page};
+use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page};
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::Unit;
 
 const NAME: &str = "plateau-sizes";
 /// Count to which the axis reaches at least: ticks within a factor of two would stand at parts of a plateau.
 const LEAST_COUNT: usize = 10;
 
-/// A kind of plateau: what it is called, the map that tells, and the statuses that belong to it.
-type Kind = (&'static str, Map, &'static [Status]);
-
-const KINDS: [Kind; 3] = [
-    ("pin, primary and secondary", Map::PinStatus, &[Status::Primary, Status::Secondary]),
-    ("pin, secondary", Map::PinStatus, &[Status::Secondary]),
-    ("disc, secondary", Map::DiscStatus, &[Status::Secondary]),
+/// What is counted: what it is called, and the map that tells which cells belong to it.
+const KINDS: [(&str, Map); 3] = [
+    ("contact spots of the pin", Map::Pressure),
+    ("pin, secondary plateaus", Map::PinStatus),
+    ("disc, secondary plateaus", Map::DiscStatus),
 ];
 
 /// The plateaus of a run at one moment.
@@ -36,23 +35,17 @@ struct Sizes {
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
-    let lists = [Map::PinStatus, Map::DiscStatus].map(|map| (map, having(figures, NAME, subjects, map)));
+    let lists = KINDS.map(|(_, map)| having(figures, NAME, subjects, map));
     let mut kinds = Vec::new();
-    for (title, map, members) in KINDS {
+    for ((title, map), list) in KINDS.into_iter().zip(&lists) {
         let mut sizes = Vec::new();
         for (run, subject) in subjects.iter().enumerate() {
-            let has = |(other, list): &(Map, Vec<&Subject>)| {
-                *other == map && list.iter().any(|one| std::ptr::eq(*one, subject))
-            };
-            if !lists.iter().any(has) {
+            if !list.iter().any(|one| std::ptr::eq(*one, subject)) {
                 continue;
             }
             let moments = ends(subject.run);
             for index in &moments {
-                let cells = statuses(subject.run, map, *index)?;
-                let in_plateau: Vec<bool> =
-                    cells.iter().map(|status| members.iter().any(|member| *member as u8 == *status)).collect();
-                let areas = plateau_areas(subject.run.mesh(), &in_plateau);
+                let areas = plateau_areas(subject.run.mesh(), &belonging(subject, map, *index)?);
                 sizes.push(Sizes { run, first: *index == 0 && moments.len() > 1, areas });
             }
         }
@@ -61,8 +54,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         }
     }
     if kinds.is_empty() {
-        for subject in any_of(subjects, lists.each_ref().map(|(_, list)| &list[..])) {
-            figures.leave_out(NAME, subject, "no plateaus");
+        for subject in any_of(subjects, lists.each_ref().map(|list| &list[..])) {
+            figures.leave_out(NAME, subject, "no contact and no plateaus");
         }
         return Ok(());
     }
@@ -76,10 +69,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let chart = |(number, (title, sizes)): (usize, &(&str, Vec<Sizes>))| {
         let line = |sizes: &Sizes| Content::Line {
             points: survival(&sizes.areas, unit.per_si, range[0], floor),
-            colour: colour_at(sizes.run, sizes.first),
-            width: line_width(sizes.run, subjects.len()),
+            stroke: Stroke::of(sizes.run, subjects.len()).at(sizes.first),
         };
-        let y = Axis::logarithmic(floor..=1.6 * most.max(LEAST_COUNT) as f64, "plateaus at least that large");
+        let y = Axis::logarithmic(floor..=1.6 * most.max(LEAST_COUNT) as f64, "number at least that large");
         Chart {
             title: (*title).to_owned(),
             x: Axis::logarithmic(range[0]..=range[1], unit.label("area")),
@@ -98,12 +90,23 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
     figures.add(
         NAME,
-        "Plateau sizes",
-        "Number of plateaus that are at least so large, at the last recorded moment and, paler, at the first. A plateau is \
-         made of cells that share edges; the disc closes round the ring.",
+        "Sizes of contact spots and plateaus",
+        "Number of contact spots and of secondary plateaus that are at least so large, at the last recorded moment and, paler, at the \
+         first. Each is made of cells that share edges, with pressure or covered with compacted debris; the disc closes round the ring.",
         page(width, 640.0, across, charts, &meanings),
     );
     Ok(())
+}
+
+/// Which cells are in contact, or secondary.
+fn belonging(subject: &Subject, map: Map, index: usize) -> Result<Vec<bool>, ReadError> {
+    Ok(match map {
+        Map::Pressure => floats(subject.run, map, index)?.into_iter().map(|pressure| pressure > 0.0).collect(),
+        _ => {
+            let cells = statuses(subject.run, map, index)?;
+            cells.into_iter().map(|status| status == Status::Secondary as u8).collect()
+        }
+    })
 }
 
 /// Steps of the number of areas that are at least so large, from the begin of the axis to its floor.

@@ -2,7 +2,11 @@
 
 use plotters::style::RGBColor;
 
-use crate::figure::page::Content;
+use crate::colour::{INK, paler};
+use crate::figure::canvas::LINE;
+use crate::figure::chart::Meaning;
+use crate::figure::page::{Content, KeyStyle};
+use crate::figure::stroke::Stroke;
 
 /// Spans that a figure distinguishes, at most.
 const MOST_SPANS: usize = 250;
@@ -12,6 +16,15 @@ const OPACITY: f64 = 0.28;
 /// The band over which samples reach; none where they are so few that a line goes through each of them.
 pub fn band(times: &[f64], values: &[f64], colour: RGBColor) -> Option<Content> {
     (times.len() > MOST_SPANS).then(|| Content::Band { spans: spans(times, values), colour, opacity: OPACITY })
+}
+
+/// What the lines and the bands of all runs are, where there are bands.
+pub fn meanings(has_bands: bool, line: &str, band: &str) -> Vec<Meaning> {
+    if !has_bands {
+        return Vec::new();
+    }
+    let area = Meaning { colour: paler(INK, OPACITY), style: KeyStyle::Area, text: band.to_owned() };
+    vec![Meaning::of_line(Stroke::solid(INK, LINE), line), area]
 }
 
 /// Means of time and value in spans of time.

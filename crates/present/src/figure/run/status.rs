@@ -1,5 +1,7 @@
-//! Status of the cells of disc and pin at the first and the last moment (paper Figs. 10 and 12).
+//! Status of the cells of disc and pin at the first and the last moment (paper Figs. 10 and 12). Any debris makes a cell secondary, so
+//! thick build-up and thin films have colours of their own.
 
+use plateau_core::model::material::Status;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
@@ -7,14 +9,21 @@ use plateau_io::run_file::ReadError;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
 use super::moments::{ends, leave_blank, moment, statuses};
 use super::shape::Shape;
+use super::thickness::{BODIES, Body, largest, thickness};
 use super::{Figures, Options, Subject};
-use crate::colour::GROUND;
+use crate::colour::{GROUND, paler};
 use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
-use crate::quantity::{MapLook, STATUS_LOOKS, StatusLook};
+use crate::quantity::{MapLook, STATUS_LOOKS, StatusLook, Unit};
 use plateau_io::number;
 
 const NAME: &str = "status";
+/// A film is thinner than this part of the thickest build-up.
+const THIN: f64 = 0.1;
+/// Number of the colour of thin films.
+const FILM: u8 = STATUS_LOOKS.len() as u8;
+/// Number of the colour of what is no cell.
+const NO_CELL: u8 = FILM + 1;
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Result<(), ReadError> {
@@ -24,7 +33,9 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     if shown.is_empty() {
         return Ok(());
     }
-    let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([GROUND]).collect();
+    let film = paler(STATUS_LOOKS[Status::Secondary as usize].colour, 0.45);
+    let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([film, GROUND]).collect();
+    let least = [least_thickness(&discs, BODIES[0])?, least_thickness(&pins, BODIES[1])?];
     let disc_shape = options.disc_shape();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
@@ -34,10 +45,11 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
             |_| disc_shape,
             disc_shape == Shape::Unrolled,
             moments,
-            |subject, index| painted(subject, Map::DiscStatus, index),
+            |subject, index| painted(subject, Map::DiscStatus, index, least[0]),
         )?;
-        let pin_rows =
-            rows(together, Shape::of_pin, false, moments, |subject, index| painted(subject, Map::PinStatus, index))?;
+        let pin_rows = rows(together, Shape::of_pin, false, moments, |subject, index| {
+            painted(subject, Map::PinStatus, index, least[1])
+        })?;
         let has_any = |rows: &Vec<Vec<Option<_>>>| rows.iter().flatten().any(Option::is_some);
         blocks.push(MapBlock {
             names: together.iter().map(|subject| subject.label.clone()).collect(),
@@ -53,31 +65,67 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         style: KeyStyle::Area,
         text: format!("{}: {}", look.name, look.made_of),
     };
-    let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).collect();
+    let bodies = ["disc", "pin"].into_iter().zip(least);
+    let thin: Vec<String> =
+        bodies.filter_map(|(body, least)| Some(format!("{} on the {body}", in_words(least?)))).collect();
+    let films = (!thin.is_empty()).then(|| Meaning {
+        colour: film,
+        style: KeyStyle::Area,
+        text: format!("the same, thinner than {}", thin.join(", ")),
+    });
+    let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).chain(films).collect();
     figures.add(
         NAME,
         "Status of disc and pin",
-        "What the cells of disc and pin are at the first and the last recorded moment, with the parts of the area.",
+        "What the cells of disc and pin are at the first and the last recorded moment, with the parts of the area. Any debris makes a cell \
+         secondary; where it is thinner than a tenth of the thickest build-up of the body, rounded down, its colour is paler.",
         page(&meanings, &blocks),
     );
     Ok(())
 }
 
-fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>, ReadError> {
+/// Thickness from which on build-up is no thin film, m: a round number. None where nothing tells.
+fn least_thickness(subjects: &[&Subject], body: Body) -> Result<Option<f64>, ReadError> {
+    Ok(largest(subjects, body)?.map(|largest| rounded_down(THIN * largest)))
+}
+
+/// 1, 2 or 5 times a power of ten, not above a positive number.
+fn rounded_down(number: f64) -> f64 {
+    let power = 10_f64.powf(number.log10().floor());
+    let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= number);
+    digit.unwrap_or(1.0) * power
+}
+
+/// A thickness with its unit.
+fn in_words(thickness: f64) -> String {
+    let unit = Unit::for_size("m", thickness);
+    unit.with_symbol(&number::rounded(unit.value(thickness), 1))
+}
+
+fn painted(subject: &Subject, map: Map, index: usize, least: Option<f64>) -> Result<Option<Painted>, ReadError> {
     let mut cells = statuses(subject.run, map, index)?;
     if cells.is_empty() {
         return Ok(None);
     }
-    let [none, primary, secondary] = area_fractions(subject.run.mesh(), &cells).map(percent);
-    let title = format!("{}, {}", MapLook::of(map).body(), moment(subject.run, index));
+    let [none, primary, secondary, _] = area_fractions(subject.run.mesh(), &cells).map(percent);
+    let mut title = format!("{}, {}", MapLook::of(map).body(), moment(subject.run, index));
     let remark = format!("none {none}, primary {primary}, secondary {secondary} %");
-    leave_blank(subject.run, map, &mut cells, STATUS_LOOKS.len() as u8);
+    if let Some(least) = least {
+        let body = if map.on_disc() { BODIES[0] } else { BODIES[1] };
+        let thickness = thickness(subject.run, body, index)?;
+        let is_film = |(cell, thickness): (&u8, &f64)| *cell == Status::Secondary as u8 && *thickness < least;
+        let films: Vec<bool> = cells.iter().zip(&thickness).map(is_film).collect();
+        cells.iter_mut().zip(films).filter(|(_, film)| *film).for_each(|(cell, _)| *cell = FILM);
+        let thick = percent(area_fractions(subject.run.mesh(), &cells)[Status::Secondary as usize]);
+        title = format!("{title}, thick build-up {thick} %");
+    }
+    leave_blank(subject.run, map, &mut cells, NO_CELL);
     Ok(Some(Painted { title, remark, cells }))
 }
 
-/// Parts of the area that are none, primary and secondary; cells beyond the pin's outline do not count.
-fn area_fractions(mesh: &Mesh, cells: &[u8]) -> [f64; 3] {
-    let mut areas = [0.0; 3];
+/// Parts of the area that are none, primary, secondary and thin film; cells beyond the pin's outline do not count.
+fn area_fractions(mesh: &Mesh, cells: &[u8]) -> [f64; 4] {
+    let mut areas = [0.0; 4];
     for column in cells.chunks(mesh.rows()) {
         for (status, area) in column.iter().zip(mesh.area()) {
             if let Some(sum) = areas.get_mut(usize::from(*status)) {
@@ -101,11 +149,12 @@ mod tests {
     fn fractions_are_of_the_area() {
         // By hand: rows at r = 1.5 and 2.5, two columns; 1.5 + 1.5 + 2.5 + 2.5 = 8.
         let mesh = Mesh::new(2, 10, 2, 1.0, 3.0).unwrap();
-        let [none, primary, secondary] = area_fractions(&mesh, &[0, 2, 1, 2]);
-        assert_eq!(area_fractions(&mesh, &[0, 3, 3, 3]), [1.0, 0.0, 0.0]);
+        let [none, primary, secondary, _] = area_fractions(&mesh, &[0, 2, 1, 2]);
+        assert_eq!(area_fractions(&mesh, &[0, NO_CELL, NO_CELL, NO_CELL]), [1.0, 0.0, 0.0, 0.0]);
         for (fraction, expected) in [(none, 1.5 / 8.0), (primary, 1.5 / 8.0), (secondary, 5.0 / 8.0)] {
             assert!((fraction - expected).abs() < 1e-15);
         }
+        assert_eq!([0.049, 0.05, 0.2, 3.9e-7].map(rounded_down), [0.02, 0.05, 0.2, 2e-7]);
         assert_eq!([0.0, 1.0, 0.123_456, 1e-6].map(percent), ["0", "100", "12.3", "0"]);
     }
 }

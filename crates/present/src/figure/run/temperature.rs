@@ -6,8 +6,9 @@ use super::spans::pieces;
 use super::{Figures, Subject, operation};
 use crate::envelope::thin;
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, colour, line_width, page};
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, page};
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::{SeriesLook, Unit};
 
 const NAME: &str = "temperature";
@@ -52,9 +53,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         let own = || around(course.runs.iter().flat_map(|(_, _, values)| values));
         let range = if is_body(&course) { of_bodies.clone() } else { own() };
         let lines = course.runs.iter().flat_map(|(number, subject, values)| {
-            let (colour, width) = (colour(*number), line_width(*number, subjects.len()));
+            let stroke = Stroke::of(*number, subjects.len());
             let curve = curve(subject.run.time(), values, &time);
-            curve.into_iter().map(move |points| Content::Line { points, colour, width })
+            curve.into_iter().map(move |points| Content::Line { points, stroke })
         });
         Chart {
             title: course.look.title.to_owned(),

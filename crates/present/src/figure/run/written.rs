@@ -106,7 +106,7 @@ pub fn notes<'a>(figures: &'a Figures, name: &str) -> Vec<&'a str> {
 /// The lines of a colour in a box.
 pub fn lines_of(panel: &Panel, wanted: RGBColor) -> Vec<Vec<[f64; 2]>> {
     let line = |content: &Content| match content {
-        Content::Line { points, colour, .. } if *colour == wanted => Some(points.clone()),
+        Content::Line { points, stroke } if stroke.colour == wanted => Some(points.clone()),
         _ => None,
     };
     panel.contents.iter().filter_map(line).collect()
