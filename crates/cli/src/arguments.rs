@@ -5,6 +5,7 @@ mod answers;
 mod fit;
 mod model;
 mod new;
+mod plot;
 mod surface;
 mod sweep;
 
@@ -17,8 +18,6 @@ use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
 use plateau_io::text::{odd_character, shown_on_one_line};
-use plateau_present::figure::Format;
-use plateau_present::figure::run::NAMES;
 use plateau_run::ExecutionOptions;
 
 use crate::failure::Failure;
@@ -28,6 +27,7 @@ pub use answers::{ImportArguments, OptimizeArguments, PredictArguments};
 pub use fit::FitArguments;
 pub use model::Terms;
 pub use new::NewArguments;
+pub use plot::PlotArguments;
 pub use surface::SurfaceArguments;
 pub use sweep::{
     CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
@@ -249,50 +249,6 @@ pub struct ReportArguments {
     /// Replace the page if it exists
     #[arg(long)]
     pub force: bool,
-}
-
-/// Arguments of `plateau plot`.
-#[derive(Debug, Args)]
-pub struct PlotArguments {
-    /// Run files, also of runs that go on or were stopped; at most 8
-    #[arg(value_name = "RUN", required = true)]
-    pub runs: Vec<PathBuf>,
-    /// Folder for the figures, made if it is not there; named like the run file, or "figures" for several, unless given
-    #[arg(short, long, value_name = "DIR")]
-    pub output: Option<PathBuf>,
-    /// Format of the figures
-    #[arg(long, value_enum, default_value = "png")]
-    pub format: FigureFormat,
-    /// Draw this figure only; may be repeated
-    #[arg(long = "figure", value_name = "NAME", value_parser = NAMES)]
-    pub figures: Vec<String>,
-    /// Show the whole ring from above instead of unrolled
-    #[arg(long)]
-    pub polar: bool,
-    /// Replace figures that exist
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// Format of a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FigureFormat {
-    /// Pixels
-    Png,
-    /// Lines and letters, for web pages and for drawing programs
-    Svg,
-    /// Lines and letters, for papers
-    Pdf,
-}
-
-impl From<FigureFormat> for Format {
-    fn from(format: FigureFormat) -> Self {
-        match format {
-            FigureFormat::Png => Self::Png,
-            FigureFormat::Svg => Self::Svg,
-            FigureFormat::Pdf => Self::Pdf,
-        }
-    }
 }
 
 /// Arguments of `plateau completions`.

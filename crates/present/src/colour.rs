@@ -17,18 +17,56 @@ pub const DERIVED: RGBColor = RGBColor(0xc4, 0x4e, 0x1c);
 /// Areas of it.
 pub const DERIVED_AREA: RGBColor = RGBColor(0xf4, 0xcd, 0xb6);
 
-/// Colour of a value from 0 to 1; what is beyond takes the colour of the end.
+/// Colours of a range, from its least to its greatest value: all of them also told apart by people who are colour-blind, and in grey.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColourMap {
+    /// From violet through green to yellow.
+    #[default]
+    Viridis,
+    /// From blue through grey to yellow.
+    Cividis,
+    /// From black through red to pale yellow.
+    Inferno,
+    /// From black through purple to pale yellow.
+    Magma,
+    /// From blue through red to yellow.
+    Plasma,
+    /// From black to white.
+    Greys,
+}
+
+impl ColourMap {
+    /// Colour of a value from 0 to 1; what is beyond takes the colour of the end.
+    pub fn colour(self, value: f64) -> RGBColor {
+        let value = value.clamp(0.0, 1.0);
+        let colour = match self {
+            Self::Viridis => colorous::VIRIDIS.eval_continuous(value),
+            Self::Cividis => colorous::CIVIDIS.eval_continuous(value),
+            Self::Inferno => colorous::INFERNO.eval_continuous(value),
+            Self::Magma => colorous::MAGMA.eval_continuous(value),
+            Self::Plasma => colorous::PLASMA.eval_continuous(value),
+            Self::Greys => colorous::GREYS.eval_continuous(1.0 - value),
+        };
+        RGBColor(colour.r, colour.g, colour.b)
+    }
+
+    /// So many that a byte tells which.
+    pub fn colours(self) -> Vec<RGBColor> {
+        (0..COLOURS).map(|colour| self.colour(colour as f64 / (COLOURS - 1) as f64)).collect()
+    }
+}
+
+/// Colour of a value from 0 to 1 in the usual colour map.
 pub fn viridis(value: f64) -> RGBColor {
-    let colour = colorous::VIRIDIS.eval_continuous(value.clamp(0.0, 1.0));
-    RGBColor(colour.r, colour.g, colour.b)
+    ColourMap::Viridis.colour(value)
 }
 
 /// Colours of a map, so few that a byte tells which.
 pub const COLOURS: usize = 250;
 
-/// The colours of a map from its least to its greatest value.
+/// The colours of the usual colour map.
 pub fn colour_map() -> Vec<RGBColor> {
-    (0..COLOURS).map(|colour| viridis(colour as f64 / (COLOURS - 1) as f64)).collect()
+    ColourMap::Viridis.colours()
 }
 
 /// Which of the colours of a map a part of its range has, from 0 to 1; what is beyond takes the colour of the end.

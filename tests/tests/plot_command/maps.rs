@@ -1,10 +1,12 @@
 //! What the maps show.
 
+use std::fs;
+
 use image::{Rgb, RgbImage};
 use plateau_tests::figure::{Figure, Frame};
 use plateau_tests::run_file::RunFile;
 
-use super::{plotted, short};
+use super::{plotted, short, with_run};
 
 /// The bitmaps of maps put together from windows, so that they hold `cells` columns; from the top row.
 fn windows<'a>(images: &mut impl Iterator<Item = &'a (Frame, RgbImage)>, columns: usize) -> Vec<Vec<Rgb<u8>>> {
@@ -148,5 +150,54 @@ fn build_up_shows_how_thick_it_is() {
         let nearest = said.map(|(number, _)| (number.parse::<f64>().unwrap() - percent).abs()).fold(f64::MAX, f64::min);
         // Three digits.
         assert!(nearest <= 0.5e-2 * percent, "{body}: {percent} %, off by {nearest}");
+    }
+}
+
+#[test]
+fn the_moment_the_width_and_the_colours_can_be_asked_for() {
+    let directory = with_run(&[
+        ("duration = \"60 s\"", "duration = \"10 s\""),
+        ("maps_at = [\"0 s\"]", "maps_at = [\"0 s\", \"4 s\", \"7 s\"]"),
+    ]);
+    let asked = |more: &[&str]| {
+        let always = ["plot", "run.h5", "-o", "figures", "--format", "svg", "--force", "--figure", "status"];
+        directory.plateau(always.iter().chain(more)).quiet_success();
+        fs::read_to_string(directory.path("figures/status.svg")).unwrap()
+    };
+    let svg = asked(&["--at", "4.4 s", "--width", "120 mm"]);
+    // 12 pixels to the millimetre.
+    assert!(svg.contains("width=\"1440\""), "{}", &svg[..200]);
+    let run = RunFile::open(directory.path("run.h5"));
+    // The second of four maps, and of all runs that alone.
+    let figure = Figure::read(&svg);
+    assert_eq!(figure.texts.iter().filter(|text| text.text.starts_with("none ")).count(), 2);
+    let statuses = run.statuses("/pin/status");
+    let map = windows(&mut figure.images.iter().rev(), 40).concat();
+    let primary = map
+        .iter()
+        .zip(&statuses[20 * 40..])
+        .all(|(colour, status)| (*colour == Rgb([0x00, 0x5a, 0x9c])) == (*status as u8 == 1));
+    assert!(primary);
+
+    // Grey levels have equal parts of red, green and blue.
+    let always = ["plot", "run.h5", "-o", "figures", "--format", "svg", "--force", "--figure", "topography"];
+    directory.plateau(always.iter().chain(&["--cmap", "greys"])).quiet_success();
+    let figure = Figure::read(&fs::read_to_string(directory.path("figures/topography.svg")).unwrap());
+    assert!(figure.images.len() > 4, "{}", figure.images.len());
+    assert!(
+        figure
+            .images
+            .iter()
+            .all(|(_, image)| image.pixels().all(|Rgb([red, green, blue])| red == green && green == blue))
+    );
+
+    for (option, value, reason) in [
+        ("--at", "-1 s", "-1 s is before the start of a run"),
+        ("--at", "4", "\"4\" has no unit"),
+        ("--width", "3 mm", "3 mm is no width from 60 mm to 1000 mm"),
+        ("--cmap", "jet", "possible values: viridis"),
+    ] {
+        let outcome = directory.plateau(["plot", "run.h5", option, value]);
+        assert!(outcome.status == Some(2) && outcome.stderr.contains(reason), "{}", outcome.stderr);
     }
 }

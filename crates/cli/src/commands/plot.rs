@@ -10,9 +10,10 @@ use crate::table::print;
 
 /// Draws the figures of runs, each into a file of its own.
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
-    let PlotArguments { runs: paths, output, format, figures: only, polar, force } = arguments;
+    let PlotArguments { runs: paths, output, format, figures: only, at, width, cmap, polar, force } = arguments;
     let runs = super::open_runs(paths)?;
-    let figures = super::figures(&runs, &Options { polar: *polar, only: only.clone() })?;
+    let options = Options { polar: *polar, only: only.clone(), at: at.clone(), width: *width, colours: (*cmap).into() };
+    let figures = super::figures(&runs, &options)?;
     let format = Format::from(*format);
     let directory = output.clone().unwrap_or_else(|| match paths.as_slice() {
         [path] => super::named_like(path, ""),

@@ -5,11 +5,10 @@ use std::ops::RangeInclusive;
 use plotters::style::RGBColor;
 
 use super::axes::{Axes, Axis, Frame};
-use super::canvas::{Anchor, LINE, TEXT};
+use super::canvas::{Anchor, TEXT};
 use super::font::{shortened, text_width};
 use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
 use super::stroke::Stroke;
-use crate::colour::INK;
 
 /// Width of a figure of one column and of two columns of a journal, pixels: 88 mm and 180 mm.
 pub const COLUMN: f64 = 1056.0;
@@ -46,12 +45,6 @@ pub struct Meaning {
 }
 
 impl Meaning {
-    /// Those of the lines of the first and the last moment, of all runs.
-    pub fn of_moments() -> [Self; 2] {
-        let last = Stroke::solid(INK, LINE);
-        [(last, "last map"), (last.paler(), "first map")].map(|(stroke, text)| Self::of_line(stroke, text))
-    }
-
     /// That of a run's lines.
     pub fn of_run(number: usize, label: &str) -> Self {
         Self::of_line(Stroke::of(number, 1), label)

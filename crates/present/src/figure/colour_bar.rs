@@ -6,7 +6,7 @@ use super::axes::{Axis, Frame, most_ticks_upward};
 use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
 use super::font::text_width;
 use super::picture::Picture;
-use crate::colour::{COLOURS, INK, colour_map, viridis};
+use crate::colour::{COLOURS, ColourMap, INK};
 
 /// A bar with the values of its colours to the right.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,13 +15,20 @@ pub struct ColourBar {
     pub frame: Frame,
     /// Values from the first to the last colour, and what they measure.
     pub axis: Axis,
+    /// The colours.
+    pub colours: ColourMap,
 }
 
 impl ColourBar {
+    /// A bar with the usual colours.
+    pub fn new(frame: Frame, axis: Axis) -> Self {
+        Self { frame, axis, colours: ColourMap::default() }
+    }
+
     /// The colours, the last one on top.
     pub fn strip(&self) -> Picture {
         let indices = (0..COLOURS).rev().map(|colour| colour as u8).collect();
-        Picture { columns: 1, rows: COLOURS, indices, palette: colour_map() }
+        Picture { columns: 1, rows: COLOURS, indices, palette: self.colours.colours() }
     }
 
     /// Draws all but the strip. The bar ends in points: what is beyond has the colour of its end.
@@ -29,7 +36,7 @@ impl ColourBar {
         let Frame { x: [left, right], y: [top, bottom] } = self.frame;
         let (middle, point) = (0.5 * (left + right), 0.7 * self.frame.width());
         for (end, tip, value) in [(top, top - point, 1.0), (bottom, bottom + point, 0.0)] {
-            canvas.area(&[(left, end), (middle, tip), (right, end)], viridis(value))?;
+            canvas.area(&[(left, end), (middle, tip), (right, end)], self.colours.colour(value))?;
         }
         let outline = [
             (left, top),

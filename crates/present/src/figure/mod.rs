@@ -47,5 +47,6 @@ mod stroke;
 pub mod surface_description;
 mod ticks;
 
+pub use crate::colour::ColourMap;
 pub use canvas::FigureError;
 pub use format::{Figure, Format};

@@ -11,7 +11,7 @@ use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
 use super::stroke::{Dashes, Stroke};
-use crate::colour::GROUND;
+use crate::colour::{COLOURS, ColourMap, GROUND};
 
 /// Pixels of a millimetre on paper: letters are of 8 points then.
 pub const PER_MILLIMETRE: f64 = 12.0;
@@ -153,6 +153,20 @@ impl Page {
         self.colour_bars.iter().try_for_each(|bar| bar.draw_scale(canvas))?;
         self.keys.iter().try_for_each(|key| key.draw(canvas))?;
         self.texts.iter().try_for_each(|words| canvas.text(&words.text, words.place, words.anchor, words.size))
+    }
+
+    /// Shows ranges in other colours.
+    pub fn recolour(&mut self, colours: ColourMap) {
+        let contents = self.panels.iter_mut().flat_map(|panel| &mut panel.contents);
+        for content in contents {
+            // A smaller palette is that of kinds, not of a range.
+            if let Content::Map(Picture { palette, .. }) = content
+                && palette.len() >= COLOURS
+            {
+                palette.splice(..COLOURS, colours.colours());
+            }
+        }
+        self.colour_bars.iter_mut().for_each(|bar| bar.colours = colours);
     }
 
     /// Adds a text.

@@ -181,7 +181,7 @@ impl DescribedSurface<'_> {
         let unit = self.height_unit();
         // Points at its ends and room for them.
         let bar = Frame { x: [frame.x[1] + 40.0, frame.x[1] + 80.0], y: [frame.y[0] + 28.0, frame.y[1] - 28.0] };
-        page.colour_bars.push(ColourBar { frame: bar, axis: height_axis(scaled(&colours, &unit), &unit) });
+        page.colour_bars.push(ColourBar::new(bar, height_axis(scaled(&colours, &unit), &unit)));
     }
 
     fn add_histogram(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {

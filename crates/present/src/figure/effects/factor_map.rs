@@ -159,7 +159,7 @@ impl<'a> FactorMap<'a> {
         page.panels.push(Panel { axes, contents });
         let bar = frame.x[1] + BESIDE;
         let bar = Frame { x: [bar, bar + BAR], y: [frame.y[0] + POINTED, frame.y[1] - POINTED] };
-        page.colour_bars.push(ColourBar { frame: bar, axis: scale });
+        page.colour_bars.push(ColourBar::new(bar, scale));
         page.size[1] = (frame.y[1] + below + MARGIN).ceil();
         page
     }

@@ -7,11 +7,11 @@ use plateau_io::run_file::ReadError;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
 use super::moments::{leave_blank, moment};
 use super::shape::Shape;
-use super::thickness::{BODIES, Body, largest, last, thickness};
+use super::thickness::{BODIES, Body, largest, moments_of_thickness, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
-use crate::figure::chart::Meaning;
+use crate::figure::chart::{Meaning, TWO_COLUMNS};
 use crate::figure::page::KeyStyle;
 use crate::quantity::MapLook;
 
@@ -42,7 +42,9 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
             let on_disc = body[0].on_disc();
             let shape = |mesh: &Mesh| if on_disc { disc_shape } else { Shape::of_pin(mesh) };
             let wide = on_disc && disc_shape == Shape::Unrolled;
-            let rows = rows(together, shape, wide, last, |subject, index| painted(subject, body, index, scale))?;
+            let rows = rows(together, shape, wide, moments_of_thickness, |subject, index| {
+                painted(subject, body, index, scale)
+            })?;
             if rows.iter().flatten().any(Option::is_some) {
                 groups.push(MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) });
             }
@@ -51,12 +53,13 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         blocks.push(MapBlock { names, groups });
     }
     let nothing = Meaning { colour: APART, style: KeyStyle::Area, text: "nothing has built up".to_owned() };
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Build-up on disc and pin",
         "Thickness of the compacted debris on disc and pin at the last recorded moment: height less what lies below. The colours \
          go from none to the thickness that 99.5 % of the covered cells of the body are below.",
-        page(&[nothing], &blocks),
+        page(width, &[nothing], &blocks),
     );
     Ok(())
 }

@@ -64,6 +64,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     } else {
         ""
     };
+    let width = figures.width(COLUMN);
     figures.add(
         "contact-area",
         "Contact area",
@@ -72,7 +73,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
          greatest of the samples of single steps. Where there are more samples than the figure can tell apart, the line is \
          their mean; where there are few, a paler line goes through those of single steps instead of the band.{of_operation}"
         ),
-        page(COLUMN, height, 1, charts, &meanings),
+        page(width, height, 1, charts, &meanings),
     );
     Ok(())
 }

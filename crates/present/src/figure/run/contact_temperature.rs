@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
-use crate::figure::chart::Meaning;
+use crate::figure::chart::{Meaning, TWO_COLUMNS};
 use crate::figure::page::KeyStyle;
 use crate::quantity::{BEYOND, MapLook, RobustRange};
 use plateau_io::number;
@@ -68,20 +68,25 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         });
     }
     let none = Meaning { colour: APART, style: KeyStyle::Area, text: "no temperature".to_owned() };
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Contact temperature of the pin",
         "Temperature of the pin's cells at the first recorded moment with a contact after the start and at the last. The \
          colours span 99 % of all cells. Pressures count as frozen during a pass, and there is no conduction along the \
          surface: on rough discs the hottest cells may be half of their rise too low.",
-        page(if has_none { std::slice::from_ref(&none) } else { &[] }, &blocks),
+        page(width, if has_none { std::slice::from_ref(&none) } else { &[] }, &blocks),
     );
     Ok(())
 }
 
-/// The first moment after the start in which cells have a temperature, and the last one: a lifted pin has none.
+/// The moments that are asked for, else the first one after the start in which cells have a temperature, and the last one: a lifted pin has
+/// none.
 fn moments(subject: &Subject) -> Result<Vec<usize>, ReadError> {
     let times = subject.run.map_time();
+    if !subject.chosen.is_empty() {
+        return Ok(subject.chosen.clone());
+    }
     let after = || (0..times.len()).filter(|index| times[*index] > 0.0);
     let Some(first) = first_with_contact(subject, after())? else { return Ok(Vec::new()) };
     let last = first_with_contact(subject, after().rev())?.unwrap_or(first);

@@ -72,7 +72,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let stacked = DEBRIS.into_iter().zip(PARTS.map(title)).rev();
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
     meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line, text: "worn + returned".to_owned() });
-    let width = if across == 1 { COLUMN } else { TWO_COLUMNS };
+    let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
     figures.add(
         NAME,
         "Debris balance",

@@ -59,6 +59,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         " Below, all since the start for each kilometre that the vehicle has travelled, without the first twentieth of its way: \
          the line ends at the emission factor of the whole run."
     };
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Airborne emission",
@@ -66,7 +67,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             "Airborne mass (PM10 and, paler, PM2.5) and number of particles that are added in a time, in windows with equally \
              many samples.{of_road} Events of a single run with a cycle that has ended are shaded."
         ),
-        page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
+        page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
 }

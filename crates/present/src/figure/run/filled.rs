@@ -55,13 +55,14 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .map(|(number, subject)| Meaning::of_run(number, &subject.label))
         .chain(spans::meanings(has_bands, "mean of a span of time", "least to greatest"))
         .collect();
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Filling and coverage",
         "Filled part of the initial volume below the highest point of the disc, and parts of the area of disc and pin that \
          are plateaus, against time. A cell is secondary as soon as any debris lies on it. Where \
          there are more samples than the figure can tell apart, the line is their mean and the band their extent.",
-        page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
+        page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
 }

@@ -68,6 +68,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let meanings: Vec<Meaning> =
         courses.iter().map(|course| Meaning::of_run(course.number, &course.subject.label)).collect();
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Coefficient of friction",
@@ -76,7 +77,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
              steps against their mean contact pressure; of a run at most {MOST_MARKS} samples, evenly chosen. Events of a \
              single run with a cycle that has ended are shaded."
         ),
-        page(TWO_COLUMNS, 640.0, 2, charts.into(), &meanings),
+        page(width, 640.0, 2, charts.into(), &meanings),
     );
     Ok(())
 }

@@ -7,8 +7,8 @@ use plateau_core::surface::describe::MaterialCurve;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::having;
-use super::moments::{ends, heights};
-use super::{Figures, Subject};
+use super::moments::{heights, shown_moments};
+use super::{Figures, Subject, moments};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page};
 use crate::figure::histogram::Histogram;
@@ -60,14 +60,15 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .enumerate()
         .filter(|(run, _)| shown[*run])
         .map(|(run, subject)| Meaning::of_run(run, &subject.label));
-    let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
+    let meanings: Vec<Meaning> = runs.chain(moments::meanings(subjects)).collect();
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Height distributions",
         "Left the distribution of the heights, right the Abbott-Firestone curve, at the last recorded moment and, paler, at \
          the first. Heights are the model's z; the pin's are counted from their mean and positive away from the disc, so that \
          its peaks are below. Every cell counts alike.",
-        page(TWO_COLUMNS, 560.0, 2, charts, &meanings),
+        page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
 }
@@ -84,15 +85,15 @@ fn scaled(subject: &Subject, look: &MapLook, index: usize) -> Result<Vec<f64>, R
 fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Result<[Chart; 2], ReadError> {
     let mut range = RobustRange::default();
     for (_, subject) in runs {
-        for index in ends(subject.run) {
+        for index in shown_moments(subject) {
             range.add(scaled(subject, look, index)?.into_iter());
         }
     }
     let range = wider(&range.between(0.001, 0.999));
     let mut distributions = Vec::new();
     for (run, subject) in runs {
-        let moments = ends(subject.run);
-        for index in &moments {
+        let moments = shown_moments(subject);
+        for (place, index) in moments.iter().enumerate() {
             let mut heights = scaled(subject, look, *index)?;
             let histogram = Histogram::of(&heights, 0.0, range.clone(), CLASSES);
             // The material ratio counts from the peaks.
@@ -100,7 +101,7 @@ fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Resu
             let curve = MaterialCurve::of(&heights, 0.0);
             distributions.push(Distribution {
                 run: *run,
-                first: *index == 0 && moments.len() > 1,
+                first: place + 1 < moments.len(),
                 histogram,
                 curve: (0..=CURVE).map(|part| look.peaks() * curve.height(part as f64 / CURVE as f64)).collect(),
             });

@@ -9,7 +9,7 @@ use super::shape::{Shape, Window};
 use super::{Figures, Subject};
 use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, TEXT, TITLE};
-use crate::figure::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};
+use crate::figure::chart::{MARGIN, Meaning, legend};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, LINE_OF_TEXT, Page, Panel};
@@ -73,11 +73,11 @@ pub struct MapBlock<'a> {
     pub groups: Vec<MapGroup<'a>>,
 }
 
-/// The page with these maps, below an explanation of colours.
-pub fn page(meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
-    let mut page = Page { size: [TWO_COLUMNS, 0.0], ..Page::default() };
+/// The page of this width (pixels) with these maps, below an explanation of colours.
+pub fn page(whole: f64, meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
+    let mut page = Page { size: [whole, 0.0], ..Page::default() };
     let scaled = blocks.iter().flat_map(|block| &block.groups).any(|group| group.scale.is_some());
-    let width = TWO_COLUMNS - MARGIN - if scaled { BAR_ROOM } else { MARGIN };
+    let width = whole - MARGIN - if scaled { BAR_ROOM } else { MARGIN };
     // What colours mean stands below the name of the one run, but above the names of several.
     let mut top = MARGIN;
     let several = blocks.len() > 1 || blocks.iter().any(|block| block.names.len() > 1);
@@ -126,7 +126,7 @@ impl MapGroup<'_> {
             let first = begin + titles.fold(1.0, f64::max) * LINE_OF_TEXT + 36.0;
             let end = (last_box - 28.0).clamp(first + SHORTEST_BAR, first + LONGEST_BAR);
             let frame = Frame { x: [left, left + BAR], y: [first, end].map(f64::round) };
-            page.colour_bars.push(ColourBar { frame, axis: axis.clone() });
+            page.colour_bars.push(ColourBar::new(frame, axis.clone()));
             top = top.max(end + 40.0);
         }
         top + 12.0

@@ -52,20 +52,28 @@ use std::path::PathBuf;
 use plateau_io::run_file::{ReadError, RunFile};
 
 use super::format::Figure;
-use super::page::Page;
+use super::page::{PER_MILLIMETRE, Page};
+use crate::colour::ColourMap;
 use crate::label::labels;
+use moments::nearest;
 use shape::Shape;
 
 /// More runs make no legible figure, and have no colours of their own.
 pub const MOST_RUNS: usize = crate::colour::RUNS.len();
 
 /// How figures are to look, and which of them are drawn.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Options {
     /// The ring as a ring, instead of unrolled.
     pub polar: bool,
     /// Names of the figures that are drawn; all if there are none.
     pub only: Vec<String>,
+    /// Times whose maps are shown, the nearest that were recorded, s; the first and the last map if there are none.
+    pub at: Vec<f64>,
+    /// Width of the figures, mm; that of one or two columns of a journal if there is none.
+    pub width: Option<f64>,
+    /// Colours of ranges.
+    pub colours: ColourMap,
 }
 
 /// Adds a figure, if the runs have what it shows.
@@ -113,6 +121,8 @@ pub struct Figures {
     pub figures: Vec<Figure>,
     /// What was left out, and why.
     pub left_out: Vec<LeftOut>,
+    /// Width of the figures, pixels, if it is not the usual one.
+    width: Option<f64>,
 }
 
 /// What a run did not record, and the figures that do without it.
@@ -136,6 +146,8 @@ impl fmt::Display for LeftOut {
 struct Subject<'a> {
     run: &'a RunFile,
     label: String,
+    /// Indices of the maps that are shown, in their order; none if those are the first and the last.
+    chosen: Vec<usize>,
 }
 
 /// The figures of runs, in the order of [`NAMES`]. What a run did not record is left out.
@@ -144,16 +156,23 @@ struct Subject<'a> {
 /// [`ReadError`] when a file turns out to be damaged.
 pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError> {
     let labels = labels(runs);
-    let subjects: Vec<Subject> = runs.iter().zip(labels).map(|(run, label)| Subject { run, label }).collect();
-    let mut figures = Figures::default();
+    let subject = |(run, label)| Subject { run, label, chosen: nearest(run, &options.at) };
+    let subjects: Vec<Subject> = runs.iter().zip(labels).map(subject).collect();
+    let mut figures = Figures { width: options.width.map(|width| PER_MILLIMETRE * width), ..Figures::default() };
     let is_asked_for = |name: &str| options.only.is_empty() || options.only.iter().any(|only| only == name);
     for (_, add) in FIGURES.iter().filter(|(name, _)| is_asked_for(name)) {
         add(&subjects, options, &mut figures)?;
     }
+    figures.figures.iter_mut().for_each(|figure| figure.page.recolour(options.colours));
     Ok(figures)
 }
 
 impl Figures {
+    /// Width of a figure that usually has this one, pixels.
+    fn width(&self, usual: f64) -> f64 {
+        self.width.unwrap_or(usual)
+    }
+
     fn add(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, page: Page) {
         self.figures.push(Figure { name: name.into(), title: title.into(), caption: caption.into(), page });
     }

@@ -1,18 +1,44 @@
-//! Maps at the moments that figures show: the first and the last that were recorded.
+//! Maps at the moments that figures show: the first and the last that were recorded, or those that are asked for.
 
 use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{ReadError, RunFile};
 
+use super::Subject;
+use crate::colour::INK;
+use crate::figure::canvas::LINE;
+use crate::figure::chart::Meaning;
+use crate::figure::stroke::Stroke;
 use crate::quantity::{MapLook, Unit};
 use plateau_io::number;
 
-/// Indices of the first and the last moment of the maps; one of them if it is both.
-pub fn ends(run: &RunFile) -> Vec<usize> {
-    match run.map_time().len() {
+/// Indices of the moments of the maps that are asked for; else of the first and the last, one of them if it is both.
+pub fn shown_moments(subject: &Subject) -> Vec<usize> {
+    match subject.run.map_time().len() {
+        _ if !subject.chosen.is_empty() => subject.chosen.clone(),
         0 => Vec::new(),
         1 => vec![0],
         count => vec![0, count - 1],
     }
+}
+
+/// What the lines of the moments of all runs are.
+pub fn meanings(subjects: &[Subject]) -> [Meaning; 2] {
+    let is_chosen = subjects.iter().any(|subject| !subject.chosen.is_empty());
+    let words = if is_chosen { ["last map shown", "earlier maps"] } else { ["last map", "first map"] };
+    let last = Stroke::solid(INK, LINE);
+    [Meaning::of_line(last, words[0]), Meaning::of_line(last.paler(), words[1])]
+}
+
+/// Indices of the maps that were recorded nearest to some times (s), in their order, each once.
+pub fn nearest(run: &RunFile, times: &[f64]) -> Vec<usize> {
+    let recorded = run.map_time();
+    let distance = |index: &usize, time: f64| (recorded[*index] - time).abs();
+    let nearest =
+        |time: &f64| (0..recorded.len()).min_by(|one, other| distance(one, *time).total_cmp(&distance(other, *time)));
+    let mut indices: Vec<usize> = times.iter().filter_map(nearest).collect();
+    indices.sort_unstable();
+    indices.dedup();
+    indices
 }
 
 /// The moment, in words.

@@ -6,8 +6,8 @@ use plateau_core::observe::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{any_of, having};
-use super::moments::{ends, floats, statuses};
-use super::{Figures, Subject};
+use super::moments::{floats, shown_moments, statuses};
+use super::{Figures, Subject, moments};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page};
 use crate::figure::page::Content;
@@ -43,10 +43,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             if !list.iter().any(|one| std::ptr::eq(*one, subject)) {
                 continue;
             }
-            let moments = ends(subject.run);
-            for index in &moments {
+            let moments = shown_moments(subject);
+            for (place, index) in moments.iter().enumerate() {
                 let areas = plateau_areas(subject.run.mesh(), &belonging(subject, map, *index)?);
-                sizes.push(Sizes { run, first: *index == 0 && moments.len() > 1, areas });
+                sizes.push(Sizes { run, first: place + 1 < moments.len(), areas });
             }
         }
         if sizes.iter().any(|sizes| !sizes.areas.is_empty()) {
@@ -81,13 +81,13 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     };
     let charts: Vec<Chart> = kinds.iter().enumerate().map(chart).collect();
     let across = charts.len();
-    let width = if across == 1 { COLUMN } else { TWO_COLUMNS };
+    let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
     let runs = subjects
         .iter()
         .enumerate()
         .filter(|(run, _)| all().any(|sizes| sizes.run == *run))
         .map(|(run, subject)| Meaning::of_run(run, &subject.label));
-    let meanings: Vec<Meaning> = runs.chain(Meaning::of_moments()).collect();
+    let meanings: Vec<Meaning> = runs.chain(moments::meanings(subjects)).collect();
     figures.add(
         NAME,
         "Sizes of contact spots and plateaus",

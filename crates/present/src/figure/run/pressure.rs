@@ -9,7 +9,7 @@ use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::{Axis, Scale};
-use crate::figure::chart::Meaning;
+use crate::figure::chart::{Meaning, TWO_COLUMNS};
 use crate::figure::page::KeyStyle;
 use crate::quantity::{BEYOND, MapLook, RobustRange, Unit};
 use plateau_io::number;
@@ -60,19 +60,23 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         });
     }
     let none = Meaning { colour: APART, style: KeyStyle::Area, text: "no contact".to_owned() };
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Contact pressure on the pin",
         "Contact pressure on the pin at the first recorded moment after the start and at the last. The colours span 99 % of \
          the pressures of cells in contact.",
-        page(&[none], &blocks),
+        page(width, &[none], &blocks),
     );
     Ok(())
 }
 
-/// The first moment after the start and the last one.
+/// The moments after the start that are asked for, else the first one and the last one.
 fn moments(subject: &Subject) -> Vec<usize> {
     let times = subject.run.map_time();
+    if !subject.chosen.is_empty() {
+        return subject.chosen.iter().copied().filter(|index| times[*index] > 0.0).collect();
+    }
     let Some(first) = times.iter().position(|time| *time > 0.0) else { return Vec::new() };
     let last = times.len() - 1;
     if first == last { vec![last] } else { vec![first, last] }

@@ -7,12 +7,12 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
-use super::moments::{ends, leave_blank, moment, statuses};
+use super::moments::{leave_blank, moment, shown_moments, statuses};
 use super::shape::Shape;
 use super::thickness::{BODIES, Body, largest, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{GROUND, paler};
-use crate::figure::chart::Meaning;
+use crate::figure::chart::{Meaning, TWO_COLUMNS};
 use crate::figure::page::KeyStyle;
 use crate::quantity::{MapLook, STATUS_LOOKS, StatusLook, Unit};
 use plateau_io::number;
@@ -39,15 +39,14 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let disc_shape = options.disc_shape();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
-        let moments = |subject: &Subject| ends(subject.run);
         let disc_rows = rows(
             together,
             |_| disc_shape,
             disc_shape == Shape::Unrolled,
-            moments,
+            shown_moments,
             |subject, index| painted(subject, Map::DiscStatus, index, least[0]),
         )?;
-        let pin_rows = rows(together, Shape::of_pin, false, moments, |subject, index| {
+        let pin_rows = rows(together, Shape::of_pin, false, shown_moments, |subject, index| {
             painted(subject, Map::PinStatus, index, least[1])
         })?;
         let has_any = |rows: &Vec<Vec<Option<_>>>| rows.iter().flatten().any(Option::is_some);
@@ -74,12 +73,13 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         text: format!("the same, thinner than {}", thin.join(", ")),
     });
     let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).chain(films).collect();
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Status of disc and pin",
         "What the cells of disc and pin are at the first and the last recorded moment, with the parts of the area. Any debris makes a cell \
          secondary; where it is thinner than a tenth of the thickest build-up of the body, rounded down, its colour is paler.",
-        page(&meanings, &blocks),
+        page(width, &meanings, &blocks),
     );
     Ok(())
 }

@@ -77,6 +77,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let is_shown = |number: usize| runs().any(|(other, ..)| *other == number);
     let shown = subjects.iter().enumerate().filter(|(number, _)| is_shown(*number));
     let meanings: Vec<Meaning> = shown.map(|(number, subject)| Meaning::of_run(number, &subject.label)).collect();
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Temperatures",
@@ -84,7 +85,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             "Temperatures against time; contact, disc and pin share a scale. A lifted pin has no contact, and no temperature of \
              it. Events of a single run with a cycle that has ended are shaded.{of_cells}"
         ),
-        page(TWO_COLUMNS, 560.0, 3, charts, &meanings),
+        page(width, 560.0, 3, charts, &meanings),
     );
     Ok(())
 }

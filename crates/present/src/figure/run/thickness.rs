@@ -20,17 +20,18 @@ pub fn thickness(run: &RunFile, [height, substrate]: Body, index: usize) -> Resu
     Ok(heights.iter().zip(&substrates).map(|(height, substrate)| toward * (height - substrate)).collect())
 }
 
-/// The last moment.
-pub fn last(subject: &Subject) -> Vec<usize> {
-    subject.run.map_time().len().checked_sub(1).into_iter().collect()
+/// The moments that are asked for, else the last one.
+pub fn moments_of_thickness(subject: &Subject) -> Vec<usize> {
+    let last = || subject.run.map_time().len().checked_sub(1).into_iter().collect();
+    if subject.chosen.is_empty() { last() } else { subject.chosen.clone() }
 }
 
-/// Thickness that all but the highest half per cent of the covered cells of these runs are below at the last moment, m; none where
+/// Thickness that all but the highest half per cent of the covered cells of these runs are below at the moments that are shown, m; none where
 /// nothing is covered.
 pub fn largest(subjects: &[&Subject], body: Body) -> Result<Option<f64>, ReadError> {
     let mut range = RobustRange::default();
     for subject in subjects {
-        for index in last(subject) {
+        for index in moments_of_thickness(subject) {
             let mut covered = thickness(subject.run, body, index)?;
             covered.retain(|thickness| *thickness > 0.0);
             range.add(covered.into_iter());

@@ -5,11 +5,12 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
-use super::moments::{ends, heights, leave_blank, moment};
+use super::moments::{heights, leave_blank, moment, shown_moments};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
 use crate::colour::{COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
+use crate::figure::chart::TWO_COLUMNS;
 use crate::quantity::{BEYOND, MapLook, RobustRange};
 use plateau_io::number;
 
@@ -33,20 +34,21 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         for (map, scale) in bodies.into_iter().zip(&scales) {
             let wide = map.on_disc() && disc_shape == Shape::Unrolled;
             let shape = |mesh: &Mesh| if map.on_disc() { disc_shape } else { Shape::of_pin(mesh) };
-            let moments = |subject: &Subject| ends(subject.run);
-            let rows = rows(together, shape, wide, moments, |subject, index| painted(subject, map, index, scale))?;
+            let rows =
+                rows(together, shape, wide, shown_moments, |subject, index| painted(subject, map, index, scale))?;
             if rows.iter().flatten().any(Option::is_some) {
                 groups.push(MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) });
             }
         }
         blocks.push(MapBlock { names, groups });
     }
+    let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Topography of disc and pin",
         "Heights of disc and pin, the model's z, at the first and the last recorded moment. The pin's are counted from their \
          mean and positive away from the disc: its peaks have the lowest. The colours span 99 % of all heights of the body.",
-        page(&[], &blocks),
+        page(width, &[], &blocks),
     );
     Ok(())
 }
@@ -56,7 +58,7 @@ fn scale(subjects: &[&Subject], map: Map) -> Result<Axis, ReadError> {
     let look = MapLook::of(map);
     let mut range = RobustRange::default();
     for subject in subjects {
-        for index in ends(subject.run) {
+        for index in shown_moments(subject) {
             let (heights, _) = heights(subject.run, map, index)?;
             range.add(heights.iter().map(|height| look.unit.value(*height)));
         }
