@@ -17,9 +17,10 @@ fn blocks(document: &str, language: &str) -> Vec<String> {
     blocks
 }
 
-/// Runs the shell blocks of a document, one after the other, in a folder that looks like the repository; gives it.
-fn walk_through(document: &str) -> WorkingDirectory {
-    let directory = WorkingDirectory::new();
+/// Runs the shell blocks of a document, one after the other, in a folder that looks like the repository; gives it, and what
+/// the commands said.
+fn walk_and_listen(document: &str) -> (WorkingDirectory, String) {
+    let (directory, mut said) = (WorkingDirectory::new(), String::new());
     symlink(repository().join("data"), directory.path("data")).unwrap();
     symlink(program(), directory.path("plateau")).unwrap();
     for block in blocks(document, "sh") {
@@ -28,6 +29,29 @@ fn walk_through(document: &str) -> WorkingDirectory {
         let outcome = run(shell);
         assert_eq!(outcome.status, Some(0), "{document}:\n{block}\n{}", outcome.stderr);
         assert!(!outcome.stderr.contains("warning"), "{document}:\n{block}\n{}", outcome.stderr);
+        said.push_str(&outcome.stdout);
+        said.push_str(&outcome.stderr);
+    }
+    (directory, said)
+}
+
+fn walk_through(document: &str) -> WorkingDirectory {
+    walk_and_listen(document).0
+}
+
+/// Walks through a tutorial: its commands make these files, and say every line that it shows as what one sees. A line that
+/// ends with "…" is the beginning of one.
+fn expect_tutorial(document: &str, files: &[&str]) -> WorkingDirectory {
+    let (directory, said) = walk_and_listen(document);
+    for file in files {
+        assert!(directory.path(file).exists(), "{document}: {file} in {:?}", directory.names());
+    }
+    for shown in blocks(document, "console").iter().flat_map(|block| block.lines()) {
+        let is_said = match shown.strip_suffix(" …") {
+            Some(begin) => said.lines().any(|line| line.starts_with(begin)),
+            None => said.lines().any(|line| line == shown),
+        };
+        assert!(is_said, "{document}: no command says\n{shown}\nbut\n{said}");
     }
     directory
 }
@@ -38,6 +62,28 @@ fn the_first_run_works_as_it_is_told() {
     for file in ["quick.h5", "heavier.h5", "mine.h5", "afm.png", "my-disc.h5"] {
         assert!(names.iter().any(|name| name == file), "{file} in {names:?}");
     }
+}
+
+#[test]
+fn the_tutorial_about_a_surface_leads_to_its_ring() {
+    expect_tutorial("tutorial-surface.md", &["disc.png", "ring.png", "my-disc.h5", "finer.h5", "extended-3.h5"]);
+}
+
+#[test]
+fn the_tutorial_about_a_study_leads_to_its_answer() {
+    expect_tutorial("tutorial-study.md", &["first-study/effects/effects.html", "first-study/results.csv"]);
+}
+
+#[test]
+fn the_tutorial_about_a_drive_leads_to_its_answer() {
+    expect_tutorial("tutorial-drive.md", &["city-events.csv", "drives/emission.png", "drives/temperature.png"]);
+}
+
+#[test]
+fn the_tutorial_about_clusters_loses_nothing_that_is_killed() {
+    let directory = expect_tutorial("tutorial-cluster.md", &["loads.sbatch", "loads/results.h5"]);
+    let results = fs::read_to_string(directory.path("loads/results.csv")).expect("results");
+    assert_eq!(results.lines().skip(1).filter(|line| line.contains(",finished,")).count(), 24);
 }
 
 #[test]
