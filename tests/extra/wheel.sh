@@ -1,5 +1,5 @@
 #!/bin/sh
-# The wheel as its users have it, in a clean Python environment and as an ordinary user on Debian 11 (glibc 2.31): without Rust, without a
+# The wheel as its users have it, in a clean Python environment and as an ordinary user on Debian 11 (glibc 2.31) and Debian 12: without Rust, without a
 # compiler, without this checkout it runs a scene, opens the run and draws it. Builds the wheel unless PLATEAU_WHEEL names one. Debian 11
 # comes with debootstrap into a folder that goes with the check; only root can do that. Its own Python is too old for what the package
 # needs, so Python 3.11 is built there from the source of Debian 12, which takes some minutes: PLATEAU_DEBIAN_11 names a folder that is kept,
@@ -9,6 +9,7 @@ cd "$(dirname "$0")/../.." || exit 1
 # shellcheck disable=SC2034
 root=$PWD
 . tests/cluster/packages.sh
+. tests/cluster/debian.sh
 . scripts/say.sh
 . scripts/python.sh
 
@@ -22,9 +23,11 @@ if [ -z "${PLATEAU_LONG:-}${PLATEAU_WHEEL:-}" ]; then
 fi
 
 lab=$(mktemp -d) || exit 1
-debian=${PLATEAU_DEBIAN_11:-$lab/debian}
+eleven=${PLATEAU_DEBIAN_11:-$lab/eleven}
+twelve=${PLATEAU_DEBIAN_12:-$lab/twelve}
 clean_up() {
-    umount "$debian/proc" 2>/dev/null
+    leave_debian "$eleven"
+    leave_debian "$twelve"
     rm -rf "$lab"
 }
 trap clean_up EXIT
@@ -50,46 +53,33 @@ make_venv "$lab/venv"
 echo "$(basename "$wheel") in a clean environment: a run, its file, a figure"
 
 if [ "$(id -u)" -ne 0 ]; then
-    echo 'on Debian 11 it was not tried: only root may make that system'
+    echo 'on Debian 11 and 12 it was not tried: only root may make those systems'
     exit 77
 fi
-have_debootstrap() { command -v debootstrap >/dev/null 2>&1; }
-provide debootstrap have_debootstrap debootstrap
 have_curl() { command -v curl >/dev/null 2>&1; }
 provide curl have_curl curl
 
-inside() {
-    chroot "$debian" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root "$@"
-}
+make_debian bullseye "$eleven" gcc libbz2-dev libc6-dev libffi-dev liblzma-dev libssl-dev make zlib1g-dev
 
-make_debian() {
-    [ ! -x "$debian/usr/bin/gcc" ] || return 0
-    debootstrap --variant=minbase \
-        --include=ca-certificates,gcc,libbz2-dev,libc6-dev,libffi-dev,liblzma-dev,libssl-dev,make,zlib1g-dev \
-        bullseye "$debian" http://deb.debian.org/debian >"$lab/log" 2>&1
-}
-make_debian || { tail -n 5 "$lab/log" && echo 'Debian 11 cannot be had here' && exit 77; }
-[ -e "$debian/proc/self" ] || mount -t proc proc "$debian/proc" || { echo 'no /proc can be mounted for Debian 11' && exit 77; }
-# The names and certificates of this machine.
-cp /etc/resolv.conf "$debian/etc/resolv.conf"
-cp /etc/ssl/certs/ca-certificates.crt "$debian/etc/ssl/certs/ca-certificates.crt"
-
-if [ ! -x "$debian/opt/python/bin/python3.11" ]; then
-    curl -sSf -o "$debian/root/python.tar.gz" "$PYTHON_SOURCE" || { echo 'the source of Python cannot be had here' && exit 77; }
-    echo "$PYTHON_SHA256  $debian/root/python.tar.gz" | sha256sum --check --quiet || exit 1
+if [ ! -x "$eleven/opt/python/bin/python3.11" ]; then
+    curl -sSf -o "$eleven/root/python.tar.gz" "$PYTHON_SOURCE" || { echo 'the source of Python cannot be had here' && exit 77; }
+    echo "$PYTHON_SHA256  $eleven/root/python.tar.gz" | sha256sum --check --quiet || exit 1
     # The shell inside expands it.
     # shellcheck disable=SC2016
-    inside sh -ec 'cd /root && tar xzf python.tar.gz && cd Python-3.11.2 && ./configure -q --prefix=/opt/python &&
+    inside "$eleven" sh -ec 'cd /root && tar xzf python.tar.gz && cd Python-3.11.2 && ./configure -q --prefix=/opt/python &&
         make -s -j"$(nproc)" && make -s install' >"$lab/log" 2>&1 || { tail -n 20 "$lab/log" && exit 1; }
 fi
-inside sh -ec 'id user >/dev/null 2>&1 || useradd -m user; rm -rf /home/user/*'
-cp "$lab"/files/* "$debian/home/user"
-inside chown -R user /home/user
-user() {
-    chroot --userspec=user "$debian" env -i PATH=/usr/bin:/bin HOME=/home/user PIP_CERT=/etc/ssl/certs/ca-certificates.crt \
-        sh -ec "cd && $1"
+# use_wheel DIR PYTHON: what an ordinary user does on that system.
+use_wheel() {
+    cp "$lab"/files/* "$1/home/user"
+    inside "$1" chown -R user /home/user
+    ! as_user "$1" 'command -v cargo || command -v rustc' || { echo 'there is a Rust' && exit 1; }
+    as_user "$1" "$2 -m venv venv && venv/bin/pip install --quiet --disable-pip-version-check ./*.whl matplotlib" || exit 1
+    as_user "$1" 'venv/bin/python wheel_use.py && venv/bin/plateau --version' || exit 1
+    echo "$(basename "$wheel") on Debian $(cat "$1/etc/debian_version"), glibc $(inside "$1" ldd --version | sed -n '1s/.* //p'), as an ordinary user: the same"
 }
-! user 'command -v cargo' || { echo 'there is a Rust on Debian 11' && exit 1; }
-user '/opt/python/bin/python3.11 -m venv venv && venv/bin/pip install --quiet --disable-pip-version-check ./*.whl matplotlib' || exit 1
-user 'venv/bin/python wheel_use.py && venv/bin/plateau --version' || exit 1
-echo "$(basename "$wheel") on Debian $(cat "$debian/etc/debian_version"), glibc $(inside ldd --version | sed -n '1s/.* //p'), as an ordinary user: the same"
+use_wheel "$eleven" /opt/python/bin/python3.11
+
+# As it is, with its own Python.
+make_debian bookworm "$twelve" python3 python3-venv
+use_wheel "$twelve" python3
