@@ -18,6 +18,11 @@ DRAWN = """(() => { const c = document.querySelector(arguments[0]);
     return p.some((pixel) => pixel !== p[0]); })()"""
 # What is drawn there, as text.
 PICTURE = "document.querySelector(arguments[0]).toDataURL()"
+# The colour of the upper left corner of the figure that is shown first.
+CORNER = """(() => { const image = [...document.querySelectorAll('#figure-list img')].find((image) => image.clientHeight > 0);
+    const c = Object.assign(document.createElement('canvas'), { width: 20, height: 20 }).getContext('2d');
+    c.drawImage(image, 0, 0);
+    return `rgb(${[...c.getImageData(3, 3, 1, 1).data.slice(0, 3)].join(', ')})`; })()"""
 TEXT = "document.querySelector(arguments[0]).textContent"
 READING = "#map-views .reading"
 MAP = "#map-views canvas"
@@ -58,7 +63,7 @@ class ReportPage(unittest.TestCase):
     def assert_drawn(self):
         charts = self.browser.run("document.querySelectorAll('.plot').length")
         self.assertEqual(charts, 4)
-        figures = self.browser.run("[...document.querySelectorAll('#figure-list img')].map((image) => image.clientHeight)")
+        figures = self.browser.run("[...document.querySelectorAll('#figure-list img')].map((image) => image.clientHeight).filter((height) => height > 0)")
         self.assertEqual(len(figures), self.browser.run("report.pictures.length"))
         self.assertGreater(min(figures), 50)
         for canvas in [*(f"#charts .panel:nth-child({at}) canvas" for at in (1, 2, 3)), "#residual-chart canvas", MAP]:
@@ -77,6 +82,8 @@ class ReportPage(unittest.TestCase):
                     self.assert_no_sideways_scroll()
                     back = self.browser.run("getComputedStyle(document.body).backgroundColor")
                     self.assertEqual(back == "rgb(255, 255, 255)", not how.get("dark"))
+                    # The corner of a figure has the colour of the page.
+                    self.assertEqual(self.browser.run(CORNER), back)
                     for name in ["pin_height", "pin_status", "pressure", "disc_status"]:
                         choose(self.browser, name)
                         body = "Disc" if name.startswith("disc") else "Pin"

@@ -4,14 +4,25 @@
 /** Figures are made for two columns of a journal; here a wide one fills the page, and letters are as large in all. */
 const enlarged = 1.7;
 
+/** The ground, letters and axes of a figure in the colours of a dark page; maps and data keep theirs. */
+const onDark = '<style>rect[fill="#FFFFFF"] { fill: #14181b } [fill="#222222"] { fill: #e6eaec } [stroke="#222222"] { stroke: #e6eaec }</style>';
+
+function asImage(svg) {
+    return URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+}
+
 async function showFigures() {
     const place = document.getElementById("figure-list");
     for (const picture of report.pictures) {
-        const image = element("img", { alt: picture.caption });
-        image.src = URL.createObjectURL(new Blob([await inflate(picture.svg)], { type: "image/svg+xml" }));
+        const image = element("img", { className: "on-light", alt: picture.caption });
+        const svg = new TextDecoder().decode(await inflate(picture.svg));
+        // One of them is shown: paper is white, whatever the page is.
+        const dark = element("img", { className: "on-dark", alt: picture.caption });
+        dark.src = asImage(svg.replace(/^<svg[^>]*>/, `$&${onDark}`));
+        image.src = asImage(svg);
         await image.decode();
-        image.width = Math.round(enlarged * image.naturalWidth);
-        place?.append(element("figure", {}, image, element("figcaption", {}, picture.caption)));
+        image.width = dark.width = Math.round(enlarged * image.naturalWidth);
+        place?.append(element("figure", {}, image, dark, element("figcaption", {}, picture.caption)));
     }
 }
 
