@@ -11,8 +11,8 @@ import sys
 from typing import Any
 
 FENCE = re.compile(r"^(```+|~~~+)(\w*)[^\n]*\n(.*?)^\1[ \t]*$\n?", re.MULTILINE | re.DOTALL)
-# Inline code, a formula on a line of its own or within one, or a link out of the folder of the guide.
-INLINE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)|^\$\$(?P<display>.+?)\$\$$|\$(?P<formula>[^\s$](?:[^$\n]*[^\s$])?)\$(?!\d)|\]\((?P<path>\.\./[^)\s]*)\)", re.DOTALL | re.MULTILINE)
+# Inline code, a formula on a line of its own or within one, a link out of the folder of the guide, or one to its first page.
+INLINE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)|^\$\$(?P<display>.+?)\$\$$|\$(?P<formula>[^\s$](?:[^$\n]*[^\s$])?)\$(?!\d)|\]\((?P<path>\.\./[^)\s]*)\)|\]\(README\.md(?P<place>#[^)\s]*)?\)", re.DOTALL | re.MULTILINE)
 LINK_TEXT = re.compile(r"\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(plain:\)")
 
 
@@ -32,6 +32,9 @@ def inline(text: str, repository: str) -> str:
             return element(match["formula"], "span")
         if match["path"]:
             return f"]({repository}/{match['path'].removeprefix('../')})" if repository else "](plain:)"
+        # The first page of the guide is that of the site.
+        if match[0].startswith("](README.md"):
+            return f"](index.md{match['place'] or ''})"
         return match[0]
 
     return LINK_TEXT.sub(r"\1", INLINE.sub(replaced, text))

@@ -31,8 +31,8 @@ class Pages(unittest.TestCase):
         self.assertEqual(preprocess.page(code, ""), code)
 
     def test_links_out_of_the_guide(self):
-        text = "see [`step.rs`](../crates/step.rs), [runs](python.md#open-a-run) and `[a](../b)`"
-        kept = "[runs](python.md#open-a-run) and `[a](../b)`"
+        text = "see [`step.rs`](../crates/step.rs), [runs](python.md#open-a-run), [words](README.md#words) and `[a](../b)`"
+        kept = "[runs](python.md#open-a-run), [words](index.md#words) and `[a](../b)`"
         self.assertEqual(preprocess.page(text, ""), f"see `step.rs`, {kept}")
         self.assertEqual(preprocess.page(text, "https://h/p"), f"see [`step.rs`](https://h/p/crates/step.rs), {kept}")
 
