@@ -2,12 +2,19 @@
 const fs = require("fs");
 const [katexFile, ...pages] = process.argv.slice(2);
 const katex = require(katexFile);
-const entities = { "&amp;": "&", "&lt;": "<", "&gt;": ">", "&quot;": '"', "&#x27;": "'", "&#124;": "|" };
+const entities = { amp: "&", lt: "<", gt: ">", quot: '"' };
+
+/** What a browser reads for a name or a number of a character. */
+function character(entity, hexadecimal, decimal, name) {
+    if (name) return entities[name] ?? entity;
+    return String.fromCodePoint(hexadecimal ? parseInt(hexadecimal, 16) : Number(decimal));
+}
+
 let count = 0;
 let failed = 0;
 for (const page of pages) {
     for (const [, text] of fs.readFileSync(page, "utf8").matchAll(/data-tex="([^"]*)"/g)) {
-        const tex = text.replace(/&(?:amp|lt|gt|quot|#x27|#124);/g, (entity) => entities[entity]);
+        const tex = text.replace(/&(?:#x([0-9a-f]+)|#([0-9]+)|([a-z]+));/gi, character);
         count += 1;
         try {
             katex.renderToString(tex, { throwOnError: true, displayMode: true });
