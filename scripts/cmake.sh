@@ -35,11 +35,8 @@ install_build_tools() {
     ! build_tools_installed || return 0
     say "getting $build_tools for building HDF5, into $build_venv"
     make_venv "$build_venv"
-    for tool in $build_tools; do
-        [ "$tool" != cmake ] || tool='cmake>=3.26,<5'
-        run_quietly "$build_venv/bin/python" -m pip install --quiet "$tool" ||
-            die "pip could not install $tool: install cmake 3.26 or newer and make, or set CMAKE"
-    done
+    run_quietly "$build_venv/bin/python" -m pip install --quiet -r "$root/scripts/build-requirements.txt" ||
+        die "pip could not install $build_tools: install cmake 3.26 or newer and make, or set CMAKE"
 }
 
 build_tools_installed() {

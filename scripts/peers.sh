@@ -14,7 +14,7 @@ environment=$root/.venv-peers
 install() {
     make_venv "$environment"
     ! cmp -s "$requirements" "$environment/installed.txt" || return 0
-    say "installing $(tr '\n' ' ' <"$requirements")into $environment"
+    say "installing Numba into $environment"
     "$environment/bin/python" -m pip install --quiet -r "$requirements" || die "Numba cannot be installed, see above"
     cp "$requirements" "$environment/installed.txt"
 }

@@ -11,7 +11,7 @@ root=$PWD
 
 venv=$root/.venv-paraview
 with_lock .venv-paraview.lock make_venv "$venv" || exit 1
-if ! "$venv/bin/python" -m pip install --quiet vtk==9.7.2 pyvista h5py==3.16.0 numpy==2.4.6; then
+if ! "$venv/bin/python" -m pip install --quiet -r tests/extra/paraview-requirements.txt; then
     echo 'the Python package vtk could not be installed'
     exit 77
 fi
