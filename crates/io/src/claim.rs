@@ -22,7 +22,7 @@ use thiserror::Error;
 
 use crate::process::{Life, Process};
 use crate::random;
-use crate::temporary::{Temporary, folder};
+use crate::temporary::{self, Temporary, folder};
 use crate::timestamp::iso_8601;
 
 /// How every lock begins.
@@ -275,9 +275,14 @@ fn remove_rights(lock: &Path) {
         numbers.is_some_and(|numbers| numbers.split('.').all(random::is_word))
     };
     let Ok(entries) = fs::read_dir(folder(lock)) else { return };
-    for entry in entries.flatten().filter(|entry| is_right(&entry.file_name().to_string_lossy())) {
-        // Somebody else may have been quicker.
-        let _ = fs::remove_file(entry.path());
+    for entry in entries.flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if is_right(&name) {
+            // Somebody else may have been quicker.
+            let _ = fs::remove_file(entry.path());
+        } else if let Some(right) = temporary::target_of(&name).filter(|right| is_right(right)) {
+            Temporary::remove_abandoned(&lock.with_file_name(right));
+        }
     }
 }
 

@@ -101,6 +101,11 @@ fn start_of_name(target: &Path) -> String {
     format!(".{}.plateau-", target.file_name().unwrap_or_default().to_string_lossy())
 }
 
+/// What a file of this name is to become, if it looks like a temporary file.
+pub(crate) fn target_of(name: &str) -> Option<&str> {
+    name.strip_prefix('.')?.rsplit_once(".plateau-").map(|(target, _)| target)
+}
+
 /// The process in the name of a temporary file.
 fn process_of<'a>(name: &'a str, start: &str) -> Option<&'a str> {
     let (process, rest) = name.strip_prefix(start)?.strip_suffix(".tmp")?.split_once('-')?;

@@ -115,3 +115,26 @@ fn what_is_no_lock_is_named_and_stays() {
     fs::create_dir(&lock).unwrap();
     assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })));
 }
+
+#[test]
+fn what_was_left_while_a_right_was_taken_goes_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let lock = lock_of(&path);
+    let right = right_to(&lock, &leave(&lock).number);
+    // One was killed before its file became the right, one while it took over the right of a third.
+    let mut ended = Command::new("true").spawn().unwrap();
+    let process = ended.id();
+    ended.wait().unwrap();
+    let unfinished = |target: &Path| {
+        let name = target.file_name().unwrap().to_string_lossy().into_owned();
+        format!(".{name}.plateau-{process}-{}.tmp", random::word())
+    };
+    for name in [unfinished(&right), unfinished(&right_to(&right, &random::word()))] {
+        fs::write(folder.path().join(name), "").unwrap();
+    }
+    let notes = format!(".run.h5.lock.notes.plateau-{process}-{}.tmp", random::word());
+    fs::write(folder.path().join(&notes), "").unwrap();
+    drop(Claim::of(&path).unwrap());
+    assert_eq!(names(folder.path()), [notes]);
+}
