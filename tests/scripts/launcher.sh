@@ -61,7 +61,7 @@ mkdir "$2/running" || exit 1
 sleep 0.2
 [ -z "${fake_edit:-}" ] || : >"$fake_edit"
 mkdir -p "$2/release"
-printf '#!/bin/sh\nprintf "%%s\\n" "in $PWD" "$@"\nexit 7\n' >"$2/release/plateau"
+printf '#!/bin/sh\necho "$PLATEAU_CALLED" >"$calls.called"\nprintf "%%s\\n" "in $PWD" "$@"\nexit 7\n' >"$2/release/plateau"
 chmod +x "$2/release/plateau"
 rm -r "$2/running"
 END
@@ -225,6 +225,7 @@ fake_rust=1.94.1 launch "$checkout/plateau"
 expect_message 'an old compiler' 'Rust 1.94.1 is too old, 1.95 or newer is needed'
 fake_rust=2.0.0 launch "$checkout/plateau"
 expect 'a new compiler' $status 7
+expect 'the program knows how it was called' "$(cat "$calls.called")" "$checkout/plateau"
 
 set_up
 mkdir -p "$HOME/.cargo/bin"

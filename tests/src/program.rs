@@ -13,6 +13,8 @@ use tempfile::TempDir;
 
 use crate::scenes::Stream;
 
+/// What messages name the program, wherever it was built.
+const CALLED: (&str, &str) = ("PLATEAU_CALLED", "plateau");
 /// No command of these tests takes nearly as long; one that does hangs.
 const PATIENCE: Duration = Duration::from_secs(300);
 /// Time between two looks at what is waited for.
@@ -163,14 +165,14 @@ impl WorkingDirectory {
     /// The program, to be run here.
     pub fn command<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Command {
         let mut command = Command::new(program());
-        command.current_dir(self.directory.path()).args(arguments);
+        command.current_dir(self.directory.path()).args(arguments).env(CALLED.0, CALLED.1);
         command
     }
 
     /// The program, to be run here by a shell that first obeys `order`.
     pub fn command_after<A: AsRef<OsStr>>(&self, order: &str, arguments: impl IntoIterator<Item = A>) -> Command {
         let mut command = Command::new("sh");
-        command.current_dir(self.directory.path());
+        command.current_dir(self.directory.path()).env(CALLED.0, CALLED.1);
         // Files that other tests have open at this moment would count as the program's.
         let alone = "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-";
         command.arg("-c").arg(format!("{alone}; {order}; exec \"$0\" \"$@\"")).arg(program()).args(arguments);

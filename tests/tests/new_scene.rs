@@ -64,8 +64,29 @@ fn what_is_there_or_makes_no_sense_is_refused() {
     }
     assert_eq!(fs::read(directory.path("mine.toml")).unwrap(), before);
     assert_eq!(directory.names(), ["mine.toml"]);
-    // A pin that does not fit its ring is told when the scene is written.
-    let outcome = directory.plateau(["new", "wide.toml", "--pin-width", "50 mm"]);
+    // A pin that does not fit its ring is told before the scene is written, by the option that was given.
+    let outcome = directory.plateau(["new", "wide.toml", "--diameter", "50 mm"]);
     assert_eq!(outcome.status, Some(2));
-    assert!(outcome.stderr.contains("wide.toml is written, but it needs a change"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("--diameter \"50 mm\": a pin of 50 mm does not fit"), "{}", outcome.stderr);
+    assert_eq!(directory.names(), ["mine.toml"]);
+}
+
+#[test]
+fn a_profile_becomes_a_disc_when_its_lay_is_said() {
+    let directory = WorkingDirectory::new();
+    // 3 mm of a wave of 0.4 mm and 1 um, two numbers a line.
+    let point = |i: u32| (f64::from(i) * 1e-3, (f64::from(i) * 1e-3 * std::f64::consts::TAU / 0.4).sin());
+    let text: String = (0..3000).map(point).map(|(x, z)| format!("{x:.3} {z:.6}\n")).collect();
+    directory.write("profile.txt", text);
+    let new = ["new", "mine.toml", "--disc", "profile.txt", "--pitch", "1 um", "--unit", "um"];
+    let outcome = directory.plateau(new);
+    assert_eq!(outcome.status, Some(2), "{}", outcome.stdout);
+    assert!(outcome.stderr.contains("give --profile-lay along for grooves along sliding"), "{}", outcome.stderr);
+    for lay in ["along", "across", "isotropic"] {
+        directory.plateau([&new[..], &["--force", "--profile-lay", lay]].concat()).quiet_success();
+        let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+        assert!(text.contains(&format!("profile_lay = \"{lay}\"")) && text.contains("unit = \"um\""), "{text}");
+        let outcome = directory.plateau(["surface", "--prepare", "mine.toml"]);
+        assert_eq!(outcome.status, Some(0), "{lay}: {}", outcome.stderr);
+    }
 }

@@ -6,6 +6,7 @@ use clap::CommandFactory as _;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::arguments::Arguments;
+use crate::called;
 use crate::failure::Failure;
 
 /// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.
@@ -29,9 +30,9 @@ fn tip(answer: &clap::Error) -> Option<String> {
         ErrorKind::InvalidSubcommand => {
             let word = word(ContextKind::InvalidSubcommand)?;
             match word.rsplit_once('.').map_or("", |(_, ending)| ending) {
-                "toml" => Some(format!("to run a scene: plateau run {word}")),
-                "h5" => Some(format!("to see a run: plateau report {word}, or plateau plot {word}")),
-                _ => command_like(&word).map(|command| format!("did you mean plateau {command}?")),
+                "toml" => Some(format!("to run a scene: {} run {word}", called::program())),
+                "h5" => Some(format!("to see a run: {0} report {word}, or {0} plot {word}", called::program())),
+                _ => command_like(&word).map(|command| format!("did you mean {} {command}?", called::program())),
             }
         }
         ErrorKind::UnknownArgument => {

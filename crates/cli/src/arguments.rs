@@ -6,6 +6,7 @@ mod fit;
 mod model;
 mod new;
 mod plot;
+mod reading;
 mod surface;
 mod sweep;
 
@@ -28,6 +29,7 @@ pub use fit::FitArguments;
 pub use model::Terms;
 pub use new::NewArguments;
 pub use plot::PlotArguments;
+pub use reading::{ReadArguments, as_options};
 pub use surface::SurfaceArguments;
 pub use sweep::{
     CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
@@ -181,7 +183,7 @@ pub struct RunArguments {
     #[arg(long)]
     pub resume: bool,
     /// Go on with a run beyond its end, to this time, such as "7200 s"
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub extend_to: Option<String>,
     #[command(flatten)]
     pub execution: ExecutionArguments,
@@ -281,7 +283,7 @@ pub struct WatchArguments {
     #[arg(long)]
     pub once: bool,
     /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = seconds)]
     pub timeout: Option<u64>,
 }
 
@@ -341,3 +343,6 @@ pub enum ExportFormat {
     /// ParaView: maps on the cells of ring and pin, as a time series
     Vtk,
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,6 +3,7 @@
 mod accuracy;
 mod answer;
 mod arguments;
+mod called;
 mod commands;
 mod excerpt;
 mod failure;

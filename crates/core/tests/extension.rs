@@ -216,8 +216,11 @@ fn what_has_no_statistics_is_refused_or_flat() {
         statistics(1).apply(RawHeights::Patch(patch), false, Body::Disc, &mesh)
     };
     let few = apply(30, 3, 1e-3, vec![0.0; 90]).unwrap_err();
-    assert_eq!(few, PreparationError::FewCells { cells: [30, 3], least: 4 });
-    assert!(few.to_string().contains("30 by 3 whole cells lie in the patch, expected at least 4 by 4"), "{few}");
+    assert!(matches!(few, PreparationError::FewCells { cells: [30, 3], least: 4, .. }), "{few:?}");
+    assert!(
+        few.to_string().contains("30 by 3 whole cells lie in the patch of 30 mm by 3 mm, expected at least 4 by 4"),
+        "{few}"
+    );
     for pitch in [1.0, 1e3, 1e300] {
         let heights = (0..100).map(|n| f64::from(n % 7)).collect();
         assert!(matches!(apply(10, 10, pitch, heights), Err(PreparationError::LargeField { .. })), "{pitch}");
@@ -327,5 +330,5 @@ fn a_profile_that_is_short_is_told() {
     // A wave is related over all of its length: half of it is looked at, and as much again falls to zero.
     assert!(prepared.report.iter().any(|step| step.starts_with("warning: heights of the profile are related over")));
     let refused = preparation.apply(RawHeights::Patch(line(39)), false, Body::Disc, &mesh).unwrap_err();
-    assert_eq!(refused, PreparationError::FewCells { cells: [3, 3], least: 4 });
+    assert!(matches!(refused, PreparationError::FewCells { cells: [3, 3], least: 4, .. }), "{refused:?}");
 }

@@ -95,6 +95,13 @@ fn tiling_and_extending_replace_each_other() {
     assert_eq!(extended.seeds[0], ("disc.prepare.extend_seed".to_owned(), 0));
     let seeded = load("full.toml", &["disc.prepare.extend=statistics", "disc.prepare.extend_seed=12"]);
     assert_eq!(seeded.disc_surface.preparation.extend, Some(Extension::Statistics { seed: 12 }));
+    // The scene's step is left out, and both are named.
+    let warnings: Vec<String> = extended.warnings.iter().map(ToString::to_string).collect();
+    let named = warnings.iter().filter(|warning| {
+        warning.starts_with("--set disc.prepare.extend=statistics: disc.prepare.extend: it takes the place of repeat (")
+    });
+    assert_eq!(named.count(), 1, "{warnings:?}");
+    assert!(load("full.toml", &[]).warnings.iter().all(|warning| !warning.found.contains("takes the place")));
     assert_eq!(load("full.toml", &["pin.prepare.repeat=true"]).pin_surface.preparation.extend, None);
 }
 

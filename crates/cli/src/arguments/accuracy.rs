@@ -15,7 +15,7 @@ pub struct AccuracyArguments {
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Wall time that all runs together may take; the reference is as fine as half of it allows, and finer than the scene
-    #[arg(long, value_name = "TIME", default_value = "10min", value_parser = budget)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "10min", value_parser = budget)]
     pub budget: f64,
     /// Ladders that are climbed, with commas between; all but mesh and perturbation unless given
     #[arg(long = "ladder", value_parser = ladder(), value_name = "NAME", value_delimiter = ',')]

@@ -16,7 +16,7 @@ pub struct PredictArguments {
     #[arg(long, value_name = "FACTOR=VALUE", value_parser = assignment)]
     pub at: Vec<(String, String)>,
     /// Predict at so many values of each range and at all levels, but for factors of --at
-    #[arg(long, value_name = "N", requires = "output", conflicts_with_all = ["points", "confirm"],
+    #[arg(long, value_name = "N", allow_hyphen_values = true, requires = "output", conflicts_with_all = ["points", "confirm"],
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub grid: Option<u32>,
     /// Predict at the points of a table in CSV: a column for each factor, with units in brackets as in results.csv

@@ -13,10 +13,10 @@ pub struct FitArguments {
     #[arg(long)]
     pub plan: bool,
     /// Runs at a time; as many as there are cores for their workers unless given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub jobs: Option<u32>,
     /// Threads of each run
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub workers: u32,
     /// Make runs again that failed before
     #[arg(long)]

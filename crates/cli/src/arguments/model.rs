@@ -13,7 +13,7 @@ pub struct ModelArguments {
     #[arg(long, value_enum, default_value = "all")]
     pub terms: Terms,
     /// Confidence level of intervals
-    #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, default_value = "0.95", value_parser = confidence)]
     pub confidence: f64,
 }
 

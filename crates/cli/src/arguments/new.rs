@@ -5,34 +5,39 @@ use std::path::PathBuf;
 use clap::Args;
 use plateau_io::units::{self, Dimension};
 
+use super::ReadArguments;
+
 /// Arguments of `plateau new`. Values have a unit, as in a scene.
 #[derive(Debug, Args)]
 pub struct NewArguments {
     /// Scene file to write
     pub scene: PathBuf,
-    /// Measured surface of the disc, told by its content
+    /// Measured surface of the disc, told by its content; of a profile say --profile-lay
     #[arg(long, value_name = "FILE")]
     pub disc: Option<PathBuf>,
+    #[command(flatten)]
+    pub reading: ReadArguments,
     /// Width of the pin, along the radius
-    #[arg(long, value_name = "LENGTH", default_value = "4 mm", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "4 mm", value_parser = length)]
     pub pin_width: String,
     /// Length of the pin, along sliding
-    #[arg(long, value_name = "LENGTH", default_value = "8 mm", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "8 mm", value_parser = length)]
     pub pin_length: String,
     /// A round pin of this diameter
-    #[arg(long, value_name = "LENGTH", conflicts_with_all = ["pin_width", "pin_length"], value_parser = length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, conflicts_with_all = ["pin_width", "pin_length"],
+          value_parser = length)]
     pub diameter: Option<String>,
     /// Radius at which the middle of the pin slides
-    #[arg(long, value_name = "LENGTH", default_value = "22 mm", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, default_value = "22 mm", value_parser = length)]
     pub radius: String,
     /// Force on the pin
-    #[arg(long, value_name = "FORCE", default_value = "47 N", value_parser = force)]
+    #[arg(long, value_name = "FORCE", allow_hyphen_values = true, default_value = "47 N", value_parser = force)]
     pub load: String,
     /// Rotational speed of the disc
-    #[arg(long, value_name = "SPEED", default_value = "850 rpm", value_parser = speed)]
+    #[arg(long, value_name = "SPEED", allow_hyphen_values = true, default_value = "850 rpm", value_parser = speed)]
     pub speed: String,
     /// Time to simulate
-    #[arg(long, value_name = "TIME", default_value = "3000 s", value_parser = time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "3000 s", value_parser = time)]
     pub duration: String,
     /// Replace the scene file if it exists
     #[arg(long)]

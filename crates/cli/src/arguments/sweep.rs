@@ -58,7 +58,7 @@ pub struct PlanArguments {
     /// Study file (TOML)
     pub study: PathBuf,
     /// Runs at a time, for the estimates; one on each core unless given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub jobs: Option<u32>,
     /// Write every run of the design as a table in CSV
     #[arg(long, value_name = "FILE")]
@@ -77,16 +77,16 @@ pub struct SweepRunArguments {
     /// Study file (TOML)
     pub study: PathBuf,
     /// Runs at a time; as many as there are cores for their workers unless given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub jobs: Option<u32>,
     /// Threads of each run
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub workers: u32,
     /// Make only every N-th run, beginning with the I-th: one task of N that share the study
-    #[arg(long, value_name = "I/N", value_parser = task)]
+    #[arg(long, value_name = "I/N", allow_hyphen_values = true, value_parser = task)]
     pub task: Option<Task>,
     /// Stop when so many runs have failed; unless given, the others go on
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub max_failures: Option<u32>,
     /// Make runs again that failed before
     #[arg(long)]
@@ -120,10 +120,10 @@ pub struct SlurmArguments {
     /// Study file (TOML)
     pub study: PathBuf,
     /// Tasks of the array; as many as take about an hour each unless given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
     pub tasks: Option<u32>,
     /// Cores of each task, on which it makes as many runs at a time
-    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     pub cores: u32,
     /// Script to write; the study's name with .sbatch in the working directory unless given
     #[arg(short, long, value_name = "FILE")]
@@ -156,7 +156,7 @@ pub struct EffectsArguments {
     #[arg(long, value_enum)]
     pub model: Option<Model>,
     /// Confidence level of intervals
-    #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, default_value = "0.95", value_parser = confidence)]
     pub confidence: f64,
     /// Which terms of it
     #[arg(long, value_enum, default_value = "all")]
@@ -175,7 +175,7 @@ pub struct SensitivityArguments {
     /// Study file (TOML)
     pub study: PathBuf,
     /// Confidence level of intervals
-    #[arg(long, value_name = "P", default_value = "0.95", value_parser = confidence)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, default_value = "0.95", value_parser = confidence)]
     pub confidence: f64,
     /// Folder for table and figures; "sensitivity" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]

@@ -3,7 +3,7 @@
 use std::env;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use plateau_core::acceleration::scout::Idle;
 use plateau_core::acceleration::smoothness::Smoothness;
@@ -23,6 +23,7 @@ use super::check_cycle::CycleReport;
 use super::check_outline::OutlineReport;
 use super::load_scene;
 use crate::arguments::CheckArguments;
+use crate::called;
 use crate::failure::Failure;
 use crate::message;
 use crate::number;
@@ -35,7 +36,9 @@ const TRIAL: Duration = Duration::from_millis(300);
 /// Checks a scene.
 pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let mut scene = load_scene(&arguments.scene)?;
+    let start = Instant::now();
     let loaded = surface::load(&scene).map_err(Failure::input)?;
+    let preparing = start.elapsed().as_secs_f64();
     let implausible = plausibility::of_surfaces(&scene, &loaded);
     implausible.iter().for_each(message::warning);
     scene.warnings.extend(implausible);
@@ -52,12 +55,13 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
-    let check = Check::new(&scene, files, report, &parts, simulation.execution(), seconds_per_step);
+    let check = Check::new(&scene, files, report, &parts, simulation.execution(), [preparing, seconds_per_step]);
     stiffness_warning(&scene.parameters).iter().for_each(message::warning);
     if scene.output.file.exists() {
         message::warning(format_args!(
-            "{} exists; `plateau run` needs --force to replace it, or -o FILE",
-            scene.output.file.display()
+            "{} exists; `{} run` needs --force to replace it, or -o FILE",
+            scene.output.file.display(),
+            called::program()
         ));
     }
     if arguments.scene.json {
@@ -97,7 +101,10 @@ struct Check {
     checkpoint: u64,
     workers: usize,
     instruction_set: &'static str,
+    /// Of the steps and the surfaces, s.
     estimated_time: f64,
+    /// What making the surfaces has taken, s.
+    preparing_time: f64,
     /// Of a run that chooses it.
     largest_acceleration: Option<f64>,
     stiffness_number: f64,
@@ -171,7 +178,7 @@ impl Check {
         surfaces: Vec<String>,
         parts: &[Part],
         execution: Execution,
-        seconds_per_step: f64,
+        [preparing_time, seconds_per_step]: [f64; 2],
     ) -> Self {
         let parameters = &scene.parameters;
         let mesh = &parameters.mesh;
@@ -224,7 +231,8 @@ impl Check {
             checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()),
             workers: execution.workers,
             instruction_set: execution.means(),
-            estimated_time: seconds_per_step * scene.steps as f64,
+            estimated_time: preparing_time + seconds_per_step * scene.steps as f64,
+            preparing_time,
             stiffness_number,
             largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
             warns_of_stiffness: stiffness_warning(parameters).is_some(),
@@ -232,6 +240,20 @@ impl Check {
             needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
             left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
         }
+    }
+
+    /// How long the run will take, in words: the surfaces, which are not made faster by acceleration, and the steps.
+    fn time(&self) -> String {
+        let steps = number::duration(self.estimated_time - self.preparing_time);
+        let trial = match self.largest_acceleration {
+            None => format!("{steps} for the steps (from a short trial)"),
+            Some(largest) => format!(
+                "{steps} for the steps without acceleration (from a short trial), at best {} times less",
+                number::short(largest)
+            ),
+        };
+        let [all, surfaces] = [self.estimated_time, self.preparing_time].map(number::duration);
+        format!("{all}: {surfaces} for the surfaces (as now), {trial}")
     }
 
     fn to_text(&self) -> String {
@@ -285,17 +307,7 @@ impl Check {
                 ),
             ),
             ("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)),
-            (
-                "estimated time",
-                match self.largest_acceleration {
-                    None => format!("{} (from a short trial)", number::duration(self.estimated_time)),
-                    Some(largest) => format!(
-                        "{} without acceleration (from a short trial), at best {} times less",
-                        number::duration(self.estimated_time),
-                        number::short(largest)
-                    ),
-                },
-            ),
+            ("estimated time", self.time()),
         ];
         if let Some(cycle) = &self.cycle {
             // Behind the steps.

@@ -98,8 +98,8 @@ pub enum ContactError {
     },
     /// The overlap that carries the load is less than the rounding of the heights.
     #[error(
-        "nothing carries the load of {normal_force:e} N: at gaps of {displacement:e} m the overlap that would is lost in \
-         rounding; check the unit and the scale of the heights"
+        "nothing carries the load of {normal_force:e} N: beside gaps of {displacement:e} m, the overlap that carries it is \
+         smaller than the rounding of a number; check the unit and the scale of the heights"
     )]
     NotCarried {
         /// δ reached, m.

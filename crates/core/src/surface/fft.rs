@@ -4,6 +4,7 @@
 //! bits differ between versions and processors.
 
 use std::f64::consts::PI;
+use std::ops::{Add, Mul, Sub};
 
 pub(crate) use rustfft::num_complex::Complex64 as Complex;
 
@@ -21,6 +22,20 @@ pub(crate) enum Fft {
     Chirp(Chirp),
 }
 
+/// What is transformed: one complex number, or one of each of several lines.
+pub(crate) trait Point:
+    Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Complex, Output = Self>
+{
+    /// The complex conjugate.
+    fn conjugate(self) -> Self;
+}
+
+impl Point for Complex {
+    fn conjugate(self) -> Self {
+        self.conj()
+    }
+}
+
 impl Fft {
     /// # Panics
     /// When the length is zero.
@@ -33,20 +48,20 @@ impl Fft {
         }
     }
 
-    /// Transforms in place.
-    pub(crate) fn forward(&mut self, values: &mut [Complex]) {
+    /// Transforms in place. `work` is room that calls one after the other share; what is in it does not matter.
+    pub(crate) fn forward<T: Point>(&self, values: &mut [T], work: &mut Vec<T>) {
         match self {
             Self::PowerOfTwo(plan) => plan.forward(values),
-            Self::Chirp(plan) => plan.forward(values),
+            Self::Chirp(plan) => plan.forward(values, work),
         }
     }
 
     /// Transforms back in place, times the length: x_j = Σ X_k exp(2πi jk/N).
-    pub(crate) fn backward(&mut self, values: &mut [Complex]) {
+    pub(crate) fn backward<T: Point>(&self, values: &mut [T], work: &mut Vec<T>) {
         // The backward transform is the conjugate of the forward transform of the conjugate.
-        values.iter_mut().for_each(|value| *value = value.conj());
-        self.forward(values);
-        values.iter_mut().for_each(|value| *value = value.conj());
+        values.iter_mut().for_each(|value| *value = value.conjugate());
+        self.forward(values, work);
+        values.iter_mut().for_each(|value| *value = value.conjugate());
     }
 }
 
@@ -61,7 +76,7 @@ impl PowerOfTwo {
         Self { roots: (0..length / 2).map(|j| root(2 * j, length).conj()).collect() }
     }
 
-    fn forward(&self, values: &mut [Complex]) {
+    fn forward<T: Point>(&self, values: &mut [T]) {
         let length = values.len();
         if length < 2 {
             return;
@@ -79,9 +94,9 @@ impl PowerOfTwo {
             for block in values.chunks_exact_mut(2 * half) {
                 let (lower, upper) = block.split_at_mut(half);
                 for ((a, b), root) in lower.iter_mut().zip(upper).zip(self.roots.iter().step_by(stride)) {
-                    let turned = *b * *root;
-                    *b = *a - turned;
-                    *a += turned;
+                    let (sum, turned) = (*a, *b * *root);
+                    *b = sum - turned;
+                    *a = sum + turned;
                 }
             }
             half *= 2;
@@ -96,7 +111,6 @@ pub(crate) struct Chirp {
     /// Transform of the conjugate chirp, wrapped round, over the length of `inner`.
     kernel: Vec<Complex>,
     inner: PowerOfTwo,
-    work: Vec<Complex>,
 }
 
 impl Chirp {
@@ -116,21 +130,20 @@ impl Chirp {
         // Here and in `forward`, the inner transform back is written as a conjugated forward one.
         let scale = 1.0 / padded as f64;
         kernel.iter_mut().for_each(|value| *value = value.scale(scale));
-        Self { chirp, kernel, inner, work: vec![Complex::default(); padded] }
+        Self { chirp, kernel, inner }
     }
 
-    fn forward(&mut self, values: &mut [Complex]) {
-        self.work.fill(Complex::default());
-        for ((work, value), chirp) in self.work.iter_mut().zip(values.iter()).zip(&self.chirp) {
-            *work = *value * *chirp;
+    fn forward<T: Point>(&self, values: &mut [T], work: &mut Vec<T>) {
+        work.clear();
+        work.extend(values.iter().zip(&self.chirp).map(|(value, chirp)| *value * *chirp));
+        work.resize(self.kernel.len(), T::default());
+        self.inner.forward(work);
+        for (work, kernel) in work.iter_mut().zip(&self.kernel) {
+            *work = (*work * *kernel).conjugate();
         }
-        self.inner.forward(&mut self.work);
-        for (work, kernel) in self.work.iter_mut().zip(&self.kernel) {
-            *work = (*work * *kernel).conj();
-        }
-        self.inner.forward(&mut self.work);
-        for ((value, work), chirp) in values.iter_mut().zip(&self.work).zip(&self.chirp) {
-            *value = work.conj() * *chirp;
+        self.inner.forward(work);
+        for ((value, work), chirp) in values.iter_mut().zip(work.iter()).zip(&self.chirp) {
+            *value = work.conjugate() * *chirp;
         }
     }
 }
@@ -151,7 +164,7 @@ mod tests {
         for length in [1, 2, 3, 5, 8, 12, 64, 97, 161] {
             let values = signal(length);
             let mut transformed = values.clone();
-            Fft::new(length).forward(&mut transformed);
+            Fft::new(length).forward(&mut transformed, &mut Vec::new());
             for (k, found) in transformed.iter().enumerate() {
                 let mut expected = Complex::default();
                 for (j, value) in values.iter().enumerate() {
@@ -168,9 +181,9 @@ mod tests {
         for length in [1, 4, 100, 691, 2764] {
             let values = signal(length);
             let mut transformed = values.clone();
-            let mut fft = Fft::new(length);
-            fft.forward(&mut transformed);
-            fft.backward(&mut transformed);
+            let (fft, mut work) = (Fft::new(length), Vec::new());
+            fft.forward(&mut transformed, &mut work);
+            fft.backward(&mut transformed, &mut work);
             for (found, expected) in transformed.iter().zip(&values) {
                 let difference = found.scale(1.0 / length as f64) - *expected;
                 assert!(difference.re.hypot(difference.im) < 1e-12, "N = {length}");

@@ -54,7 +54,7 @@ pub enum PreparationError {
         points: usize,
     },
     /// A number of the chain makes no sense.
-    #[error("{key} is {found}, expected {expected}")]
+    #[error("{key} is {found:?}, expected {expected}")]
     Value {
         /// Key of the preparation table.
         key: &'static str,
@@ -172,11 +172,13 @@ pub enum PreparationError {
     },
     /// The patch has too few cells for statistics.
     #[error(
-        "{} by {} whole cells lie in the patch, expected at least {least} by {least} for its statistics: measure a larger \
-         patch, take smaller cells, or tile it with repeat = true in place of extend",
-        cells[0], cells[1]
+        "{} by {} whole cells lie in the patch of {} by {}, expected at least {least} by {least} for its statistics: check its \
+         pixel, measure a larger patch, take smaller cells, or tile it with repeat = true in place of extend",
+        cells[0], cells[1], Length(patch[0]), Length(patch[1])
     )]
     FewCells {
+        /// Length and height of the patch, m.
+        patch: [f64; 2],
         /// Cells along and across sliding.
         cells: [usize; 2],
         /// Fewest of them in either direction.
@@ -184,11 +186,13 @@ pub enum PreparationError {
     },
     /// The field from which the heights are taken would be too large.
     #[error(
-        "statistics of {} by {} cells of the patch ask for a field of {} by {} cells: crop the patch, take a smaller pixel, \
-         or tile it with repeat = true in place of extend",
-        cells[0], cells[1], field[0], field[1]
+        "the patch of {} by {} has {} by {} cells, whose statistics ask for a field of {} by {} cells, more than there is room \
+         for: check its pixel, crop it, or tile it with repeat = true in place of extend",
+        Length(patch[0]), Length(patch[1]), cells[0], cells[1], field[0], field[1]
     )]
     LargeField {
+        /// Length and height of the patch, m.
+        patch: [f64; 2],
         /// Cells of the patch, along and across sliding.
         cells: [usize; 2],
         /// Cells of the field.

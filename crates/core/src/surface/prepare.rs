@@ -1,6 +1,9 @@
 //! The preparation chain of a surface.
 
+use std::ops::RangeInclusive;
+
 use super::crop::Crop;
+use super::doubts::{doubts, flat};
 use super::extend::{Extension, extend, take_out_plane};
 use super::flip::{Flip, reverse_along};
 use super::gaussian_filter::filter;
@@ -15,6 +18,9 @@ use super::straighten::straighten;
 use super::unroll::Unroll;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
+
+/// Distances of points that are taken, m, as of files; measured ones are between 1e-11 and 1e-3.
+const PIXELS: RangeInclusive<f64> = 1e-15..=1e3;
 
 /// The preparation chain; a step that is absent is not done. Applied in the order of the fields.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,6 +131,7 @@ impl Preparation {
         beyond.iter().for_each(|cell| patch.heights[*cell] = f64::NAN);
         // Missing points are told and filled; what is infinite was never measured.
         self.refuse_heights(&patch.heights, |height| height.is_infinite())?;
+        let largest = patch.heights.iter().fold(0.0, |largest: f64, height| largest.max(height.abs()));
         let closed = on_mesh && body == Body::Disc;
         if mirror {
             reverse_along(&mut patch);
@@ -132,7 +139,7 @@ impl Preparation {
         }
         let Self { crop, unroll, flip, .. } = *self;
         report.extend(straighten(&mut patch, crop, unroll, Turn::new(self.rotate), flip)?);
-        self.level_and_fill(&mut patch, closed, &beyond, &mut report)?;
+        let missing = self.level_and_fill(&mut patch, closed, &beyond, &mut report)?;
         if let Some(pixel) = self.pixel {
             (patch.column_pitch, patch.row_pitch) = (pixel, pixel);
             report.push(format!("pixel pitch taken as {}", Length(pixel)));
@@ -155,7 +162,10 @@ impl Preparation {
         let (mut heights, patch) = if on_mesh {
             (patch.heights, None)
         } else {
-            (self.onto_mesh(&patch, body, mesh, &mut report)?, Some(patch))
+            report.extend(doubts(&patch, missing, body, mesh));
+            let heights = self.onto_mesh(&patch, body, mesh, &mut report)?;
+            report.extend(flat(&heights, largest, &patch, body));
+            (heights, Some(patch))
         };
         if self.scale != 1.0 {
             let before = rms(&heights);
@@ -204,7 +214,7 @@ impl Preparation {
             ("s_filter", self.s_filter, self.s_filter.is_none_or(positive), "a positive, finite length in m"),
             ("l_filter", self.l_filter, self.l_filter.is_none_or(positive), "a positive, finite length in m"),
             ("outliers", self.outliers, self.outliers.is_none_or(positive), "a positive, finite number"),
-            ("pixel", self.pixel, self.pixel.is_none_or(positive), "a positive, finite length in m"),
+            ("pixel", self.pixel, self.pixel.is_none_or(|pixel| PIXELS.contains(&pixel)), "from 1e-15 to 1e3, in m"),
             ("cutoff", self.cutoff, self.cutoff.is_none_or(f64::is_finite), "a finite length in m"),
             ("scale", Some(self.scale), self.scale.is_finite(), "a finite number"),
         ];
@@ -245,13 +255,14 @@ impl Preparation {
         }
     }
 
+    /// Gives the number of points that were missing and got a height.
     fn level_and_fill(
         &self,
         patch: &mut Patch,
         closed: bool,
         beyond: &[usize],
         report: &mut Vec<String>,
-    ) -> Result<(), PreparationError> {
+    ) -> Result<usize, PreparationError> {
         let points = patch.heights.len() - beyond.len();
         if patch.missing() - beyond.len() == points {
             return Err(PreparationError::AllMissing { points });
@@ -285,7 +296,7 @@ impl Preparation {
         }
         let missing = patch.missing() - beyond.len();
         if missing == 0 {
-            return Ok(());
+            return Ok(0);
         }
         let how = self.fill.ok_or(PreparationError::Missing { missing, outliers, points })?;
         let before = rms(&patch.heights);
@@ -297,7 +308,7 @@ impl Preparation {
         };
         report
             .push(format!("{missing} of {points} points were missing and {what}: {}", change(before, &patch.heights)));
-        Ok(())
+        Ok(missing)
     }
 
     fn level(&self, patch: &mut Patch, closed: bool, report: &mut Vec<String>) {

@@ -11,30 +11,120 @@ pub(super) fn change(before: f64, heights: &[f64]) -> String {
 
 /// How the patch came onto the mesh, in words.
 pub(super) fn laid(patch: &Patch, repeat: bool, body: Body, mesh: &Mesh) -> String {
-    let way = |pitch: f64, cell: f64| if pitch > cell { "interpolated" } else { "averaged" };
-    let along = way(patch.column_pitch, mesh.column_width());
-    let across = way(patch.row_pitch, mesh.row_height());
-    let ways = if along == across { along.to_owned() } else { format!("{along} along, {across} across sliding") };
-    let size = format!("patch of {} by {}", Length(patch.length()), Length(patch.height()));
-    let across = mesh.rows() as f64 * mesh.row_height() / patch.height();
-    let across = if across > 1.0 + 1e-9 { format!(" and {across:.2} times across the track") } else { String::new() };
-    let laid = match (repeat, body) {
-        (true, Body::Disc) => {
-            let times = body.length(mesh) / patch.length();
-            format!("{size} repeated {times:.2} times round the ring{across}, mirrored at the seams")
+    let sizes = [patch.length(), patch.height()];
+    let times = [body.length(mesh) / sizes[0], mesh.rows() as f64 * mesh.row_height() / sizes[1]];
+    let across =
+        if repeat && times[1] > 1.0 + SAME { format!("{:.2} times across the track", times[1]) } else { String::new() };
+    let laid = match Line::of(patch) {
+        Some(Line::Across) if across.is_empty() => format!("profile of {} laid across the track", Length(sizes[1])),
+        Some(Line::Across) => format!("profile of {} repeated {across}, mirrored at the seams", Length(sizes[1])),
+        Some(Line::Along) => on_body(&format!("profile of {}", Length(sizes[0])), repeat, times[0], "", body),
+        None => {
+            let patch = format!("patch of {} by {}", Length(sizes[0]), Length(sizes[1]));
+            let across = if across.is_empty() { across } else { format!(" and {across}") };
+            on_body(&patch, repeat, times[0], &across, body)
         }
-        (true, Body::Pin) => format!("{size} repeated along the pin{across}, mirrored at the seams"),
-        (false, Body::Disc) => format!(
-            "{size} laid round the ring without repeating: a step may be left where the ring closes \
-             (repeat = true leaves none)"
-        ),
-        (false, Body::Pin) => format!("{size} laid over the pin"),
     };
-    format!(
-        "{laid}; {ways} from pixels of {} by {} to cells of {} by {}",
-        Length(patch.column_pitch),
-        Length(patch.row_pitch),
-        Length(mesh.column_width()),
-        Length(mesh.row_height())
-    )
+    format!("{laid}; {}", heights_of_cells(patch, mesh))
+}
+
+/// Lengths that differ by less than this part are the same length.
+const SAME: f64 = 1e-9;
+/// Distances of points that differ from a cell by less than this part are about a cell.
+const ABOUT: f64 = 0.01;
+
+/// A patch of one line of points, the same all over in the other direction.
+enum Line {
+    Along,
+    Across,
+}
+
+impl Line {
+    fn of(patch: &Patch) -> Option<Self> {
+        match (patch.columns, patch.rows) {
+            (1, 2..) => Some(Self::Across),
+            (2.., 1) => Some(Self::Along),
+            _ => None,
+        }
+    }
+}
+
+/// What was laid along the body, so many times if it is repeated.
+fn on_body(what: &str, repeat: bool, times: f64, across: &str, body: Body) -> String {
+    match (repeat, body) {
+        (true, Body::Disc) => format!("{what} repeated {times:.2} times round the ring{across}, mirrored at the seams"),
+        (true, Body::Pin) => format!("{what} repeated along the pin{across}, mirrored at the seams"),
+        (false, Body::Disc) => format!(
+            "{what} laid round the ring without repeating: a step may be left where the ring closes (repeat = true leaves none)"
+        ),
+        (false, Body::Pin) => format!("{what} laid over the pin"),
+    }
+}
+
+/// How the heights of cells come from those of points, in words.
+fn heights_of_cells(patch: &Patch, mesh: &Mesh) -> String {
+    let cell = [mesh.column_width(), mesh.row_height()];
+    let way = |pitch: f64, cell: f64| {
+        let apart = format!("points {} apart", Length(pitch));
+        match pitch / cell {
+            finer if finer < 1.0 - ABOUT => format!("the mean over {apart}"),
+            same if same <= 1.0 + ABOUT => format!("interpolated between {apart} (about a cell)"),
+            _ => format!("interpolated between {apart}"),
+        }
+    };
+    let (along, across) = (way(patch.column_pitch, cell[0]), way(patch.row_pitch, cell[1]));
+    let ways = match Line::of(patch) {
+        Some(Line::Across) => format!("{across} across sliding, the same all along it"),
+        Some(Line::Along) => format!("{along} along sliding, the same all across it"),
+        None if along == across => along,
+        None => format!("{along} along sliding, {across} across it"),
+    };
+    format!("the height of a cell of {} by {} is {ways}", Length(cell[0]), Length(cell[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn patch(columns: usize, rows: usize, [column_pitch, row_pitch]: [f64; 2]) -> Patch {
+        Patch { columns, rows, column_pitch, row_pitch, heights: vec![0.0; columns * rows] }
+    }
+
+    #[test]
+    fn a_profile_is_laid_in_the_direction_in_which_it_was_traced() {
+        // A ring of 138.2 mm by 4 mm in cells of 50 um.
+        let mesh = Mesh::new(80, 2765, 160, 20e-3, 24e-3).unwrap();
+        let round = Body::Disc.length(&mesh);
+        let told = |patch: &Patch, repeat| laid(patch, repeat, Body::Disc, &mesh);
+        assert_eq!(
+            told(&patch(1, 3000, [round, 0.5e-6]), true),
+            "profile of 1.5 mm repeated 2.67 times across the track, mirrored at the seams; the height of a cell of 49.99 um by \
+             50 um is the mean over points 500 nm apart across sliding, the same all along it"
+        );
+        assert_eq!(
+            told(&patch(1, 5000, [round, 1e-6]), false),
+            "profile of 5 mm laid across the track; the height of a cell of 49.99 um by 50 um is the mean over points 1 um apart \
+             across sliding, the same all along it"
+        );
+        assert_eq!(
+            told(&patch(4800, 1, [1e-6, 4e-3]), true),
+            "profile of 4.8 mm repeated 28.80 times round the ring, mirrored at the seams; the height of a cell of 49.99 um by \
+             50 um is the mean over points 1 um apart along sliding, the same all across it"
+        );
+    }
+
+    #[test]
+    fn points_as_far_apart_as_cells_are_said_to_be() {
+        let mesh = Mesh::new(80, 2765, 160, 20e-3, 24e-3).unwrap();
+        let told = |pitch: [f64; 2]| heights_of_cells(&patch(10, 10, pitch), &mesh);
+        let cell = "the height of a cell of 49.99 um by 50 um is";
+        assert_eq!(told([50e-6; 2]), format!("{cell} interpolated between points 50 um apart (about a cell)"));
+        assert_eq!(told([1e-6; 2]), format!("{cell} the mean over points 1 um apart"));
+        assert_eq!(
+            told([200e-6, 2e-6]),
+            format!(
+                "{cell} interpolated between points 200 um apart along sliding, the mean over points 2 um apart across it"
+            )
+        );
+    }
 }

@@ -102,8 +102,13 @@ fn quarters_of_a_turn_move_points() {
     // The pitches are exchanged.
     let wide = Patch { column_pitch: 2e-3, ..patch(2, 4, 1e-3, rough) };
     let prepared = turned(90.0).apply(RawHeights::Patch(wide), false, Body::Pin, &ring(100, 3, 2)).unwrap();
-    assert!(prepared.report[1].contains("patch of 4 mm by 4 mm"), "{:?}", prepared.report);
-    assert!(prepared.report[1].contains("from pixels of 1 mm by 2 mm"), "{:?}", prepared.report);
+    let report = prepared.report.join("\n");
+    assert!(report.contains("patch of 4 mm by 4 mm"), "{report}");
+    assert!(
+        report.contains("points 1 mm apart (about a cell) along sliding")
+            && report.contains("points 2 mm apart across it"),
+        "{report}"
+    );
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::document::{self, Entries, Value};
-use super::error::{Origin, Problem, SceneError};
+use super::error::{Origin, Problem, SceneError, Warning};
 use super::schema::{self, Group};
 use crate::{limits, regular};
 
@@ -24,6 +24,8 @@ pub(super) struct Layered {
     pub(super) files: Vec<PathBuf>,
     /// What is wrong with single layers: unknown keys, alternatives given together.
     pub(super) problems: Vec<Problem>,
+    /// What `--set` puts in the place of another step of a preparation.
+    pub(super) replaced: Vec<Warning>,
 }
 
 /// Reads a scene, what it extends and the `--set` arguments.
@@ -32,8 +34,24 @@ pub(super) struct Layered {
 /// of this version.
 pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> {
     let mut problems = Vec::new();
-    let (files, mut layers) = read_chain(path, &mut problems)?;
+    let (files, layers) = read_chain(path, &mut problems)?;
+    lay_all(files, layers, sets, problems)
+}
 
+/// As [`read`], of the text that a scene which extends no other will have at `path`.
+pub(super) fn of_text(path: &Path, text: &str) -> Result<Layered, SceneError> {
+    let mut problems = Vec::new();
+    let entries = document::read(&path.into(), text, &mut problems)?;
+    lay_all(vec![path.to_owned()], vec![entries], &[], problems)
+}
+
+/// Lays the scenes, from the top down, and the `--set` arguments over each other.
+fn lay_all(
+    files: Vec<PathBuf>,
+    mut layers: Vec<Entries>,
+    sets: &[String],
+    mut problems: Vec<Problem>,
+) -> Result<Layered, SceneError> {
     let mut set = Entries::new();
     for argument in sets {
         let entries = document::read_set(argument, &mut problems);
@@ -47,7 +65,12 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
     }
 
     let mut entries = Entries::new();
-    for layer in layers.into_iter().rev() {
+    let mut replaced = Vec::new();
+    while let Some(layer) = layers.pop() {
+        if layers.is_empty() {
+            // The last one is that of `--set`.
+            replaced = steps_replaced(&entries, &layer);
+        }
         for group in schema::GROUPS {
             let chosen = members(group, &layer).next();
             if let Some((chosen, _)) = chosen {
@@ -65,7 +88,7 @@ pub(super) fn read(path: &Path, sets: &[String]) -> Result<Layered, SceneError> 
         lay_over(&mut entries, layer);
     }
     entries.remove("extends");
-    Ok(Layered { entries, files, problems })
+    Ok(Layered { entries, files, problems, replaced })
 }
 
 /// Reads the scene and, one after the other, the scenes it extends.
@@ -167,6 +190,25 @@ fn refuse_two_of_a_group(layer: &Entries, problems: &mut Vec<Problem>) {
             problems.push(Problem::new(origin, &schema::join(group.section, last), message));
         }
     }
+}
+
+/// Steps of a preparation that exclude each other, one in a scene and another in `--set`: the scene's is left out, which a user
+/// who wants both has to know.
+fn steps_replaced(scene: &Entries, set: &Entries) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    for group in schema::GROUPS.iter().filter(|group| group.section.ends_with(".prepare")) {
+        let Some((chosen, place)) = members(group, set).next() else { continue };
+        for (name, origin) in members(group, scene).filter(|(name, _)| *name != chosen) {
+            warnings.push(Warning {
+                place: place.clone(),
+                key: schema::join(group.section, chosen),
+                found: format!("it takes the place of {name} ({origin})"),
+                bound: format!("of {} only one is done", group.names()),
+                advice: format!("{name} is left out"),
+            });
+        }
+    }
+    warnings
 }
 
 /// A mesh is given in cells or in lengths.

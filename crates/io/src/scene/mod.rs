@@ -43,7 +43,19 @@ use settings::Settings;
 /// is not TOML, unknown or missing keys, values of a wrong type, unit or range, keys that contradict each other, a mesh
 /// that does not fit into memory.
 pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
-    let layers::Layered { entries, files, mut problems } = layers::read(path, sets)?;
+    checked(layers::read(path, sets)?, path)
+}
+
+/// As [`load`], of the text that a scene which extends no other will have at `path`: it can be looked at before it is written.
+///
+/// # Errors
+/// [`SceneError`] as for [`load`].
+pub fn of_text(path: &Path, text: &str) -> Result<Scene, SceneError> {
+    checked(layers::of_text(path, text)?, path)
+}
+
+fn checked(layers: layers::Layered, path: &Path) -> Result<Scene, SceneError> {
+    let layers::Layered { entries, files, mut problems, replaced } = layers;
     if problems.is_empty() {
         // A key that is mistyped or was dropped is not missing too.
         settings::refuse_missing(&entries, path, &mut problems);
@@ -54,5 +66,7 @@ pub fn load(path: &Path, sets: &[String]) -> Result<Scene, SceneError> {
     if !problems.is_empty() {
         return Err(SceneError::new(problems));
     }
-    Ok(build::build(settings, files, path)?)
+    let mut scene = build::build(settings, files, path)?;
+    scene.warnings.splice(0..0, replaced);
+    Ok(scene)
 }

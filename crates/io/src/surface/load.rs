@@ -207,6 +207,13 @@ impl<'a> Loader<'a> {
             self.report.push(format!("{surface}: {}, points {pitch} apart", profile.describe()));
             return Ok((RawHeights::Patch(profile.into_patch(body, self.mesh)), instrument));
         }
+        if found.0 == 1 || found.1 == 1 {
+            self.report.push(format!(
+                "{surface}: warning: {} x {} points are one line, and the heights are the same on both sides of it: of a profile \
+                 say how its surface goes on, with profile_lay = \"along\", \"across\" or \"isotropic\"",
+                found.0, found.1
+            ));
+        }
         let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
         let raw = match pitch {
             Some([column_pitch, row_pitch]) => {

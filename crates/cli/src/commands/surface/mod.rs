@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 
 use plateau_core::surface::{Body, Level, Patch};
 use plateau_io::scene;
-use plateau_io::surface::{self, Loaded, Measured, ReadOptions, WriteError, WriteOptions};
+use plateau_io::surface::{self, Loaded, Measured, WriteError, WriteOptions};
 use plateau_present::figure::fibre_map::{self, Micrograph};
 use plateau_present::figure::surface_description::{self, DescribedSurface};
 use plateau_present::figure::{Figure, Format};
 
-use crate::arguments::SurfaceArguments;
+use crate::arguments::{SurfaceArguments, as_options};
 use crate::failure::Failure;
 use crate::message;
 use crate::output;
@@ -75,16 +75,8 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
 
 /// Reads a file as the arguments say.
 fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> {
-    let options = ReadOptions {
-        dataset: arguments.dataset.clone(),
-        unit: arguments.unit,
-        pitch: arguments.pitch.map(|pitch| pitch.0),
-        height_range: arguments.height_range.map(|range| range.0),
-        decimal: arguments.decimal,
-        skip: arguments.skip,
-        profile_lay: arguments.profile_lay,
-    };
-    let measured = surface::read(path, &options).map_err(|reason| named(path, reason))?;
+    let measured = surface::read(path, &arguments.reading.options())
+        .map_err(|reason| named(path, format_args!("{reason}{}", as_options(&reason.to_string()))))?;
     for warning in &measured.warnings {
         message::warning(format_args!("{}: {warning}", path.display()));
     }

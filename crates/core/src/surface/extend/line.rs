@@ -116,10 +116,10 @@ fn autocovariance(heights: &[f64]) -> Vec<f64> {
     let centre = mean(heights);
     let mut values = vec![Complex::default(); (2 * count).next_power_of_two()];
     values.iter_mut().zip(heights).for_each(|(value, height)| value.re = height - centre);
-    let mut fft = Fft::new(values.len());
-    fft.forward(&mut values);
+    let (fft, mut work) = (Fft::new(values.len()), Vec::new());
+    fft.forward(&mut values, &mut work);
     values.iter_mut().for_each(|value| *value = Complex { re: value.norm_sqr(), im: 0.0 });
-    fft.backward(&mut values);
+    fft.backward(&mut values, &mut work);
     let points = values.len() as f64;
     values[..count.div_ceil(2)].iter().enumerate().map(|(lag, sum)| sum.re / points / (count - lag) as f64).collect()
 }

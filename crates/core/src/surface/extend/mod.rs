@@ -11,6 +11,8 @@ mod quantiles;
 mod reach;
 mod spectrum;
 
+use rayon::prelude::*;
+
 use super::level::{Level, level, mean, rms};
 use super::preparation_error::PreparationError;
 use super::random::{Random, Stream};
@@ -74,7 +76,7 @@ pub(super) fn extend(
         Extension::Isotropic { .. } => statistics_of_line(patch, seed, body, mesh, report)?,
     };
     let Some(Statistics { grid, correlation, quantiles }) = statistics else {
-        report.push("extend: all heights of the patch are equal".to_owned());
+        // The preparation warns of it.
         return Ok(vec![mean(&patch.heights); body.columns(mesh) * mesh.rows()]);
     };
     let mut plane = Plane::new(&grid);
@@ -124,8 +126,9 @@ fn statistics_of_line(
 ) -> Result<Option<Statistics>, PreparationError> {
     let cell = [mesh.column_width(), mesh.row_height()];
     let cells = cell.map(|cell| (patch.length() / cell) as usize);
+    let size = [patch.length(), patch.height()];
     if cells.iter().any(|count| *count < Extension::FEWEST_CELLS) {
-        return Err(PreparationError::FewCells { cells, least: Extension::FEWEST_CELLS });
+        return Err(PreparationError::FewCells { patch: size, cells, least: Extension::FEWEST_CELLS });
     }
     if patch.heights.iter().all(|height| *height == patch.heights[0]) {
         return Ok(None);
@@ -133,7 +136,11 @@ fn statistics_of_line(
     let line = Line::of(patch);
     let grid = Grid::new(body, mesh, [line.reach(); 2], 1);
     if grid.is_too_large() {
-        return Err(PreparationError::LargeField { cells, field: [grid.padded_columns, grid.padded_rows] });
+        return Err(PreparationError::LargeField {
+            patch: size,
+            cells,
+            field: [grid.padded_columns, grid.padded_rows],
+        });
     }
     let (correlation, variance) = line.correlation(&grid);
     let quantiles = Quantiles::of(&line.cell_heights(cell[0], variance));
@@ -171,12 +178,12 @@ pub(super) fn take_out_plane(patch: &mut Patch, levelled: Level, report: &mut Ve
 
 /// The grid of the field: so large that opposite edges of the body are further apart than any two cells of the patch.
 fn grid(patch: &Patch, body: Body, mesh: &Mesh) -> Result<Grid, PreparationError> {
-    let cells = whole_cells(patch, mesh);
+    let (cells, size) = (whole_cells(patch, mesh), [patch.length(), patch.height()]);
     if cells.iter().any(|count| *count < Extension::FEWEST_CELLS) {
-        return Err(PreparationError::FewCells { cells, least: Extension::FEWEST_CELLS });
+        return Err(PreparationError::FewCells { patch: size, cells, least: Extension::FEWEST_CELLS });
     }
+    let large = |field: [usize; 2]| PreparationError::LargeField { patch: size, cells, field };
     // Beyond these the padding could not be counted.
-    let large = |field: [usize; 2]| PreparationError::LargeField { cells, field };
     if cells.iter().any(|count| *count > 1 << 28) {
         return Err(large(cells));
     }
@@ -200,18 +207,17 @@ const ROUNDING: f64 = 1e-13;
 /// The power of the Gaussian field that has this autocorrelation after the translation; where no field has it, the nearest.
 fn gaussian_power(correlation: Vec<f64>, translation: &Translation, plane: &mut Plane) -> Vec<f64> {
     let [columns, rows] = plane.size();
+    let opposite = |here: usize| (columns - here / rows) % columns * rows + (rows - here % rows) % rows;
     let mut values: Vec<Complex> = vec![Complex::default(); correlation.len()];
-    for column in 0..columns {
-        for row in 0..rows {
-            let here = column * rows + row;
-            let opposite = (columns - column) % columns * rows + (rows - row) % rows;
-            let value = match correlation[here] {
-                _ if opposite < here => values[opposite].re,
-                small if small.abs() < ROUNDING => 0.0,
-                value => translation.inverse(value.min(1.0)),
-            };
-            values[here].re = value;
-        }
+    // Of two opposite lags, which have the same value, the first.
+    values.par_iter_mut().enumerate().filter(|(here, _)| *here <= opposite(*here)).for_each(|(here, value)| {
+        value.re = match correlation[here] {
+            small if small.abs() < ROUNDING => 0.0,
+            correlation => translation.inverse(correlation.min(1.0)),
+        };
+    });
+    for here in 0..values.len() {
+        values[here].re = values[here.min(opposite(here))].re;
     }
     plane.forward(&mut values);
     values.into_iter().map(|value| value.re.max(0.0)).collect()

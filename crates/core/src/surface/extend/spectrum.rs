@@ -92,11 +92,11 @@ fn tapered(cells: &Patch, along: &[f64], across: &[f64]) -> Vec<f64> {
 /// The sum of the tapers' own power spectra at the harmonics of a line of `points` points, round which they are wound.
 fn window(tapers: &[Vec<f64>; TAPERS], points: usize) -> Vec<f64> {
     let mut sum = vec![0.0; points];
-    let mut fft = Fft::new(points);
+    let (fft, mut work) = (Fft::new(points), Vec::new());
     for taper in tapers {
         let mut values = vec![Complex::default(); points];
         taper.iter().enumerate().for_each(|(place, value)| values[place % points].re += value);
-        fft.forward(&mut values);
+        fft.forward(&mut values, &mut work);
         sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += value.norm_sqr());
     }
     sum

@@ -1,8 +1,11 @@
 //! Gaussian fields of any spectrum, by filtering white noise in the plane.
 
+use rayon::prelude::*;
+
 use super::grid::Grid;
 use super::translation::Translation;
 use crate::surface::fft::{Complex, Fft};
+use crate::surface::fft_lines::{LINES, Lines};
 use crate::surface::random::Random;
 
 /// A harmonic with less than this of the strongest one's power has none: what is left there is rounding.
@@ -68,16 +71,44 @@ impl Plane {
         [self.columns, self.rows]
     }
 
-    /// Transforms in place.
+    /// Transforms in place, several columns and then several rows at a time.
     pub(in crate::surface) fn forward(&mut self, values: &mut [Complex]) {
-        values.chunks_exact_mut(self.rows).for_each(|column| self.along_y.forward(column));
-        let mut line = vec![Complex::default(); self.columns];
-        for row in 0..self.rows {
-            let places = || (row..values.len()).step_by(self.rows);
-            line.iter_mut().zip(places()).for_each(|(value, place)| *value = values[place]);
-            self.along_x.forward(&mut line);
-            line.iter().zip(places()).for_each(|(value, place)| values[place] = *value);
+        let rows = self.rows;
+        values.par_chunks_mut(LINES * rows).for_each_init(
+            || (vec![Lines::default(); rows], Vec::new()),
+            |(lines, work), block| {
+                for (line, column) in block.chunks_exact(rows).enumerate() {
+                    lines.iter_mut().zip(column).for_each(|(lines, value)| lines.put(line, *value));
+                }
+                self.along_y.forward(lines, work);
+                for (line, column) in block.chunks_exact_mut(rows).enumerate() {
+                    column.iter_mut().zip(lines.iter()).for_each(|(value, lines)| *value = lines.get(line));
+                }
+            },
+        );
+        // Bands of rows, as many at a time as there are threads: each is a copy.
+        let bands: Vec<usize> = (0..rows).step_by(LINES).collect();
+        for bands in bands.chunks(rayon::current_num_threads()) {
+            let transformed: Vec<Vec<Lines>> = bands.par_iter().map(|first| self.band(values, *first)).collect();
+            values.par_chunks_exact_mut(rows).enumerate().for_each(|(column, values)| {
+                for (first, band) in bands.iter().zip(&transformed) {
+                    let values = values[*first..].iter_mut().take(LINES);
+                    values.enumerate().for_each(|(line, value)| *value = band[column].get(line));
+                }
+            });
         }
+    }
+
+    /// The transform along x of some rows, from the first one on.
+    fn band(&self, values: &[Complex], first: usize) -> Vec<Lines> {
+        let gathered = values.chunks_exact(self.rows).map(|column| {
+            let mut lines = Lines::default();
+            column[first..].iter().take(LINES).enumerate().for_each(|(line, value)| lines.put(line, *value));
+            lines
+        });
+        let mut band: Vec<Lines> = gathered.collect();
+        self.along_x.forward(&mut band, &mut Vec::new());
+        band
     }
 
     /// Transform back, times the number of points.

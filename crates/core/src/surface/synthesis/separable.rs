@@ -46,6 +46,7 @@ pub(super) fn field(grid: &Grid, along: f64, across: f64, random: &mut Random) -
 /// Filter of a periodic line that turns white noise into noise with autocorrelation exp(−(x/ℓ)²).
 struct Filter {
     fft: Fft,
+    work: Vec<Complex>,
     gain: Vec<f64>,
 }
 
@@ -54,12 +55,12 @@ impl Filter {
     fn new(points: usize, length: f64, repeats: usize) -> Self {
         // The transform back leaves out 1/N.
         let gain = gaussian(points, length, repeats).map(|power| power.sqrt() / points as f64).collect();
-        Self { fft: Fft::new(points), gain }
+        Self { fft: Fft::new(points), work: Vec::new(), gain }
     }
 
     fn apply(&mut self, line: &mut [Complex]) {
-        self.fft.forward(line);
+        self.fft.forward(line, &mut self.work);
         line.iter_mut().zip(&self.gain).for_each(|(value, gain)| *value = value.scale(*gain));
-        self.fft.backward(line);
+        self.fft.backward(line, &mut self.work);
     }
 }

@@ -9,7 +9,7 @@ use super::shape::{Shape, Window};
 use super::{Figures, Subject};
 use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, TEXT, TITLE};
-use crate::figure::chart::{MARGIN, Meaning, legend};
+use crate::figure::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, LINE_OF_TEXT, Page, Panel};
@@ -29,6 +29,30 @@ const LEAST_HEIGHT: f64 = 64.0;
 /// Distance of maps beside each other, and of windows of one map below each other.
 const BETWEEN: f64 = 40.0;
 const BELOW: f64 = 14.0;
+
+/// Height of a page of one block of maps, at most: 240 mm beside a width of 180 mm.
+const HIGHEST: f64 = TWO_COLUMNS * 4.0 / 3.0;
+/// What is tried until a page is no higher, one after the other: unrolled maps in fewer, longer windows, then smaller maps.
+const FITS: [Fit; 9] = [
+    Fit { stretch: 1.0, size: 1.0 },
+    Fit { stretch: 1.25, size: 1.0 },
+    Fit { stretch: 1.5, size: 1.0 },
+    Fit { stretch: 2.0, size: 1.0 },
+    Fit { stretch: 2.0, size: 0.9 },
+    Fit { stretch: 2.0, size: 0.8 },
+    Fit { stretch: 2.0, size: 0.7 },
+    Fit { stretch: 2.0, size: 0.6 },
+    Fit { stretch: 2.0, size: 0.5 },
+];
+
+/// How maps are fitted into a page.
+#[derive(Debug, Clone, Copy)]
+struct Fit {
+    /// How much longer the windows of unrolled maps are than they mostly are.
+    stretch: f64,
+    /// The part of the width that there is for a map that it takes.
+    size: f64,
+}
 
 /// A map of one body at one moment.
 #[derive(Debug, Clone)]
@@ -73,8 +97,20 @@ pub struct MapBlock<'a> {
     pub groups: Vec<MapGroup<'a>>,
 }
 
-/// The page of this width (pixels) with these maps, below an explanation of colours.
+/// The page of this width (pixels) with these maps, below an explanation of colours. Maps of one block are fitted into the page of a journal.
 pub fn page(whole: f64, meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
+    let mut page = fitted(whole, meanings, blocks, FITS[0]);
+    for fit in &FITS[1..] {
+        if blocks.len() > 1 || page.size[1] <= HIGHEST {
+            break;
+        }
+        page = fitted(whole, meanings, blocks, *fit);
+    }
+    page
+}
+
+/// The page with maps that are fitted in this way.
+fn fitted(whole: f64, meanings: &[Meaning], blocks: &[MapBlock], fit: Fit) -> Page {
     let mut page = Page { size: [whole, 0.0], ..Page::default() };
     let scaled = blocks.iter().flat_map(|block| &block.groups).any(|group| group.scale.is_some());
     let width = whole - MARGIN - if scaled { BAR_ROOM } else { MARGIN };
@@ -95,7 +131,7 @@ pub fn page(whole: f64, meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
         if !several {
             top = legend(&mut page, meanings, top);
         }
-        top = block.groups.iter().fold(top, |top, group| group.place(&mut page, top, width));
+        top = block.groups.iter().fold(top, |top, group| group.place(&mut page, top, width, fit));
         top += MARGIN;
     }
     page.size[1] = top.ceil();
@@ -104,7 +140,7 @@ pub fn page(whole: f64, meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
 
 impl MapGroup<'_> {
     /// Puts the maps on the page, this far from its top and so wide; gives the place below.
-    fn place(&self, page: &mut Page, begin: f64, width: f64) -> f64 {
+    fn place(&self, page: &mut Page, begin: f64, width: f64, fit: Fit) -> f64 {
         let (mut top, mut last_box, mut right) = (begin, begin, MARGIN);
         for row in &self.rows {
             let each = width / row.len().max(1) as f64;
@@ -112,7 +148,7 @@ impl MapGroup<'_> {
             for (column, section) in row.iter().enumerate() {
                 let Some(section) = section else { continue };
                 let origin = [MARGIN + column as f64 * each, top];
-                let placed = section.place(page, origin, each - BETWEEN, &self.palette);
+                let placed = section.place(page, origin, each - BETWEEN, fit, &self.palette);
                 (lowest, last_box) = (lowest.max(placed.end), last_box.max(placed.box_end[1]));
                 right = right.max(placed.box_end[0]);
             }
@@ -135,20 +171,21 @@ impl MapGroup<'_> {
 
 impl MapSection<'_> {
     /// Puts the map on the page with its upper left corner there.
-    fn place(&self, page: &mut Page, [left, top]: [f64; 2], width: f64, palette: &[RGBColor]) -> Placed {
+    fn place(&self, page: &mut Page, [left, top]: [f64; 2], width: f64, fit: Fit, palette: &[RGBColor]) -> Placed {
         let columns = self.cells.len() / self.mesh.rows();
         let y_range = self.shape.y_range(self.mesh);
         let y = Axis::linear(y_range.clone(), self.shape.y_label());
-        let windows = self.shape.windows(self.mesh, columns);
+        let windows = self.shape.windows(self.mesh, columns, fit.stretch);
         let proportion = |window: &Window| (y_range.end() - y_range.start()) / (window.x.end() - window.x.start());
         let height = |window: &Window, inner: f64| (inner * proportion(window)).clamp(LEAST_HEIGHT, inner).round();
         // A higher box has more numbers, which may be longer.
         let room = windows.iter().map(|window| y.room_beside(height(window, width))).fold(0.0, f64::max);
         let begin = left + room;
-        let inner = (width - room).floor();
+        let space = (width - room).floor();
+        let inner = (space * fit.size).floor();
         let mut y_top = top;
         for text in [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty()) {
-            page.write(shortened(text, TEXT, inner), (begin, y_top), Anchor::BelowRight, TEXT);
+            page.write(shortened(text, TEXT, space), (begin, y_top), Anchor::BelowRight, TEXT);
             y_top += LINE_OF_TEXT;
         }
         y_top = (y_top + 8.0).round();
@@ -250,5 +287,42 @@ pub fn rows<'a>(
             let row = |moment: usize| several.iter_mut().map(|column| column[moment].take()).collect();
             Ok((0..most).map(row).collect())
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use plateau_core::model::outline::Outline;
+
+    use super::*;
+
+    /// Two maps of the disc below each other and two of the pin beside each other, as `status` has them.
+    fn block(mesh: &Mesh) -> MapBlock<'_> {
+        let section = |shape: Shape, columns: usize| MapSection {
+            title: "disc, 0 s".to_owned(),
+            remark: "none 100, primary 0, secondary 0 %".to_owned(),
+            mesh,
+            shape,
+            cells: vec![0; columns * mesh.rows()],
+        };
+        let disc = || vec![Some(section(Shape::Unrolled, mesh.disc_columns()))];
+        let pin = || Some(section(Shape::of_pin(mesh), mesh.pin_columns()));
+        let group = |rows| MapGroup { rows, palette: vec![RGBColor(0, 0, 0), RGBColor(255, 255, 255)], scale: None };
+        MapBlock {
+            names: vec!["run".to_owned()],
+            groups: vec![group(vec![disc(), disc()]), group(vec![vec![pin(), pin()]])],
+        }
+    }
+
+    #[test]
+    fn the_maps_of_a_round_pin_fit_into_a_page() {
+        // A pin of 10 mm on its ring at 22 mm, in cells of half a millimetre.
+        let mesh = Mesh::new(20, 276, 21, 17e-3, 27e-3).unwrap().with_outline(Outline::Disc { radius: 5e-3 }).unwrap();
+        assert!(fitted(TWO_COLUMNS, &[], &[block(&mesh)], FITS[0]).size[1] > HIGHEST);
+        assert!(page(TWO_COLUMNS, &[], &[block(&mesh)]).size[1] <= HIGHEST);
+        // A page with room for them keeps its maps as large as they are.
+        let small = Mesh::new(8, 100, 16, 20e-3, 24e-3).unwrap();
+        let block = || MapBlock { groups: block(&small).groups.split_off(1), ..MapBlock::default() };
+        assert_eq!(page(TWO_COLUMNS, &[], &[block()]).size, fitted(TWO_COLUMNS, &[], &[block()], FITS[0]).size);
     }
 }

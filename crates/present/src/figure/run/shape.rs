@@ -66,8 +66,9 @@ impl Shape {
         }
     }
 
-    /// The windows in which a body of so many columns is shown.
-    pub fn windows(self, mesh: &Mesh, columns: usize) -> Vec<Window> {
+    /// The windows in which a body of so many columns is shown; those of an unrolled one are `stretch` times as long over their
+    /// height as they mostly are, and so much fewer.
+    pub fn windows(self, mesh: &Mesh, columns: usize, stretch: f64) -> Vec<Window> {
         let width = mesh.column_width() * MILLIMETRES;
         match self {
             Self::Polar => return vec![Window { columns: 0..columns, x: self.y_range(mesh) }],
@@ -79,7 +80,7 @@ impl Shape {
         }
         let [inner, outer] = radii(mesh).map(|radius| radius * MILLIMETRES);
         let elongation = columns as f64 * width / (outer - inner);
-        let count = ((elongation / ELONGATION).round() as usize).clamp(1, MOST_WINDOWS).min(columns);
+        let count = ((elongation / (ELONGATION * stretch)).round() as usize).clamp(1, MOST_WINDOWS).min(columns);
         let begin = |window: usize| window * columns / count;
         let window =
             |columns: Range<usize>| Window { x: columns.start as f64 * width..=columns.end as f64 * width, columns };
@@ -159,19 +160,19 @@ mod tests {
     #[test]
     fn windows_hold_every_column_once() {
         let paper = Mesh::new(80, 2764, 161, 20e-3, 24e-3).unwrap();
-        let windows = Shape::Unrolled.windows(&paper, 2764);
+        let windows = Shape::Unrolled.windows(&paper, 2764, 1.0);
         // By hand: 2π · 22 mm = 138.2 mm over 4 mm is 34.6, of which each window takes about 8.6.
         let bounds: Vec<_> = windows.iter().map(|window| window.columns.clone()).collect();
         assert_eq!(bounds, [0..691, 691..1382, 1382..2073, 2073..2764]);
         assert!((windows[3].x.end() - 138.230_077).abs() < 1e-5);
         let cell = Mesh::new(1, 1, 1, 20e-3, 24e-3).unwrap();
-        assert_eq!(Shape::Unrolled.windows(&cell, 1).len(), 1);
+        assert_eq!(Shape::Unrolled.windows(&cell, 1, 1.0).len(), 1);
     }
 
     #[test]
     fn unrolled_the_outermost_row_is_on_top() {
         let mesh = Mesh::new(2, 3, 1, 1.0, 2.0).unwrap();
-        let window = &Shape::Unrolled.windows(&mesh, 3)[0];
+        let window = &Shape::Unrolled.windows(&mesh, 3, 1.0)[0];
         let picture = Shape::Unrolled.picture(&mesh, window, &[0, 1, 2, 3, 4, 5], &PALETTE, [90, 90]);
         assert_eq!((picture.columns, picture.rows), (3, 2));
         assert_eq!(picture.indices, [1, 3, 5, 0, 2, 4]);
@@ -182,7 +183,7 @@ mod tests {
         // Radii 1 and 3 in the middle of the rows, 2 in the mean: by 1/2 and 3/2 as long as at the mean radius, so that inward the
         // middle two of four quarters have all four columns, and outward of four columns the middle ones and a third of others.
         let mesh = Mesh::new(2, 40, 4, 1e-9, 4.0).unwrap();
-        let window = &Shape::Arcs.windows(&mesh, 4)[0];
+        let window = &Shape::Arcs.windows(&mesh, 4, 1.0)[0];
         let picture = Shape::Arcs.picture(&mesh, window, &[0, 1, 2, 3, 4, 5, 6, 7], &PALETTE, [8, 2]);
         let expected = [[1, 3, 3, 3, 5, 5, 5, 7], [8, 8, 0, 2, 4, 6, 8, 8]];
         assert_eq!(picture.indices, expected.concat());
@@ -192,7 +193,7 @@ mod tests {
     fn from_above_columns_go_round_against_the_clock() {
         // One row of four columns: the quarters of the ring, the first one from the right to the top.
         let mesh = Mesh::new(1, 4, 1, 1e-6, 1.0).unwrap();
-        let window = &Shape::Polar.windows(&mesh, 4)[0];
+        let window = &Shape::Polar.windows(&mesh, 4, 1.0)[0];
         let picture = Shape::Polar.picture(&mesh, window, &[0, 1, 2, 3], &PALETTE, [4, 4]);
         let ground = 8;
         let expected = [[ground, 1, 0, ground], [1, 1, 0, 0], [2, 2, 3, 3], [ground, 2, 3, ground]];

@@ -1,0 +1,26 @@
+//! Options, all of them.
+
+use clap::CommandFactory as _;
+
+use super::*;
+
+/// What a quantity or a number is called in help.
+const NUMBERS: [&str; 10] = ["LENGTH", "LENGTHS", "FORCE", "SPEED", "TIME", "N", "P", "SECONDS", "LINES", "I/N"];
+
+/// Options of a command and those below it that take a number and refuse to look at one below 0.
+fn blind(command: &clap::Command) -> Vec<String> {
+    let named = |argument: &clap::Arg| {
+        argument.get_value_names().is_some_and(|names| names.iter().any(|name| NUMBERS.contains(&name.as_str())))
+    };
+    let options = command.get_opts().filter(|option| option.get_action().takes_values() && named(option));
+    let options = options.filter(|option| !option.is_allow_hyphen_values_set());
+    let own = options.map(|option| format!("{} --{}", command.get_name(), option.get_id()));
+    own.chain(command.get_subcommands().flat_map(blind)).collect()
+}
+
+#[test]
+fn a_negative_number_is_a_value_and_no_option() {
+    assert_eq!(blind(&Arguments::command()), [""; 0]);
+    let refused = Arguments::try_parse_from(["plateau", "new", "a.toml", "--load", "-5 N"]).unwrap_err().to_string();
+    assert!(refused.contains("expected more than 0"), "{refused}");
+}

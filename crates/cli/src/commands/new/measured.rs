@@ -1,0 +1,86 @@
+//! The disc of a scene from a measured surface, or from a profile.
+
+use std::fmt;
+use std::path::Path;
+
+use plateau_core::surface::{Extension, Length};
+use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
+
+use super::{CELL, line};
+use crate::arguments::{ReadArguments, as_options};
+use crate::failure::Failure;
+
+/// The tables of the disc: the file read as it is, levelled, filled where points are missing, and extended by its statistics; of
+/// the profile of a surface with grooves, tiled.
+pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<String, Failure> {
+    let named = |reason: &dyn fmt::Display| Failure::input(format_args!("{}: {reason}", disc.display()));
+    let measured = read(disc, reading).map_err(|reason| named(&reason))?;
+    let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| named(&reason))?, "<-")];
+    lines.extend(reading.keys().into_iter().map(|(key, value)| line(key, value, "<-")));
+    if measured.pitch.is_none() {
+        lines.push(line("pitch", "1 um", "<- the file does not say how far its points are apart"));
+    }
+    lines.extend([String::new(), "[disc.prepare]".to_owned()]);
+    lines.push(line("level", "plane", "form that is taken out: mean, plane, quadratic"));
+    lines.extend(smaller_than_cells(&measured));
+    if measured.heights.iter().any(|height| height.is_nan()) {
+        lines.push(line("fill", "interpolate", "points are missing"));
+    }
+    match measured.profile_lay {
+        Some(Lay::Along | Lay::Across) => {
+            lines.push(line("repeat", true, "the profile again and again, mirrored, where it is too short"));
+        }
+        lay @ (Some(Lay::Isotropic) | None) => {
+            let remark = match lay {
+                Some(_) => "a whole ring with the statistics of the profile in every direction",
+                None => "a whole ring like this patch; or repeat = true for tiles",
+            };
+            lines.push(line("extend", "statistics", remark));
+            lines.push(line("extend_seed", 1, "another seed is another ring of the same kind"));
+        }
+    }
+    lines.push(format!("{:40}# peaks are cut at this height above the mean, as in the paper", "# cutoff = \"3 um\""));
+    Ok(lines.join("\n"))
+}
+
+/// Reads the file; a profile whose lay is not said is asked for it.
+fn read(disc: &Path, reading: &ReadArguments) -> Result<Measured, String> {
+    let found = match surface::read(disc, &reading.options()) {
+        Ok(Measured { profile_lay: None, columns, rows, .. }) if columns == 1 || rows == 1 => {
+            format!("{columns} x {rows} points")
+        }
+        Ok(measured) => return Ok(measured),
+        Err(FileError::Text(TextError::IsProfile { columns, lines })) => format!("{lines} lines of {columns} numbers"),
+        Err(reason) => return Err(format!("{reason}{}", as_options(&reason.to_string()))),
+    };
+    Err(format!(
+        "{found} are a profile, which does not say how the surface goes on beside it: give --profile-lay along for grooves along \
+         sliding, --profile-lay across for grooves across sliding, or --profile-lay isotropic for a surface without a direction; \
+         and --unit and --pitch, if the file does not state them"
+    ))
+}
+
+/// The path of the surface as the scene has it: relative where it is in or below the scene's folder.
+fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
+    let folder = std::path::absolute(scene).ok().and_then(|scene| scene.parent().map(Path::to_owned));
+    let path = std::path::absolute(disc).map_err(|reason| reason.to_string())?;
+    let path = folder.and_then(|folder| path.strip_prefix(folder).ok().map(Path::to_owned)).unwrap_or(path);
+    path.to_str().map(str::to_owned).ok_or_else(|| "its path is not UTF-8, as a scene is: rename it".to_owned())
+}
+
+/// Lines of the scene that read a patch as larger that is smaller than the fewest cells that are needed of it.
+fn smaller_than_cells(measured: &Measured) -> Vec<String> {
+    let Measured { columns, rows, pitch, profile_lay, .. } = *measured;
+    let Some([x, y]) = pitch else { return Vec::new() };
+    let (least, fewest) = match profile_lay {
+        Some(Lay::Along | Lay::Across) => (columns as f64 * x, 1),
+        Some(Lay::Isotropic) => (columns as f64 * x, Extension::FEWEST_CELLS),
+        None => ((columns as f64 * x).min(rows as f64 * y), Extension::FEWEST_CELLS),
+    };
+    if least >= fewest as f64 * CELL * 1e-6 {
+        return Vec::new();
+    }
+    let cells = if fewest == 1 { "a cell".to_owned() } else { format!("{fewest} cells") };
+    let remark = format!("<- the patch is {} wide, less than {cells}: read it as larger,", Length(least));
+    vec![line("pixel", format!("{CELL} um"), &remark), format!("{:40}# or leave this out and take smaller cells", "")]
+}

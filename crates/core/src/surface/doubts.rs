@@ -1,0 +1,125 @@
+//! What of a patch can hardly be meant, or is too little to go by.
+
+use super::{Body, Length, Patch};
+use crate::model::mesh::Mesh;
+
+/// Distances of points that are not wondered at, m: of atoms, and of what a coordinate measuring machine probes.
+const PITCHES: [f64; 2] = [0.1e-9, 1e-3];
+/// Fewest points that are not warned of: of so many the rms height is known to 7 % at best.
+const FEW: usize = 100;
+/// Heights that differ by less than this part of the largest differ by rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// What a patch that is to become heights of `body` is warned of; `missing` of its points had no height before they were filled.
+pub(super) fn doubts(patch: &Patch, missing: usize, body: Body, mesh: &Mesh) -> Vec<String> {
+    let few = few_points(patch, missing);
+    odd_pitch(patch, body, mesh).into_iter().chain(few).map(|doubt| format!("warning: {doubt}")).collect()
+}
+
+/// Of a line of points the pitch across it is nobody's measure.
+fn odd_pitch(patch: &Patch, body: Body, mesh: &Mesh) -> Option<String> {
+    let axes = [(patch.columns, patch.column_pitch), (patch.rows, patch.row_pitch)];
+    let pitches = axes.into_iter().filter(|(points, _)| *points > 1).map(|(_, pitch)| pitch);
+    let (least, largest) = pitches
+        .fold((f64::INFINITY, 0.0), |(least, largest): (f64, f64), pitch| (least.min(pitch), largest.max(pitch)));
+    let (pitch, bound) = if largest > body.length(mesh) {
+        (largest, format!("the whole {} is {} long", body.name(), Length(body.length(mesh))))
+    } else if largest > PITCHES[1] {
+        (largest, format!("expected at most {}", Length(PITCHES[1])))
+    } else if least < PITCHES[0] {
+        (least, format!("expected at least {}", Length(PITCHES[0])))
+    } else {
+        return None;
+    };
+    Some(format!(
+        "the points are {} apart, {bound}: check the unit of pixel or pitch, or that of the file",
+        Length(pitch)
+    ))
+}
+
+/// The rms height of N unrelated normal heights has the relative standard error 1/√(2N); related ones tell less.
+fn few_points(patch: &Patch, missing: usize) -> Option<String> {
+    let points = patch.heights.len() - missing;
+    let size = format!("{} x {} points", patch.columns, patch.rows);
+    let measured = if missing > 0 { format!("{size}, {points} of them with a height") } else { size };
+    let error = 100.0 / (2.0 * points as f64).sqrt();
+    (points < FEW).then(|| {
+        format!(
+            "the patch has {measured}, which tell its rms height to no better than {error:.0} %: expected {FEW} or more"
+        )
+    })
+}
+
+/// Warns of heights of the body that are all equal, but for rounding of heights as large as `largest`, m.
+pub(super) fn flat(heights: &[f64], largest: f64, patch: &Patch, body: Body) -> Option<String> {
+    let (lowest, highest) = heights
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(*height), high.max(*height)));
+    (highest - lowest <= ROUNDING * largest).then(|| {
+        format!(
+            "warning: all heights of the {} are equal, it is flat: the patch of {} x {} points has nothing else after the steps \
+             above",
+            body.name(),
+            patch.columns,
+            patch.rows
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn patch(columns: usize, rows: usize, pitch: f64) -> Patch {
+        Patch { columns, rows, column_pitch: pitch, row_pitch: pitch, heights: vec![0.0; columns * rows] }
+    }
+
+    /// A ring of 138.2 mm by 4 mm with a pin of 8 mm.
+    fn of(patch: &Patch, missing: usize, body: Body) -> Vec<String> {
+        let mesh = Mesh::new(80, 2765, 160, 20e-3, 24e-3).unwrap();
+        doubts(patch, missing, body, &mesh)
+    }
+
+    #[test]
+    fn few_points_are_warned_of_with_the_error_that_they_leave() {
+        assert_eq!(of(&patch(10, 10, 1e-6), 0, Body::Disc), [""; 0]);
+        // 1/√(2·4) = 0.354.
+        let warnings = of(&patch(2, 2, 1e-6), 0, Body::Disc);
+        assert_eq!(warnings.len(), 1);
+        assert!(
+            warnings[0]
+                .starts_with("warning: the patch has 2 x 2 points, which tell its rms height to no better than 35 %")
+        );
+        // Of 120 points 20 are left: 1/√40 = 0.158.
+        let warnings = of(&patch(12, 10, 1e-6), 100, Body::Disc);
+        assert!(warnings[0].contains("20 of them with a height") && warnings[0].contains("16 %"), "{warnings:?}");
+    }
+
+    #[test]
+    fn a_pitch_of_another_unit_is_warned_of() {
+        for (pitch, body, bound) in [
+            (0.2, Body::Disc, "the points are 200 mm apart, the whole ring is 138.2 mm long"),
+            (10e-3, Body::Pin, "the points are 10 mm apart, the whole pin is 7.999 mm long"),
+            (2e-3, Body::Disc, "the points are 2 mm apart, expected at most 1 mm"),
+            (5e-11, Body::Disc, "the points are 0.05 nm apart, expected at least 0.1 nm"),
+        ] {
+            let warnings = of(&patch(20, 20, pitch), 0, body);
+            assert!(warnings[0].contains(bound), "{warnings:?}");
+        }
+        // The one column of a profile is as long as the ring.
+        let profile = Patch { column_pitch: 0.1382, ..patch(1, 200, 1e-6) };
+        assert_eq!(of(&profile, 0, Body::Disc), [""; 0]);
+    }
+
+    #[test]
+    fn heights_that_differ_by_rounding_are_flat() {
+        let patch = patch(2, 2, 1e-6);
+        assert!(
+            flat(&[1e-17, -1e-17], 1e-3, &patch, Body::Disc)
+                .unwrap()
+                .starts_with("warning: all heights of the ring are equal")
+        );
+        assert_eq!(flat(&[1e-9, -1e-9], 1e-3, &patch, Body::Disc), None);
+        assert!(flat(&[0.0, 0.0], 0.0, &patch, Body::Disc).is_some());
+    }
+}
