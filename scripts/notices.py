@@ -49,7 +49,7 @@ def main():
     wanted = built_in(sys.argv[1:])
     version = subprocess.run(["rustc", "-vV"], stdout=subprocess.PIPE, check=True, text=True).stdout
     host = next(line.removeprefix("host: ") for line in version.splitlines() if line.startswith("host: "))
-    metadata = json.loads(cargo("metadata", "--format-version", "1", "--filter-platform", host))
+    metadata = json.loads(cargo("metadata", "--format-version", "1", "--filter-platform", host, *sys.argv[1:]))
     crates = [crate for crate in metadata["packages"] if (crate["name"], "v" + crate["version"]) in wanted]
     if len(crates) < len(wanted):
         sys.exit(f"{len(wanted) - len(crates)} of {len(wanted)} crates are not where cargo says")
