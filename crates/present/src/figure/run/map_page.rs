@@ -11,7 +11,7 @@ use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, TEXT, TITLE};
 use crate::figure::chart::{MARGIN, Meaning, TWO_COLUMNS, legend};
 use crate::figure::colour_bar::ColourBar;
-use crate::figure::font::shortened;
+use crate::figure::font::{shortened, text_width};
 use crate::figure::page::{Content, LINE_OF_TEXT, Page, Panel};
 
 /// Maps beside each other, at most.
@@ -204,8 +204,10 @@ impl MapSection<'_> {
             let picture =
                 self.shape.picture(self.mesh, &window, &self.cells, palette, [wide as usize, height as usize]);
             let below = x.room_below();
+            // What the axis measures may be wider than the map.
+            let words_end = 0.5 * (begin.round() + frame_end + text_width(&x.label, TEXT));
             page.panels.push(Panel { axes: Axes { frame, x, y }, contents: vec![Content::Map(picture)] });
-            box_end = [box_end[0].max(frame_end), y_top + height];
+            box_end = [box_end[0].max(frame_end).max(words_end), y_top + height];
             y_top = box_end[1] + below + BELOW;
         }
         let beside = left + 1.1 * f64::from(TEXT);

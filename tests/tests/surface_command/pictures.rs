@@ -1,0 +1,74 @@
+//! The pictures of `plateau surface --plot`.
+
+use std::fs;
+
+use plateau_tests::figure::Figure;
+use plateau_tests::program::WorkingDirectory;
+
+use super::{picture, small_sdf};
+
+#[test]
+fn a_picture_shows_the_map_the_histogram_and_the_curve() {
+    let directory = WorkingDirectory::new();
+    // Four quarters: low, high, missing, high; larger than the smallest map.
+    let quarter = |x: usize, y: usize| match (x < 30, y < 30) {
+        (true, true) => "0 ",
+        (true, false) => "BAD ",
+        _ => "1 ",
+    };
+    let lines: String = (0..60).map(|y| (0..60).map(|x| quarter(x, y)).collect::<String>() + "\n").collect();
+    let header = small_sdf().replace("NumPoints = 4", "NumPoints = 60").replace("NumProfiles = 3", "NumProfiles = 60");
+    let (header, _) = header.split_once("*\n").expect("a header");
+    directory.write("quarters.sdf", format!("{header}*\n{lines}*\n"));
+    directory.plateau(["surface", "quarters.sdf", "--level", "none", "--plot", "out.png"]).quiet_success();
+    let image = picture(&directory, "out.png");
+    // Ends of the colour map viridis (its authors' table), and the grey of missing points.
+    let (low, high, missing) = ([68, 1, 84], [253, 231, 37], [0xbd; 3]);
+    let places = |colour: [u8; 3]| {
+        let places = image.enumerate_pixels().filter(|(_, _, pixel)| pixel.0 == colour).map(|(x, y, _)| [x, y]);
+        places.fold(([u32::MAX; 2], [0; 2], 0_u32), |(first, last, count), [x, y]| {
+            ([first[0].min(x), first[1].min(y)], [last[0].max(x), last[1].max(y)], count + 1)
+        })
+    };
+    let [(_, low_end, low_count), (_, _, high_count), (missing_start, _, missing_count)] =
+        [low, high, missing].map(places);
+    // The map is 280 by 700 pixels or larger (points 2 µm by 5 µm apart); a quarter of it each, half high; the missing one
+    // is above the low one, for y grows upward.
+    assert!(low_count > 40_000 && missing_count > 40_000 && high_count > 80_000, "{low_count} {missing_count}");
+    assert!((f64::from(low_count) / f64::from(missing_count) - 1.0).abs() < 0.1);
+    assert!((f64::from(high_count) / f64::from(low_count) - 2.0).abs() < 0.2);
+    assert!(missing_start[1] < low_end[1] / 2, "{missing_start:?} {low_end:?}");
+    // Axes and letters; the two bars of the histogram, one of its 64 classes of 430 pixels each, less their outlines.
+    for (colour, least) in [([0x22; 3], 5_000), ([0x9d, 0xbf, 0xd6], 1_000)] {
+        assert!(places(colour).2 > least, "{colour:?}: {}", places(colour).2);
+    }
+    // Nothing but white at the edge: no label is cut off.
+    let edge = image
+        .enumerate_pixels()
+        .filter(|(x, y, _)| *x == 0 || *y == 0 || *x == image.width() - 1 || *y == image.height() - 1);
+    assert!(edge.into_iter().all(|(_, _, pixel)| pixel.0 == [255; 3]));
+}
+
+#[test]
+fn pictures_have_the_format_of_their_ending() {
+    let directory = WorkingDirectory::new();
+    directory.write("small.sdf", small_sdf());
+    let micrograph = plateau_tests::program::scene("micrograph.toml");
+    for ending in ["png", "svg", "PDF"] {
+        let (plot, preview) = (format!("plot.{ending}"), format!("preview.{ending}"));
+        directory.plateau(["surface", "small.sdf", "--plot", &plot]).quiet_success();
+        directory.plateau(["surface", "--prepare", &micrograph, "--preview", &preview]).quiet_success();
+        for name in [plot, preview] {
+            let content = fs::read(directory.path(&name)).unwrap();
+            match ending {
+                "png" => assert!(content.starts_with(b"\x89PNG"), "{name}"),
+                "svg" => {
+                    let figure = Figure::read(&String::from_utf8(content).unwrap());
+                    let pictures = figure.images.iter().filter(|(_, picture)| picture.width() > 1);
+                    assert!(pictures.count() > 0 && !figure.texts.is_empty(), "{name}");
+                }
+                _ => assert!(content.starts_with(b"%PDF-") && content.trim_ascii_end().ends_with(b"%%EOF"), "{name}"),
+            }
+        }
+    }
+}
