@@ -83,11 +83,12 @@ case $* in
 esac
 for package; do :; done
 case $package in
-    cmake*) printf '#!/bin/sh\necho cmake version 4.4.4\n' >"$venv/bin/cmake" ;;
-    ninja) printf '#!/bin/sh\necho 1.13\n' >"$venv/bin/ninja" ;;
-    *) exit 0 ;;
+    */build-requirements.txt)
+        printf '#!/bin/sh\necho cmake version 4.4.4\n' >"$venv/bin/cmake"
+        printf '#!/bin/sh\necho 1.13\n' >"$venv/bin/ninja"
+        chmod +x "$venv/bin/cmake" "$venv/bin/ninja"
+        ;;
 esac
-chmod +x "$venv/bin/$package" 2>/dev/null || chmod +x "$venv/bin/cmake"
 PYTHON
         chmod +x "$venv/bin/python"
         ;;
@@ -261,7 +262,8 @@ set_up
 rm "$tools/make"
 launch "$checkout/plateau"
 expect 'no make' "$(tail -n 1 "$calls" | sed 's/ build --release.*//') $(ls "$checkout/.venv-build/bin")" \
-    "cargo CMAKE= CMAKE_GENERATOR=Ninja ninja
+    "cargo CMAKE= CMAKE_GENERATOR=Ninja cmake
+ninja
 python"
 
 set_up
