@@ -6,7 +6,6 @@ mod body;
 mod coverage;
 mod crop;
 pub mod describe;
-mod doubts;
 mod extend;
 mod fft;
 mod fft_lines;
@@ -30,6 +29,7 @@ mod slope_outliers;
 mod straighten;
 mod synthesis;
 mod unroll;
+mod warnings;
 
 pub use base::{fibre_fraction, set_back_resin};
 pub use body::Body;

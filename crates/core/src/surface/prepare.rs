@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 
 use super::crop::Crop;
-use super::doubts::{doubts, flat};
 use super::extend::{Extension, extend, take_out_plane};
 use super::flip::{Flip, reverse_along};
 use super::gaussian_filter::filter;
@@ -16,6 +15,7 @@ use super::rotate::Turn;
 use super::slope_outliers::remove_slope_outliers;
 use super::straighten::straighten;
 use super::unroll::Unroll;
+use super::warnings::{flat, warnings};
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
@@ -162,7 +162,7 @@ impl Preparation {
         let (mut heights, patch) = if on_mesh {
             (patch.heights, None)
         } else {
-            report.extend(doubts(&patch, missing, body, mesh));
+            report.extend(warnings(&patch, missing, body, mesh));
             let heights = self.onto_mesh(&patch, body, mesh, &mut report)?;
             report.extend(flat(&heights, largest, &patch, body));
             (heights, Some(patch))

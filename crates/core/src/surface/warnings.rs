@@ -11,9 +11,9 @@ const FEW: usize = 100;
 const ROUNDING: f64 = 1e-12;
 
 /// What a patch that is to become heights of `body` is warned of; `missing` of its points had no height before they were filled.
-pub(super) fn doubts(patch: &Patch, missing: usize, body: Body, mesh: &Mesh) -> Vec<String> {
+pub(super) fn warnings(patch: &Patch, missing: usize, body: Body, mesh: &Mesh) -> Vec<String> {
     let few = few_points(patch, missing);
-    odd_pitch(patch, body, mesh).into_iter().chain(few).map(|doubt| format!("warning: {doubt}")).collect()
+    odd_pitch(patch, body, mesh).into_iter().chain(few).map(|warning| format!("warning: {warning}")).collect()
 }
 
 /// Of a line of points the pitch across it is nobody's measure.
@@ -77,7 +77,7 @@ mod tests {
     /// A ring of 138.2 mm by 4 mm with a pin of 8 mm.
     fn of(patch: &Patch, missing: usize, body: Body) -> Vec<String> {
         let mesh = Mesh::new(80, 2765, 160, 20e-3, 24e-3).unwrap();
-        doubts(patch, missing, body, &mesh)
+        warnings(patch, missing, body, &mesh)
     }
 
     #[test]
