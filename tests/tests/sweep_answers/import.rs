@@ -88,10 +88,39 @@ fn measured_responses_are_analysed_without_a_scene() {
         assert!((found - published).abs() < 0.01, "{found} {published}");
     }
     assert!((best["desirability"].as_f64().unwrap() - 0.583).abs() < 0.0006);
+    // One factor less to look at has no contour: that of the call before does not stay beside the new profiler.
+    assert!(directory.path("results/optimum/contour.png").is_file());
+    let held = ["--maximize", "abrasion", "--hold", "silica=0", "--hold", "silane=0"];
+    let said = refused(&directory, "optimize", &held);
+    assert!(said.contains("results/optimum has the files of an earlier call; give --force to replace them"), "{said}");
+    ask(&directory, "optimize", &held);
+    assert!(!directory.path("results/optimum/contour.png").exists());
+    let said = refused(&directory, "effects", &[]);
+    assert!(said.contains("results/effects has the files of an earlier call; give --force"), "{said}");
     let collected = ask(&directory, "collect", &[]);
     assert_eq!((collected["finished"].as_u64(), collected["missing"].as_u64()), (Some(20), Some(0)));
     let table = rows(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
     assert_eq!((table.len(), number(&table[3], "modulus")), (20, 2294.0));
+}
+
+#[test]
+fn results_that_are_collected_replace_what_was_collected_and_nothing_else() {
+    let directory = rubber();
+    ask(&directory, "import", &["rubber.csv"]);
+    ask(&directory, "collect", &[]);
+    ask(&directory, "collect", &[]);
+    // The lab's own table has the name that the results would have.
+    fs::create_dir(directory.path("lab")).unwrap();
+    directory.write("lab/results.csv", RUBBER);
+    let said = refused(&directory, "collect", &["-o", "lab"]);
+    assert!(said.contains("lab/results.csv exists; give --force to replace it"), "{said}");
+    // It is the points of the study: not even with --force.
+    let study = fs::read_to_string(directory.path("study.toml")).unwrap();
+    directory.write("study.toml", study.replace("rubber.csv", "lab/results.csv"));
+    let said = refused(&directory, "collect", &["-o", "lab", "--force"]);
+    assert!(said.contains("lab/results.csv is an input and is not replaced"), "{said}");
+    assert_eq!(fs::read_to_string(directory.path("lab/results.csv")).unwrap(), RUBBER);
+    assert!(!directory.path("lab/results.h5").exists());
 }
 
 #[test]

@@ -76,7 +76,10 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         problems.push(Problem::new(&Origin::File(place.file.clone()), "directory", "\"\", expected a folder"));
     }
     let Some(source) = source.filter(|_| problems.is_empty()) else { return Err(problems) };
+    let mut files = vec![path.to_owned()];
+    files.extend(document.file.iter().map(|file| folder.join(file.get_ref())));
     Ok(Study {
+        files,
         title: document.title.unwrap_or(stem),
         path: path.to_owned(),
         base: document.base.map(|base| folder.join(base.get_ref())),

@@ -265,6 +265,12 @@ impl Collected {
     }
 }
 
+/// Whether a file is one that was collected from a study.
+pub fn is_collected(path: &Path) -> bool {
+    let has = |file: &hdf5::File, name: &str| file.attr(name).is_ok();
+    path.is_file() && hdf5::File::open(path).is_ok_and(|file| has(&file, "design") && has(&file, "collected"))
+}
+
 /// Where runs have samples at different times.
 const TIME_OF_SAMPLE: &str = "sample_time";
 

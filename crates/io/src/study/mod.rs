@@ -53,6 +53,8 @@ pub struct Study {
     pub title: String,
     /// The study file.
     pub path: PathBuf,
+    /// The study file and the tables that it names; scenes and what they read are not among them.
+    pub files: Vec<PathBuf>,
     /// The scene that is varied; none of a study whose responses are all imported.
     pub base: Option<PathBuf>,
     /// Where results are kept.

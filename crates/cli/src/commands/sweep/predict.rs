@@ -16,6 +16,7 @@ use super::prediction_table;
 use crate::arguments::PredictArguments;
 use crate::failure::Failure;
 use crate::output;
+use crate::sweep;
 use crate::sweep::confirmation::{Confirmed, confirm};
 use crate::table::{columns, print};
 
@@ -27,7 +28,7 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.output {
         output::check(path, arguments.force, std::slice::from_ref(&arguments.study))?;
     }
-    let analysed = Analysed::of(&arguments.study, arguments.fit.asked())?;
+    let analysed = Analysed::of(sweep::plan(&arguments.study)?, arguments.fit.asked())?;
     let confidence = arguments.fit.confidence;
     let places = places(&analysed, arguments)?;
     refuse_beyond(&places, arguments.extrapolate)?;
