@@ -164,7 +164,15 @@ fn what_cannot_be_fitted_is_refused() {
     let plain = "[[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\nat = \"end\"\n";
     refused(&[LOAD, plain], "nothing was measured");
     let levels = "[[factor]]\nkey = \"operation.normal_force\"\nlevels = [\"4 N\", \"12 N\"]\n";
-    refused(&[levels, &worn(7.0, 0.02)], "has levels; a fit looks for values between two ends");
+    let expected = "factor \"operation.normal_force\" (operation.normal_force) has levels, and a fit looks for numbers between \
+                    two ends: give range = [lower, upper] in place of levels";
+    refused(&[levels, &worn(7.0, 0.02)], expected);
+    let words =
+        "[[factor]]\nname = \"rule\"\nkey = \"plateaus.debris\"\nlevels = [\"contact\", \"track\", \"local\"]\n";
+    let expected = "factor \"rule\" (plateaus.debris) has levels, and a fit looks for numbers between two ends: these are words, \
+                    \"contact\", \"track\", \"local\". Make one study for each word, with set = \
+                    [\"plateaus.debris='contact'\"]";
+    refused(&[LOAD, words, &worn(7.0, 0.02)], expected);
     refused(&[LOAD, plain, "measured = 2e-12\n"], "measured and uncertainty belong together");
     refused(&[LOAD, plain, "measured = \"2 mm^2\"\nuncertainty = 1e-13\n"], "it is an area, expected a number in m3");
     refused(&[LOAD, plain, "measured = \"much\"\nuncertainty = 1e-13\n"], "it does not start with a number");

@@ -124,6 +124,39 @@ fn results_that_are_collected_replace_what_was_collected_and_nothing_else() {
 }
 
 #[test]
+fn intervals_end_where_an_area_cannot_be() {
+    let directory = WorkingDirectory::new();
+    let response = |name: &str, unit: &str| format!("[[response]]\nname = \"{name}\"\nimported = true\n{unit}");
+    let factor = "[[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\n";
+    let head = "version = 1\ntitle = \"Spots\"\ndesign = \"csv\"\nfile = \"spots.csv\"\ndirectory = \"results\"\n";
+    let responses = [response("spots", "unit = \"m2\"\n"), response("shift", "")].concat();
+    directory.write("study.toml", format!("{head}{factor}{responses}"));
+    // The same numbers as an area in mm² and as a number of which nothing is known.
+    let spots = [(0.2, 0.0), (0.2, 0.1), (0.2, 1.2), (0.4, 3.0), (0.4, 5.0), (0.4, 5.5)];
+    let lines = spots.map(|(fibres, spots)| format!("{fibres},{spots}e-6,{spots}\n"));
+    directory.write("spots.csv", format!("fibres,spots [m2],shift\n{}", lines.concat()));
+    ask(&directory, "import", &["spots.csv"]);
+    let predicted = ask(&directory, "predict", &["--at", "fibres=0.2", "--model", "main"]);
+    let interval = |at: usize, which: &str| {
+        [0, 1].map(|end| predicted["places"][0]["responses"][at][which][end].as_f64().expect("an end"))
+    };
+    for which in ["mean_interval", "run_interval"] {
+        let ([low, high], [free_low, free_high]) = (interval(0, which), interval(1, which));
+        assert!(low == 0.0 && free_low < 0.0 && (high * 1e6 / free_high - 1.0).abs() < 1e-9, "{predicted}");
+    }
+    let text = directory.plateau(["sweep", "predict", "study.toml", "--at", "fibres=0.2", "--model", "main"]);
+    let note = "  spots: the interval is cut at 0, for less cannot be; transform = \"log\" keeps to what can be\n";
+    assert!(text.stdout.contains(note) && !text.stdout.contains("shift: the interval"), "{text:?}");
+    ask(&directory, "effects", &["--model", "main"]);
+    let page = fs::read_to_string(directory.path("results/effects/effects.html")).unwrap();
+    assert_eq!(
+        page.matches("They end where a response cannot be").count(),
+        2,
+        "below one figure, and as its description"
+    );
+}
+
+#[test]
 fn tables_that_fit_no_point_are_refused_by_line() {
     let directory = rubber();
     let head = RUBBER.lines().next().unwrap();

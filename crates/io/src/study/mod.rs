@@ -13,6 +13,7 @@
 //!                results_table  all of them as text, a line for each run
 //! ```
 
+pub mod bounds;
 mod build;
 pub mod collected;
 mod document;

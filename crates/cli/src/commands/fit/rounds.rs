@@ -91,14 +91,10 @@ impl Task {
             }
             Values::Levels(_) => None,
         };
-        let keys = study.factors.iter().map(|factor| {
-            key(factor).ok_or_else(|| {
-                let name = &factor.name;
-                Failure::input(format_args!(
-                    "{at}: factor \"{name}\" has levels; a fit looks for values between two ends: range = [lower, upper]"
-                ))
-            })
-        });
+        let keys = study
+            .factors
+            .iter()
+            .map(|factor| key(factor).ok_or_else(|| Failure::input(format_args!("{at}: {}", not_a_range(factor)))));
         Ok(Self {
             keys: keys.collect::<Result<_, _>>()?,
             responses: measured.iter().map(|(at, _)| *at).collect(),
@@ -132,6 +128,28 @@ impl Task {
             }
             error => Failure::input(format_args!("{}: {error}", study.path.display())),
         })
+    }
+}
+
+/// Why a factor with levels is not fitted, and what to do.
+fn not_a_range(factor: &Factor) -> String {
+    let (name, keys) = (&factor.name, factor.keys.join(", "));
+    let said = format!("factor \"{name}\" ({keys}) has levels, and a fit looks for numbers between two ends");
+    match &factor.values {
+        Values::Levels(levels) if levels.iter().any(|level| level.number.is_none()) => {
+            let levels: Vec<&str> = levels.iter().map(|level| level.text.as_str()).collect();
+            let first = levels.first().copied().unwrap_or_default().replace('"', "'");
+            format!(
+                "{said}: these are words, {}. Make one study for each word, with set = [\"{}={first}\"] in place of this \
+                 factor, fit each, and compare what they say of the misfit: the word with the least misfit fits best",
+                levels.join(", "),
+                factor.keys[0]
+            )
+        }
+        _ if factor.is_whole() => {
+            format!("{said}: this key holds whole numbers; make one study for each number, and compare the misfits")
+        }
+        _ => format!("{said}: give range = [lower, upper] in place of levels"),
     }
 }
 

@@ -15,7 +15,9 @@ use serde::Serialize;
 
 use super::analysed::Analysed;
 use super::effects_files::{draw_all, names_of};
-use super::predict::{ForecastReport, SettingReport, confirmed_text, forecasts_of, reasons, settings_of};
+use super::predict::{
+    ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, reasons, settings_of,
+};
 use crate::arguments::OptimizeArguments;
 use crate::failure::Failure;
 use crate::output_folder::OutputFolder;
@@ -221,7 +223,7 @@ fn text_of(
         Some(cells)
     };
     let rows: Vec<Vec<String>> = forecasts.iter().enumerate().filter_map(line).collect();
-    columns(&heading, &names, &rows) + &reasons(analysed)
+    columns(&heading, &names, &rows) + &reasons(analysed) + &notes_of_bounds(analysed, forecasts)
 }
 
 /// A goal in words.

@@ -174,7 +174,14 @@ fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], c
         cells
     };
     let rows: Vec<Vec<String>> = analysed.analysis.responses.iter().zip(forecasts).map(line).collect();
-    columns(&heading, &names, &rows) + &reasons(analysed)
+    columns(&heading, &names, &rows) + &reasons(analysed) + &notes_of_bounds(analysed, forecasts)
+}
+
+/// Which intervals are cut where a response cannot be, a line for each.
+pub(super) fn notes_of_bounds(analysed: &Analysed, forecasts: &[Option<Forecast>]) -> String {
+    let each = analysed.analysis.responses.iter().zip(forecasts);
+    each.filter_map(|(response, forecast)| Some(format!("  {}\n", response.note_of_bounds(forecast.as_ref()?)?)))
+        .collect()
 }
 
 /// Why a response is forecast by what it is, a line for each of which there was a choice.
