@@ -6,6 +6,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use plateau_present::figure::{Figure, Format};
+
 use crate::failure::Failure;
 use crate::output;
 
@@ -79,6 +81,12 @@ impl OutputFolder {
     pub fn files(&self) -> &[String] {
         &self.files
     }
+}
+
+/// Names of the files of figures.
+pub fn names_of<'a>(figures: impl Iterator<Item = &'a Figure>) -> Vec<String> {
+    let name = |figure: &'a Figure| Format::ALL.map(|format| format!("{}.{}", figure.name, format.ending()));
+    figures.flat_map(name).collect()
 }
 
 /// Names of the files that an earlier call wrote; none where there is no list of them.

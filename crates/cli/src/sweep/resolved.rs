@@ -22,7 +22,7 @@ pub struct Resolved {
     pub firsts: Vec<usize>,
     /// Its steps.
     pub steps: Vec<u64>,
-    /// The files that the scenes read, those of the scenes among them.
+    /// The files of the scenes, and those that they read.
     pub files: BTreeSet<PathBuf>,
 }
 
@@ -56,13 +56,9 @@ impl Resolved {
             (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
             let (known, files): (Vec<(String, u64)>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
+            let files = files.into_iter().flatten().chain(digests.files()).collect();
             let (identities, steps): (Vec<String>, Vec<u64>) = known.into_iter().unzip();
-            return Ok(Self {
-                firsts: firsts(&identities),
-                identities,
-                steps,
-                files: files.into_iter().flatten().collect(),
-            });
+            return Ok(Self { firsts: firsts(&identities), identities, steps, files });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();

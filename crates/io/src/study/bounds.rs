@@ -59,7 +59,7 @@ impl Response {
         match self.question {
             Question::Imported(unit) if NOT_NEGATIVE_ELSEWHERE.contains(&unit) => Bounds::NOT_NEGATIVE,
             Question::Imported(_) => Bounds::NONE,
-            Question::Reaches(_) => Bounds::NOT_NEGATIVE,
+            Question::Reaches(_) | Question::Measured(_) => Bounds::NOT_NEGATIVE,
             _ if FRACTIONS.contains(&name) => Bounds::FRACTION,
             _ if NOT_NEGATIVE.contains(&name) => Bounds::NOT_NEGATIVE,
             _ if NOT_NEGATIVE_UNITS.contains(&unit_of(&self.series)) => Bounds::NOT_NEGATIVE,

@@ -4,6 +4,7 @@
 //! study file     document       the text
 //!                build          what its keys say together -> Study
 //!                measured       what was measured of the responses
+//!                measured_series  a series of it, from a table
 //!                plan           the design, its points and replicates -> the runs, each a list of --set arguments
 //! results        identity       what a result is the result of
 //!                record         what is kept of a run
@@ -22,6 +23,7 @@ pub mod identity;
 pub mod imported;
 pub mod journal;
 pub mod measured;
+pub mod measured_series;
 mod place;
 pub mod plan;
 mod points_of_file;

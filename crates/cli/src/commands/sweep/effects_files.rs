@@ -6,7 +6,7 @@ use plateau_present::report::{Picture, Pictures, StudyPage, effects_page};
 
 use super::analysed::Analysed;
 use crate::failure::Failure;
-use crate::output_folder::OutputFolder;
+use crate::output_folder::{OutputFolder, names_of};
 use crate::version;
 
 /// The table.
@@ -44,12 +44,6 @@ pub fn write(folder: &mut OutputFolder, analysed: &Analysed, table: &str) -> Res
     let program = version::program();
     let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures, program: &program });
     folder.write(PAGE, page.as_bytes())
-}
-
-/// Names of the files of figures.
-pub fn names_of<'a>(figures: impl Iterator<Item = &'a Figure>) -> Vec<String> {
-    let name = |figure: &'a Figure| Format::ALL.map(|format| format!("{}.{}", figure.name, format.ending()));
-    figures.flat_map(name).collect()
 }
 
 /// Draws figures, each in a thread of its own: there are as many as a response has, and most of the time is theirs.

@@ -14,13 +14,13 @@ use plateau_study::surrogate::{Forecast, Surrogate};
 use serde::Serialize;
 
 use super::analysed::Analysed;
-use super::effects_files::{draw_all, names_of};
+use super::effects_files::draw_all;
 use super::predict::{
     ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, reasons, settings_of,
 };
 use crate::arguments::OptimizeArguments;
 use crate::failure::Failure;
-use crate::output_folder::OutputFolder;
+use crate::output_folder::{OutputFolder, names_of};
 use crate::sweep::confirmation::{Confirmed, confirm};
 use crate::table::{columns, print};
 use crate::{message, sweep};

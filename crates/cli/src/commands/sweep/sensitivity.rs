@@ -15,13 +15,12 @@ use plateau_study::surrogate::{Surrogate, choose};
 
 use super::analysed::analysable;
 use super::collect::Found;
-use super::effects_files::names_of;
 use super::sensitivity_document::{self, Known, Told};
 use crate::arguments::SensitivityArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::number;
-use crate::output_folder::OutputFolder;
+use crate::output_folder::{OutputFolder, names_of};
 use crate::sweep;
 use crate::table::{columns, print, table};
 
