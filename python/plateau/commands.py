@@ -193,7 +193,12 @@ def collect(study: Path) -> Study:
 
 
 def effects(
-    study: Path, *, model: str | None = None, confidence: float | None = None, output: Path | None = None
+    study: Path,
+    *,
+    model: str | None = None,
+    confidence: float | None = None,
+    output: Path | None = None,
+    force: bool = False,
 ) -> Effects:
     """Tells what the factors of a study do to its responses.
 
@@ -207,6 +212,8 @@ def effects(
         Confidence level of intervals, 0.95 unless given.
     output : path, optional
         Folder for tables, figures and the page.
+    force : bool, optional
+        Replace the files of an earlier call in that folder.
 
     Returns
     -------
@@ -224,6 +231,8 @@ def effects(
     for flag, value in (("--model", model), ("--confidence", confidence), ("--output", output)):
         if value is not None:
             arguments += [flag, str(value)]
+    if force:
+        arguments.append("--force")
     document = call(arguments, progress=False)
     table = read_table(document["files"][0]).set_index(["response", "term"])
     return Effects(table, document["responses"], document["files"])

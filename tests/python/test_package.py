@@ -223,6 +223,9 @@ class Studies(InFolder):
         self.assertEqual(made.table["worn [m3]"].tolist(), [float(row["worn [m3]"]) for row in rows])
         np.testing.assert_array_equal(made.table["worn [m3]"], made.data["worn"].values)
         found = plateau.effects("study.toml", model="main", confidence=0.9, output="effects")
+        with self.assertRaisesRegex(plateau.InputError, "--force"):
+            plateau.effects("study.toml", output="effects")
+        self.assertEqual(plateau.effects("study.toml", model="main", confidence=0.9, output="effects", force=True).files, found.files)
         self.assertEqual(found.files[0], "effects/effects.csv")
         [response] = found.responses
         self.assertEqual((response["name"], response["unit"], response["model"]), ("worn", "m3", "main"))

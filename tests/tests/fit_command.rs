@@ -153,6 +153,83 @@ fn runs_of_a_sweep_are_the_first_of_a_fit() {
 }
 
 #[test]
+fn a_load_is_found_from_a_series_of_what_it_wore() {
+    // Worn volumes after 1, 2 and 3 s, each known to 3 % of the last one.
+    let volumes = [1.0, 2.0, 3.0].map(|time| 7.0 * DISTANCE * WEAR_RATE * 1e9 * time / 3.0);
+    let uncertainty = 0.03 * volumes[2];
+    let table = |volumes: [f64; 3]| {
+        let line = |(time, volume): (usize, f64)| format!("{},{volume},{uncertainty}\n", (time + 1) * 1000);
+        let lines: String = volumes.into_iter().enumerate().map(line).collect();
+        format!("# rig 2\ntime [ms],worn [mm3],uncertainty [mm3]\n{lines}")
+    };
+    let series = "[[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\nmeasured_file = \"worn.csv\"\n";
+    let directory = study(6, &[LOAD, "[fit]\nruns = 20\n", series]);
+    directory.write("worn.csv", table(volumes));
+    let planned = fit(&directory, &["--plan"]).stdout;
+    assert!(planned.contains("3 points from 1 to 3 s in worn.csv"), "{planned}");
+    let found = json(&fit(&directory, &["--json"]));
+    // The load is the one that generalised least squares give, with a standard deviation of 1/√(gᵀV⁻¹g): g are volumes for
+    // each newton, V are covariances. A run's first second, in which the pin comes to bear, is some percent off.
+    let holds = |found: &Value, deviation: f64| {
+        let key = &found["keys"][0];
+        let ends = ["low", "high"].map(|end| key["interval"][0][end].as_f64().unwrap());
+        assert!((key["most_likely"].as_f64().unwrap() - 7.0).abs() < 0.1, "{found}");
+        assert!(((ends[1] - ends[0]) / (2.0 * 1.96 * deviation) - 1.0).abs() < 0.03, "{deviation} {found}");
+    };
+    let slopes = volumes.map(|volume| volume / 7.0 / uncertainty);
+    holds(&found, slopes.iter().map(|slope| slope * slope).sum::<f64>().sqrt().recip());
+    let series = &found["series"][0];
+    assert_eq!((series["points"].as_u64(), series["independent_points"].as_f64()), (Some(3), Some(3.0)), "{found}");
+    assert_eq!(found["degrees_of_freedom"].as_u64(), Some(2));
+    let rows = rows(&fs::read_to_string(directory.path("results/fit/series.csv")).unwrap());
+    assert_eq!(rows.iter().map(|row| number(row, "time")).collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
+    for row in &rows {
+        assert!((number(row, "forecast") / number(row, "measured") - 1.0).abs() < 0.02, "{rows:?}");
+    }
+    assert!(directory.path("results/fit/series-worn.png").exists());
+
+    // Errors that are alike for 5 s: with ρ = exp(−1/5) the three points are whitened by hand. No run is made anew.
+    let study = fs::read_to_string(directory.path("fit.toml")).unwrap();
+    directory.write("fit.toml", format!("{study}correlation_time = \"5 s\"\n"));
+    let before = records(&directory);
+    let found = json(&fit(&directory, &["--json"]));
+    let (rho, rest) = ((-0.2_f64).exp(), (1.0 - (-0.4_f64).exp()).sqrt());
+    let white = [slopes[0], (slopes[1] - rho * slopes[0]) / rest, (slopes[2] - rho * slopes[1]) / rest];
+    holds(&found, white.iter().map(|slope| slope * slope).sum::<f64>().sqrt().recip());
+    assert!((found["series"][0]["independent_points"].as_f64().unwrap() - 1.2).abs() < 0.001, "1 + 2 tanh(0.1)");
+    assert!(records(&directory) <= before + 4, "at most one more round");
+}
+
+#[test]
+fn a_table_that_is_no_series_is_refused_with_its_place() {
+    let series = "[[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\nmeasured_file = \"t.csv\"\n";
+    let refused = |more: &str, table: &str, expected: &str| {
+        let directory = study(6, &[LOAD, series, more]);
+        directory.write("t.csv", table);
+        let outcome = directory.plateau(["fit", "fit.toml"]);
+        assert_eq!(outcome.status, Some(2), "{outcome:?}");
+        assert!(outcome.stderr.contains(expected), "{expected:?} in {}", outcome.stderr);
+        assert_eq!(directory.names(), ["fit.toml", "t.csv"]);
+    };
+    let good = "time [s],worn [mm3],uncertainty\n1,1e-3,1e-13\n3,2e-3,1e-13\n";
+    refused("", "time [s],worn\n1,1\n2,x\n", "t.csv:1: no column \"uncertainty\"");
+    refused("uncertainty = 1e-13\n", "time [s],worn\n1,1\n2,x\n", "fit.toml:");
+    refused("uncertainty = 1e-13\n", "time [s],worn\n1,1\n2,x\n", "t.csv:3: \"worn\" is \"x\", expected a number");
+    refused(
+        "",
+        &good.replace("\n3,", "\n3.1,"),
+        "t.csv:3: the time is 3.1 s, and the runs end at 3 s: make them longer",
+    );
+    refused("at = \"end\"\n", good, "a whole series is compared at its times: take out at, mean, reaches and event");
+    refused("measured = 2e-12\nuncertainty = 1e-13\n", good, "measured and measured_file are given together, keep one");
+    refused("correlation_time = \"-1 s\"\n", good, "expected a time of 0 or more");
+    refused("correlation_time = \"1 m\"\n", good, "response.correlation_time");
+    let alone =
+        "[[response]]\nname = \"end\"\ndataset = \"/series/worn_pin\"\nat = \"end\"\ncorrelation_time = \"1 s\"\n";
+    refused(alone, good, "it belongs to measured_file");
+}
+
+#[test]
 fn what_cannot_be_fitted_is_refused() {
     let refused = |tables: &[&str], expected: &str| {
         let directory = study(6, tables);
@@ -164,7 +241,15 @@ fn what_cannot_be_fitted_is_refused() {
     let plain = "[[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\nat = \"end\"\n";
     refused(&[LOAD, plain], "nothing was measured");
     let levels = "[[factor]]\nkey = \"operation.normal_force\"\nlevels = [\"4 N\", \"12 N\"]\n";
-    refused(&[levels, &worn(7.0, 0.02)], "has levels; a fit looks for values between two ends");
+    let expected = "factor \"operation.normal_force\" (operation.normal_force) has levels, and a fit looks for numbers between \
+                    two ends: give range = [lower, upper] in place of levels";
+    refused(&[levels, &worn(7.0, 0.02)], expected);
+    let words =
+        "[[factor]]\nname = \"rule\"\nkey = \"plateaus.debris\"\nlevels = [\"contact\", \"track\", \"local\"]\n";
+    let expected = "factor \"rule\" (plateaus.debris) has levels, and a fit looks for numbers between two ends: these are words, \
+                    \"contact\", \"track\", \"local\". Make one study for each word, with set = \
+                    [\"plateaus.debris='contact'\"]";
+    refused(&[LOAD, words, &worn(7.0, 0.02)], expected);
     refused(&[LOAD, plain, "measured = 2e-12\n"], "measured and uncertainty belong together");
     refused(&[LOAD, plain, "measured = \"2 mm^2\"\nuncertainty = 1e-13\n"], "it is an area, expected a number in m3");
     refused(&[LOAD, plain, "measured = \"much\"\nuncertainty = 1e-13\n"], "it does not start with a number");

@@ -125,7 +125,7 @@ fn commands(directory: &WorkingDirectory) -> Vec<Vec<String>> {
         "sweep plan study.toml",
         "sweep run study.toml --jobs 2",
         "sweep collect study.toml",
-        "sweep effects study.toml",
+        "sweep effects study.toml --force",
     ];
     let words = |line: &str| {
         line.split(' ').map(|word| word.replace("SCENE", &scene("quick.toml")).replace('\u{a0}', " ")).collect()

@@ -220,7 +220,7 @@ fn points_that_are_there_twice_are_one_run() {
     assert_eq!(freedom, 1 + 5, "the seeds, and the quadratic model");
     let lines = fs::read_to_string(directory.path("results/effects/effects.csv")).unwrap();
     assert!(lines.contains("\ncontact area at the end,total,17,"), "{lines}");
-    let text = directory.plateau(["sweep", "effects", "study.toml"]).stdout;
+    let text = directory.plateau(["sweep", "effects", "study.toml", "--force"]).stdout;
     assert!(text.starts_with(said), "{text}");
     let page = fs::read_to_string(directory.path("results/effects/effects.html")).unwrap();
     assert!(page.contains(said));

@@ -63,7 +63,8 @@ fn json(outcome: &Outcome) -> Value {
 
 /// `plateau sweep COMMAND study.toml ... --json`.
 fn ask(directory: &WorkingDirectory, command: &str, arguments: &[&str]) -> Value {
-    json(&directory.plateau(["sweep", command, "study.toml", "--json"].iter().chain(arguments)))
+    let force = ["effects", "optimize"].contains(&command).then_some(&"--force");
+    json(&directory.plateau(["sweep", command, "study.toml", "--json"].iter().chain(arguments).chain(force)))
 }
 
 /// What is said when a command is refused.
@@ -231,6 +232,7 @@ fn an_optimum_keeps_limits_and_what_is_held() {
         "contact area=0.7 mm2",
         "--contour",
         "fibres,load",
+        "--force",
     ]);
     assert!(text.stdout.contains("near 0.7,") && text.stdout.contains("2 figures as PNG, SVG and PDF"), "{text:?}");
     for (arguments, message) in [

@@ -45,7 +45,7 @@ fn studied(head: &str, tables: &[&str]) -> WorkingDirectory {
 
 /// Analyses the study.
 fn effects(directory: &WorkingDirectory, arguments: &[&str]) -> Outcome {
-    let outcome = directory.plateau(["sweep", "effects", "study.toml"].iter().chain(arguments));
+    let outcome = directory.plateau(["sweep", "effects", "study.toml", "--force"].iter().chain(arguments));
     assert_eq!(outcome.status, Some(0), "{outcome:?}");
     outcome
 }

@@ -31,7 +31,7 @@ fn study(design: &str) -> WorkingDirectory {
 }
 
 fn sensitivity(directory: &WorkingDirectory, arguments: &[&str]) -> Outcome {
-    let outcome = directory.plateau(["sweep", "sensitivity", "study.toml"].iter().chain(arguments));
+    let outcome = directory.plateau(["sweep", "sensitivity", "study.toml", "--force"].iter().chain(arguments));
     assert_eq!(outcome.status, Some(0), "{outcome:?}");
     outcome
 }

@@ -10,6 +10,7 @@ mod failure;
 mod interrupt;
 mod message;
 mod output;
+mod output_folder;
 mod panic;
 mod progress;
 mod screen;

@@ -57,6 +57,11 @@ pub fn to_nine_digits(number: f64) -> f64 {
     format!("{number:.8e}").parse().unwrap_or(number)
 }
 
+/// The number to fifteen significant digits: what is left of one that was stated with fewer, without what arithmetic added.
+pub fn to_fifteen_digits(number: f64) -> f64 {
+    format!("{number:.14e}").parse().unwrap_or(number)
+}
+
 /// A number with at most so many significant digits, for people: no zeros at the end, and a sign that is as wide as a plus.
 pub fn rounded(number: f64, digits: usize) -> String {
     let text = significant(number, digits);

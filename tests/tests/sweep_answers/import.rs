@@ -88,10 +88,72 @@ fn measured_responses_are_analysed_without_a_scene() {
         assert!((found - published).abs() < 0.01, "{found} {published}");
     }
     assert!((best["desirability"].as_f64().unwrap() - 0.583).abs() < 0.0006);
+    // One factor less to look at has no contour: that of the call before does not stay beside the new profiler.
+    assert!(directory.path("results/optimum/contour.png").is_file());
+    let held = ["--maximize", "abrasion", "--hold", "silica=0", "--hold", "silane=0"];
+    let said = refused(&directory, "optimize", &held);
+    assert!(said.contains("results/optimum has the files of an earlier call; give --force to replace them"), "{said}");
+    ask(&directory, "optimize", &held);
+    assert!(!directory.path("results/optimum/contour.png").exists());
+    let said = refused(&directory, "effects", &[]);
+    assert!(said.contains("results/effects has the files of an earlier call; give --force"), "{said}");
     let collected = ask(&directory, "collect", &[]);
     assert_eq!((collected["finished"].as_u64(), collected["missing"].as_u64()), (Some(20), Some(0)));
     let table = rows(&fs::read_to_string(directory.path("results/results.csv")).unwrap());
     assert_eq!((table.len(), number(&table[3], "modulus")), (20, 2294.0));
+}
+
+#[test]
+fn results_that_are_collected_replace_what_was_collected_and_nothing_else() {
+    let directory = rubber();
+    ask(&directory, "import", &["rubber.csv"]);
+    ask(&directory, "collect", &[]);
+    ask(&directory, "collect", &[]);
+    // The lab's own table has the name that the results would have.
+    fs::create_dir(directory.path("lab")).unwrap();
+    directory.write("lab/results.csv", RUBBER);
+    let said = refused(&directory, "collect", &["-o", "lab"]);
+    assert!(said.contains("lab/results.csv exists; give --force to replace it"), "{said}");
+    // It is the points of the study: not even with --force.
+    let study = fs::read_to_string(directory.path("study.toml")).unwrap();
+    directory.write("study.toml", study.replace("rubber.csv", "lab/results.csv"));
+    let said = refused(&directory, "collect", &["-o", "lab", "--force"]);
+    assert!(said.contains("lab/results.csv is an input and is not replaced"), "{said}");
+    assert_eq!(fs::read_to_string(directory.path("lab/results.csv")).unwrap(), RUBBER);
+    assert!(!directory.path("lab/results.h5").exists());
+}
+
+#[test]
+fn intervals_end_where_an_area_cannot_be() {
+    let directory = WorkingDirectory::new();
+    let response = |name: &str, unit: &str| format!("[[response]]\nname = \"{name}\"\nimported = true\n{unit}");
+    let factor = "[[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\n";
+    let head = "version = 1\ntitle = \"Spots\"\ndesign = \"csv\"\nfile = \"spots.csv\"\ndirectory = \"results\"\n";
+    let responses = [response("spots", "unit = \"m2\"\n"), response("shift", "")].concat();
+    directory.write("study.toml", format!("{head}{factor}{responses}"));
+    // The same numbers as an area in mm² and as a number of which nothing is known.
+    let spots = [(0.2, 0.0), (0.2, 0.1), (0.2, 1.2), (0.4, 3.0), (0.4, 5.0), (0.4, 5.5)];
+    let lines = spots.map(|(fibres, spots)| format!("{fibres},{spots}e-6,{spots}\n"));
+    directory.write("spots.csv", format!("fibres,spots [m2],shift\n{}", lines.concat()));
+    ask(&directory, "import", &["spots.csv"]);
+    let predicted = ask(&directory, "predict", &["--at", "fibres=0.2", "--model", "main"]);
+    let interval = |at: usize, which: &str| {
+        [0, 1].map(|end| predicted["places"][0]["responses"][at][which][end].as_f64().expect("an end"))
+    };
+    for which in ["mean_interval", "run_interval"] {
+        let ([low, high], [free_low, free_high]) = (interval(0, which), interval(1, which));
+        assert!(low == 0.0 && free_low < 0.0 && (high * 1e6 / free_high - 1.0).abs() < 1e-9, "{predicted}");
+    }
+    let text = directory.plateau(["sweep", "predict", "study.toml", "--at", "fibres=0.2", "--model", "main"]);
+    let note = "  spots: the interval is cut at 0, for less cannot be; transform = \"log\" keeps to what can be\n";
+    assert!(text.stdout.contains(note) && !text.stdout.contains("shift: the interval"), "{text:?}");
+    ask(&directory, "effects", &["--model", "main"]);
+    let page = fs::read_to_string(directory.path("results/effects/effects.html")).unwrap();
+    assert_eq!(
+        page.matches("They end where a response cannot be").count(),
+        2,
+        "below one figure, and as its description"
+    );
 }
 
 #[test]

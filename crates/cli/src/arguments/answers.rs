@@ -79,6 +79,9 @@ pub struct OptimizeArguments {
     /// Folder for figures and table; "optimum" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace the files of an earlier call, and remove those of them that this call does not write
+    #[arg(long)]
+    pub force: bool,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,

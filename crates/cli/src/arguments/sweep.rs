@@ -141,6 +141,9 @@ pub struct CollectArguments {
     /// Folder for results.h5 and results.csv; the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace files of these names that were not collected from a study
+    #[arg(long)]
+    pub force: bool,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
@@ -164,6 +167,9 @@ pub struct EffectsArguments {
     /// Folder for tables, figures and the page; "effects" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace the files of an earlier call, and remove those of them that this call does not write
+    #[arg(long)]
+    pub force: bool,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
@@ -180,6 +186,9 @@ pub struct SensitivityArguments {
     /// Folder for table and figures; "sensitivity" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace the files of an earlier call, and remove those of them that this call does not write
+    #[arg(long)]
+    pub force: bool,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,

@@ -1,5 +1,8 @@
 //! The scenes of all runs of a study: whether they can be built, and what their results are told by.
 
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
 use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
 use rayon::prelude::*;
@@ -19,6 +22,8 @@ pub struct Resolved {
     pub firsts: Vec<usize>,
     /// Its steps.
     pub steps: Vec<u64>,
+    /// The files of the scenes, and those that they read.
+    pub files: BTreeSet<PathBuf>,
 }
 
 impl Resolved {
@@ -44,14 +49,16 @@ impl Resolved {
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;
             let identity = identity(&scene, &digests, &program)
                 .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
-            Ok((identity, scene.steps))
+            Ok(((identity, scene.steps), scene.files))
         };
         let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
         let problems: Vec<(usize, &String)> =
             (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
-            let (identities, steps): (Vec<String>, Vec<u64>) = all.into_iter().flatten().unzip();
-            return Ok(Self { firsts: firsts(&identities), identities, steps });
+            let (known, files): (Vec<(String, u64)>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
+            let files = files.into_iter().flatten().chain(digests.files()).collect();
+            let (identities, steps): (Vec<String>, Vec<u64>) = known.into_iter().unzip();
+            return Ok(Self { firsts: firsts(&identities), identities, steps, files });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();

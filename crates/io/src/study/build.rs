@@ -54,7 +54,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         }
     };
     let replicates = document.replicates.as_ref().map(|given| replicates::of(given, place, &mut problems));
-    let responses = responses(&document.response, place, &mut problems);
+    let responses = responses(&document.response, folder, place, &mut problems);
     let fit = measured::settings(&document, &responses, place, &mut problems);
     if document.base.is_none() && !responses.iter().all(Response::is_imported) {
         let message =
@@ -76,7 +76,11 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         problems.push(Problem::new(&Origin::File(place.file.clone()), "directory", "\"\", expected a folder"));
     }
     let Some(source) = source.filter(|_| problems.is_empty()) else { return Err(problems) };
+    let mut files = vec![path.to_owned()];
+    files.extend(responses.iter().filter_map(|response| Some(response.measured_series()?.path.clone())));
+    files.extend(document.file.iter().map(|file| folder.join(file.get_ref())));
     Ok(Study {
+        files,
         title: document.title.unwrap_or(stem),
         path: path.to_owned(),
         base: document.base.map(|base| folder.join(base.get_ref())),

@@ -45,6 +45,8 @@ pub struct CollectedRun {
     pub responses: Vec<f64>,
     /// Standard errors of these; NaN where there is none.
     pub errors: Vec<f64>,
+    /// For each response what the run has at the times of a measured series; empty where there is none, or the run ends before.
+    pub at_measured_times: Vec<Vec<f64>>,
     /// Wall time, s; NaN if it has not ended.
     pub wall_time: f64,
     entry: Option<Entry>,
@@ -106,6 +108,7 @@ impl Collected {
                 state: State::Missing,
                 responses: vec![f64::NAN; responses.len()],
                 errors: vec![f64::NAN; responses.len()],
+                at_measured_times: vec![Vec::new(); responses.len()],
                 wall_time: f64::NAN,
                 entry: journal.get(identity).cloned(),
                 time: Vec::new(),
@@ -123,6 +126,10 @@ impl Collected {
                     collected.series = series.names().to_vec();
                     let known = |answer: Option<f64>| answer.unwrap_or(f64::NAN);
                     collected.responses = responses.iter().map(|response| known(response.of(&series))).collect();
+                    collected.at_measured_times = responses
+                        .iter()
+                        .map(|response| response.at_measured_times(&series).unwrap_or_default())
+                        .collect();
                     collected.errors = responses.iter().map(|response| known(response.error_of(&series))).collect();
                 }
             }
@@ -263,6 +270,12 @@ impl Collected {
         let first = finished.next().map_or(&[][..], |run| &run.time);
         (finished.all(|run| run.time == first).then_some(first), series)
     }
+}
+
+/// Whether a file is one that was collected from a study.
+pub fn is_collected(path: &Path) -> bool {
+    let has = |file: &hdf5::File, name: &str| file.attr(name).is_ok();
+    path.is_file() && hdf5::File::open(path).is_ok_and(|file| has(&file, "design") && has(&file, "collected"))
 }
 
 /// Where runs have samples at different times.

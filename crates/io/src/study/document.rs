@@ -88,6 +88,8 @@ pub(super) struct Response {
     pub event: Option<Spanned<Value>>,
     pub measured: Option<Spanned<Value>>,
     pub uncertainty: Option<Spanned<Value>>,
+    pub measured_file: Option<Spanned<String>>,
+    pub correlation_time: Option<Spanned<String>>,
 }
 
 /// `[fit]`.

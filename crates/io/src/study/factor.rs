@@ -4,6 +4,7 @@ use std::fmt;
 
 use plateau_study::design::Setting;
 
+use crate::number;
 use crate::scene::schema::{self, Kind};
 use crate::units::{self, Dimension};
 
@@ -52,7 +53,7 @@ impl Level {
             toml::Value::String(text) => text.clone(),
             other => other.to_string(),
         };
-        Self { text: value.to_string(), number: number(key, value), label }
+        Self { text: value.to_string(), number: si_number(key, value), label }
     }
 
     /// What a text means for a key: a value in TOML; what is none is a text.
@@ -118,9 +119,14 @@ impl Factor {
         }
         let share = (coded + 1.0) / 2.0;
         let value = if logarithmic { from * libm::pow(to / from, share) } else { from + (to - from) * share };
-        let value =
-            if unit.is_empty() { toml::Value::Float(value) } else { toml::Value::String(format!("{value} {unit}")) };
-        Some(Level::new(self.keys.first()?, &value))
+        let stated = |value: f64| match unit {
+            "" => toml::Value::Float(value),
+            unit => toml::Value::String(format!("{value} {unit}")),
+        };
+        let level = Level::new(self.keys.first()?, &stated(value));
+        // The run has the number to its last bit; people read the one that was meant, 0.3 in place of 0.30000000000000004.
+        let Level { label, .. } = Level::new(self.keys.first()?, &stated(number::to_fifteen_digits(value)));
+        Some(Level { label, ..level })
     }
 
     /// Whether its keys hold whole numbers, so that nothing lies between two of them.
@@ -173,7 +179,7 @@ fn dimension(key: &str) -> Option<Dimension> {
 }
 
 /// A value in SI units, if it is a number.
-fn number(key: &str, value: &toml::Value) -> Option<f64> {
+fn si_number(key: &str, value: &toml::Value) -> Option<f64> {
     match value {
         toml::Value::String(text) => units::parse(text, dimension(key)?).ok(),
         toml::Value::Integer(integer) => Some(*integer as f64),
@@ -202,6 +208,17 @@ mod tests {
         assert!((middle.number.unwrap() - 0.1).abs() < 1e-15);
         assert!(fraction.coded(&middle).unwrap().abs() < 1e-15);
         assert_eq!(load.coded(&load.at(Setting::Coded(0.5)).unwrap()), Some(0.5));
+    }
+
+    #[test]
+    fn people_read_the_number_that_was_meant_and_runs_have_its_last_bit() {
+        let fraction = factor("pin.base.synthetic.fibre_fraction", ["0.2", "0.4"], false);
+        let middle = fraction.at(Setting::Coded(0.0)).unwrap();
+        assert_eq!((middle.label.as_str(), middle.text.as_str()), ("0.3", "0.30000000000000004"));
+        assert_eq!(middle.number, Some(0.2 + (0.4 - 0.2) * 0.5));
+        let load = factor("operation.normal_force", ["\"0.2 kN\"", "\"0.4 kN\""], false);
+        let middle = load.at(Setting::Coded(0.0)).unwrap();
+        assert_eq!((middle.label.as_str(), middle.text.as_str()), ("0.3 kN", "\"0.30000000000000004 kN\""));
     }
 
     #[test]

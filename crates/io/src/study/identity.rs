@@ -30,6 +30,11 @@ impl Digests {
         known().insert(path.to_owned(), digest.clone());
         Ok(digest)
     }
+
+    /// The files that were asked for.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner).keys().cloned().collect()
+    }
 }
 
 /// What tells the results of a scene from those of others, 64 hexadecimal digits. `program` is version and revision.

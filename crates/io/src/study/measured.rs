@@ -52,21 +52,25 @@ pub(super) fn settings(
     };
     let mut measured = Vec::new();
     for (table, response) in document.response.iter().zip(responses) {
+        if let Some(time) = table.correlation_time.as_ref().filter(|_| table.measured_file.is_none()) {
+            problems.push(place.problem(time, "response.correlation_time", "it belongs to measured_file"));
+        }
+        if table.measured_file.is_some() {
+            // The series is part of the question.
+            measured.push(None);
+            continue;
+        }
         let unit = response.unit(unit_of(&response.series));
-        let mut number = |found: &Spanned<Value>, key: &str| {
-            let read = value(found.get_ref(), unit);
-            read.map_err(|message| problems.push(place.problem(found, key, message))).ok()
-        };
         let given = match (&table.measured, &table.uncertainty) {
             (None, None) => None,
             (Some(value), Some(uncertainty)) => {
-                let value = number(value, "response.measured");
-                let deviation = number(uncertainty, "response.uncertainty");
-                if deviation.is_some_and(|deviation| deviation <= 0.0) {
-                    let message = "expected more than 0: the standard uncertainty of the measured value";
-                    problems.push(place.problem(uncertainty, "response.uncertainty", message));
-                }
-                value.zip(deviation).map(|(value, uncertainty)| Measured { value, uncertainty })
+                let mut refuse =
+                    |found: &Spanned<Value>, key, message: String| problems.push(place.problem(found, key, message));
+                let number = number(value.get_ref(), unit, units::parse_as);
+                let number = number.map_err(|message| refuse(value, "response.measured", message)).ok();
+                let deviation = self::uncertainty(uncertainty.get_ref(), unit);
+                let deviation = deviation.map_err(|message| refuse(uncertainty, "response.uncertainty", message)).ok();
+                number.zip(deviation).map(|(value, uncertainty)| Measured { value, uncertainty })
             }
             (Some(alone), None) | (None, Some(alone)) => {
                 let message = "measured and uncertainty belong together: give both, in the same response";
@@ -83,14 +87,22 @@ pub(super) fn settings(
     }
 }
 
+/// A standard uncertainty in SI units.
+pub(super) fn uncertainty(found: &Value, unit: &str) -> Result<f64, String> {
+    match number(found, unit, units::parse_difference_as)? {
+        uncertainty if uncertainty > 0.0 => Ok(uncertainty),
+        other => Err(format!("{other}, expected more than 0: the standard uncertainty of what was measured")),
+    }
+}
+
 /// A number in SI units, or a quantity with a unit.
-fn value(found: &Value, unit: &str) -> Result<f64, String> {
+fn number(found: &Value, unit: &str, parse: impl FnOnce(&str, &str) -> Result<f64, String>) -> Result<f64, String> {
     let expected = if unit == "1" { "a number".to_owned() } else { format!("a number in {unit}, or one with a unit") };
     match found {
         Value::Integer(integer) => Ok(*integer as f64),
         Value::Float(number) if number.is_finite() => Ok(*number),
         Value::String(text) if unit != "1" => {
-            units::parse_as(text, unit).map_err(|reason| format!("\"{text}\": {reason}, expected {expected}"))
+            parse(text, unit).map_err(|reason| format!("\"{text}\": {reason}, expected {expected}"))
         }
         other => Err(format!("{other}, expected {expected}")),
     }

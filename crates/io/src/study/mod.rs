@@ -4,6 +4,7 @@
 //! study file     document       the text
 //!                build          what its keys say together -> Study
 //!                measured       what was measured of the responses
+//!                measured_series  a series of it, from a table
 //!                plan           the design, its points and replicates -> the runs, each a list of --set arguments
 //! results        identity       what a result is the result of
 //!                record         what is kept of a run
@@ -13,6 +14,7 @@
 //!                results_table  all of them as text, a line for each run
 //! ```
 
+pub mod bounds;
 mod build;
 pub mod collected;
 mod document;
@@ -21,6 +23,7 @@ pub mod identity;
 pub mod imported;
 pub mod journal;
 pub mod measured;
+pub mod measured_series;
 mod place;
 pub mod plan;
 mod points_of_file;
@@ -53,6 +56,8 @@ pub struct Study {
     pub title: String,
     /// The study file.
     pub path: PathBuf,
+    /// The study file and the tables that it names; scenes and what they read are not among them.
+    pub files: Vec<PathBuf>,
     /// The scene that is varied; none of a study whose responses are all imported.
     pub base: Option<PathBuf>,
     /// Where results are kept.

@@ -1,11 +1,14 @@
 //! Responses: one number that a run gives for each question of a study.
 
+use std::sync::Arc;
+
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 use plateau_core::observe::{EXTRAS, quantities};
 
 use plateau_study::effects::Transform;
 
+use super::measured_series::SeriesFile;
 use super::record::{EVENT, REVOLUTIONS, Series};
 
 /// A question to the series of a run.
@@ -22,7 +25,7 @@ pub struct Response {
 }
 
 /// What is asked of a series.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Question {
     /// The last value.
     End,
@@ -39,6 +42,8 @@ pub enum Question {
     /// The time, s, at which the series first comes to this fraction of its last value; from above, to the last value over
     /// the fraction.
     Reaches(f64),
+    /// How far it is from a series that was measured: [`plateau_study::fit::MeasuredSeries::distance`].
+    Measured(Arc<SeriesFile>),
 }
 
 /// Which of the events of a run.
@@ -73,8 +78,22 @@ impl Response {
                 mean(time, values, from, to)
             }
             Question::Reaches(fraction) => reaches(time, values, fraction),
+            Question::Measured(ref file) => Some(file.series.distance(&self.at_measured_times(run)?)),
             Question::Event(_) | Question::Imported(_) => None,
         }
+    }
+
+    /// What a run has at the times of a measured series, linear between samples; none where it ends before the last of them,
+    /// or nothing was measured at times.
+    pub fn at_measured_times(&self, run: &Series) -> Option<Vec<f64>> {
+        let Question::Measured(file) = &self.question else { return None };
+        let values = run.values(&self.series)?;
+        file.series.times().iter().map(|at| value_at(run.time(), values, *at)).collect()
+    }
+
+    /// The series that was measured, if one was.
+    pub fn measured_series(&self) -> Option<&SeriesFile> {
+        if let Question::Measured(file) = &self.question { Some(file) } else { None }
     }
 
     /// Whether the answer is known with a standard error: a mean of the contact area.
@@ -115,6 +134,7 @@ impl Response {
         match self.question {
             Question::Reaches(_) => "s",
             Question::Imported(unit) => unit,
+            Question::Measured(_) => "1",
             _ => of_series,
         }
     }
@@ -195,6 +215,7 @@ fn reaches(time: &[f64], values: &[f64], fraction: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use plateau_study::fit::MeasuredSeries;
 
     fn ask(question: Question, values: &[f64]) -> Option<f64> {
         let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
@@ -219,6 +240,13 @@ mod tests {
         assert_eq!(ask(Question::Reaches(0.5), &[6.0, 2.0, 2.0]), Some(1.5));
         assert_eq!(ask(Question::Reaches(0.5), &[-4.0, 0.0, -1.0]), Some(1.5));
         assert_eq!(ask(Question::End, &[]), None);
+        let series = |times: [f64; 2]| {
+            let series = MeasuredSeries::new(times.to_vec(), vec![2.0, 4.5], vec![0.5, 1.0], 0.0).unwrap();
+            Question::Measured(Arc::new(SeriesFile { path: "t.csv".into(), series, last_line: 3 }))
+        };
+        // At 1.5 and 3 s the run has 1 and 4: (−1/0.5)² and (−0.5/1)², of two points.
+        assert_eq!(ask(series([1.5, 3.0]), &ramp), Some((4.25_f64 / 2.0).sqrt()));
+        assert_eq!(ask(series([1.5, 5.0]), &ramp), None);
     }
 
     #[test]

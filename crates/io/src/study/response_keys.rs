@@ -1,6 +1,8 @@
 //! From the tables of responses to what they ask: where values come from, their unit, and how they are fitted.
 
 use std::collections::HashSet;
+use std::path::Path;
+use std::sync::Arc;
 
 use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
 use plateau_core::observe::{EXTRAS, quantities};
@@ -9,6 +11,8 @@ use toml::{Spanned, Value};
 
 use super::collected::unit_of;
 use super::document::{Mean, Response as Table};
+use super::measured;
+use super::measured_series::{self, Wanted};
 use super::place::{MOST_PROBLEMS, Place};
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent, units};
@@ -16,7 +20,12 @@ use crate::scene::{Problem, schema};
 use crate::units::{Dimension, parse};
 
 /// The responses of a study.
-pub(super) fn responses(tables: &[Table], place: &Place<'_>, problems: &mut Vec<Problem>) -> Vec<Response> {
+pub(super) fn responses(
+    tables: &[Table],
+    folder: &Path,
+    place: &Place<'_>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Response> {
     let mut responses: Vec<Response> = Vec::new();
     let mut names = HashSet::new();
     for table in tables {
@@ -35,7 +44,12 @@ pub(super) fn responses(tables: &[Table], place: &Place<'_>, problems: &mut Vec<
                     Some(_) => event_name(dataset, place, problems),
                     None => series_name(dataset, "response.dataset", place, problems),
                 };
-                Ok((series.unwrap_or_default(), question(table, place)?))
+                let series = series.unwrap_or_default();
+                let question = match &table.measured_file {
+                    Some(file) => of_file(table, file, &series, folder, place)?,
+                    None => question(table, place)?,
+                };
+                Ok((series, question))
             }),
             Err(problem) => Err(problem),
         };
@@ -64,7 +78,8 @@ fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
     };
     let refused = || {
         let message = "expected one of at = \"end\", at = \"100 s\", mean = \"last tenth\", mean = [\"50 s\", \"100 s\"], \
-                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"";
+                           reaches = 0.9; of /event/...: event = 3, event = \"last\", event = \"mean\"; for a fit to a whole \
+                           series: measured_file = \"FILE.csv\"";
         place.problem(&table.name, "response", message)
     };
     if let (Some(event), None, None, None) = (&table.event, &table.at, &table.mean, &table.reaches) {
@@ -96,6 +111,44 @@ fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
         )),
         _ => Err(refused()),
     }
+}
+
+/// How far a series is from one that was measured.
+fn of_file(
+    table: &Table,
+    file: &Spanned<String>,
+    series: &str,
+    folder: &Path,
+    place: &Place<'_>,
+) -> Result<Question, Problem> {
+    let problem = |message: &str| Err(place.problem(file, "response.measured_file", message));
+    if table.at.is_some() || table.mean.is_some() || table.reaches.is_some() || table.event.is_some() {
+        return problem("a whole series is compared at its times: take out at, mean, reaches and event");
+    }
+    if table.measured.is_some() {
+        return problem("measured and measured_file are given together, keep one");
+    }
+    let correlation_time = match &table.correlation_time {
+        None => 0.0,
+        Some(text) => {
+            let refuse = |message: String| place.problem(text, "response.correlation_time", message);
+            let time = parse(text.get_ref(), Dimension::Time).map_err(|error| refuse(error.to_string()))?;
+            if time < 0.0 {
+                return Err(refuse(format!("\"{}\", expected a time of 0 or more", text.get_ref())));
+            }
+            time
+        }
+    };
+    let unit = unit_of(series);
+    let uncertainty = table.uncertainty.as_ref().map(|found| {
+        let read = measured::uncertainty(found.get_ref(), unit);
+        read.map_err(|message| place.problem(found, "response.uncertainty", message))
+    });
+    let wanted =
+        Wanted { names: [table.name.get_ref(), series], unit, uncertainty: uncertainty.transpose()?, correlation_time };
+    let read = measured_series::read(&folder.join(file.get_ref()), wanted);
+    read.map(|file| Question::Measured(Arc::new(file)))
+        .map_err(|message| place.problem(file, "response.measured_file", message))
 }
 
 fn which_event(value: &Value) -> Option<WhichEvent> {
@@ -153,6 +206,11 @@ fn is_imported(table: &Table, place: &Place<'_>) -> Result<bool, Problem> {
 
 /// The question of a response whose values come from elsewhere.
 fn imported(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
+    if let Some(file) = &table.measured_file {
+        let message =
+            "imported = true has values for each run; measured_file is one series that all runs are compared with";
+        return Err(place.problem(file, "response.measured_file", message));
+    }
     let asks = table.dataset.is_some() || table.at.is_some() || table.mean.is_some();
     if asks || table.reaches.is_some() || table.event.is_some() {
         let message = "imported = true has no dataset, at, mean, reaches or event: its values come from a table";

@@ -1,9 +1,15 @@
 //! The results of a study as a table of text: a line for each run, numbers in SI units, units in the head.
 
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
 
 use super::collected::{Collected, CollectedRun, State, error_name, unit_of};
 use super::plan::Plan;
+
+/// What the first columns of every table are called.
+const FIRST: [&str; 4] = ["run", "point", "replicate", "state"];
 
 /// A column: its head and a cell for each run.
 struct Column {
@@ -24,10 +30,10 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
         cells: collected.runs.iter().map(cell).collect(),
     };
     let mut columns = vec![
-        column("run", "", "", &|run| run.run.number.to_string()),
-        column("point", "", "", &|run| (run.run.point + 1).to_string()),
-        column("replicate", "", "", &|run| (run.run.replicate + 1).to_string()),
-        column("state", "", "", &|run| run.state.name().to_owned()),
+        column(FIRST[0], "", "", &|run| run.run.number.to_string()),
+        column(FIRST[1], "", "", &|run| (run.run.point + 1).to_string()),
+        column(FIRST[2], "", "", &|run| (run.run.replicate + 1).to_string()),
+        column(FIRST[3], "", "", &|run| run.state.name().to_owned()),
     ];
     // The last column; its name is nobody else's.
     let error = column("error", "", "", &|run| match &run.state {
@@ -67,6 +73,14 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
     let head = columns.iter().map(|column| column.head.clone()).collect();
     let line = |run: usize| columns.iter().map(|column| column.cells[run].clone()).collect();
     std::iter::once(head).chain((0..collected.runs.len()).map(line)).collect()
+}
+
+/// Whether a file is such a table, as far as its first columns tell.
+pub fn is_results_table(path: &Path) -> bool {
+    let first = format!("{},", FIRST.join(","));
+    let mut found = vec![0; first.len()];
+    let read = path.is_file().then(|| File::open(path).and_then(|mut file| file.read_exact(&mut found)));
+    read.is_some_and(|read| read.is_ok()) && found == first.as_bytes()
 }
 
 /// A number with all its digits.

@@ -32,6 +32,7 @@ mod contour;
 pub mod effects;
 pub mod fibre_map;
 pub mod fit;
+pub mod fit_series;
 mod font;
 mod format;
 mod histogram;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use plateau_io::study::bounds::Bounds;
 use plateau_io::study::collected::{Collected, unit_of};
 use plateau_io::study::factor::{Factor, Level, Values};
 use plateau_io::study::plan::Plan;
@@ -55,6 +56,8 @@ pub struct AnalysedResponse {
     pub name: String,
     /// Its SI unit.
     pub unit: &'static str,
+    /// What it can be at all.
+    pub bounds: Bounds,
     /// On which scale a model is fitted to it.
     pub scale: FitScale,
     /// What is fitted to it.
@@ -199,7 +202,8 @@ fn analyse_one(
         GaussianProcess::fit(factors, &observations, &ProcessOptions::default()).ok()
     });
     let process = process.flatten();
-    AnalysedResponse { name: response.name.clone(), unit, scale, choice, effects, misfit, box_cox, selected, process }
+    let (name, bounds) = (response.name.clone(), response.bounds());
+    AnalysedResponse { name, unit, bounds, scale, choice, effects, misfit, box_cox, selected, process }
 }
 
 /// Whether points of the design lie all over the ranges, and not at few levels.

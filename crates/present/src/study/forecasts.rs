@@ -1,6 +1,9 @@
 //! What is expected of the responses of a study where no run was made.
 
 use plateau_io::number;
+use plateau_io::study::bounds::Bounds;
+use plateau_study::design::Setting;
+use plateau_study::effects::{EffectsError, Transform};
 use plateau_study::surrogate::{Choice, Forecast, PolynomialSurrogate, Surrogate, choose};
 
 use super::analysis::AnalysedResponse;
@@ -29,7 +32,8 @@ impl AnalysedResponse {
         if let Some(process) = &self.process {
             candidates.push(Box::new(process.clone()));
         }
-        choose(candidates, |error| {
+        let within = |surrogate| Box::new(Within { surrogate, bounds: self.bounds }) as Box<dyn Surrogate + '_>;
+        choose(candidates.into_iter().map(within).collect(), |error| {
             let unit = &self.scale.unit;
             unit.with_symbol(&number::rounded(unit.difference(error), DIGITS))
         })
@@ -55,10 +59,57 @@ impl AnalysedResponse {
         interval.map_or_else(|| "–".to_owned(), |ends| ends.map(|end| self.shown(end)).join(" … "))
     }
 
+    /// What is to be known of a forecast that reaches what the response cannot be; none of others.
+    pub fn note_of_bounds(&self, forecast: &Forecast) -> Option<String> {
+        let ends = [forecast.mean_interval, forecast.run_interval].into_iter().flatten().flatten();
+        let bounds = self.bounds;
+        let reached = |bound: f64| bound.is_finite() && ends.clone().any(|end| end == bound);
+        let said = match (bounds.hold(forecast.value), reached(bounds.least), reached(bounds.most)) {
+            (false, ..) => "the model expects what cannot be, so it does not hold here",
+            (true, false, false) => return None,
+            (true, true, false) => "the interval is cut at 0, for less cannot be",
+            (true, false, true) => "the interval is cut at 1, for more cannot be",
+            (true, true, true) => "the interval is cut at 0 and 1, for less or more cannot be",
+        };
+        let transform = if bounds.most == 1.0 { Transform::Logit } else { Transform::Logarithm };
+        let advice = match self.scale.transform() {
+            None => format!("; transform = \"{}\" keeps to what can be", transform.name()),
+            Some(_) => String::new(),
+        };
+        Some(format!("{}: {said}{advice}", self.name))
+    }
+
     /// The cells of a forecast: name, value, interval of means, interval of runs.
     pub fn cells(&self, forecast: &Forecast) -> Vec<String> {
         let intervals = [forecast.mean_interval, forecast.run_interval].map(|interval| self.interval(interval));
         [vec![self.head(), self.shown(forecast.value)], intervals.to_vec()].concat()
+    }
+}
+
+/// A surrogate whose intervals leave out what a response cannot be. Its value stays: that a model expects what cannot be says
+/// that it does not hold there.
+struct Within<'a> {
+    surrogate: Box<dyn Surrogate + 'a>,
+    bounds: Bounds,
+}
+
+impl Surrogate for Within<'_> {
+    fn name(&self) -> String {
+        self.surrogate.name()
+    }
+
+    fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError> {
+        let Forecast { value, mean_interval, run_interval } = self.surrogate.forecast(settings, confidence)?;
+        let clipped = |interval: Option<[f64; 2]>| interval.map(|ends| self.bounds.clipped(ends));
+        Ok(Forecast { value, mean_interval: clipped(mean_interval), run_interval: clipped(run_interval) })
+    }
+
+    fn value(&self, settings: &[Setting]) -> Result<f64, EffectsError> {
+        self.surrogate.value(settings)
+    }
+
+    fn leave_one_out_error(&self) -> Option<f64> {
+        self.surrogate.leave_one_out_error()
     }
 }
 

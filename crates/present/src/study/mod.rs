@@ -16,6 +16,7 @@ pub mod analysis;
 pub mod equation;
 pub mod fit;
 pub mod fit_scale;
+pub mod fit_series;
 pub mod forecasts;
 pub mod goals;
 pub mod model;

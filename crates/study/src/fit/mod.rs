@@ -11,6 +11,8 @@
 //!
 //! | what | where |
 //! |---|---|
+//! | a whole series that was measured | `measured_series` |
+//! | a series as a few responses | `components` |
 //! | the likelihood of the measurements | `likelihood` |
 //! | places in the ranges that are looked at | `places` |
 //! | where the next runs teach most | `next` |
@@ -19,8 +21,10 @@
 //! | all of it | `result` |
 
 mod combination;
+mod components;
 mod key;
 mod likelihood;
+mod measured_series;
 mod next;
 mod places;
 mod profile;
@@ -32,11 +36,14 @@ use thiserror::Error;
 use crate::effects::{Factor, FactorKind, Observation};
 use crate::surrogate::gaussian_process::{GaussianProcess, GaussianProcessError, Options as ProcessOptions};
 pub use combination::Combination;
+use components::Components;
+pub use components::ObservedSeries;
 pub use key::Key;
 use likelihood::Likelihood;
+pub use measured_series::{MeasuredSeries, SeriesError};
 use places::Places;
 pub use profile::{Pair, Piece, Profile};
-pub use result::{FitResult, FittedResponse};
+pub use result::{FitResult, FittedResponse, FittedSeries};
 
 /// Something that was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,6 +95,17 @@ pub enum FitError {
         /// Why.
         error: GaussianProcessError,
     },
+    /// A series that gets no Gaussian process.
+    #[error("series {index}, counted from 0: {error}")]
+    Series {
+        /// Which, from 0.
+        index: usize,
+        /// Why.
+        error: GaussianProcessError,
+    },
+    /// A series that no run has.
+    #[error("series {0}, counted from 0: no run has values at all of its times")]
+    NoRun(usize),
     /// The likelihood is no number anywhere.
     #[error("the likelihood of the measurements is no number anywhere in the ranges")]
     NoLikelihood,
@@ -98,6 +116,8 @@ pub enum FitError {
 pub struct Fit {
     keys: Vec<Key>,
     likelihood: Likelihood,
+    /// Series that were measured; their terms of the likelihood follow those of single values, in this order.
+    series: Vec<Components>,
     places: Places,
     /// The most likely place, in coded units.
     best: Vec<f64>,
@@ -118,19 +138,43 @@ impl Fit {
         observations: &[Vec<Observation>],
         confidence: f64,
     ) -> Result<Self, FitError> {
-        check(keys, measurements)?;
+        Self::with_series(keys, measurements, observations, &[], confidence)
+    }
+
+    /// The same with series that were measured, each with what the runs have at its times.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn with_series(
+        keys: &[Key],
+        measurements: &[Measurement],
+        observations: &[Vec<Observation>],
+        series: &[(MeasuredSeries, Vec<ObservedSeries>)],
+        confidence: f64,
+    ) -> Result<Self, FitError> {
+        check(keys, measurements, series.len())?;
         let factor = |key: &Key| Factor { name: key.name.clone(), kind: FactorKind::Range { low: -1.0, high: 1.0 } };
         let factors: Vec<Factor> = keys.iter().map(factor).collect();
-        let process = |(index, observations): (usize, &Vec<Observation>)| {
-            let fitted = GaussianProcess::fit(&factors, observations, &ProcessOptions::default());
-            fitted.map_err(|error| FitError::Response { index, error })
+        let process =
+            |observations: &Vec<Observation>| GaussianProcess::fit(&factors, observations, &ProcessOptions::default());
+        let of_value = |(index, observations): (usize, &Vec<Observation>)| {
+            process(observations).map_err(|error| FitError::Response { index, error })
         };
-        let processes = observations.iter().enumerate().map(process).collect::<Result<_, _>>()?;
-        let likelihood = Likelihood::new(processes, measurements);
+        let mut processes = observations.iter().enumerate().map(of_value).collect::<Result<Vec<_>, _>>()?;
+        let (mut measurements, mut all) = (measurements.to_vec(), Vec::new());
+        for (index, (measured, runs)) in series.iter().enumerate() {
+            let components = Components::new(measured, runs).ok_or(FitError::NoRun(index))?;
+            for observations in components.observations(runs) {
+                processes.push(process(&observations).map_err(|error| FitError::Series { index, error })?);
+            }
+            measurements.extend(components.measurements());
+            all.push(components);
+        }
+        let likelihood = Likelihood::new(processes, &measurements);
         let places = Places::new(keys.len(), &likelihood);
         let (best, least) = places.most_likely(&likelihood).ok_or(FitError::NoLikelihood)?;
         let places = places.with_near(&best, &likelihood);
-        Ok(Self { keys: keys.to_vec(), likelihood, places, best, least, confidence })
+        Ok(Self { keys: keys.to_vec(), likelihood, series: all, places, best, least, confidence })
     }
 
     /// Most likely values of the keys so far.
@@ -151,9 +195,9 @@ impl Fit {
     }
 }
 
-fn check(keys: &[Key], measurements: &[Measurement]) -> Result<(), FitError> {
-    if keys.is_empty() || measurements.is_empty() {
-        return Err(FitError::Empty { keys: keys.len(), measurements: measurements.len() });
+fn check(keys: &[Key], measurements: &[Measurement], series: usize) -> Result<(), FitError> {
+    if keys.is_empty() || measurements.len() + series == 0 {
+        return Err(FitError::Empty { keys: keys.len(), measurements: measurements.len() + series });
     }
     if let Some(key) = keys.iter().find(|key| !key.is_range()) {
         return Err(FitError::Range { key: key.name.clone(), low: key.low, high: key.high });

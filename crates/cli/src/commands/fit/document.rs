@@ -1,6 +1,7 @@
 //! What `plateau fit --json` prints.
 
 use plateau_present::study::fit::{determined, notes};
+use plateau_present::study::fit_series::notes as notes_of_series;
 use serde::Serialize;
 
 use super::Told;
@@ -13,6 +14,9 @@ struct Document<'a> {
     study: &'a str,
     keys: Vec<KeyReport<'a>>,
     responses: Vec<ResponseReport<'a>>,
+    /// Responses of which a whole series was measured; what runs give is in series.csv.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    series: Vec<SeriesReport<'a>>,
     /// Level of intervals.
     confidence: f64,
     misfit: f64,
@@ -65,6 +69,21 @@ struct ResponseReport<'a> {
     leave_one_out_error: f64,
 }
 
+#[derive(Debug, Serialize)]
+struct SeriesReport<'a> {
+    name: &'a str,
+    unit: &'static str,
+    points: usize,
+    correlation_time: f64,
+    /// How many independent points would tell a constant as well.
+    independent_points: f64,
+    components: usize,
+    /// Root mean square of the deviations, over the uncertainties.
+    apart: f64,
+    /// Correlation of successive deviations.
+    successive: f64,
+}
+
 /// The document as text.
 ///
 /// # Errors
@@ -101,16 +120,29 @@ pub fn text(told: &Told<'_>, files: &[String]) -> Result<String, Failure> {
         seed_to_seed: response.scatter,
         leave_one_out_error: response.leave_one_out_error,
     });
+    let series = told.series().into_iter().zip(&told.result.series);
+    let series = series.map(|((name, unit), series)| SeriesReport {
+        name,
+        unit,
+        points: series.measured.times().len(),
+        correlation_time: series.measured.correlation_time(),
+        independent_points: series.measured.independent_points(),
+        components: series.components,
+        apart: series.apart,
+        successive: series.successive,
+    });
+    let names: Vec<&str> = told.series().iter().map(|(name, _)| *name).collect();
     let document = Document {
         study: &study.title,
         keys: keys.collect(),
         responses: responses.collect(),
+        series: series.collect(),
         confidence: told.result.confidence,
         misfit: told.result.misfit,
         degrees_of_freedom: told.result.freedom,
         p: told.result.p,
         determined: determined(told.result, told.keys),
-        notes: notes(told.result, &told.names()),
+        notes: [notes(told.result, &told.names()), notes_of_series(told.result, &names)].concat(),
         runs: told.fitted.plan.runs(),
         runs_at_most: study.fit.runs,
         rounds: told.fitted.rounds,

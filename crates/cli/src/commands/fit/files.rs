@@ -3,45 +3,47 @@
 use plateau_io::study::results_table::table as table_of_runs;
 use plateau_present::figure::Format;
 use plateau_present::figure::fit::figures;
+use plateau_present::figure::fit_series::figures as of_series;
 
 use super::Told;
 use crate::arguments::FitArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
-use crate::output;
+use crate::output_folder::{OutputFolder, names_of};
 
-/// Writes all; their paths.
+/// Writes all; their paths. What an earlier call wrote is replaced, for a fit goes on where it was.
 ///
 /// # Errors
-/// [`Failure::Run`] when a figure cannot be drawn, and those of [`output::write()`].
+/// [`Failure::Run`] when a figure cannot be drawn, and those of [`OutputFolder`].
 pub fn write(told: &Told<'_>, arguments: &FitArguments) -> Result<Vec<String>, Failure> {
     let study = told.fitted.plan.study();
-    let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("fit"));
-    output::make_directory(&folder)?;
-    let mut files = Vec::new();
-    let mut add = |name: &str, content: &[u8]| {
-        let path = folder.join(name);
-        files.push(path.display().to_string());
-        output::write(&path, content, true)
-    };
-    add("keys.csv", csv_table(keys(told)).as_bytes())?;
-    add("responses.csv", csv_table(responses(told)).as_bytes())?;
-    add("profiles.csv", csv_table(profiles(told)).as_bytes())?;
-    add("runs.csv", csv_table(table_of_runs(&told.fitted.plan, &told.fitted.collected)).as_bytes())?;
+    let path = arguments.output.clone().unwrap_or_else(|| study.directory.join("fit"));
+    let mut folder = OutputFolder::new(path, true)?;
+    let runs = table_of_runs(&told.fitted.plan, &told.fitted.collected);
+    let mut tables = vec![("keys.csv", keys(told)), ("responses.csv", responses(told))];
+    tables.extend((!told.result.series.is_empty()).then(|| ("series.csv", series(told))));
+    tables.extend([("profiles.csv", profiles(told)), ("runs.csv", runs)]);
     let values = |run: &plateau_io::study::collected::CollectedRun| {
         run.run.levels.iter().map(|level| level.number.unwrap_or(f64::NAN)).collect::<Vec<f64>>()
     };
     let runs: Vec<Vec<f64>> = told.fitted.collected.runs.iter().map(values).collect();
-    for figure in figures(told.result, told.keys, &runs) {
+    let figures = [figures(told.result, told.keys, &runs), of_series(told.result, &told.series())].concat();
+    let names: Vec<String> =
+        tables.iter().map(|(name, _)| (*name).to_owned()).chain(names_of(figures.iter())).collect();
+    folder.begin(&names, &told.fitted.inputs)?;
+    for (name, lines) in tables {
+        folder.write(name, csv_table(lines).as_bytes())?;
+    }
+    for figure in figures {
         for format in Format::ALL {
             let content = match format {
                 Format::Svg => figure.svg().map_err(Failure::run)?.into_bytes(),
                 format => figure.draw(format).map_err(Failure::run)?,
             };
-            add(&format!("{}.{}", figure.name, format.ending()), &content)?;
+            folder.write(&format!("{}.{}", figure.name, format.ending()), &content)?;
         }
     }
-    Ok(files)
+    Ok(folder.files().to_vec())
 }
 
 /// A number with all its digits.
@@ -93,6 +95,23 @@ fn responses(told: &Told<'_>) -> Vec<Vec<String>> {
             exactly(response.leave_one_out_error),
         ]
     }));
+    lines
+}
+
+/// A line for each point of each series.
+fn series(told: &Told<'_>) -> Vec<Vec<String>> {
+    let mut lines =
+        vec![heads(["response", "unit", "time", "measured", "uncertainty", "forecast", "forecast_deviation"])];
+    for ((name, unit), series) in told.series().into_iter().zip(&told.result.series) {
+        let measured = &series.measured;
+        let points = measured.times().iter().zip(measured.values()).zip(measured.uncertainties());
+        for (((time, value), uncertainty), (forecast, deviation)) in
+            points.zip(series.forecast.iter().zip(&series.deviations))
+        {
+            let numbers = [time, value, uncertainty, forecast, deviation].map(|number| exactly(*number));
+            lines.push([name.to_owned(), unit.to_owned()].into_iter().chain(numbers).collect());
+        }
+    }
     lines
 }
 

@@ -27,6 +27,7 @@ struct Told<'a> {
 pub fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let task = Task::of(plan.study())?;
+    task.check_times(&plan)?;
     if arguments.plan {
         return plan::say(&plan, &task, arguments);
     }
@@ -53,7 +54,15 @@ impl Told<'_> {
         self.task.responses.iter().map(|at| responses[*at].name.as_str()).collect()
     }
 
-    /// Their SI units.
+    /// Names of the responses of which a whole series was measured, with the SI units of the series.
+    fn series(&self) -> Vec<(&str, &'static str)> {
+        let responses = &self.fitted.plan.study().responses;
+        let of =
+            |at: &usize| (responses[*at].name.as_str(), plateau_io::study::collected::unit_of(&responses[*at].series));
+        self.task.series.iter().map(of).collect()
+    }
+
+    /// SI units of those of which a value was measured.
     fn units(&self) -> Vec<&str> {
         let responses = &self.fitted.plan.study().responses;
         let unit = |at: &usize| responses[*at].unit(plateau_io::study::collected::unit_of(&responses[*at].series));

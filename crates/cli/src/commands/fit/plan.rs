@@ -41,7 +41,7 @@ pub fn say(plan: &Plan, task: &Task, arguments: &FitArguments) -> Result<(), Fai
         let document = Document {
             study: &study.title,
             keys: study.factors.iter().map(|factor| factor.name.as_str()).collect(),
-            responses: task.responses.iter().map(|at| study.responses[*at].name.as_str()).collect(),
+            responses: task.responses.iter().chain(&task.series).map(|at| study.responses[*at].name.as_str()).collect(),
             first_runs: plan.runs(),
             runs_at_most: most,
             estimated_time: time,
@@ -56,6 +56,14 @@ pub fn say(plan: &Plan, task: &Task, arguments: &FitArguments) -> Result<(), Fai
         let [value, uncertainty] = [unit.value(measured.value), unit.difference(measured.uncertainty)];
         vec![response.name.clone(), unit.with_symbol(&number::with_error(value, Some(uncertainty)))]
     });
+    let series = task.series.iter().filter_map(|at| {
+        let (response, file) = (&study.responses[*at], study.responses[*at].measured_series()?);
+        let times = file.series.times();
+        let [from, to] = [times.first()?, times.last()?].map(|time| number::rounded(*time, 6));
+        let points = number::count(times.len(), "point");
+        Some(vec![response.name.clone(), format!("{points} from {from} to {to} s in {}", file.path.display())])
+    });
+    let responses = responses.chain(series);
     let mut text = columns("Looked for", &["key", "between"], &keys.collect::<Vec<_>>());
     text.push_str(&columns("\nFitted to", &["response", "measured"], &responses.collect::<Vec<_>>()));
     let rows = [

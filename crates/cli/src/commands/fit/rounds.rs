@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::io::IsTerminal as _;
+use std::path::PathBuf;
 
 use plateau_io::study::collected::{Collected, CollectedRun};
 use plateau_io::study::factor::{Factor, Level, Values};
@@ -12,7 +13,7 @@ use plateau_io::study::{DesignSource, Order, Study};
 use plateau_run::Job;
 use plateau_study::design::Setting;
 use plateau_study::effects::Observation;
-use plateau_study::fit::{Fit, FitError, Key, Measurement};
+use plateau_study::fit::{Fit, FitError, Key, Measurement, ObservedSeries};
 
 use crate::arguments::FitArguments;
 use crate::failure::Failure;
@@ -34,6 +35,8 @@ pub struct Task {
     pub responses: Vec<usize>,
     /// What was measured of each.
     pub measurements: Vec<Measurement>,
+    /// The responses of which a whole series was measured, by their place in the study.
+    pub series: Vec<usize>,
 }
 
 /// A fit and the runs that it rests on.
@@ -50,6 +53,8 @@ pub struct Fitted {
     pub first_points: usize,
     /// Why no more runs were made.
     pub end: End,
+    /// The study, its tables, its scenes and what they read.
+    pub inputs: Vec<PathBuf>,
 }
 
 /// Why no more runs were made.
@@ -72,10 +77,12 @@ impl Task {
         let at = study.path.display();
         let measured = study.fit.measured.iter().enumerate();
         let measured: Vec<(usize, Measured)> = measured.filter_map(|(at, of)| Some((at, (*of)?))).collect();
-        if measured.is_empty() {
+        let of_series = |at: &usize| study.responses[*at].measured_series().is_some();
+        let series: Vec<usize> = (0..study.responses.len()).filter(of_series).collect();
+        if measured.is_empty() && series.is_empty() {
             return Err(Failure::input(format_args!(
                 "{at}: nothing was measured: give a [[response]] what was measured of it, such as measured = 0.70, \
-                 uncertainty = 0.02"
+                 uncertainty = 0.02, or measured_file = \"FILE.csv\" for a whole series"
             )));
         }
         if let Some((imported, _)) = measured.iter().find(|(at, _)| study.responses[*at].is_imported()) {
@@ -91,14 +98,10 @@ impl Task {
             }
             Values::Levels(_) => None,
         };
-        let keys = study.factors.iter().map(|factor| {
-            key(factor).ok_or_else(|| {
-                let name = &factor.name;
-                Failure::input(format_args!(
-                    "{at}: factor \"{name}\" has levels; a fit looks for values between two ends: range = [lower, upper]"
-                ))
-            })
-        });
+        let keys = study
+            .factors
+            .iter()
+            .map(|factor| key(factor).ok_or_else(|| Failure::input(format_args!("{at}: {}", not_a_range(factor)))));
         Ok(Self {
             keys: keys.collect::<Result<_, _>>()?,
             responses: measured.iter().map(|(at, _)| *at).collect(),
@@ -106,14 +109,40 @@ impl Task {
                 .iter()
                 .map(|(_, of)| Measurement { value: of.value, uncertainty: of.uncertainty })
                 .collect(),
+            series,
         })
+    }
+
+    /// Refuses a series that goes on after the end of the runs.
+    ///
+    /// # Errors
+    /// [`Failure::Input`].
+    pub fn check_times(&self, plan: &Plan) -> Result<(), Failure> {
+        let study = plan.study();
+        let end = plan.scene(&plan.run(1)).map_err(Failure::input)?.duration;
+        for file in self.series.iter().filter_map(|at| study.responses[*at].measured_series()) {
+            if let Some(late) = file.series.times().last().filter(|last| **last > end * (1.0 + 1e-9)) {
+                return Err(Failure::input(format_args!(
+                    "{}:{}: the time is {late} s, and the runs end at {end} s: make them longer, with set = \
+                     [\"operation.duration = '{late} s'\"], or leave out the lines after their end",
+                    file.path.display(),
+                    file.last_line
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Where a run has the keys.
+    fn settings(&self, run: &CollectedRun) -> Vec<Setting> {
+        self.keys.iter().zip(&run.run.levels).map(|(key, level)| setting(key, level)).collect()
     }
 
     /// The fit to what the runs gave.
     fn fit(&self, study: &Study, collected: &Collected) -> Result<Fit, Failure> {
         let observe = |response: usize| {
             let observation = |run: &CollectedRun| Observation {
-                settings: self.keys.iter().zip(&run.run.levels).map(|(key, level)| setting(key, level)).collect(),
+                settings: self.settings(run),
                 replicate: run.run.replicate,
                 run: run.first,
                 response: run.responses[response],
@@ -121,17 +150,56 @@ impl Task {
             collected.runs.iter().map(observation).collect::<Vec<_>>()
         };
         let observations: Vec<Vec<Observation>> = self.responses.iter().map(|at| observe(*at)).collect();
-        Fit::new(&self.keys, &self.measurements, &observations, study.fit.confidence).map_err(|error| match &error {
-            FitError::Response { index, error } => {
-                let name = &study.responses[self.responses[*index]].name;
-                Failure::run(format_args!(
-                    "response \"{name}\": {error}; {} of {} finished",
-                    collected.count("finished"),
-                    number::count(collected.runs.len(), "run")
-                ))
+        let of_series = |at: &usize| {
+            let run = |run: &CollectedRun| ObservedSeries {
+                settings: self.settings(run),
+                replicate: run.run.replicate,
+                run: run.first,
+                values: run.at_measured_times[*at].clone(),
+            };
+            let file = study.responses[*at].measured_series()?;
+            Some((file.series.clone(), collected.runs.iter().map(run).collect()))
+        };
+        let series: Vec<_> = self.series.iter().filter_map(of_series).collect();
+        let unfinished = |response: usize, error: &dyn std::fmt::Display| {
+            let name = &study.responses[response].name;
+            Failure::run(format_args!(
+                "response \"{name}\": {error}; {} of {} finished",
+                collected.count("finished"),
+                number::count(collected.runs.len(), "run")
+            ))
+        };
+        let fit = Fit::with_series(&self.keys, &self.measurements, &observations, &series, study.fit.confidence);
+        fit.map_err(|error| match &error {
+            FitError::Response { index, error } => unfinished(self.responses[*index], error),
+            FitError::Series { index, error } => unfinished(self.series[*index], error),
+            FitError::NoRun(index) => {
+                unfinished(self.series[*index], &"no run has values at all of the measured times")
             }
             error => Failure::input(format_args!("{}: {error}", study.path.display())),
         })
+    }
+}
+
+/// Why a factor with levels is not fitted, and what to do.
+fn not_a_range(factor: &Factor) -> String {
+    let (name, keys) = (&factor.name, factor.keys.join(", "));
+    let said = format!("factor \"{name}\" ({keys}) has levels, and a fit looks for numbers between two ends");
+    match &factor.values {
+        Values::Levels(levels) if levels.iter().any(|level| level.number.is_none()) => {
+            let levels: Vec<&str> = levels.iter().map(|level| level.text.as_str()).collect();
+            let first = levels.first().copied().unwrap_or_default().replace('"', "'");
+            format!(
+                "{said}: these are words, {}. Make one study for each word, with set = [\"{}={first}\"] in place of this \
+                 factor, fit each, and compare what they say of the misfit: the word with the least misfit fits best",
+                levels.join(", "),
+                factor.keys[0]
+            )
+        }
+        _ if factor.is_whole() => {
+            format!("{said}: this key holds whole numbers; make one study for each number, and compare the misfits")
+        }
+        _ => format!("{said}: give range = [lower, upper] in place of levels"),
     }
 }
 
@@ -154,7 +222,7 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
     for round in 1.. {
         let source = DesignSource::File(points.clone());
         let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::input)?;
-        let collected = made(&plan, arguments, job, &interrupt, &mut tried)?;
+        let (collected, scenes) = made(&plan, arguments, job, &interrupt, &mut tried)?;
         let fit = task.fit(&study, &collected)?;
         let affordable = study.fit.runs.saturating_sub(plan.runs()) / seeds;
         let next = fit.next_points(AT_A_TIME.min(affordable), seeds);
@@ -165,7 +233,8 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
             _ => None,
         };
         if let Some(end) = end {
-            return Ok(Fitted { plan, collected, fit, rounds: round, first_points, end });
+            let inputs = study.files.iter().cloned().chain(scenes).collect();
+            return Ok(Fitted { plan, collected, fit, rounds: round, first_points, end, inputs });
         }
         note_to_terminal(format_args!(
             "{} of at most {}: {}; {} more",
@@ -214,14 +283,14 @@ fn levels(study: &Study, place: &[f64]) -> Result<Vec<Level>, Failure> {
     study.factors.iter().zip(place).map(level).collect()
 }
 
-/// Makes the runs that are not there yet, and gives the results of all.
+/// Makes the runs that are not there yet, and gives the results of all with the files of their scenes.
 fn made(
     plan: &Plan,
     arguments: &FitArguments,
     job: &mut Job,
     interrupt: &Interrupt,
     tried: &mut BTreeSet<String>,
-) -> Result<Collected, Failure> {
+) -> Result<(Collected, BTreeSet<PathBuf>), Failure> {
     let resolved = Resolved::of(plan)?;
     let known = journal(plan.study())?;
     let is_pending = |number: &usize| match known.get(&resolved.identities[number - 1]) {
@@ -250,6 +319,7 @@ fn made(
         journal(plan.study())?
     };
     let folder = || journal_folder(plan.study());
-    Collected::new(plan, &resolved.identities, &known)
-        .map_err(|error| Failure::run(format_args!("{}: {error}", folder().display())))
+    let collected = Collected::new(plan, &resolved.identities, &known)
+        .map_err(|error| Failure::run(format_args!("{}: {error}", folder().display())))?;
+    Ok((collected, resolved.files))
 }

@@ -1,6 +1,8 @@
 //! What a fit says in the terminal.
 
 use plateau_present::study::fit::{determined, notes, unit};
+use plateau_present::study::fit_series::notes as notes_of_series;
+use plateau_study::fit::FittedSeries;
 
 use super::Told;
 use super::rounds::End;
@@ -14,13 +16,23 @@ const DIGITS: usize = 4;
 pub fn text(told: &Told<'_>, files: &[String]) -> String {
     let study = told.fitted.plan.study();
     let mut text = columns("Keys", &["key", "most likely", &format!("{} interval", level(told))], &keys(told));
-    text.push_str(&columns(
-        "\nResponses at the most likely values",
-        &["response", "measured", "runs give", "seed to seed", "apart"],
-        &responses(told),
-    ));
+    if !told.result.responses.is_empty() {
+        text.push_str(&columns(
+            "\nResponses at the most likely values",
+            &["response", "measured", "runs give", "seed to seed", "apart"],
+            &responses(told),
+        ));
+    }
+    if !told.result.series.is_empty() {
+        text.push_str(&columns(
+            "\nSeries at the most likely values",
+            &["response", "points", "count as", "components", "apart"],
+            &series(told),
+        ));
+    }
     let mut said: Vec<String> = determined(told.result, told.keys).into_iter().collect();
     said.extend(notes(told.result, &told.names()));
+    said.extend(notes_of_series(told.result, &told.series().iter().map(|(name, _)| *name).collect::<Vec<_>>()));
     if !said.is_empty() {
         text.push_str(&list("\nTo be known", &said));
     }
@@ -68,6 +80,20 @@ fn responses(told: &Told<'_>) -> Vec<Vec<String>> {
         ]
     };
     names.map(row).collect()
+}
+
+fn series(told: &Told<'_>) -> Vec<Vec<String>> {
+    let row = |((name, _), series): ((&str, &str), &FittedSeries)| {
+        let points = series.measured.times().len();
+        vec![
+            name.to_owned(),
+            points.to_string(),
+            format!("{} independent", number::rounded(series.measured.independent_points(), 3)),
+            series.components.to_string(),
+            format!("{} deviations in the mean", number::rounded(series.apart, 2)),
+        ]
+    };
+    told.series().into_iter().zip(&told.result.series).map(row).collect()
 }
 
 fn runs(told: &Told<'_>) -> String {

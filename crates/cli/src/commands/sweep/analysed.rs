@@ -1,6 +1,6 @@
 //! A study whose results were collected and analysed: what `effects`, `predict` and `optimize` begin with.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use plateau_io::number;
 use plateau_io::study::collected::Collected;
@@ -8,15 +8,15 @@ use plateau_io::study::plan::Plan;
 use plateau_present::study::analysis::{Analysis, Asked};
 use plateau_study::effects::EffectsError;
 
-use super::collect::collected;
+use super::collect::{Found, collected};
 use crate::failure::Failure;
-use crate::{message, sweep};
+use crate::message;
 
 /// The results of a study that asks for responses. Runs without results are said.
 ///
 /// # Errors
 /// [`Failure::Input`] when the study has no response; [`Failure::Run`] when the results cannot be read.
-pub fn analysable(plan: &Plan) -> Result<Collected, Failure> {
+pub fn analysable(plan: &Plan) -> Result<Found, Failure> {
     let study = plan.study();
     if study.responses.is_empty() {
         return Err(Failure::input(format_args!(
@@ -25,7 +25,8 @@ pub fn analysable(plan: &Plan) -> Result<Collected, Failure> {
             study.path.display()
         )));
     }
-    let collected = collected(plan)?;
+    let found = collected(plan)?;
+    let collected = &found.collected;
     let left_out = collected.runs.len() - collected.count("finished");
     if left_out > 0 {
         message::warning(format_args!(
@@ -36,7 +37,7 @@ pub fn analysable(plan: &Plan) -> Result<Collected, Failure> {
             collected.count("missing")
         ));
     }
-    Ok(collected)
+    Ok(found)
 }
 
 /// A study, its results and what they tell.
@@ -45,18 +46,19 @@ pub struct Analysed {
     pub plan: Plan,
     pub collected: Collected,
     pub analysis: Analysis,
+    /// What the results were made of.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Analysed {
-    /// Of the study at a path. Runs without results are said.
+    /// Of a study. Runs without results are said.
     ///
     /// # Errors
-    /// [`Failure::Input`] when the study is wrong, has no response, or one that its transform is not for; [`Failure::Run`] when
+    /// [`Failure::Input`] when the study has no response, or one that its transform is not for; [`Failure::Run`] when
     /// the results cannot be read.
-    pub fn of(path: &Path, asked: Asked) -> Result<Self, Failure> {
-        let plan = sweep::plan(path)?;
+    pub fn of(plan: Plan, asked: Asked) -> Result<Self, Failure> {
         let study = plan.study();
-        let collected = analysable(&plan)?;
+        let Found { collected, inputs } = analysable(&plan)?;
         let analysis = Analysis::of(study, &collected, asked).in_order_of(&plan);
         for response in &analysis.responses {
             if let Err(error @ EffectsError::Domain { .. }) = &response.effects {
@@ -64,6 +66,6 @@ impl Analysed {
                 return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
             }
         }
-        Ok(Self { plan, collected, analysis })
+        Ok(Self { plan, collected, analysis, inputs })
     }
 }

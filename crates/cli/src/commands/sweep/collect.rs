@@ -1,10 +1,12 @@
 //! `plateau sweep collect`: all results of a study in one HDF5 file and a table.
 
+use std::path::PathBuf;
+
 use plateau_io::dataset_file::{Attribute, now};
-use plateau_io::study::collected::{CollectError, Collected, State};
+use plateau_io::study::collected::{CollectError, Collected, State, is_collected};
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
-use plateau_io::study::results_table::table as table_of;
+use plateau_io::study::results_table::{is_results_table, table as table_of};
 use plateau_io::{limits, regular};
 use serde::Serialize;
 
@@ -22,10 +24,13 @@ const LISTED: usize = 10;
 /// Collects what there is.
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
-    let collected = collected(&plan)?;
+    let Found { collected, inputs } = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
+    // What was collected before is collected anew, as often as there are more results. What others made stays.
+    output::check(&hdf5, arguments.force || is_collected(&hdf5), &inputs)?;
+    output::check(&csv, arguments.force || is_results_table(&csv), &inputs)?;
     collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
     output::write(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
     let summary = Summary {
@@ -42,15 +47,25 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     print(&summary.to_text(&collected))
 }
 
+/// The results of a study, and what they were made of.
+#[derive(Debug)]
+pub struct Found {
+    pub collected: Collected,
+    /// The study, its tables, its scenes and what they read.
+    pub inputs: Vec<PathBuf>,
+}
+
 /// The results of a study, as far as there are any.
 ///
 /// # Errors
 /// [`Failure::Input`] when a run's scene cannot be built, [`Failure::Run`] when the journal cannot be read.
-pub fn collected(plan: &Plan) -> Result<Collected, Failure> {
+pub fn collected(plan: &Plan) -> Result<Found, Failure> {
+    let mut inputs = plan.study().files.clone();
     if plan.study().base.is_none() {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
-        return Collected::new(plan, &numbers, &Journal::default()).map_err(failure);
+        let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
+        return Ok(Found { collected, inputs });
     }
     let resolved = Resolved::of(plan)?;
     let journal = journal(plan.study())?;
@@ -62,7 +77,8 @@ pub fn collected(plan: &Plan) -> Result<Collected, Failure> {
             number::count(journal.len() - finished - collected.count("failed"), "result")
         ));
     }
-    Ok(collected)
+    inputs.extend(resolved.files);
+    Ok(Found { collected, inputs })
 }
 
 fn failure(error: CollectError) -> Failure {

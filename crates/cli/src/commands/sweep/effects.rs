@@ -15,8 +15,9 @@ use super::effects_files;
 use crate::arguments::{EffectsArguments, Terms};
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
+use crate::output_folder::OutputFolder;
 use crate::table::{columns, print, table};
-use crate::{number, output};
+use crate::{number, sweep};
 
 /// Analyses the results.
 pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
@@ -26,22 +27,22 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
         with_processes: false,
         confidence: arguments.confidence,
     };
-    let Analysed { plan, collected, analysis } = Analysed::of(&arguments.study, asked)?;
+    let plan = sweep::plan(&arguments.study)?;
+    let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.join("effects"));
+    let mut folder = OutputFolder::new(folder, arguments.force)?;
+    let analysed = Analysed::of(plan, asked)?;
+    let Analysed { plan, collected, analysis, .. } = &analysed;
     let study = plan.study();
-    let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("effects"));
-    output::make_directory(&folder)?;
-    let csv = folder.join("effects.csv");
-    output::write(&csv, rows(&analysis).as_bytes(), true)?;
-    let mut files = vec![csv.display().to_string()];
-    files.extend(effects_files::write(&folder, &plan, &collected, &analysis)?);
+    effects_files::write(&mut folder, &analysed, &rows(analysis))?;
+    let files = folder.files().to_vec();
     if arguments.json {
-        let report = Document::new(&study.title, collected.repeats(), &analysis, files);
+        let report = Document::new(&study.title, collected.repeats(), analysis, files);
         return print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"));
     }
     let repeats = Some(collected.repeats()).filter(|repeats| *repeats > 0);
     let mut text = repeats.map_or_else(String::new, |repeats| repeats_in_words(repeats, collected.runs.len()) + "\n\n");
     text.extend(analysis.responses.iter().map(|response| text_of(response, &analysis.factors) + "\n"));
-    text.push_str(&table(&study.title, &told(&folder, &files)));
+    text.push_str(&table(&study.title, &told(folder.path(), &files)));
     print(&text)
 }
 

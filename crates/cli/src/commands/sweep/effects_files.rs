@@ -1,16 +1,18 @@
 //! Figures and page of `plateau sweep effects`.
 
-use std::path::Path;
-
-use plateau_io::study::collected::Collected;
-use plateau_io::study::plan::Plan;
 use plateau_present::figure::effects::figures;
 use plateau_present::figure::{Figure, Format};
 use plateau_present::report::{Picture, Pictures, StudyPage, effects_page};
-use plateau_present::study::analysis::Analysis;
 
+use super::analysed::Analysed;
 use crate::failure::Failure;
-use crate::{output, version};
+use crate::output_folder::{OutputFolder, names_of};
+use crate::version;
+
+/// The table.
+const TABLE: &str = "effects.csv";
+/// The page.
+const PAGE: &str = "effects.html";
 
 /// A figure in the formats of files, and for the page.
 pub struct Drawn {
@@ -18,23 +20,22 @@ pub struct Drawn {
     pub picture: Picture,
 }
 
-/// Writes the figures of all responses and the page with them; their paths.
+/// Writes the table, the figures of all responses and the page with them.
 ///
 /// # Errors
-/// [`Failure::Run`] when a figure cannot be drawn, and those of [`output::write()`].
-pub fn write(folder: &Path, plan: &Plan, collected: &Collected, analysis: &Analysis) -> Result<Vec<String>, Failure> {
-    let mut files = Vec::new();
-    let mut add = |name: &str, content: &[u8]| {
-        let path = folder.join(name);
-        files.push(path.display().to_string());
-        output::write(&path, content, true)
-    };
+/// [`Failure::Run`] when a figure cannot be drawn, and those of [`OutputFolder`].
+pub fn write(folder: &mut OutputFolder, analysed: &Analysed, table: &str) -> Result<(), Failure> {
+    let Analysed { plan, collected, analysis, inputs } = analysed;
+    let responses = figures(analysis);
+    let names = names_of(responses.iter().flat_map(|of_response| &of_response.figures));
+    folder.begin(&[&[TABLE.to_owned(), PAGE.to_owned()], &names[..]].concat(), inputs)?;
+    folder.write(TABLE, table.as_bytes())?;
     let mut pictures = Vec::new();
-    for of_response in figures(analysis) {
+    for of_response in responses {
         let mut drawn = Vec::new();
         for Drawn { files, picture } in draw_all(&of_response.figures)? {
             for (format, content) in files {
-                add(&format!("{}.{}", picture.name, format.ending()), &content)?;
+                folder.write(&format!("{}.{}", picture.name, format.ending()), &content)?;
             }
             drawn.push(picture);
         }
@@ -42,8 +43,7 @@ pub fn write(folder: &Path, plan: &Plan, collected: &Collected, analysis: &Analy
     }
     let program = version::program();
     let page = effects_page(&StudyPage { plan, collected, analysis, pictures: &pictures, program: &program });
-    add("effects.html", page.as_bytes())?;
-    Ok(files)
+    folder.write(PAGE, page.as_bytes())
 }
 
 /// Draws figures, each in a thread of its own: there are as many as a response has, and most of the time is theirs.

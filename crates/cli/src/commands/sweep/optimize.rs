@@ -1,10 +1,10 @@
 //! `plateau sweep optimize`: the settings at which the responses of a study are best.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use plateau_io::number;
-use plateau_present::figure::Format;
 use plateau_present::figure::optimum::{Shown, figures};
+use plateau_present::figure::{Figure, Format};
 use plateau_present::study::forecasts::heads;
 use plateau_present::study::goals::{self, Aim};
 use plateau_present::study::place::{Place, Space};
@@ -15,16 +15,22 @@ use serde::Serialize;
 
 use super::analysed::Analysed;
 use super::effects_files::draw_all;
-use super::predict::{ForecastReport, SettingReport, confirmed_text, forecasts_of, reasons, settings_of};
+use super::predict::{
+    ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, reasons, settings_of,
+};
 use crate::arguments::OptimizeArguments;
 use crate::failure::Failure;
+use crate::output_folder::{OutputFolder, names_of};
 use crate::sweep::confirmation::{Confirmed, confirm};
 use crate::table::{columns, print};
-use crate::{message, output};
+use crate::{message, sweep};
 
 /// Looks for the best settings.
 pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
-    let analysed = Analysed::of(&arguments.study, arguments.fit.asked())?;
+    let plan = sweep::plan(&arguments.study)?;
+    let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.join("optimum"));
+    let mut folder = OutputFolder::new(folder, arguments.force)?;
+    let analysed = Analysed::of(plan, arguments.fit.asked())?;
     let analysis = &analysed.analysis;
     let (goals, limits) = wanted(&analysed, arguments)?;
     let space = Space::new(analysed.plan.study(), analysis);
@@ -40,7 +46,6 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
         });
     }
     let place = space.of(best.settings.clone()).map_err(Failure::input)?;
-    let folder = arguments.output.clone().unwrap_or_else(|| analysed.plan.study().directory.join("optimum"));
     let shown = Shown {
         analysis,
         goals: &goals,
@@ -49,7 +54,8 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
         best: &best.settings,
         confidence: arguments.fit.confidence,
     };
-    let files = write(&folder, &shown, contour)?;
+    write(&mut folder, &figures(&shown, contour), &analysed.inputs)?;
+    let files = folder.files().to_vec();
     let confirmed = if arguments.confirm { Some(confirm(&analysed.plan, &place.levels, &forecasts)?) } else { None };
     if arguments.json {
         let document = Document {
@@ -74,7 +80,11 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
         text.push_str(&confirmed_text(&analysed, confirmed));
     }
     let count = files.iter().filter(|file| file.ends_with(".png")).count();
-    text.push_str(&format!("written {} as PNG, SVG and PDF in {}\n", number::count(count, "figure"), folder.display()));
+    text.push_str(&format!(
+        "written {} as PNG, SVG and PDF in {}\n",
+        number::count(count, "figure"),
+        folder.path().display()
+    ));
     print(&text)
 }
 
@@ -173,20 +183,17 @@ fn pair(space: &Space<'_>, names: &str, axes: &[Axis]) -> Result<[usize; 2], Fai
     }
 }
 
-/// Draws the figures; their files.
-fn write(folder: &Path, shown: &Shown<'_>, contour: Option<[usize; 2]>) -> Result<Vec<String>, Failure> {
-    let drawn = draw_all(&figures(shown, contour))?;
-    output::make_directory(folder)?;
-    let mut files = Vec::new();
+/// Draws the figures.
+fn write(folder: &mut OutputFolder, figures: &[Figure], inputs: &[PathBuf]) -> Result<(), Failure> {
+    let drawn = draw_all(figures)?;
+    folder.begin(&names_of(figures.iter()), inputs)?;
     for (name, format, content) in drawn
         .iter()
         .flat_map(|drawn| drawn.files.iter().map(move |(format, content)| (&drawn.picture.name, format, content)))
     {
-        let path = folder.join(format!("{name}.{}", Format::ending(*format)));
-        output::write(&path, content, true)?;
-        files.push(path.display().to_string());
+        folder.write(&format!("{name}.{}", Format::ending(*format)), content)?;
     }
-    Ok(files)
+    Ok(())
 }
 
 /// What is said of the optimum.
@@ -216,7 +223,7 @@ fn text_of(
         Some(cells)
     };
     let rows: Vec<Vec<String>> = forecasts.iter().enumerate().filter_map(line).collect();
-    columns(&heading, &names, &rows) + &reasons(analysed)
+    columns(&heading, &names, &rows) + &reasons(analysed) + &notes_of_bounds(analysed, forecasts)
 }
 
 /// A goal in words.

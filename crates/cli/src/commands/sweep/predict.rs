@@ -16,6 +16,7 @@ use super::prediction_table;
 use crate::arguments::PredictArguments;
 use crate::failure::Failure;
 use crate::output;
+use crate::sweep;
 use crate::sweep::confirmation::{Confirmed, confirm};
 use crate::table::{columns, print};
 
@@ -27,7 +28,7 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.output {
         output::check(path, arguments.force, std::slice::from_ref(&arguments.study))?;
     }
-    let analysed = Analysed::of(&arguments.study, arguments.fit.asked())?;
+    let analysed = Analysed::of(sweep::plan(&arguments.study)?, arguments.fit.asked())?;
     let confidence = arguments.fit.confidence;
     let places = places(&analysed, arguments)?;
     refuse_beyond(&places, arguments.extrapolate)?;
@@ -173,7 +174,14 @@ fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], c
         cells
     };
     let rows: Vec<Vec<String>> = analysed.analysis.responses.iter().zip(forecasts).map(line).collect();
-    columns(&heading, &names, &rows) + &reasons(analysed)
+    columns(&heading, &names, &rows) + &reasons(analysed) + &notes_of_bounds(analysed, forecasts)
+}
+
+/// Which intervals are cut where a response cannot be, a line for each.
+pub(super) fn notes_of_bounds(analysed: &Analysed, forecasts: &[Option<Forecast>]) -> String {
+    let each = analysed.analysis.responses.iter().zip(forecasts);
+    each.filter_map(|(response, forecast)| Some(format!("  {}\n", response.note_of_bounds(forecast.as_ref()?)?)))
+        .collect()
 }
 
 /// Why a response is forecast by what it is, a line for each of which there was a choice.

@@ -14,38 +14,40 @@ use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as Pro
 use plateau_study::surrogate::{Surrogate, choose};
 
 use super::analysed::analysable;
+use super::collect::Found;
 use super::sensitivity_document::{self, Known, Told};
 use crate::arguments::SensitivityArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
+use crate::number;
+use crate::output_folder::{OutputFolder, names_of};
 use crate::sweep;
 use crate::table::{columns, print, table};
-use crate::{number, output};
+
+/// The table.
+const TABLE: &str = "sensitivity.csv";
 
 /// Tells the sensitivities of all responses.
 pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let study = plan.study();
-    let results = analysable(&plan)?;
-    let told = Told::new(&plan, &results, arguments);
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("sensitivity"));
-    output::make_directory(&folder)?;
-    let mut files = Vec::new();
-    let mut add = |name: &str, content: &[u8]| {
-        let path = folder.join(name);
-        files.push(path.display().to_string());
-        output::write(&path, content, true)
-    };
-    add("sensitivity.csv", csv_table(told.lines()).as_bytes())?;
-    for figure in told.figures() {
+    let mut folder = OutputFolder::new(folder, arguments.force)?;
+    let Found { collected, inputs } = analysable(&plan)?;
+    let told = Told::new(&plan, &collected, arguments);
+    let figures = told.figures();
+    folder.begin(&[&[TABLE.to_owned()], &names_of(figures.iter())[..]].concat(), &inputs)?;
+    folder.write(TABLE, csv_table(told.lines()).as_bytes())?;
+    for figure in figures {
         for format in Format::ALL {
             let content = match format {
                 Format::Svg => figure.svg().map_err(Failure::run)?.into_bytes(),
                 format => figure.draw(format).map_err(Failure::run)?,
             };
-            add(&format!("{}.{}", figure.name, format.ending()), &content)?;
+            folder.write(&format!("{}.{}", figure.name, format.ending()), &content)?;
         }
     }
+    let files = folder.files().to_vec();
     if arguments.json {
         let document = sensitivity_document::Document {
             study: &study.title,

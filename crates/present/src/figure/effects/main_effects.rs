@@ -3,7 +3,7 @@
 use plateau_study::design::Setting;
 use plateau_study::effects::{Cell, Model};
 
-use super::{FactorAxis, ResponseFigures, Subject, range_of, responses};
+use super::{CUT, FactorAxis, ResponseFigures, Subject, range_of, responses};
 use crate::colour::{DATA, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
@@ -87,7 +87,10 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     if has_intervals {
         meanings[1].text.push_str(&format!(", {interval} confidence"));
     }
-    let caption = format!("{what}. {uncertainty}");
+    let cuts = [subject.bounds().least, subject.bounds().most].map(|bound| subject.unit.value(bound));
+    let mut intervals = shown.iter().flat_map(|shown| &shown.intervals);
+    let cut = if intervals.any(|[_, low, high]| cuts.contains(low) || cuts.contains(high)) { CUT } else { "" };
+    let caption = format!("{what}. {uncertainty}{cut}");
     let page = page(width, HEIGHT, across, charts, &meanings);
     subject.add(figures, "main-effects", "Main effects on", caption, page);
 }
@@ -98,8 +101,13 @@ fn shown(subject: &Subject, factor: usize) -> Shown {
     let cells = effects.level_means(factor);
     let is_curved = effects.model == Model::Quadratic && axis.is_continuous();
     let predicted = cells.is_empty() || is_curved;
-    let interval =
-        |x: f64, interval: Option<[f64; 2]>| interval.map(|ends| [x, unit.value(ends[0]), unit.value(ends[1])]);
+    let bounds = subject.bounds();
+    let interval = |x: f64, interval: Option<[f64; 2]>| {
+        interval.map(|ends| {
+            let [low, high] = bounds.clipped(ends);
+            [x, unit.value(low), unit.value(high)]
+        })
+    };
     let mut found: Vec<([f64; 2], Option<[f64; 3]>)> = if predicted {
         let at = |setting: Setting| {
             let prediction = effects.predict_at(&[(factor, setting)]).ok()?;

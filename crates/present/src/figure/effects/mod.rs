@@ -13,6 +13,7 @@
 
 use std::ops::RangeInclusive;
 
+use plateau_io::study::bounds::Bounds;
 use plateau_study::effects::Effects;
 
 use super::format::Figure;
@@ -96,6 +97,11 @@ impl Subject<'_> {
         self.unit.label(&self.response.title())
     }
 
+    /// What can be shown: what the response can be, and any value of a transform.
+    fn bounds(&self) -> Bounds {
+        if self.response.scale.transform().is_some() { Bounds::NONE } else { self.response.bounds }
+    }
+
     /// The confidence level in per cent.
     fn confidence(&self) -> String {
         format!("{} %", number::rounded(100.0 * self.effects.confidence, 4))
@@ -111,6 +117,9 @@ impl Subject<'_> {
         });
     }
 }
+
+/// What a caption says of intervals that are cut.
+pub(super) const CUT: &str = " They end where a response cannot be: below 0, and above 1 of a fraction.";
 
 /// A range with a little room round values; any where there are none.
 pub(super) fn range_of(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {

@@ -9,7 +9,7 @@ use crate::colour::{DATA, DERIVED, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
-use crate::figure::effects::{FactorAxis, axes, range_of};
+use crate::figure::effects::{CUT, FactorAxis, axes, range_of};
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
 use crate::figure::page::{Content, KeyStyle, Mark};
@@ -34,6 +34,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     let across = axes.len();
     let width = (BOX * across as f64 + 300.0).min(TWO_COLUMNS);
     let mut charts = Vec::new();
+    let mut is_cut = false;
     for (response, surrogate) in shown.analysis.responses.iter().zip(&surrogates) {
         let Some(surrogate) = surrogate else { continue };
         let unit = &response.scale.unit;
@@ -48,6 +49,9 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
                 })
             })
             .collect();
+        let ends = curves.iter().flatten().flat_map(|(.., ends)| ends.unwrap_or([f64::NAN; 2]));
+        let cuts = [response.bounds.least, response.bounds.most].map(|bound| unit.value(bound));
+        is_cut |= ends.into_iter().any(|end| cuts.contains(&end));
         let values = curves
             .iter()
             .flatten()
@@ -67,9 +71,11 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     Figure {
         name: "profiler".to_owned(),
         title: "Responses and desirability against each factor".to_owned(),
-        caption: "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
-                  optimum; bands are intervals of the mean of many runs."
-            .to_owned(),
+        caption: format!(
+            "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
+             optimum; bands are intervals of the mean of many runs.{}",
+            if is_cut { CUT } else { "" }
+        ),
         page: page(width, HEIGHT, across, charts, &meanings),
     }
 }
