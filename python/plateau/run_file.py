@@ -1,5 +1,7 @@
 """Run files as trees of xarray, also of runs that go on or were killed."""
 
+import difflib
+import errno
 import os
 from typing import Any
 
@@ -42,6 +44,8 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     >>> quick["series/filled_fraction"].attrs["units"]
     '1'
     """
+    if not os.path.exists(path):
+        raise FileNotFoundError(errno.ENOENT, "there is no such run file", os.fspath(path))
     try:
         # Refused while the file is being written, and after a kill.
         with h5py.File(path, "r") as file:
@@ -82,7 +86,10 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
     try:
         found = run[path]
     except KeyError:
-        raise KeyError(f"the run has no {path}") from None
+        group, _, name = path.rpartition("/")
+        there = run[group].data_vars if group in run else run.data_vars
+        near = difflib.get_close_matches(name, map(str, there), 1)
+        raise KeyError(f"the run has no {path}" + (f", did you mean {near[0]}?" if near else "")) from None
     if not isinstance(found, xarray.DataArray):
         raise KeyError(f"{path} is a group of the run: expected a variable")
     return found

@@ -55,6 +55,7 @@ mkdir -p "$lab/modules/libexec" "$lab/sources"
 ln -s /usr/lib/*/modulecmd.tcl "$lab/modules/libexec/modulecmd.tcl"
 tar -czf "$lab/sources/$name.tar.gz" -C "$lab" "$name"
 easybuild() (
+    # shellcheck disable=SC1091
     . /usr/share/modules/init/sh
     MODULESHOME=$lab/modules
     PATH=$lab/venv/bin:$PATH

@@ -127,6 +127,15 @@ fn what_was_not_recorded_is_left_out_and_said_so() {
     let names: Vec<String> = outcome.stdout.lines().map(|line| line.replace("wrote run/", "")).collect();
     let shown = |name: &str| names.iter().any(|line| line.starts_with(&format!("{name}.png: ")));
     assert_eq!(ALL.map(shown), [false, true, true, true, true, true, true, false, true], "{names:?}");
+    // Of a part that the scene does without nothing was said; whoever asks for it is told.
+    let asked = directory.plateau(["plot", "run.h5", "-o", "asked", "--figure", "temperature"]);
+    assert_eq!(asked.status, Some(2));
+    assert!(
+        asked.stderr.starts_with("plateau: run.h5 has nothing of the kind: left out of temperature\n"),
+        "{}",
+        asked.stderr
+    );
+    assert!(asked.stderr.contains("no run has what temperature shows") && !directory.path("asked").exists());
 }
 
 #[test]

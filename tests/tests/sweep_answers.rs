@@ -250,7 +250,7 @@ fn an_optimum_keeps_limits_and_what_is_held() {
         (&["--maximize", "worn", "--contour", "load,load"], "two different factors"),
         (&["--maximize", "worn", "--weight", "worn=-1"], "expected a number between 0.01 and 100"),
     ] {
-        let said = refused(&directory, "optimize", arguments);
+        let said = refused(&directory, "optimize", &[arguments, &["--force"]].concat());
         assert!(said.contains(message), "{arguments:?}: {said}");
     }
 }
@@ -269,12 +269,12 @@ fn terms_are_chosen_and_transforms_are_said() {
     // A response that its transform is not for: the pin's resin does not wear in the first second, nor the disc ever.
     let wrong = study().replace("/series/worn_pin", "/series/worn_disc");
     directory.write("study.toml", &wrong);
-    let said = refused(&directory, "effects", &[]);
+    let said = refused(&directory, "effects", &["--force"]);
     assert!(said.contains("response \"worn\": run 1 has the response 0") && said.contains("more than 0"), "{said}");
     directory.write("study.toml", wrong.replace("\"log\"", "\"logit\""));
-    assert!(refused(&directory, "effects", &[]).contains("\"logit\" is for fractions between 0 and 1"));
+    assert!(refused(&directory, "effects", &["--force"]).contains("\"logit\" is for fractions between 0 and 1"));
     directory.write("study.toml", wrong.replace("\"log\"", "\"lug\""));
-    let said = refused(&directory, "effects", &[]);
+    let said = refused(&directory, "effects", &["--force"]);
     assert!(said.contains("\"lug\", expected one of \"log\", \"square root\", \"logit\""), "{said}");
 }
 

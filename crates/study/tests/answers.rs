@@ -222,6 +222,8 @@ fn intervals_of_runs_with_new_seeds_hold_what_they_promise() {
             let has = |interval: Option<[f64; 2]>, value: f64| {
                 interval.is_some_and(|[low, high]| low <= value && value <= high)
             };
+            let ([low, high], [run_low, run_high]) = (forecast.mean_interval.unwrap(), forecast.run_interval.unwrap());
+            assert!(run_low <= low && high <= run_high, "one run is not known better than the mean of many");
             runs += usize::from(has(forecast.run_interval, new));
             means += usize::from(has(forecast.mean_interval, truth(&at)));
         }

@@ -123,6 +123,70 @@ fn results_that_are_collected_replace_what_was_collected_and_nothing_else() {
     assert!(!directory.path("lab/results.h5").exists());
 }
 
+/// A lab's table of a factorial with two lines for each point: `point` gives the response at coded places and line.
+fn factorial(friction: impl Fn([f64; 3], usize) -> f64) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    let factors = [
+        ("load", "operation.normal_force", "levels = [\"20 N\", \"60 N\"]"),
+        ("speed", "operation.rotational_speed", "levels = [\"400 rpm\", \"1200 rpm\"]"),
+        ("fibres", "pin.base.synthetic.fibre_fraction", "range = [0.2, 0.4]"),
+    ];
+    let factors =
+        factors.map(|(name, key, values)| format!("[[factor]]\nname = \"{name}\"\nkey = \"{key}\"\n{values}\n"));
+    let head = "version = 1\ntitle = \"Lab\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n";
+    let seeds = "[replicates]\nkeys = [\"disc.surface.synthetic.seed\"]\nseeds = [1, 2]\n";
+    let response = "[[response]]\nname = \"friction\"\nimported = true\n";
+    directory.write("study.toml", format!("{head}{seeds}{}{response}", factors.concat()));
+    let mut table = "load [N],speed [rpm],fibres,friction\n".to_owned();
+    for line in 0..16 {
+        let place = [4, 2, 1].map(|bit| if line & bit == 0 { -1.0 } else { 1.0 });
+        let [load, speed, fibres] = [40.0 + 20.0 * place[0], 800.0 + 400.0 * place[1], 0.3 + 0.1 * place[2]];
+        table.push_str(&format!("{load},{speed},{fibres:.1},{}\n", friction(place, line / 8)));
+    }
+    directory.write("lab.csv", table);
+    ask(&directory, "import", &["lab.csv"]);
+    directory
+}
+
+#[test]
+fn a_run_is_known_no_better_than_the_mean_of_many() {
+    // The two sets differ by a little more than the error, and there are only two of them: one degree of freedom.
+    let noise = |[a, b, c]: [f64; 3]| 0.002 * (a * b * c);
+    let directory = factorial(|place @ [load, speed, fibres], set| {
+        0.42 - 0.03 * load - 0.02 * speed + 0.025 * fibres + noise(place) + 0.003 * set as f64
+    });
+    let predicted = ask(&directory, "predict", &[]);
+    let interval = |which: &str| [0, 1].map(|end| predicted["places"][0]["responses"][0][which][end].as_f64().unwrap());
+    let ([low, high], [run_low, run_high]) = (interval("mean_interval"), interval("run_interval"));
+    assert!(run_low <= low && high <= run_high, "{predicted}");
+    // Two levels and a range are not compared without a word.
+    let said = directory.plateau(["sweep", "sensitivity", "study.toml"]).stderr;
+    assert!(said.contains("warning: load, speed: numbers with two levels vary between these alone"), "{said}");
+}
+
+#[test]
+fn a_response_that_is_the_same_everywhere_has_no_optimum() {
+    let directory = factorial(|_, _| 0.4);
+    let said = refused(&directory, "optimize", &["--maximize", "friction"]);
+    assert!(said.contains("all runs have 0.4, so there is nothing to choose"), "{said}");
+}
+
+#[test]
+fn factors_that_change_together_are_told() {
+    let directory = rubber();
+    let lines = "silica,silane,sulphur,abrasion\n-1,-1,1,102\n1,1,1,120\n-1,-1,-1,117\n1,1,-1,131\n0,0,0,119\n";
+    directory.write("rubber.csv", lines);
+    ask(&directory, "import", &["rubber.csv"]);
+    for command in [
+        &["predict", "study.toml"][..],
+        &["optimize", "study.toml", "--maximize", "abrasion"],
+        &["sensitivity", "study.toml"],
+    ] {
+        let said = directory.plateau(["sweep"].iter().chain(command)).stderr;
+        assert!(said.contains("warning: silica and silane change together in all runs"), "{command:?}: {said}");
+    }
+}
+
 #[test]
 fn intervals_end_where_an_area_cannot_be() {
     let directory = WorkingDirectory::new();

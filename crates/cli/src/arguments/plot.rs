@@ -26,7 +26,7 @@ pub struct PlotArguments {
     /// Time of the maps to show, the nearest that was recorded ("100 s"); may be repeated. Unless given, the first and the last map
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time)]
     pub at: Vec<f64>,
-    /// Width of the figures in millimetres ("120 mm"), with letters of the same size; unless given, 88 mm or 180 mm
+    /// Width of the figures in millimetres ("120 mm"), with letters of the same size; unless given, 88 mm or 180 mm. Those of 180 mm are made at least 120 mm wide
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = width)]
     pub width: Option<f64>,
     /// Colours of maps

@@ -14,6 +14,9 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let runs = super::open_runs(paths)?;
     let options = Options { polar: *polar, only: only.clone(), at: at.clone(), width: *width, colours: (*cmap).into() };
     let figures = super::figures(&runs, &options)?;
+    if figures.figures.is_empty() && !only.is_empty() {
+        return Err(Failure::input(format!("no run has what {} shows, see above", only.join(" or "))));
+    }
     let format = Format::from(*format);
     let directory = output.clone().unwrap_or_else(|| match paths.as_slice() {
         [path] => super::named_like(path, ""),

@@ -1,10 +1,13 @@
 //! What of a patch can hardly be meant, or is too little to go by.
 
+use super::level::rms;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
 /// Distances of points that are not wondered at, m: of atoms, and of what a coordinate measuring machine probes.
 const PITCHES: [f64; 2] = [0.1e-9, 1e-3];
+/// Rms height that is not wondered at, m: that of a disc which is scored deeply is a tenth of it.
+const LARGEST_RMS: f64 = 1e-3;
 /// Fewest points that are not warned of: of so many the rms height is known to 7 % at best.
 const FEW: usize = 100;
 /// Heights that differ by less than this part of the largest differ by rounding.
@@ -13,7 +16,12 @@ const ROUNDING: f64 = 1e-12;
 /// What a patch that is to become heights of `body` is warned of; `missing` of its points had no height before they were filled.
 pub(super) fn warnings(patch: &Patch, missing: usize, body: Body, mesh: &Mesh) -> Vec<String> {
     let few = few_points(patch, missing);
-    odd_pitch(patch, body, mesh).into_iter().chain(few).map(|warning| format!("warning: {warning}")).collect()
+    odd_pitch(patch, body, mesh)
+        .into_iter()
+        .chain(odd_heights(patch))
+        .chain(few)
+        .map(|warning| format!("warning: {warning}"))
+        .collect()
 }
 
 /// Of a line of points the pitch across it is nobody's measure.
@@ -35,6 +43,14 @@ fn odd_pitch(patch: &Patch, body: Body, mesh: &Mesh) -> Option<String> {
         "the points are {} apart, {bound}: check the unit of pixel or pitch, or that of the file",
         Length(pitch)
     ))
+}
+
+/// Heights that no friction surface has are in another unit.
+fn odd_heights(patch: &Patch) -> Option<String> {
+    let rms = rms(&patch.heights);
+    let known = || format!("the heights have an rms of {} about their mean", Length(rms));
+    let bound = Length(LARGEST_RMS);
+    (rms > LARGEST_RMS).then(|| format!("{}, expected at most {bound}: check their unit (key unit)", known()))
 }
 
 /// The rms height of N unrelated normal heights has the relative standard error 1/√(2N); related ones tell less.
@@ -109,6 +125,19 @@ mod tests {
         // The one column of a profile is as long as the ring.
         let profile = Patch { column_pitch: 0.1382, ..patch(1, 200, 1e-6) };
         assert_eq!(of(&profile, 0, Body::Disc), [""; 0]);
+    }
+
+    #[test]
+    fn heights_of_another_unit_are_warned_of() {
+        // Heights of 2 m and of 2 µm, up and down.
+        for (height, count) in [(2.0, 1), (2e-6, 0)] {
+            let mut patch = patch(20, 20, 1e-6);
+            patch.heights.iter_mut().step_by(2).for_each(|value| *value = height);
+            patch.heights.iter_mut().skip(1).step_by(2).for_each(|value| *value = -height);
+            let warnings = of(&patch, 0, Body::Disc);
+            assert_eq!(warnings.len(), count, "{warnings:?}");
+            assert!(warnings.iter().all(|text| text.contains("an rms of 2 m about their mean, expected at most 1 mm")));
+        }
     }
 
     #[test]

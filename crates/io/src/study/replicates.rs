@@ -10,9 +10,12 @@ use crate::scene::{Problem, schema};
 /// What `[replicates]` says.
 pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut Vec<Problem>) -> Replicates {
     for key in given.keys.get_ref() {
-        if !(key.get_ref().ends_with(".seed") && schema::find(key.get_ref()).is_some()) {
-            let message =
-                format!("\"{}\" is no seed; expected keys such as disc.surface.synthetic.seed", key.get_ref());
+        if !is_seed(key.get_ref()) {
+            let message = format!(
+                "\"{}\" is no seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
+                     measured patch",
+                key.get_ref()
+            );
             problems.push(place.problem(key, "replicates.keys", message));
         }
     }
@@ -31,4 +34,24 @@ pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut
         problems.push(place.problem(seed, "replicates.seeds", format!("{} {message}", seed.get_ref())));
     }
     Replicates { keys: given.keys.get_ref().iter().map(|key| key.get_ref().clone()).collect(), seeds }
+}
+
+/// Whether a key of a scene is a seed of random heights or bases.
+fn is_seed(key: &str) -> bool {
+    (key.ends_with(".seed") || key.ends_with(".extend_seed")) && schema::find(key).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_seed;
+
+    #[test]
+    fn seeds_of_synthetic_and_of_extended_surfaces_are_seeds() {
+        assert!(
+            ["disc.surface.synthetic.seed", "disc.prepare.extend_seed", "pin.prepare.extend_seed"]
+                .iter()
+                .all(|key| is_seed(key))
+        );
+        assert!(!["mesh.rows", "disc.seed", "disc.prepare.extend"].iter().any(|key| is_seed(key)));
+    }
 }

@@ -20,7 +20,7 @@
 //! | the figures of runs | [`run`] |
 //! | the figures of studies | [`effects`], [`optimum`] |
 //! | error against run time | [`accuracy`] |
-//! | what a fit to an experiment tells of the keys | [`fit`] |
+//! | what a fit to an experiment tells of the keys; of a whole series | [`fit`], [`fit_series`] |
 //! | parts of a response's variation | [`sensitivity`] |
 
 pub mod accuracy;

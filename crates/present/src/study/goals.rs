@@ -78,6 +78,10 @@ pub fn wish(analysis: &Analysis, aim: Aim, text: &str) -> Result<(usize, Wish), 
         (Aim::Target, _) => return Err(at("expected NAME=VALUE or NAME=LOW..VALUE..HIGH".to_owned())),
         _ => return Err(at("expected NAME or NAME=LOW..HIGH".to_owned())),
     };
+    if low >= high && matches!((aim, &values[..]), (Aim::Maximize | Aim::Minimize, [])) {
+        let value = own.shown_with_unit(low);
+        return Err(at(format!("all runs have {value}, so there is nothing to choose; give NAME=LOW..HIGH to go on")));
+    }
     if wish.is_sound() { Ok((number, wish)) } else { Err(at("expected values that ascend".to_owned())) }
 }
 

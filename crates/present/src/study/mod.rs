@@ -7,12 +7,14 @@
 //! | the fitted model as an equation, in words | [`equation`] |
 //! | what is expected where no run was made, and how to name such a place | [`forecasts`], [`place`] |
 //! | goals of an optimum, read from words | [`goals`] |
-//! | what a fit to an experiment tells, in words | [`fit`] |
+//! | what a fit to an experiment tells, in words; of a whole series | [`fit`], [`fit_series`] |
+//! | what a design cannot tell | [`cautions`] |
 //! | the unit in which a factor is read | [`reading`] |
 //! | which model is fitted, and what it misses | [`model`] |
 //! | how well a model fits, what cannot be told apart, what repeats | [`words`] |
 
 pub mod analysis;
+pub mod cautions;
 pub mod equation;
 pub mod fit;
 pub mod fit_scale;

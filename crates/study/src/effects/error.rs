@@ -20,7 +20,7 @@ pub enum EffectsError {
         observations: usize,
     },
     /// A response that is no number to calculate with.
-    #[error("observation {observation}: the response {value} is beyond ±1e150")]
+    #[error("observation {observation}: the response {value:e} is beyond ±1e150")]
     Response {
         /// Which, from 0.
         observation: usize,

@@ -66,11 +66,13 @@ impl Surrogate for PolynomialSurrogate<'_> {
             let reach = t_quantile(1.0 - confidence, variance.freedom) * variance.estimate.sqrt();
             [spread.value - reach, spread.value + reach].map(|end| self.scale.back(end))
         };
-        Ok(Forecast {
-            value: self.scale.back(spread.value),
-            mean_interval: spread.mean.map(interval),
-            run_interval: spread.run.map(interval),
-        })
+        let [mean_interval, of_run] = [spread.mean, spread.run].map(|variance| variance.map(interval));
+        // With few seeds the variance of means rests on few degrees of freedom, and that of runs on more: taken by itself, the
+        // interval of one run could be the shorter one.
+        let run_interval = of_run.map(|[low, high]| {
+            mean_interval.map_or([low, high], |[mean_low, mean_high]| [low.min(mean_low), high.max(mean_high)])
+        });
+        Ok(Forecast { value: self.scale.back(spread.value), mean_interval, run_interval })
     }
 
     fn value(&self, settings: &[Setting]) -> Result<f64, EffectsError> {

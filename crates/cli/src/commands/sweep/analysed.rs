@@ -6,6 +6,7 @@ use plateau_io::number;
 use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
 use plateau_present::study::analysis::{Analysis, Asked};
+use plateau_present::study::cautions::together;
 use plateau_study::effects::EffectsError;
 
 use super::collect::{Found, collected};
@@ -51,6 +52,11 @@ pub struct Analysed {
 }
 
 impl Analysed {
+    /// Says which factors cannot be told apart, for those who do not show the effects.
+    pub fn warn_of_factors(&self) {
+        together(&self.analysis).into_iter().for_each(|said| message::warning(format_args!("{said}")));
+    }
+
     /// Of a study. Runs without results are said.
     ///
     /// # Errors

@@ -31,6 +31,7 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.join("optimum"));
     let mut folder = OutputFolder::new(folder, arguments.force)?;
     let analysed = Analysed::of(plan, arguments.fit.asked())?;
+    analysed.warn_of_factors();
     let analysis = &analysed.analysis;
     let (goals, limits) = wanted(&analysed, arguments)?;
     let space = Space::new(analysed.plan.study(), analysis);

@@ -29,6 +29,7 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
         output::check(path, arguments.force, std::slice::from_ref(&arguments.study))?;
     }
     let analysed = Analysed::of(sweep::plan(&arguments.study)?, arguments.fit.asked())?;
+    analysed.warn_of_factors();
     let confidence = arguments.fit.confidence;
     let places = places(&analysed, arguments)?;
     refuse_beyond(&places, arguments.extrapolate)?;

@@ -7,6 +7,7 @@ use plateau_present::Unit;
 use plateau_present::figure::effects::file_names;
 use plateau_present::figure::{Figure, Format, sensitivity as figures};
 use plateau_present::study::analysis::Analysis;
+use plateau_present::study::cautions::{levels_and_ranges, together};
 use plateau_study::design::{Kind, Setting};
 use plateau_study::effects::{Factor, Observation};
 use plateau_study::sensitivity::{ElementaryEffect, Index, Options, elementary_effects, sobol_indices};
@@ -19,10 +20,10 @@ use super::sensitivity_document::{self, Known, Told};
 use crate::arguments::SensitivityArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
-use crate::number;
 use crate::output_folder::{OutputFolder, names_of};
 use crate::sweep;
 use crate::table::{columns, print, table};
+use crate::{message, number};
 
 /// The table.
 const TABLE: &str = "sensitivity.csv";
@@ -67,6 +68,8 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
 impl Told {
     fn new(plan: &Plan, results: &Collected, arguments: &SensitivityArguments) -> Self {
         let analysis = Analysis::new(plan.study(), results, None, arguments.confidence);
+        let said = together(&analysis).into_iter().chain(levels_and_ranges(&analysis));
+        said.for_each(|said| message::warning(format_args!("{said}")));
         let factors: Vec<Factor> = analysis.factors.iter().map(|factor| factor.factor.clone()).collect();
         let is_morris = matches!(plan.study().source, DesignSource::Kind(Kind::Morris { .. }));
         let options = Options { confidence: arguments.confidence, ..Options::default() };

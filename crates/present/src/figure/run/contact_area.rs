@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::spans::{band, means};
+use super::spans::{band, means, pieces};
 use super::{Figures, Subject, operation, spans};
 use crate::colour::paler;
 use crate::figure::axes::Axis;
@@ -21,7 +21,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let mut runs = Vec::new();
     for (number, subject) in having {
         let values = |name| Ok(subject.run.values(name)?.unwrap_or_default());
-        runs.push((number, subject, values("contact_area")?, values("contact_area_mean")?));
+        let means = operation::while_pressed(subject.run, values("contact_area_mean")?)?;
+        runs.push((number, subject, values("contact_area")?, means));
     }
     if runs.is_empty() {
         return Ok(());
@@ -42,8 +43,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             stroke: Stroke::solid(paler(stroke.colour, PALE), LINE),
         }));
         let mean: Vec<f64> = mean.iter().map(|value| area.value(*value)).collect();
-        let points = means(&times, &mean);
-        lines.push(Content::Line { points, stroke });
+        lines.extend(pieces(&means(&times, &mean)).into_iter().map(|points| Content::Line { points, stroke }));
         meanings.push(Meaning::of_run(*number, &subject.label));
     }
     let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
@@ -76,4 +76,24 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         page(width, height, 1, charts, &meanings),
     );
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::colour::RUNS;
+    use crate::figure::run::written::{Written, lines_of};
+
+    #[test]
+    fn a_lifted_pin_has_no_mean() {
+        let lifted = |time: f64| (4.0..7.0).contains(&time);
+        let run = Written::new("one", &["normal_force", "rotational_speed"], move |name, time| match name {
+            "normal_force" if lifted(time) => 0.0,
+            _ => 1.0,
+        });
+        let figures = Written::figures(&[run]);
+        let figure = figures.figures.iter().find(|figure| figure.name == "contact-area").unwrap();
+        let lines = lines_of(figure.page.panels.last().unwrap(), RUNS[0]);
+        assert_eq!(lines.len(), 2, "{lines:?}");
+        assert!(lines.iter().flatten().all(|[time, _]| !lifted(*time)), "{lines:?}");
+    }
 }

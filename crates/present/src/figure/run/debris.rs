@@ -69,7 +69,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let charts: Vec<Chart> = balances.chunks(across).flat_map(row).collect();
     let meaning = |(colour, text): (RGBColor, &str)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() };
     // As they lie on each other, from the top.
-    let stacked = DEBRIS.into_iter().zip(PARTS.map(title)).rev();
+    let is_there =
+        |part: &usize| balances.iter().any(|(_, balance)| balance.parts[*part].iter().any(|volume| *volume > 0.0));
+    let stacked = (0..PARTS.len()).rev().filter(is_there).map(|part| (DEBRIS[part], title(PARTS[part])));
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
     meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line, text: "worn + returned".to_owned() });
     let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });

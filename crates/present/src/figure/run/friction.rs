@@ -32,7 +32,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let mut courses = Vec::new();
     for (number, subject) in figures.with_part(NAME, subjects, &SERIES) {
         let values = |name| Ok(subject.run.values(name)?.unwrap_or_default());
-        let (means, steps) = (values(SERIES[0])?, steps(&values(SERIES[2])?, &values(SERIES[1])?));
+        let means = operation::while_pressed(subject.run, values(SERIES[0])?)?;
+        let steps = steps(&values(SERIES[2])?, &values(SERIES[1])?);
         courses.push(Course { number, subject, means, steps });
     }
     if courses.is_empty() {

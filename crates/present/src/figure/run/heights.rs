@@ -60,7 +60,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .enumerate()
         .filter(|(run, _)| shown[*run])
         .map(|(run, subject)| Meaning::of_run(run, &subject.label));
-    let meanings: Vec<Meaning> = runs.chain(moments::meanings(subjects)).collect();
+    let has_first = subjects.iter().any(|subject| shown_moments(subject).len() > 1);
+    let meanings: Vec<Meaning> = runs.chain(moments::meanings(subjects, has_first)).collect();
     let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,

@@ -160,17 +160,22 @@ pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, ReadError
     let subjects: Vec<Subject> = runs.iter().zip(labels).map(subject).collect();
     let mut figures = Figures { width: options.width.map(|width| PER_MILLIMETRE * width), ..Figures::default() };
     let is_asked_for = |name: &str| options.only.is_empty() || options.only.iter().any(|only| only == name);
-    for (_, add) in FIGURES.iter().filter(|(name, _)| is_asked_for(name)) {
+    for (name, add) in FIGURES.iter().filter(|(name, _)| is_asked_for(name)) {
+        let (before, named) = (figures.figures.len(), |note: &LeftOut| note.figures.contains(name));
         add(&subjects, options, &mut figures)?;
+        // Of what no scene asked for nothing is said, unless somebody asks for the figure.
+        if !options.only.is_empty() && figures.figures.len() == before && !figures.left_out.iter().any(named) {
+            subjects.iter().for_each(|subject| figures.leave_out(name, subject, "nothing of the kind"));
+        }
     }
     figures.figures.iter_mut().for_each(|figure| figure.page.recolour(options.colours));
     Ok(figures)
 }
 
 impl Figures {
-    /// Width of a figure that usually has this one, pixels.
+    /// Width of a figure that usually has this one, pixels. In less than two thirds of it texts would be cut.
     fn width(&self, usual: f64) -> f64 {
-        self.width.unwrap_or(usual)
+        self.width.map_or(usual, |width| width.max(usual / 1.5))
     }
 
     fn add(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, page: Page) {

@@ -21,12 +21,15 @@ pub fn shown_moments(subject: &Subject) -> Vec<usize> {
     }
 }
 
-/// What the lines of the moments of all runs are.
-pub fn meanings(subjects: &[Subject]) -> [Meaning; 2] {
+/// What the lines of the moments of all runs are; nothing where there are only those of the last.
+pub fn meanings(subjects: &[Subject], has_first: bool) -> Vec<Meaning> {
+    if !has_first {
+        return Vec::new();
+    }
     let is_chosen = subjects.iter().any(|subject| !subject.chosen.is_empty());
     let words = if is_chosen { ["last map shown", "earlier maps"] } else { ["last map", "first map"] };
     let last = Stroke::solid(INK, LINE);
-    [Meaning::of_line(last, words[0]), Meaning::of_line(last.paler(), words[1])]
+    vec![Meaning::of_line(last, words[0]), Meaning::of_line(last.paler(), words[1])]
 }
 
 /// Indices of the maps that were recorded nearest to some times (s), in their order, each once.

@@ -44,6 +44,14 @@ pub fn charts(subjects: &[Subject], time: &Unit, end: f64) -> Result<Vec<Chart>,
     Ok(charts)
 }
 
+/// Means over a revolution without those of moments in which the pin is lifted: these are still of the revolution before.
+pub fn while_pressed(run: &RunFile, mut means: Vec<f64>) -> Result<Vec<f64>, ReadError> {
+    if let Some(forces) = run.values("normal_force")? {
+        means.iter_mut().zip(forces).filter(|(_, force)| *force == 0.0).for_each(|(mean, _)| *mean = f64::NAN);
+    }
+    Ok(means)
+}
+
 /// Shades the events of a run in charts against time, below all that is in them.
 pub fn shade_events(run: &RunFile, time: &Unit, charts: &mut [Chart]) -> Result<(), ReadError> {
     let events = run.events()?;

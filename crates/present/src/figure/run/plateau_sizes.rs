@@ -87,7 +87,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         .enumerate()
         .filter(|(run, _)| all().any(|sizes| sizes.run == *run))
         .map(|(run, subject)| Meaning::of_run(run, &subject.label));
-    let meanings: Vec<Meaning> = runs.chain(moments::meanings(subjects)).collect();
+    let meanings: Vec<Meaning> =
+        runs.chain(moments::meanings(subjects, all().any(|sizes| sizes.first && !sizes.areas.is_empty()))).collect();
     figures.add(
         NAME,
         "Sizes of contact spots and plateaus",

@@ -24,23 +24,29 @@ const NO_CELL: u8 = NO_CONTACT + 1;
 
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
-    let mut shown = Vec::new();
+    let (mut shown, mut chosen) = (Vec::new(), Vec::new());
     for subject in having(figures, NAME, subjects, Map::Pressure) {
         // Before the first step nothing is pressed.
-        if moments(subject).is_empty() {
+        let moments = moments(subject)?;
+        if moments.is_empty() {
             figures.leave_out(NAME, subject, "no map pressure after the start");
         } else {
             shown.push(subject);
+            chosen.push(moments);
         }
     }
     if shown.is_empty() {
         return Ok(());
     }
-    let (scale, unit) = scale(&shown)?;
+    let (scale, unit) = scale(&shown, &chosen)?;
+    let moments_of = |subject: &Subject| {
+        let place = shown.iter().position(|one| std::ptr::eq(*one, subject));
+        place.map_or_else(Vec::new, |place| chosen[place].clone())
+    };
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
-        let rows = rows(together, Shape::of_pin, false, moments, |subject, index| {
+        let rows = rows(together, Shape::of_pin, false, moments_of, |subject, index| {
             let pressures = floats(subject.run, Map::Pressure, index)?;
             let look = MapLook::of(Map::Pressure);
             let colour = |pressure: &f64| match *pressure {
@@ -64,31 +70,51 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     figures.add(
         NAME,
         "Contact pressure on the pin",
-        "Contact pressure on the pin at the first recorded moment after the start and at the last. The colours span 99 % of \
+        "Contact pressure on the pin at the first recorded moment with a contact after the start and at the last. The colours span 99 % of \
          the pressures of cells in contact.",
         page(width, &[none], &blocks),
     );
     Ok(())
 }
 
-/// The moments after the start that are asked for, else the first one and the last one.
-fn moments(subject: &Subject) -> Vec<usize> {
+/// The moments after the start that are asked for, else the first one and the last one in which the pin is not lifted; the first and the last
+/// one where it always is.
+fn moments(subject: &Subject) -> Result<Vec<usize>, ReadError> {
     let times = subject.run.map_time();
     if !subject.chosen.is_empty() {
-        return subject.chosen.iter().copied().filter(|index| times[*index] > 0.0).collect();
+        return Ok(subject.chosen.iter().copied().filter(|index| times[*index] > 0.0).collect());
     }
-    let Some(first) = times.iter().position(|time| *time > 0.0) else { return Vec::new() };
-    let last = times.len() - 1;
-    if first == last { vec![last] } else { vec![first, last] }
+    let after = || (0..times.len()).filter(|index| times[*index] > 0.0);
+    let first = match first_with_contact(subject, after())? {
+        None => after().next(),
+        found => found,
+    };
+    let last = match first_with_contact(subject, after().rev())? {
+        None => after().next_back(),
+        found => found,
+    };
+    let mut moments: Vec<usize> = first.into_iter().chain(last).collect();
+    moments.dedup();
+    Ok(moments)
+}
+
+/// The first of these moments in which any cell carries.
+fn first_with_contact(subject: &Subject, moments: impl Iterator<Item = usize>) -> Result<Option<usize>, ReadError> {
+    for index in moments {
+        if floats(subject.run, Map::Pressure, index)?.iter().any(|pressure| *pressure > 0.0) {
+            return Ok(Some(index));
+        }
+    }
+    Ok(None)
 }
 
 /// The scale that all maps share, and the unit that it is in.
-fn scale(subjects: &[&Subject]) -> Result<(Axis, Unit), ReadError> {
+fn scale(subjects: &[&Subject], moments: &[Vec<usize>]) -> Result<(Axis, Unit), ReadError> {
     let look = MapLook::of(Map::Pressure);
     let mut range = RobustRange::default();
-    for subject in subjects {
-        for index in moments(subject) {
-            let pressures = floats(subject.run, Map::Pressure, index)?;
+    for (subject, moments) in subjects.iter().zip(moments) {
+        for index in moments {
+            let pressures = floats(subject.run, Map::Pressure, *index)?;
             range.add(
                 pressures.into_iter().filter(|pressure| look.is_coloured(*pressure)).collect::<Vec<_>>().into_iter(),
             );

@@ -9,7 +9,7 @@ use plateau_io::run_file::ReadError;
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
 use super::moments::{leave_blank, moment, shown_moments, statuses};
 use super::shape::Shape;
-use super::thickness::{BODIES, Body, largest, thickness};
+use super::thickness::{BODIES, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{GROUND, paler};
 use crate::figure::chart::{Meaning, TWO_COLUMNS};
@@ -18,8 +18,9 @@ use crate::quantity::{MapLook, STATUS_LOOKS, StatusLook, Unit};
 use plateau_io::number;
 
 const NAME: &str = "status";
-/// A film is thinner than this part of the thickest build-up.
-const THIN: f64 = 0.1;
+/// A film is thinner than this, m: as thin as what a scan of a disc calls flat. The same for all runs, or what is said of one would depend
+/// on those beside it.
+const THIN: f64 = 0.1e-6;
 /// Number of the colour of thin films.
 const FILM: u8 = STATUS_LOOKS.len() as u8;
 /// Number of the colour of what is no cell.
@@ -35,7 +36,6 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     }
     let film = paler(STATUS_LOOKS[Status::Secondary as usize].colour, 0.45);
     let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([film, GROUND]).collect();
-    let least = [least_thickness(&discs, BODIES[0])?, least_thickness(&pins, BODIES[1])?];
     let disc_shape = options.disc_shape();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
@@ -44,10 +44,10 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
             |_| disc_shape,
             disc_shape == Shape::Unrolled,
             shown_moments,
-            |subject, index| painted(subject, Map::DiscStatus, index, least[0]),
+            |subject, index| painted(subject, Map::DiscStatus, index),
         )?;
         let pin_rows = rows(together, Shape::of_pin, false, shown_moments, |subject, index| {
-            painted(subject, Map::PinStatus, index, least[1])
+            painted(subject, Map::PinStatus, index)
         })?;
         let has_any = |rows: &Vec<Vec<Option<_>>>| rows.iter().flatten().any(Option::is_some);
         blocks.push(MapBlock {
@@ -64,13 +64,14 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         style: KeyStyle::Area,
         text: format!("{}: {}", look.name, look.made_of),
     };
-    let bodies = ["disc", "pin"].into_iter().zip(least);
-    let thin: Vec<String> =
-        bodies.filter_map(|(body, least)| Some(format!("{} on the {body}", in_words(least?)))).collect();
-    let films = (!thin.is_empty()).then(|| Meaning {
+    let tells = |subject: &&Subject| BODIES.iter().any(|body| body.iter().all(|map| subject.run.has_map(*map)));
+    let films = shown.iter().any(tells).then(|| Meaning {
         colour: film,
         style: KeyStyle::Area,
-        text: format!("the same, thinner than {}", thin.join(", ")),
+        text: format!(
+            "the same, thinner than {}",
+            Unit::MICROMETRE.with_symbol(&number::rounded(Unit::MICROMETRE.value(THIN), 1))
+        ),
     });
     let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).chain(films).collect();
     let width = figures.width(TWO_COLUMNS);
@@ -78,31 +79,13 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         NAME,
         "Status of disc and pin",
         "What the cells of disc and pin are at the first and the last recorded moment, with the parts of the area. Any debris makes a cell \
-         secondary; where it is thinner than a tenth of the thickest build-up of the body, rounded down, its colour is paler.",
+         secondary; where it is thinner than 0.1 um, its colour is paler.",
         page(width, &meanings, &blocks),
     );
     Ok(())
 }
 
-/// Thickness from which on build-up is no thin film, m: a round number. None where nothing tells.
-fn least_thickness(subjects: &[&Subject], body: Body) -> Result<Option<f64>, ReadError> {
-    Ok(largest(subjects, body)?.map(|largest| rounded_down(THIN * largest)))
-}
-
-/// 1, 2 or 5 times a power of ten, not above a positive number.
-fn rounded_down(number: f64) -> f64 {
-    let power = 10_f64.powf(number.log10().floor());
-    let digit = [5.0, 2.0].into_iter().find(|digit| digit * power <= number);
-    digit.unwrap_or(1.0) * power
-}
-
-/// A thickness with its unit.
-fn in_words(thickness: f64) -> String {
-    let unit = Unit::for_size("m", thickness);
-    unit.with_symbol(&number::rounded(unit.value(thickness), 1))
-}
-
-fn painted(subject: &Subject, map: Map, index: usize, least: Option<f64>) -> Result<Option<Painted>, ReadError> {
+fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>, ReadError> {
     let mut cells = statuses(subject.run, map, index)?;
     if cells.is_empty() {
         return Ok(None);
@@ -110,10 +93,9 @@ fn painted(subject: &Subject, map: Map, index: usize, least: Option<f64>) -> Res
     let [none, primary, secondary, _] = area_fractions(subject.run.mesh(), &cells).map(percent);
     let mut title = format!("{}, {}", MapLook::of(map).body(), moment(subject.run, index));
     let remark = format!("none {none}, primary {primary}, secondary {secondary} %");
-    if let Some(least) = least {
-        let body = if map.on_disc() { BODIES[0] } else { BODIES[1] };
-        let thickness = thickness(subject.run, body, index)?;
-        let is_film = |(cell, thickness): (&u8, &f64)| *cell == Status::Secondary as u8 && *thickness < least;
+    let thickness = thickness(subject.run, if map.on_disc() { BODIES[0] } else { BODIES[1] }, index)?;
+    if !thickness.is_empty() {
+        let is_film = |(cell, thickness): (&u8, &f64)| *cell == Status::Secondary as u8 && *thickness < THIN;
         let films: Vec<bool> = cells.iter().zip(&thickness).map(is_film).collect();
         cells.iter_mut().zip(films).filter(|(_, film)| *film).for_each(|(cell, _)| *cell = FILM);
         let thick = percent(area_fractions(subject.run.mesh(), &cells)[Status::Secondary as usize]);
@@ -154,7 +136,6 @@ mod tests {
         for (fraction, expected) in [(none, 1.5 / 8.0), (primary, 1.5 / 8.0), (secondary, 5.0 / 8.0)] {
             assert!((fraction - expected).abs() < 1e-15);
         }
-        assert_eq!([0.049, 0.05, 0.2, 3.9e-7].map(rounded_down), [0.02, 0.05, 0.2, 2e-7]);
         assert_eq!([0.0, 1.0, 0.123_456, 1e-6].map(percent), ["0", "100", "12.3", "0"]);
     }
 }
