@@ -14,7 +14,7 @@ const TABLES: &[(&str, &str)] = &[
     ("materials.pin_secondary", "compacted debris on the pin"),
     ("materials.pin_resin", "the pin between its fibres"),
     ("plateaus", "how wear debris becomes secondary plateaus"),
-    ("friction", "friction of what touches, see docs/friction-heat.md; without this table none is reckoned"),
+    ("friction", "friction of what touches, see docs/friction-heat.md; without this table there is no friction"),
     ("friction.secondary", "where compacted debris has another friction"),
     ("friction.resin", "where resin has another friction"),
     ("thermal", "heat of friction and what it changes; needs [friction]"),
