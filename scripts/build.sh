@@ -12,7 +12,7 @@ build() {
     prepare_toolchain
     mark=$stamp.$$
     printf '%s\n' "$stamp_key" >"$mark" || exit 1
-    [ -x "$program" ] || say "building the program; the first time takes 4 to 5 minutes on two cores"
+    [ -x "$program" ] || say "building the program; the first time takes 3 to 5 minutes on two cores"
     # With the tests among the packages, of which nothing is built: libraries then have the features that they have in tests,
     # and cargo does not build them, and the crates above them, a second time for those.
     # shellcheck disable=SC2086
