@@ -19,6 +19,7 @@ use clap_complete::Shell;
 use plateau_core::engine::kernel::InstructionSet;
 use plateau_core::simulation::Engine;
 use plateau_io::text::{odd_character, shown_on_one_line};
+use plateau_io::units::{self, Dimension};
 use plateau_run::ExecutionOptions;
 
 use crate::failure::Failure;
@@ -285,6 +286,11 @@ pub struct WatchArguments {
     /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = seconds)]
     pub timeout: Option<u64>,
+}
+
+/// A quantity of this dimension, SI.
+fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    units::parse(text.trim(), dimension).map_err(|error| error.to_string())
 }
 
 /// A value of `--timeout`.

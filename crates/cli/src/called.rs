@@ -30,8 +30,15 @@ pub fn argument(text: &str) -> String {
     if !text.is_empty() && text.chars().all(is_plain) {
         text.to_owned()
     } else {
-        format!("'{}'", text.replace('\'', "'\\''"))
+        // Of text the quotes leave text.
+        String::from_utf8_lossy(&quoted(text.as_bytes())).into_owned()
     }
+}
+
+/// Bytes, as those of a path, as one argument of a shell, whatever they are.
+pub fn quoted(bytes: &[u8]) -> Vec<u8> {
+    let quote = |byte: &u8| if *byte == b'\'' { b"'\\''".to_vec() } else { vec![*byte] };
+    [b'\''].into_iter().chain(bytes.iter().flat_map(quote)).chain([b'\'']).collect()
 }
 
 #[cfg(test)]

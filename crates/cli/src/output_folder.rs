@@ -72,6 +72,20 @@ impl OutputFolder {
         Ok(())
     }
 
+    /// Writes figures in all formats; their names are those of [`names_of`].
+    ///
+    /// # Errors
+    /// [`Failure::Run`] when one cannot be drawn, and those of [`output::write()`].
+    pub fn write_figures(&mut self, figures: &[Figure]) -> Result<(), Failure> {
+        for figure in figures {
+            for format in Format::ALL {
+                let content = figure.draw(format).map_err(Failure::run)?;
+                self.write(&name_of(&figure.name, format), &content)?;
+            }
+        }
+        Ok(())
+    }
+
     /// The folder.
     pub fn path(&self) -> &Path {
         &self.path
@@ -85,8 +99,12 @@ impl OutputFolder {
 
 /// Names of the files of figures.
 pub fn names_of<'a>(figures: impl Iterator<Item = &'a Figure>) -> Vec<String> {
-    let name = |figure: &'a Figure| Format::ALL.map(|format| format!("{}.{}", figure.name, format.ending()));
-    figures.flat_map(name).collect()
+    figures.flat_map(|figure| Format::ALL.map(|format| name_of(&figure.name, format))).collect()
+}
+
+/// Name of the file of a figure of this name.
+pub fn name_of(figure: &str, format: Format) -> String {
+    format!("{figure}.{}", format.ending())
 }
 
 /// Names of the files that an earlier call wrote; none where there is no list of them.

@@ -22,7 +22,7 @@ use thiserror::Error;
 
 use crate::process::{Life, Process};
 use crate::random;
-use crate::temporary::{self, Temporary, folder};
+use crate::temporary::{Temporary, folder};
 use crate::timestamp::iso_8601;
 
 /// How every lock begins.
@@ -133,8 +133,7 @@ impl Claim {
     pub fn of(path: &Path) -> Result<Self, ClaimError> {
         let lock = lock_of(path);
         let claim = Self::take(path, &lock, 0)?;
-        remove_rights(&lock);
-        Temporary::remove_abandoned(&lock);
+        remove_left(&lock);
         Ok(claim)
     }
 
@@ -267,22 +266,18 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
     Err(foreign())
 }
 
-/// Removes what processes left that were killed while they took over a lock. Who has the lock needs nobody's right to it.
-fn remove_rights(lock: &Path) {
-    let start = format!("{}.", lock.file_name().unwrap_or_default().to_string_lossy());
+/// Removes what processes left that were killed while they made this lock or took it over. Who has the lock needs nobody's right to it.
+fn remove_left(lock: &Path) {
+    let own = lock.file_name().unwrap_or_default().to_string_lossy();
     let is_right = |name: &str| {
-        let numbers = name.strip_prefix(&start);
+        let numbers = name.strip_prefix(&*own).and_then(|rest| rest.strip_prefix('.'));
         numbers.is_some_and(|numbers| numbers.split('.').all(random::is_word))
     };
+    Temporary::remove_abandoned_of(folder(lock), |name| name == own || is_right(name));
     let Ok(entries) = fs::read_dir(folder(lock)) else { return };
-    for entry in entries.flatten() {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if is_right(&name) {
-            // Somebody else may have been quicker.
-            let _ = fs::remove_file(entry.path());
-        } else if let Some(right) = temporary::target_of(&name).filter(|right| is_right(right)) {
-            Temporary::remove_abandoned(&lock.with_file_name(right));
-        }
+    for entry in entries.flatten().filter(|entry| is_right(&entry.file_name().to_string_lossy())) {
+        // Somebody else may have been quicker.
+        let _ = fs::remove_file(entry.path());
     }
 }
 

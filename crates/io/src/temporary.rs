@@ -20,7 +20,8 @@ impl Temporary {
     /// What the system says.
     pub fn create(target: &Path) -> io::Result<(Self, File)> {
         loop {
-            let name = format!("{}{}-{}.tmp", start_of_name(target), std::process::id(), random::word());
+            let own = target.file_name().unwrap_or_default().to_string_lossy();
+            let name = format!(".{own}.plateau-{}-{}.tmp", std::process::id(), random::word());
             let path = target.with_file_name(name);
             match File::create_new(&path) {
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
@@ -32,12 +33,19 @@ impl Temporary {
     /// Removes what processes that were killed left beside a target that is claimed. Those of living ones of this machine
     /// stay; where the system does not tell who lives, all do.
     pub fn remove_abandoned(target: &Path) {
-        let (start, processes) = (start_of_name(target), Path::new("/proc"));
-        let Ok(entries) = fs::read_dir(folder(target)).map(Iterator::flatten) else { return };
+        let own = target.file_name().unwrap_or_default().to_string_lossy();
+        Self::remove_abandoned_of(folder(target), |name| name == own);
+    }
+
+    /// The same of all targets in a folder that have such names.
+    pub fn remove_abandoned_of(folder: &Path, is_target: impl Fn(&str) -> bool) {
+        let processes = Path::new("/proc");
+        let Ok(entries) = fs::read_dir(folder).map(Iterator::flatten) else { return };
         for entry in entries.filter(|_| processes.join("self").exists()) {
             let name = entry.file_name().to_string_lossy().into_owned();
             let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
-            if is_file && process_of(&name, &start).is_some_and(|process| !processes.join(process).exists()) {
+            let is_left = |(target, process): (&str, &str)| is_target(target) && !processes.join(process).exists();
+            if is_file && parts_of(&name).is_some_and(is_left) {
                 // Somebody else may have been quicker.
                 let _ = fs::remove_file(entry.path());
             }
@@ -96,22 +104,13 @@ pub(crate) fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// How the names of the temporary files of a target begin.
-fn start_of_name(target: &Path) -> String {
-    format!(".{}.plateau-", target.file_name().unwrap_or_default().to_string_lossy())
-}
-
-/// What a file of this name is to become, if it looks like a temporary file.
-pub(crate) fn target_of(name: &str) -> Option<&str> {
-    name.strip_prefix('.')?.rsplit_once(".plateau-").map(|(target, _)| target)
-}
-
-/// The process in the name of a temporary file.
-fn process_of<'a>(name: &'a str, start: &str) -> Option<&'a str> {
-    let (process, rest) = name.strip_prefix(start)?.strip_suffix(".tmp")?.split_once('-')?;
+/// Target and process in the name of a temporary file.
+fn parts_of(name: &str) -> Option<(&str, &str)> {
+    let (target, rest) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once(".plateau-")?;
+    let (process, rest) = rest.split_once('-')?;
     let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     // Earlier versions had a count for the word.
-    (is_number(process) && (random::is_word(rest) || is_number(rest))).then_some(process)
+    (is_number(process) && (random::is_word(rest) || is_number(rest))).then_some((target, process))
 }
 
 impl Drop for Temporary {

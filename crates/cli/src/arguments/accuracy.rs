@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use plateau_io::units::{self, Dimension};
+use plateau_io::units::Dimension;
 use plateau_run::accuracy::Ladder;
 
-use super::{ExecutionArguments, SceneArguments};
+use super::{ExecutionArguments, SceneArguments, quantity};
 
 /// Arguments of `plateau accuracy`.
 #[derive(Debug, Args)]
@@ -56,6 +56,6 @@ fn meaning(ladder: Ladder) -> &'static str {
 
 /// A value of `--budget`, s.
 fn budget(text: &str) -> Result<f64, String> {
-    let time = units::parse(text.trim(), Dimension::Time).map_err(|error| error.to_string())?;
+    let time = quantity(text, Dimension::Time)?;
     if time > 0.0 && time.is_finite() { Ok(time) } else { Err("expected more than 0 s".to_owned()) }
 }

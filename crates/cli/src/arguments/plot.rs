@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use plateau_io::units::{self, Dimension};
-use plateau_present::figure::ColourMap;
-use plateau_present::figure::Format;
+use plateau_io::units::Dimension;
 use plateau_present::figure::run::NAMES;
+use plateau_present::figure::{ColourMap, Format};
+
+use super::quantity;
 
 /// Arguments of `plateau plot`.
 #[derive(Debug, Args)]
@@ -93,7 +94,7 @@ impl From<Colours> for ColourMap {
 
 /// A time of the run, s.
 fn time(text: &str) -> Result<f64, String> {
-    let time = units::parse(text.trim(), Dimension::Time).map_err(|error| error.to_string())?;
+    let time = quantity(text, Dimension::Time)?;
     if time >= 0.0 {
         Ok(time)
     } else {
@@ -106,7 +107,7 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 60.0..=1000.0;
 
 /// A width, mm.
 fn width(text: &str) -> Result<f64, String> {
-    let width = 1e3 * units::parse(text.trim(), Dimension::Length).map_err(|error| error.to_string())?;
+    let width = 1e3 * quantity(text, Dimension::Length)?;
     let (least, most) = (WIDTHS.start(), WIDTHS.end());
     if WIDTHS.contains(&width) { Ok(width) } else { Err(format!("{text} is no width from {least} mm to {most} mm")) }
 }

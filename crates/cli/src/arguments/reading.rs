@@ -3,8 +3,10 @@
 use clap::Args;
 use plateau_io::scene::schema::choices;
 use plateau_io::surface::{Decimal, Lay, ReadOptions};
-use plateau_io::units::{self, Dimension};
+use plateau_io::units::Dimension;
 use toml::Value;
+
+use super::quantity;
 
 /// Options that tell how a surface file is read.
 #[derive(Debug, Clone, Args)]
@@ -129,7 +131,7 @@ fn lay(text: &str) -> Result<Lay, String> {
 }
 
 fn length(text: &str) -> Result<f64, String> {
-    let length = units::parse(text.trim(), Dimension::Length).map_err(|error| error.to_string())?;
+    let length = quantity(text, Dimension::Length)?;
     if length.is_finite() { Ok(length) } else { Err("expected a finite length".to_owned()) }
 }
 

@@ -48,9 +48,13 @@ fn odd_pitch(patch: &Patch, body: Body, mesh: &Mesh) -> Option<String> {
 /// Heights that no friction surface has are in another unit.
 fn odd_heights(patch: &Patch) -> Option<String> {
     let rms = rms(&patch.heights);
-    let known = || format!("the heights have an rms of {} about their mean", Length(rms));
-    let bound = Length(LARGEST_RMS);
-    (rms > LARGEST_RMS).then(|| format!("{}, expected at most {bound}: check their unit (key unit)", known()))
+    (rms > LARGEST_RMS).then(|| {
+        format!(
+            "the heights have an rms of {} about their mean, expected at most {}: check their unit (key unit)",
+            Length(rms),
+            Length(LARGEST_RMS)
+        )
+    })
 }
 
 /// The rms height of N unrelated normal heights has the relative standard error 1/√(2N); related ones tell less.

@@ -7,6 +7,7 @@ use plateau_core::model::outline::{Outline, columns_of_disc};
 use plateau_core::surface::Length;
 
 use super::schema::choices::Shape;
+use crate::number;
 
 /// What `[mesh]` says, lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -158,7 +159,7 @@ impl Geometry {
             }
         };
         // To as many digits as lengths are given with: 22 mm less 2 mm are 20 mm.
-        let radii = [mean_radius - 0.5 * pin_width, mean_radius + 0.5 * pin_width].map(to_fifteen_digits);
+        let radii = [mean_radius - 0.5 * pin_width, mean_radius + 0.5 * pin_width].map(number::to_fifteen_digits);
         let counts = [whole(pin_width / cell_size), disc_columns, pin_columns];
         // Casts saturate: what is too large for memory is refused as such.
         Ok(Cells { counts: counts.map(|count| count as u64), radii, outline })
@@ -205,11 +206,6 @@ impl Cells {
 /// The nearest whole number that is a count of cells.
 fn whole(number: f64) -> f64 {
     number.round().max(1.0)
-}
-
-/// A number to fifteen significant digits, which decimal numbers come through unchanged.
-fn to_fifteen_digits(number: f64) -> f64 {
-    format!("{number:.14e}").parse().unwrap_or(number)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::chart::{COLUMN, Chart, Meaning, page};
 use super::format::Figure;
 use super::labels::Labels;
 use super::page::{Content, KeyStyle, Page};
-use super::stroke::Stroke;
+use super::stroke::{SOLID, Stroke};
 use crate::colour::{APART, FAINT};
 
 /// Height of the box, pixels.
@@ -152,7 +152,7 @@ fn meanings(reference: &Reference, ladders: &[Shown], has_front: bool) -> Vec<Me
     if reference.time > 0.0 || reference.error > 0.0 {
         let lines = if reference.error > 0.0 { ", its time and its own error" } else { "" };
         let text = format!("reference, time_acceleration = {}{lines}", reference.time_acceleration);
-        meanings.push(meaning(FAINT, KeyStyle::Line, &text));
+        meanings.push(meaning(FAINT, KeyStyle::Line(SOLID), &text));
     }
     meanings
 }

@@ -52,7 +52,7 @@ impl Meaning {
 
     /// That of a line.
     pub fn of_line(stroke: Stroke, text: &str) -> Self {
-        Self { colour: stroke.colour, style: KeyStyle::of_line(stroke.dashes), text: text.to_owned() }
+        Self { colour: stroke.colour, style: KeyStyle::Line(stroke.dashes), text: text.to_owned() }
     }
 }
 
@@ -95,7 +95,7 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
     let most = page.size[0] - 2.0 * MARGIN;
     let (mut x, mut y) = (MARGIN, top);
     for Meaning { colour, style, text } in meanings {
-        let key = if matches!(style, KeyStyle::Line | KeyStyle::Dashed(_)) { KEY } else { 0.6 * KEY };
+        let key = if matches!(style, KeyStyle::Line(_)) { KEY } else { 0.6 * KEY };
         let text = shortened(text, TEXT, most - key - 16.0);
         let width = key + 16.0 + text_width(&text, TEXT);
         if x > MARGIN && x + width > page.size[0] - MARGIN {

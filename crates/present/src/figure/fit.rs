@@ -11,7 +11,7 @@ use super::contour::Field;
 use super::effects::file_names;
 use super::format::Figure;
 use super::page::{Content, KeyStyle, Mark};
-use super::stroke::Stroke;
+use super::stroke::{SOLID, Stroke};
 use crate::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
 use crate::study::fit::FittedKey;
 use plateau_io::number;
@@ -52,7 +52,7 @@ fn profiles(result: &FitResult, keys: &[FittedKey]) -> Figure {
         }
     };
     let charts = keys.iter().zip(&result.profiles).enumerate().map(chart).collect();
-    let line = |colour, text: String| Meaning { colour, style: KeyStyle::Line, text };
+    let line = |colour, text: String| Meaning { colour, style: KeyStyle::Line(SOLID), text };
     let meanings = [
         line(DATA, "profile likelihood".to_owned()),
         line(DERIVED, format!("{} interval: below {}", level(result), number::rounded(threshold, 3))),
@@ -139,7 +139,7 @@ fn region(result: &FitResult, pair: &Pair, keys: &[FittedKey], runs: &[Vec<f64>]
     contents.push(Content::Marks { points: vec![best], colour: INK, mark: Mark::Cross });
     let mut meanings: Vec<Meaning> = levels
         .into_iter()
-        .map(|(_, colour, text)| Meaning { colour, style: KeyStyle::Line, text: format!("region, {text}") })
+        .map(|(_, colour, text)| Meaning { colour, style: KeyStyle::Line(SOLID), text: format!("region, {text}") })
         .collect();
     let mark = |colour, mark, text: &str| Meaning { colour, style: KeyStyle::Mark(mark), text: text.to_owned() };
     meanings.extend([mark(INK, Mark::Cross, "most likely"), mark(FAINT, Mark::Point, "runs")]);

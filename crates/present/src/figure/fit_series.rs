@@ -9,7 +9,7 @@ use super::effects::file_names;
 use super::font::shortened;
 use super::format::Figure;
 use super::page::{Content, KeyStyle, Mark};
-use super::stroke::Stroke;
+use super::stroke::{SOLID, Stroke};
 use crate::colour::{DATA, DERIVED, FAINT};
 use crate::quantity::Unit;
 
@@ -70,7 +70,7 @@ fn figure(series: &FittedSeries, name: &str, si: &str, file: &str) -> Figure {
     let measured = if bars.len() <= MOST_BARS { "measured, with its uncertainty" } else { "measured" };
     let meanings = [
         meaning(DERIVED, KeyStyle::Mark(mark), measured),
-        meaning(DATA, KeyStyle::Line, "runs at the most likely values"),
+        meaning(DATA, KeyStyle::Line(SOLID), "runs at the most likely values"),
     ];
     Figure {
         name: format!("series-{file}"),

@@ -58,21 +58,12 @@ pub struct Key {
 /// What a colour is the colour of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeyStyle {
-    /// A line.
-    Line,
-    /// A line with dashes.
-    Dashed(Dashes),
+    /// A line with these dashes; without gaps where there are none.
+    Line(Dashes),
     /// An area.
     Area,
     /// A mark.
     Mark(Mark),
-}
-
-impl KeyStyle {
-    /// That of a line with these dashes.
-    pub fn of_line(dashes: Dashes) -> Self {
-        if dashes.is_empty() { Self::Line } else { Self::Dashed(dashes) }
-    }
 }
 
 /// A mark at a point.
@@ -179,17 +170,13 @@ impl Key {
     fn draw<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
         let middle = 0.5 * (self.frame.y[0] + self.frame.y[1]);
         match self.style {
-            KeyStyle::Line => self.draw_line(canvas, &[]),
-            KeyStyle::Dashed(dashes) => self.draw_line(canvas, dashes),
+            KeyStyle::Line(dashes) => {
+                let stroke = Stroke { dashes, ..Stroke::solid(self.colour, LINE + 2) };
+                stroke.draw(canvas, &self.frame.x.map(|x| (x, middle)))
+            }
             KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
             KeyStyle::Mark(mark) => mark.draw(canvas, (0.5 * (self.frame.x[0] + self.frame.x[1]), middle), self.colour),
         }
-    }
-
-    fn draw_line<B: DrawingBackend>(&self, canvas: &Canvas<B>, dashes: Dashes) -> Result<(), FigureError> {
-        let middle = 0.5 * (self.frame.y[0] + self.frame.y[1]);
-        let stroke = Stroke { dashes, ..Stroke::solid(self.colour, LINE + 2) };
-        stroke.draw(canvas, &self.frame.x.map(|x| (x, middle)))
     }
 }
 

@@ -9,7 +9,7 @@ use super::font::shortened;
 use super::format::Figure;
 use super::labels::Labels;
 use super::page::{Content, KeyStyle, Mark};
-use super::stroke::Stroke;
+use super::stroke::{SOLID, Stroke};
 use crate::colour::{DATA, DATA_AREA, FAINT, INK};
 use crate::figure::canvas::Anchor;
 use crate::quantity::Unit;
@@ -58,7 +58,8 @@ pub fn indices(response: &str, file: &str, factors: &[&str], indices: &SobolIndi
         contents,
     };
     let area = |colour, text: &str| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() };
-    let interval = Meaning { colour: INK, style: KeyStyle::Line, text: format!("{confidence} interval of the sample") };
+    let interval =
+        Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: format!("{confidence} interval of the sample") };
     let meanings = [area(DATA_AREA, "total: with all interactions"), area(DATA, "first order: alone"), interval];
     Figure {
         name: format!("{file}-indices"),
@@ -88,7 +89,7 @@ pub fn effects(response: &str, file: &str, factors: &[&str], effects: &[Elementa
         y: Axis::linear(y, unit.label("standard deviation σ")),
         contents,
     };
-    let line = Meaning { colour: FAINT, style: KeyStyle::Line, text: "σ = μ*".to_owned() };
+    let line = Meaning { colour: FAINT, style: KeyStyle::Line(SOLID), text: "σ = μ*".to_owned() };
     let mut page = page(COLUMN, HEIGHT, 1, vec![chart], &[line]);
     if let Some(axes) = page.panels.first().map(|panel| panel.axes.clone()) {
         let spot = |point: &[f64; 2]| axes.place_within(point[0], point[1]);

@@ -9,9 +9,12 @@ use crate::colour::{RUNS, paler};
 /// Lengths of dashes and gaps by turns, pixels; none is a line without gaps.
 pub type Dashes = &'static [f64];
 
+/// Those of a line without gaps.
+pub const SOLID: Dashes = &[];
+
 /// Those of lines that belong together, in their order: told apart in grey, too.
 const IN_ORDER: [Dashes; 8] = [
-    &[],
+    SOLID,
     &[26.0, 14.0],
     &[7.0, 11.0],
     &[26.0, 10.0, 7.0, 10.0],
@@ -38,7 +41,7 @@ pub struct Stroke {
 impl Stroke {
     /// Without gaps.
     pub const fn solid(colour: RGBColor, width: u32) -> Self {
-        Self { colour, width, dashes: &[] }
+        Self { colour, width, dashes: SOLID }
     }
 
     /// That of a line among so many that are named by their colours and dashes. Those that are drawn first are wider, or equal lines

@@ -1,7 +1,6 @@
 //! Tables and figures of a fit.
 
 use plateau_io::study::results_table::table as table_of_runs;
-use plateau_present::figure::Format;
 use plateau_present::figure::fit::figures;
 use plateau_present::figure::fit_series::figures as of_series;
 
@@ -34,15 +33,7 @@ pub fn write(told: &Told<'_>, arguments: &FitArguments) -> Result<Vec<String>, F
     for (name, lines) in tables {
         folder.write(name, csv_table(lines).as_bytes())?;
     }
-    for figure in figures {
-        for format in Format::ALL {
-            let content = match format {
-                Format::Svg => figure.svg().map_err(Failure::run)?.into_bytes(),
-                format => figure.draw(format).map_err(Failure::run)?,
-            };
-            folder.write(&format!("{}.{}", figure.name, format.ending()), &content)?;
-        }
-    }
+    folder.write_figures(&figures)?;
     Ok(folder.files().to_vec())
 }
 

@@ -6,7 +6,7 @@ use plateau_present::report::{Picture, Pictures, StudyPage, effects_page};
 
 use super::analysed::Analysed;
 use crate::failure::Failure;
-use crate::output_folder::{OutputFolder, names_of};
+use crate::output_folder::{OutputFolder, name_of, names_of};
 use crate::version;
 
 /// The table.
@@ -35,7 +35,7 @@ pub fn write(folder: &mut OutputFolder, analysed: &Analysed, table: &str) -> Res
         let mut drawn = Vec::new();
         for Drawn { files, picture } in draw_all(&of_response.figures)? {
             for (format, content) in files {
-                folder.write(&format!("{}.{}", picture.name, format.ending()), &content)?;
+                folder.write(&name_of(&picture.name, format), &content)?;
             }
             drawn.push(picture);
         }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use plateau_io::number;
+use plateau_present::figure::Figure;
 use plateau_present::figure::optimum::{Shown, figures};
-use plateau_present::figure::{Figure, Format};
 use plateau_present::study::forecasts::heads;
 use plateau_present::study::goals::{self, Aim};
 use plateau_present::study::place::{Place, Space};
@@ -20,7 +20,7 @@ use super::predict::{
 };
 use crate::arguments::OptimizeArguments;
 use crate::failure::Failure;
-use crate::output_folder::{OutputFolder, names_of};
+use crate::output_folder::{OutputFolder, name_of, names_of};
 use crate::sweep::confirmation::{Confirmed, confirm};
 use crate::table::{columns, print};
 use crate::{message, sweep};
@@ -192,7 +192,7 @@ fn write(folder: &mut OutputFolder, figures: &[Figure], inputs: &[PathBuf]) -> R
         .iter()
         .flat_map(|drawn| drawn.files.iter().map(move |(format, content)| (&drawn.picture.name, format, content)))
     {
-        folder.write(&format!("{name}.{}", Format::ending(*format)), content)?;
+        folder.write(&name_of(name, *format), content)?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
 use plateau_present::Unit;
 use plateau_present::figure::effects::file_names;
-use plateau_present::figure::{Figure, Format, sensitivity as figures};
+use plateau_present::figure::{Figure, sensitivity as figures};
 use plateau_present::study::analysis::Analysis;
 use plateau_present::study::cautions::{levels_and_ranges, together};
 use plateau_study::design::{Kind, Setting};
@@ -39,15 +39,7 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
     let figures = told.figures();
     folder.begin(&[&[TABLE.to_owned()], &names_of(figures.iter())[..]].concat(), &inputs)?;
     folder.write(TABLE, csv_table(told.lines()).as_bytes())?;
-    for figure in figures {
-        for format in Format::ALL {
-            let content = match format {
-                Format::Svg => figure.svg().map_err(Failure::run)?.into_bytes(),
-                format => figure.draw(format).map_err(Failure::run)?,
-            };
-            folder.write(&format!("{}.{}", figure.name, format.ending()), &content)?;
-        }
-    }
+    folder.write_figures(&figures)?;
     let files = folder.files().to_vec();
     if arguments.json {
         let document = sensitivity_document::Document {

@@ -1,12 +1,12 @@
 //! `plateau sweep slurm`: a batch script that makes the runs of a study as a job array.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::arguments::SlurmArguments;
 use crate::failure::Failure;
 use crate::sweep::{self, estimate::Estimate};
 use crate::table::{print, table};
-use crate::{number, output};
+use crate::{called, number, output};
 
 /// How long a task is to take, s.
 const TASK_TIME: f64 = 3600.0;
@@ -58,7 +58,13 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
         rest = minutes % 60,
     );
     // Paths need not be UTF-8.
-    let command = [&b"exec "[..], &quoted(&program), b" sweep run ", &quoted(&study)].concat();
+    let command = [
+        &b"exec "[..],
+        &called::quoted(program.as_os_str().as_encoded_bytes()),
+        b" sweep run ",
+        &called::quoted(study.as_os_str().as_encoded_bytes()),
+    ]
+    .concat();
     let rest = format!(" --task \"$SLURM_ARRAY_TASK_ID/{tasks}\" --jobs {cores}\n");
     output::write(&script, &[head.as_bytes(), &command, rest.as_bytes()].concat(), arguments.force)?;
     print(&table(
@@ -70,11 +76,4 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
             ("next", format!("sbatch {}", script.display())),
         ],
     ))
-}
-
-/// A path as a shell takes it.
-fn quoted(path: &Path) -> Vec<u8> {
-    let quote = |byte: &u8| if *byte == b'\'' { b"'\\''".to_vec() } else { vec![*byte] };
-    let bytes = path.as_os_str().as_encoded_bytes().iter().flat_map(quote);
-    [b'\''].into_iter().chain(bytes).chain([b'\'']).collect()
 }

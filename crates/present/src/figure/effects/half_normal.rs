@@ -10,7 +10,7 @@ use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::labels::Labels;
 use crate::figure::page::{Content, KeyStyle, Mark};
-use crate::figure::stroke::Stroke;
+use crate::figure::stroke::{SOLID, Stroke};
 
 /// Height of the box, pixels.
 const HEIGHT: f64 = 860.0;
@@ -47,7 +47,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         contents
             .push(Content::Line { points: vec![[0.0, 0.0], [end, slope * end]], stroke: Stroke::solid(FAINT, LINE) });
         let text = "if there were nothing but error".to_owned();
-        meanings.push(Meaning { colour: FAINT, style: KeyStyle::Line, text });
+        meanings.push(Meaning { colour: FAINT, style: KeyStyle::Line(SOLID), text });
     }
     let confidence = subject.confidence();
     let groups = [

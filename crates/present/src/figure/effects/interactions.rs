@@ -195,7 +195,7 @@ fn legend(page: &mut Page, axis: &FactorAxis, settings: &[Setting], [left, top]:
         let middle = top + (number as f64 + 1.7) * LINE_OF_TEXT;
         let frame = Frame { x: [left, left + KEY], y: [middle - 13.0, middle + 13.0] };
         let Stroke { colour, dashes, .. } = Stroke::of(number, 1);
-        page.keys.push(Key { frame, colour, style: KeyStyle::of_line(dashes) });
+        page.keys.push(Key { frame, colour, style: KeyStyle::Line(dashes) });
         let name = shortened(&axis.name(*setting), TEXT, room - KEY - 16.0);
         page.write(name, (left + KEY + 16.0, middle), Anchor::Right, TEXT);
     }

@@ -3,14 +3,14 @@
 use plateau_study::design::Setting;
 use plateau_study::effects::{Cell, Model};
 
-use super::{CUT, FactorAxis, ResponseFigures, Subject, range_of, responses};
+use super::{FactorAxis, ResponseFigures, Subject, range_of, responses, said_of_cuts};
 use crate::colour::{DATA, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, page};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle, Mark};
-use crate::figure::stroke::Stroke;
+use crate::figure::stroke::{SOLID, Stroke};
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 620.0;
@@ -83,13 +83,12 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     };
     let meanings = [(FAINT, "mean of all runs".to_owned()), (DATA, key.to_owned())];
     let mut meanings: Vec<Meaning> =
-        meanings.into_iter().map(|(colour, text)| Meaning { colour, style: KeyStyle::Line, text }).collect();
+        meanings.into_iter().map(|(colour, text)| Meaning { colour, style: KeyStyle::Line(SOLID), text }).collect();
     if has_intervals {
         meanings[1].text.push_str(&format!(", {interval} confidence"));
     }
-    let cuts = [subject.bounds().least, subject.bounds().most].map(|bound| subject.unit.value(bound));
-    let mut intervals = shown.iter().flat_map(|shown| &shown.intervals);
-    let cut = if intervals.any(|[_, low, high]| cuts.contains(low) || cuts.contains(high)) { CUT } else { "" };
+    let ends = shown.iter().flat_map(|shown| &shown.intervals).flat_map(|[_, low, high]| [*low, *high]);
+    let cut = said_of_cuts(subject.bounds(), &subject.unit, ends);
     let caption = format!("{what}. {uncertainty}{cut}");
     let page = page(width, HEIGHT, across, charts, &meanings);
     subject.add(figures, "main-effects", "Main effects on", caption, page);

@@ -118,8 +118,15 @@ impl Subject<'_> {
     }
 }
 
-/// What a caption says of intervals that are cut.
-pub(super) const CUT: &str = " They end where a response cannot be: below 0, and above 1 of a fraction.";
+/// What a caption says of intervals with these ends, in a unit, of a response with these bounds: that they are cut, if one is.
+pub(super) fn said_of_cuts(bounds: Bounds, unit: &Unit, mut ends: impl Iterator<Item = f64>) -> &'static str {
+    let cuts = [bounds.least, bounds.most].map(|bound| unit.value(bound));
+    if ends.any(|end| cuts.contains(&end)) {
+        " They end where a response cannot be: below 0, and above 1 of a fraction."
+    } else {
+        ""
+    }
+}
 
 /// A range with a little room round values; any where there are none.
 pub(super) fn range_of(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {

@@ -16,7 +16,7 @@ use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle};
-use crate::figure::stroke::Stroke;
+use crate::figure::stroke::{SOLID, Stroke};
 use plateau_io::number;
 
 /// Bars, at most.
@@ -164,10 +164,10 @@ fn meanings(subject: &Subject, measure: Measure, bars: &[Bar], simultaneous: Opt
     let areas = [(DATA, "significant", true), (DATA_AREA, "not significant", false)];
     let areas = areas.into_iter().filter(|(_, _, beyond)| is_beyond(*beyond));
     let areas = areas.map(|(colour, text, _)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() });
-    let limit = Meaning { colour: DERIVED, style: KeyStyle::Line, text: limit };
+    let limit = Meaning { colour: DERIVED, style: KeyStyle::Line(SOLID), text: limit };
     let simultaneous = simultaneous.map(|margin| Meaning {
         colour: INK,
-        style: KeyStyle::Line,
+        style: KeyStyle::Line(SOLID),
         text: subject.unit.with_symbol(&format!("simultaneous margin: {}", number::rounded(margin, 3))),
     });
     areas.chain([limit]).chain(simultaneous).collect()

@@ -9,11 +9,11 @@ use crate::colour::{DATA, DERIVED, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
-use crate::figure::effects::{CUT, FactorAxis, axes, range_of};
+use crate::figure::effects::{FactorAxis, axes, range_of, said_of_cuts};
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
 use crate::figure::page::{Content, KeyStyle, Mark};
-use crate::figure::stroke::Stroke;
+use crate::figure::stroke::{SOLID, Stroke};
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 400.0;
@@ -34,7 +34,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     let across = axes.len();
     let width = (BOX * across as f64 + 300.0).min(TWO_COLUMNS);
     let mut charts = Vec::new();
-    let mut is_cut = false;
+    let mut cut = "";
     for (response, surrogate) in shown.analysis.responses.iter().zip(&surrogates) {
         let Some(surrogate) = surrogate else { continue };
         let unit = &response.scale.unit;
@@ -50,8 +50,9 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
             })
             .collect();
         let ends = curves.iter().flatten().flat_map(|(.., ends)| ends.unwrap_or([f64::NAN; 2]));
-        let cuts = [response.bounds.least, response.bounds.most].map(|bound| unit.value(bound));
-        is_cut |= ends.into_iter().any(|end| cuts.contains(&end));
+        if cut.is_empty() {
+            cut = said_of_cuts(response.bounds, unit, ends);
+        }
         let values = curves
             .iter()
             .flatten()
@@ -65,7 +66,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
         })
         .collect();
     charts.extend(row(shown, &axes, &curves, &Axis::linear(up_from_zero(1.0), "desirability"), true));
-    let meaning = |colour, text: String| Meaning { colour, style: KeyStyle::Line, text };
+    let meaning = |colour, text: String| Meaning { colour, style: KeyStyle::Line(SOLID), text };
     let level = number::rounded(100.0 * shown.confidence, 4);
     let meanings = [meaning(DATA, format!("predicted, {level} % of means")), meaning(DERIVED, "optimum".to_owned())];
     Figure {
@@ -73,8 +74,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
         title: "Responses and desirability against each factor".to_owned(),
         caption: format!(
             "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
-             optimum; bands are intervals of the mean of many runs.{}",
-            if is_cut { CUT } else { "" }
+             optimum; bands are intervals of the mean of many runs.{cut}"
         ),
         page: page(width, HEIGHT, across, charts, &meanings),
     }

@@ -4,7 +4,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
-use super::moments::{floats, leave_blank, moment};
+use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -40,10 +40,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let look = MapLook::of(Map::Temperature);
     let scale = scale(&shown, &chosen)?;
-    let moments_of = |subject: &Subject| {
-        let place = shown.iter().position(|one| std::ptr::eq(*one, subject));
-        place.map_or_else(Vec::new, |place| chosen[place].clone())
-    };
+    let moments_of = |subject: &Subject| chosen_for(subject, &shown, &chosen);
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let mut blocks = Vec::new();
     let mut has_none = false;
@@ -83,24 +80,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
 /// The moments that are asked for, else the first one after the start in which cells have a temperature, and the last one: a lifted pin has
 /// none.
 fn moments(subject: &Subject) -> Result<Vec<usize>, ReadError> {
-    let times = subject.run.map_time();
     if !subject.chosen.is_empty() {
         return Ok(subject.chosen.clone());
     }
-    let after = || (0..times.len()).filter(|index| times[*index] > 0.0);
-    let Some(first) = first_with_contact(subject, after())? else { return Ok(Vec::new()) };
-    let last = first_with_contact(subject, after().rev())?.unwrap_or(first);
-    Ok(if first == last { vec![last] } else { vec![first, last] })
-}
-
-/// The first of these moments in which any cell has a temperature.
-fn first_with_contact(subject: &Subject, moments: impl Iterator<Item = usize>) -> Result<Option<usize>, ReadError> {
-    for index in moments {
-        if floats(subject.run, Map::Temperature, index)?.iter().any(|temperature| temperature.is_finite()) {
-            return Ok(Some(index));
-        }
-    }
-    Ok(None)
+    ends_with_contact(subject, Map::Temperature, f64::is_finite)
 }
 
 /// The scale that all maps share.

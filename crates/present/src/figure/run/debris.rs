@@ -10,7 +10,7 @@ use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
 use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::{Content, KeyStyle};
-use crate::figure::stroke::Stroke;
+use crate::figure::stroke::{SOLID, Stroke};
 use crate::quantity::{Unit, title};
 
 const NAME: &str = "debris";
@@ -73,7 +73,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         |part: &usize| balances.iter().any(|(_, balance)| balance.parts[*part].iter().any(|volume| *volume > 0.0));
     let stacked = (0..PARTS.len()).rev().filter(is_there).map(|part| (DEBRIS[part], title(PARTS[part])));
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
-    meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line, text: "worn + returned".to_owned() });
+    meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: "worn + returned".to_owned() });
     let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
     figures.add(
         NAME,

@@ -21,6 +21,34 @@ pub fn shown_moments(subject: &Subject) -> Vec<usize> {
     }
 }
 
+/// Indices of the moments after the start.
+pub fn after_the_start(run: &RunFile) -> impl DoubleEndedIterator<Item = usize> + Clone + '_ {
+    let times = run.map_time();
+    (0..times.len()).filter(|index| times[*index] > 0.0)
+}
+
+/// Indices of the first and the last moment after the start in which any value of a map is that of a contact, one of them if it is both;
+/// none where the pin is lifted in all.
+pub fn ends_with_contact(subject: &Subject, map: Map, of_contact: fn(f64) -> bool) -> Result<Vec<usize>, ReadError> {
+    let first_of = |moments: &mut dyn Iterator<Item = usize>| -> Result<Option<usize>, ReadError> {
+        for index in moments {
+            if floats(subject.run, map, index)?.into_iter().any(of_contact) {
+                return Ok(Some(index));
+            }
+        }
+        Ok(None)
+    };
+    let Some(first) = first_of(&mut after_the_start(subject.run))? else { return Ok(Vec::new()) };
+    let last = first_of(&mut after_the_start(subject.run).rev())?.unwrap_or(first);
+    Ok(if first == last { vec![last] } else { vec![first, last] })
+}
+
+/// What was chosen for a run, of those that are shown.
+pub fn chosen_for(subject: &Subject, shown: &[&Subject], chosen: &[Vec<usize>]) -> Vec<usize> {
+    let place = shown.iter().position(|one| std::ptr::eq(*one, subject));
+    place.map_or_else(Vec::new, |place| chosen[place].clone())
+}
+
 /// What the lines of the moments of all runs are; nothing where there are only those of the last.
 pub fn meanings(subjects: &[Subject], has_first: bool) -> Vec<Meaning> {
     if !has_first {

@@ -4,7 +4,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
-use super::moments::{floats, leave_blank, moment};
+use super::moments::{after_the_start, chosen_for, ends_with_contact, floats, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -39,10 +39,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         return Ok(());
     }
     let (scale, unit) = scale(&shown, &chosen)?;
-    let moments_of = |subject: &Subject| {
-        let place = shown.iter().position(|one| std::ptr::eq(*one, subject));
-        place.map_or_else(Vec::new, |place| chosen[place].clone())
-    };
+    let moments_of = |subject: &Subject| chosen_for(subject, &shown, &chosen);
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let mut blocks = Vec::new();
     for together in shown.chunks(MOST_ACROSS) {
@@ -84,28 +81,13 @@ fn moments(subject: &Subject) -> Result<Vec<usize>, ReadError> {
     if !subject.chosen.is_empty() {
         return Ok(subject.chosen.iter().copied().filter(|index| times[*index] > 0.0).collect());
     }
-    let after = || (0..times.len()).filter(|index| times[*index] > 0.0);
-    let first = match first_with_contact(subject, after())? {
-        None => after().next(),
-        found => found,
-    };
-    let last = match first_with_contact(subject, after().rev())? {
-        None => after().next_back(),
-        found => found,
-    };
-    let mut moments: Vec<usize> = first.into_iter().chain(last).collect();
-    moments.dedup();
-    Ok(moments)
-}
-
-/// The first of these moments in which any cell carries.
-fn first_with_contact(subject: &Subject, moments: impl Iterator<Item = usize>) -> Result<Option<usize>, ReadError> {
-    for index in moments {
-        if floats(subject.run, Map::Pressure, index)?.iter().any(|pressure| *pressure > 0.0) {
-            return Ok(Some(index));
-        }
+    let mut moments = ends_with_contact(subject, Map::Pressure, |pressure| pressure > 0.0)?;
+    if moments.is_empty() {
+        let after = after_the_start(subject.run);
+        moments = after.clone().next().into_iter().chain(after.last()).collect();
+        moments.dedup();
     }
-    Ok(None)
+    Ok(moments)
 }
 
 /// The scale that all maps share, and the unit that it is in.
