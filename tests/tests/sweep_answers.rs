@@ -151,7 +151,7 @@ fn predictions_are_those_of_the_equations() {
 #[test]
 fn a_prediction_is_confirmed_by_runs_that_are_made_once() {
     let directory = studied();
-    let arguments = ["--at", "load=14 N", "--at", "fibres=0.25", "--confirm"];
+    let arguments = ["--at", "load=14 N", "--at", "fibres=0.25", "--confirm", "--jobs", "1"];
     let confirmed = ask(&directory, "predict", &arguments);
     let area = &confirmed["confirmed"][0];
     // The same two runs by hand.

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod answers;
+mod cores;
 mod fit;
 mod model;
 mod new;
@@ -26,6 +27,7 @@ use crate::failure::Failure;
 
 pub use accuracy::AccuracyArguments;
 pub use answers::{ImportArguments, OptimizeArguments, PredictArguments};
+pub use cores::CoresArguments;
 pub use fit::FitArguments;
 pub use model::Terms;
 pub use new::NewArguments;

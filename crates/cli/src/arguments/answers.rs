@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::cores::CoresArguments;
 use super::model::ModelArguments;
 
 /// Arguments of `plateau sweep predict`.
 #[derive(Debug, Args)]
+#[command(mut_args(CoresArguments::for_confirming))]
 pub struct PredictArguments {
     /// Study file (TOML)
     pub study: PathBuf,
@@ -35,6 +37,8 @@ pub struct PredictArguments {
     #[arg(long)]
     pub confirm: bool,
     #[command(flatten)]
+    pub cores: CoresArguments,
+    #[command(flatten)]
     pub fit: ModelArguments,
     /// Print one JSON document instead of text
     #[arg(long)]
@@ -43,6 +47,7 @@ pub struct PredictArguments {
 
 /// Arguments of `plateau sweep optimize`.
 #[derive(Debug, Args)]
+#[command(mut_args(CoresArguments::for_confirming))]
 pub struct OptimizeArguments {
     /// Study file (TOML)
     pub study: PathBuf,
@@ -74,6 +79,8 @@ pub struct OptimizeArguments {
     /// Make runs at the optimum, with all seeds of the study, and compare
     #[arg(long)]
     pub confirm: bool,
+    #[command(flatten)]
+    pub cores: CoresArguments,
     #[command(flatten)]
     pub fit: ModelArguments,
     /// Folder for figures and table; "optimum" in the study's own unless given

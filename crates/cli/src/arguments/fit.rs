@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::cores::CoresArguments;
+
 /// Arguments of `plateau fit`.
 #[derive(Debug, Args)]
 pub struct FitArguments {
@@ -12,12 +14,8 @@ pub struct FitArguments {
     /// Say what is fitted to what and what it will cost, without running any
     #[arg(long)]
     pub plan: bool,
-    /// Runs at a time; as many as there are cores for their workers unless given
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
-    pub jobs: Option<u32>,
-    /// Threads of each run
-    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
-    pub workers: u32,
+    #[command(flatten)]
+    pub cores: CoresArguments,
     /// Make runs again that failed before
     #[arg(long)]
     pub retry: bool,

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::model::{Model, Terms, confidence};
-
 use super::answers::{ImportArguments, OptimizeArguments, PredictArguments};
+use super::cores::CoresArguments;
+use super::model::{Model, Terms, confidence};
 
 /// What to do with a study.
 #[derive(Debug, Subcommand)]
@@ -76,12 +76,8 @@ pub struct PlanArguments {
 pub struct SweepRunArguments {
     /// Study file (TOML)
     pub study: PathBuf,
-    /// Runs at a time; as many as there are cores for their workers unless given
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
-    pub jobs: Option<u32>,
-    /// Threads of each run
-    #[arg(long, value_name = "N", allow_hyphen_values = true, default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
-    pub workers: u32,
+    #[command(flatten)]
+    pub cores: CoresArguments,
     /// Make only every N-th run, beginning with the I-th: one task of N that share the study
     #[arg(long, value_name = "I/N", allow_hyphen_values = true, value_parser = task)]
     pub task: Option<Task>,

@@ -11,7 +11,6 @@ use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
 use plateau_present::study::analysis::Analysis;
 use plateau_run::Job;
-use plateau_run::execution::cores;
 use plateau_study::surrogate::Forecast;
 use serde::Serialize;
 
@@ -19,6 +18,7 @@ use super::floor::Floor;
 use super::journal;
 use super::progress::Progress;
 use super::resolved::Resolved;
+use crate::arguments::CoresArguments;
 use crate::failure::{Failure, in_job};
 use crate::interrupt::Interrupt;
 use crate::message;
@@ -44,6 +44,7 @@ pub fn confirm(
     plan: &Plan,
     levels: &[Level],
     expected: &[Option<Forecast>],
+    cores: &CoresArguments,
 ) -> Result<Vec<Option<Confirmed>>, Failure> {
     let study = Study {
         source: DesignSource::File(vec![levels.to_vec()]),
@@ -53,7 +54,7 @@ pub fn confirm(
     };
     let extra = Plan::new(study).map_err(Failure::input)?;
     let resolved = Resolved::of(&extra)?;
-    in_job(|job| make(&extra, &resolved, job))?;
+    in_job(|job| make(&extra, &resolved, cores, job))?;
     let journal = journal(extra.study())?;
     let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
     if collected.count("finished") == 0 {
@@ -62,7 +63,7 @@ pub fn confirm(
     Ok(expected.iter().enumerate().map(|(response, expected)| Confirmed::of(&collected, response, *expected)).collect())
 }
 
-fn make(plan: &Plan, resolved: &Resolved, job: &mut Job) -> Result<(), Failure> {
+fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job) -> Result<(), Failure> {
     if job.ranks() > 1 {
         return Err(Failure::input("confirming runs are made by one process: call this without mpirun"));
     }
@@ -79,8 +80,8 @@ fn make(plan: &Plan, resolved: &Resolved, job: &mut Job) -> Result<(), Failure> 
     interrupt.listen_for_save().map_err(Failure::run)?;
     let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
     let progress = Progress::new(pending.len(), steps, job.leads());
-    let floor = Floor::new(plan, resolved, 1, interrupt, progress);
-    let shared = job.share(&pending, cores(), None, &|number| floor.make(number));
+    let floor = Floor::new(plan, resolved, cores.workers(), interrupt, progress);
+    let shared = job.share(&pending, cores.runs_at_a_time(), None, &|number| floor.make(number));
     let made = floor.end(shared.map_err(Failure::run))?;
     if let Some(signal) = floor.signal() {
         let message = format!("stopped by signal {signal}; the same command goes on");

@@ -24,7 +24,6 @@ use std::path::{Path, PathBuf};
 use plateau_io::study::Study;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
-use plateau_run::execution::cores;
 
 use crate::failure::Failure;
 use crate::machine;
@@ -35,11 +34,6 @@ use crate::machine;
 /// [`Failure::Input`] with everything that is wrong.
 pub fn plan(path: &Path) -> Result<Plan, Failure> {
     Study::load(path).and_then(Plan::new).map_err(Failure::input)
-}
-
-/// Runs at a time: as many as are asked for, else as there are cores for their workers.
-pub fn runs_at_a_time(jobs: Option<u32>, workers: u32) -> usize {
-    jobs.map_or_else(|| (cores() / workers as usize).max(1), |jobs| jobs as usize)
 }
 
 /// Refuses a study that has no scene to run.

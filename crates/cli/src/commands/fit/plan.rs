@@ -10,7 +10,6 @@ use crate::arguments::FitArguments;
 use crate::failure::Failure;
 use crate::number;
 use crate::sweep::estimate::Estimate;
-use crate::sweep::runs_at_a_time;
 use crate::table::{columns, print, table};
 
 /// The document; numbers in SI units.
@@ -35,7 +34,7 @@ pub fn say(plan: &Plan, task: &Task, arguments: &FitArguments) -> Result<(), Fai
     let study = plan.study();
     let estimate = Estimate::of(plan)?;
     let most = study.fit.runs.max(plan.runs());
-    let jobs = runs_at_a_time(arguments.jobs, arguments.workers);
+    let jobs = arguments.cores.runs_at_a_time();
     let time = estimate.mean_time * most as f64 / jobs as f64;
     if arguments.json {
         let document = Document {

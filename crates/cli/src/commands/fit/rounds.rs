@@ -21,7 +21,7 @@ use crate::interrupt::Interrupt;
 use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{journal, journal_folder, runs_at_a_time};
+use crate::sweep::{journal, journal_folder};
 use crate::{message, number};
 
 /// Points that are added before the next fit: as many runs can be made at a time, each with all seeds.
@@ -305,8 +305,7 @@ fn made(
         known
     } else {
         tried.extend(pending.iter().map(|number| resolved.identities[number - 1].clone()));
-        let workers = arguments.workers as usize;
-        let jobs = runs_at_a_time(arguments.jobs, arguments.workers);
+        let (jobs, workers) = (arguments.cores.runs_at_a_time(), arguments.cores.workers());
         let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
         let own = Interrupt::listen().map_err(Failure::run)?;
         let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, true));

@@ -57,7 +57,8 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     };
     write(&mut folder, &figures(&shown, contour), &analysed.inputs)?;
     let files = folder.files().to_vec();
-    let confirmed = if arguments.confirm { Some(confirm(&analysed.plan, &place.levels, &forecasts)?) } else { None };
+    let make = || confirm(&analysed.plan, &place.levels, &forecasts, &arguments.cores);
+    let confirmed = arguments.confirm.then(make).transpose()?;
     if arguments.json {
         let document = Document {
             study: &analysed.plan.study().title,

@@ -41,7 +41,7 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
         output::write(path, table.as_bytes(), arguments.force)?;
     }
     let confirmed = match (arguments.confirm, &places[..]) {
-        (true, [place]) => Some(confirm(&analysed.plan, &place.levels, &forecasts[0])?),
+        (true, [place]) => Some(confirm(&analysed.plan, &place.levels, &forecasts[0], &arguments.cores)?),
         _ => None,
     };
     let study = analysed.plan.study();

@@ -6,7 +6,6 @@ use std::time::Instant;
 use plateau_io::study::journal::{Entry, Journal};
 use plateau_io::study::plan::Plan;
 use plateau_run::Job;
-use plateau_run::execution::cores;
 use plateau_run::job::Agreement;
 use serde::Serialize;
 
@@ -58,11 +57,10 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
     interrupt.listen_for_save().map_err(Failure::run)?;
-    let workers = arguments.workers as usize;
-    if job.ranks() > 1 && arguments.jobs.is_some() && job.leads() {
+    let (jobs, workers) = (arguments.cores.runs_at_a_time(), arguments.cores.workers());
+    if job.ranks() > 1 && arguments.cores.jobs.is_some() && job.leads() {
         message::warning("each rank makes one run at a time: --jobs has no effect");
     }
-    let jobs = arguments.jobs.map_or_else(|| (cores() / workers).max(1), |jobs| jobs as usize);
     let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
     let start = Instant::now();
     let progress = Progress::new(pending.len(), steps, job.leads());
