@@ -82,11 +82,13 @@ pub struct WrongMesh {
 impl Memory {
     /// What of it is not as in another memory of the same run, in words; none where all of it is.
     pub(crate) fn misfit(&self, own: &Self) -> Option<&'static str> {
-        let shape = |memory: &Self| memory.engine.as_ref().map(|engine| engine.contact.shape());
-        let both = shape(self).zip(shape(own));
+        let both = self.engine.as_ref().zip(own.engine.as_ref());
+        let differs =
+            |is_other: fn(&EngineMemory, &EngineMemory) -> bool| both.is_some_and(|(found, own)| is_other(found, own));
         [
             (self.account.pools.len() != own.account.pools.len(), "debris pools"),
-            (both.is_some_and(|(found, own)| found != own), "sums of the contact"),
+            (differs(|found, own| found.contact.shape() != own.contact.shape()), "sums of the contact"),
+            (differs(|found, own| found.forecast.revolution() != own.forecast.revolution()), "past displacements"),
             (self.accounts.is_some() != own.accounts.is_some(), "friction, heat and emission"),
         ]
         .into_iter()

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::exact::{Weights, float};
 use crate::engine::kernel::{Bracket, NearPair};
+use crate::engine::strips::REACH;
 use crate::engine::sums::{PairSums, RowWeights, Sums};
 use crate::model::ContactError;
 use crate::model::friction::{ContactSums, StatusContact};
@@ -79,7 +80,7 @@ impl Contact {
     /// Solves Σ k A (δ − g)₊ = F_N where δ lies within the bracket that the sums and the list of near pairs are of.
     ///
     /// # Errors
-    /// [`ContactError`] when the numbers leave the finite range or rounding leaves no overlap.
+    /// [`ContactError`] when the numbers leave the range of the engine or rounding leaves no overlap.
     pub fn balance(
         &mut self,
         weights: &RowWeights,
@@ -90,7 +91,8 @@ impl Contact {
     ) -> Result<Verdict, ContactError> {
         let (low_load, low_slope) = load_at_low(weights, sums, bracket);
         let low = bracket.low;
-        if !(low_load.is_finite() && low.is_finite()) {
+        // Beyond, what fills up the strips would touch, too.
+        if !(low_load.is_finite() && low.abs() + bracket.width < REACH) {
             return Err(ContactError::NotFinite { displacement: low, load: low_load, normal_force });
         }
         if low_load > normal_force {

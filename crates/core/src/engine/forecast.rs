@@ -31,8 +31,14 @@ pub struct Forecast {
 impl Forecast {
     /// Nothing known yet.
     pub fn new(steps_per_revolution: usize) -> Self {
-        let past = vec![0.0; 2 * steps_per_revolution + 1];
+        let past = vec![0.0; places(steps_per_revolution)];
         Self { revolution: steps_per_revolution, past, next: 0, steps: 0, errors: [0.0; WAYS] }
+    }
+
+    /// Steps of a revolution; none where what was read is no forecast of any.
+    pub fn revolution(&self) -> Option<usize> {
+        let is_whole = self.next < self.past.len() && self.past.len() == places(self.revolution);
+        is_whole.then_some(self.revolution)
     }
 
     /// The displacement `ago` steps before the next one, m; `ago` is at least 1.
@@ -82,6 +88,11 @@ impl Forecast {
         self.next = (self.next + 1) % self.past.len();
         self.steps += 1;
     }
+}
+
+/// Displacements of two revolutions, and the one before.
+fn places(revolution: usize) -> usize {
+    revolution.saturating_mul(2).saturating_add(1)
 }
 
 #[cfg(test)]
