@@ -263,7 +263,8 @@ fn a_saturated_study_is_judged_by_the_margin_of_lenth() {
     let text = effects(&directory, &["--model", "full"]).stdout;
     let (_, after) = text.split_once("margin of error ").expect("a margin");
     let (margins, _) = after.split_once(" (Lenth)").unwrap();
-    let margins: Vec<f64> = margins.split(", simultaneous ").map(|margin| margin.parse().unwrap()).collect();
+    let in_si = |margin: &str| 1e-6 * margin.strip_suffix(" mm²").expect("mm²").parse::<f64>().unwrap();
+    let margins: Vec<f64> = margins.split(", simultaneous ").map(in_si).collect();
     // Of seven effects: qt((1 + 0.95^(1/7))/2, 7/3) by qt(0.975, 7/3) of R 4.2.2.
     assert!((margins[1] / margins[0] / (9.008_307_114 / 3.764_123_072) - 1.0).abs() < 2e-3, "{margins:?}");
     let report: Value = serde_json::from_str(&effects(&directory, &["--model", "full", "--json"]).stdout).unwrap();

@@ -5,8 +5,8 @@
 use std::fs;
 use std::path::Path;
 
-/// Bytes of a study.
-pub const STUDY: u64 = 16 << 20;
+/// Bytes of a study: brackets take fifty times their size while they are read.
+pub const STUDY: u64 = 4 << 20;
 /// Bytes of a table of load and speed, or of the points of a design.
 pub const TABLE: u64 = 64 << 20;
 /// Rows of such a table.

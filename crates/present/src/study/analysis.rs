@@ -16,6 +16,7 @@ use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as Pro
 use super::fit_scale::FitScale;
 use super::model::Choice;
 use super::reading::Reading;
+use crate::quantity::Unit;
 
 /// Values of a table of one's own up to which a factor has levels; with more it has a range, and where its values mostly
 /// come once.
@@ -83,6 +84,12 @@ impl AnalysedResponse {
     /// SI unit of what is fitted.
     pub fn unit_of_fit(&self) -> &'static str {
         self.scale.unit_of_fit(self.unit)
+    }
+
+    /// The unit in which the fit and its results are shown.
+    pub fn unit_shown(&self, effects: &Effects) -> Unit {
+        let largest = effects.responses().map(f64::abs).fold(0.0, f64::max);
+        Unit::readable_with_differences(self.unit_of_fit(), largest)
     }
 }
 

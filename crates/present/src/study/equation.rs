@@ -4,6 +4,7 @@ use plateau_io::number;
 use plateau_study::effects::{Effects, Equation, Variable};
 
 use super::analysis::{AnalysedFactor, AnalysedResponse};
+use crate::quantity::Unit;
 
 /// Digits of coefficients: predictions with them have four at least.
 const DIGITS: usize = 6;
@@ -21,27 +22,27 @@ pub fn equations(effects: &Effects, factors: &[AnalysedFactor]) -> Option<[Equat
     Some([effects.equation(None)?, effects.equation(Some(&ends))?])
 }
 
-/// What to say of both equations, and their lines, in the SI unit of what is fitted.
+/// What to say of both equations, and their lines, in the unit in which the response is shown.
 pub fn paragraphs(
     response: &AnalysedResponse,
     effects: &Effects,
     factors: &[AnalysedFactor],
 ) -> Vec<(String, Vec<String>)> {
     let Some([coded, natural]) = equations(effects, factors) else { return Vec::new() };
-    let unit = response.unit_of_fit();
+    let unit = response.unit_shown(effects);
     let title = response.title();
-    let title = if unit == "1" { title } else { format!("{title} [{unit}]") };
+    let title = if unit.symbol.is_empty() { title } else { format!("{title} [{}]", unit.symbol) };
     let has_levels =
         coded.terms.iter().flat_map(|term| &term.variables).any(|variable| matches!(variable, Variable::Level { .. }));
     let levels = if has_levels { "; [factor level] is 1 at this level, else 0" } else { "" };
     vec![
-        (format!("in coded units, −1 to 1 over each range{levels}"), lines(&title, &coded, factors)),
-        (format!("in the units of the study ({}){levels}", units(factors)), lines(&title, &natural, factors)),
+        (format!("in coded units, −1 to 1 over each range{levels}"), lines(&title, &coded, &unit, factors)),
+        (format!("in the units of the study ({}){levels}", units(factors)), lines(&title, &natural, &unit, factors)),
     ]
 }
 
 /// The lines of an equation for what is called this; later lines are indented.
-fn lines(title: &str, equation: &Equation, factors: &[AnalysedFactor]) -> Vec<String> {
+fn lines(title: &str, equation: &Equation, unit: &Unit, factors: &[AnalysedFactor]) -> Vec<String> {
     let mut lines = vec![format!("{title} =")];
     for (at, term) in equation.terms.iter().enumerate() {
         let sign = match (at, term.coefficient < 0.0) {
@@ -50,7 +51,7 @@ fn lines(title: &str, equation: &Equation, factors: &[AnalysedFactor]) -> Vec<St
             (_, false) => "+ ",
             (_, true) => "\u{2212} ",
         };
-        let coefficient = number::significant(term.coefficient.abs(), DIGITS);
+        let coefficient = number::significant(unit.difference(term.coefficient).abs(), DIGITS);
         let product = product(&term.variables, factors);
         let piece = format!("{sign}{coefficient}{}{product}", if product.is_empty() { "" } else { " " });
         let last = lines.last_mut();

@@ -253,6 +253,11 @@ pub struct HalfNormal {
 }
 
 impl Effects {
+    /// What was observed of the response, in the order of the observations that have one.
+    pub fn responses(&self) -> impl Iterator<Item = f64> {
+        self.fitted.iter().map(|fitted| fitted.fitted + fitted.residual)
+    }
+
     /// The effects of terms with one degree of freedom for a half-normal plot, from the smallest.
     pub fn half_normal(&self) -> Vec<HalfNormal> {
         let size = |(term, each): (usize, &Term)| Some((term, each.estimate?.effect.abs()));

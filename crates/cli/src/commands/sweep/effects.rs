@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use plateau_present::Unit;
 use plateau_present::figure::Format;
 use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis, Asked};
 use plateau_present::study::equation::paragraphs;
@@ -124,28 +125,28 @@ fn rows(analysis: &Analysis) -> String {
 
 /// What is said of a response.
 fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
-    let unit = if response.unit == "1" { String::new() } else { format!(" ({})", response.unit) };
-    let heading = format!("{}{unit}", response.name);
     let effects = match &response.effects {
         Ok(effects) => effects,
-        Err(error) => return format!("{heading}\n  {error}\n"),
+        Err(error) => return format!("{}\n  {error}\n", response.name),
     };
+    let unit = response.unit_shown(effects);
     let misfit = response.misfit.as_ref().map(|misfit| lack_of_fit(misfit, effects.r_squared));
     let transformed = response.scale.transform().map(|_| format!("all results are those of {}", response.title()));
     let notes = [
         Some(response.choice.words()),
         misfit,
         Some(fit(effects)),
-        Some(quality(effects, number::short)),
+        Some(quality(effects, |value| unit.with_symbol(&number::short(unit.difference(value))))),
         transformed,
         selected(response),
         box_cox(response),
     ];
-    let heading = notes.into_iter().flatten().fold(heading, |heading, note| format!("{heading}\n  {note}"));
-    let names = ["term", "effect", "interval", "share", "F", "p"];
+    let heading =
+        notes.into_iter().flatten().fold(response.name.clone(), |heading, note| format!("{heading}\n  {note}"));
+    let names = ["term", &unit.label("effect"), "interval", "share", "F", "p"];
     let mut rows: Vec<&Term> = effects.rows().collect();
     rows.sort_by(|a, b| b.share.total_cmp(&a.share));
-    let rows: Vec<Vec<String>> = rows.into_iter().map(cells).collect();
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|term| cells(term, &unit)).collect();
     let mut text = columns(&heading, &names, &rows);
     for term in effects.rows().filter(|term| !term.aliased_with.is_empty()) {
         text.push_str(&format!("  {} cannot be told from {}\n", term.label, term.aliased_with.join(", ")));
@@ -157,11 +158,11 @@ fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
     text
 }
 
-fn cells(term: &Term) -> Vec<String> {
+fn cells(term: &Term, unit: &Unit) -> Vec<String> {
     let uncertainty = term.estimate.and_then(|estimate| estimate.uncertainty);
-    let effect = term.estimate.map_or_else(String::new, |estimate| number::short(estimate.effect));
+    let effect = term.estimate.map_or_else(String::new, |estimate| number::short(unit.difference(estimate.effect)));
     let interval = uncertainty.map_or_else(String::new, |uncertainty| {
-        let [low, high] = uncertainty.interval.map(number::short);
+        let [low, high] = uncertainty.interval.map(|end| number::short(unit.difference(end)));
         format!("{low} … {high}")
     });
     let test = |value: fn(&effects::Test) -> f64| {

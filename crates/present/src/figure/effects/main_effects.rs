@@ -3,7 +3,7 @@
 use plateau_study::design::Setting;
 use plateau_study::effects::{Cell, Model};
 
-use super::{FactorAxis, ResponseFigures, Subject, range_of, responses, said_of_cuts};
+use super::{FactorAxis, ResponseFigures, Subject, range_of, said_of_cuts};
 use crate::colour::{DATA, FAINT};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
@@ -41,7 +41,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let shown: Vec<Shown> = (0..subject.axes.len()).map(|factor| shown(subject, factor)).collect();
     let mean = {
         let (sum, count) =
-            responses(subject.effects).fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+            subject.effects.responses().fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
         subject.unit.value(sum / count)
     };
     let values = shown.iter().flat_map(|shown| {

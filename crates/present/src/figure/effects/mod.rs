@@ -49,7 +49,7 @@ pub fn figures(analysis: &Analysis) -> Vec<ResponseFigures> {
     let responses = analysis.responses.iter().zip(names).map(|(response, name)| {
         let mut figures = ResponseFigures::default();
         if let Ok(effects) = &response.effects {
-            let unit = unit(response, effects);
+            let unit = response.unit_shown(effects);
             let subject = Subject { analysis, response, effects, unit, axes: &axes, name };
             main_effects::add(&subject, &mut figures);
             interactions::add(&subject, &mut figures);
@@ -67,16 +67,6 @@ pub fn figures(analysis: &Analysis) -> Vec<ResponseFigures> {
 pub fn axes(analysis: &Analysis) -> Vec<FactorAxis<'_>> {
     let axis = |(at, factor)| FactorAxis::new(factor, analysis.runs.iter().map(move |(settings, _)| settings[at]));
     analysis.factors.iter().enumerate().map(axis).collect()
-}
-
-/// The unit in which a response is shown.
-pub fn unit(response: &AnalysedResponse, effects: &Effects) -> Unit {
-    Unit::readable_with_differences(response.unit_of_fit(), responses(effects).map(f64::abs).fold(0.0, f64::max))
-}
-
-/// The responses of the runs that have one.
-fn responses(effects: &Effects) -> impl Iterator<Item = f64> {
-    effects.fitted.iter().map(|fitted| fitted.fitted + fitted.residual)
 }
 
 /// A response that figures are made of.

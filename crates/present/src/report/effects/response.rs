@@ -3,7 +3,7 @@
 use plateau_study::design::Setting;
 use plateau_study::effects::{Effects, Nature, Squares, Term, Test};
 
-use crate::figure::effects::{FactorAxis, unit};
+use crate::figure::effects::FactorAxis;
 use crate::quantity::Unit;
 use crate::report::html::{self, capital};
 use crate::report::picture::{Picture, Pictures};
@@ -32,7 +32,7 @@ pub fn html(response: &AnalysedResponse, axes: &[FactorAxis], pictures: &Picture
         Ok(effects) => effects,
         Err(error) => return format!("<p class=\"notice\">{}</p>\n", html::escape(&capital(&error.to_string()))),
     };
-    let unit = unit(response, effects);
+    let unit = response.unit_shown(effects);
     let caption = format!("Analysis of variance of {}", response.title());
     let paragraph = |text: &str| format!("<p>{}.</p>\n", html::escape(&capital(text)));
     let mut text =
