@@ -1,4 +1,6 @@
 //! A table of values in CSV: columns of factors and responses, named in the first line, with units as in results.csv.
+//!
+//! Where a spreadsheet writes commas in numbers, it parts columns by semicolons: such a table, and one with tabs, is read too.
 
 use std::path::{Path, PathBuf};
 
@@ -45,7 +47,9 @@ impl ValueTable {
             let at = position.map_or(1, csv::Position::line).saturating_sub(1);
             usize::try_from(at).ok().and_then(|at| numbers.get(at)).copied().unwrap_or(0)
         };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(kept.as_bytes());
+        let delimiter = delimiter(kept.lines().next().unwrap_or(""));
+        let mut reader =
+            csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(kept.as_bytes());
         let wrong = |error: csv::Error| match error.kind() {
             csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
                 format!("{shown}:{}: {len} cells, expected {expected_len} as in the first line", number(pos.as_ref()))
@@ -69,7 +73,8 @@ impl ValueTable {
             {
                 return Err(format!("{shown}:{line}: \"{head}\" has {found}; take it out"));
             }
-            rows.push(Row { line, cells: record.iter().map(str::to_owned).collect() });
+            let cell = |cell: &str| if delimiter == b',' { cell.to_owned() } else { with_point(cell) };
+            rows.push(Row { line, cells: record.iter().map(cell).collect() });
         }
         if rows.is_empty() {
             return Err(format!("{shown}: no points, expected a line for each"));
@@ -159,6 +164,26 @@ impl ValueTable {
     }
 }
 
+/// What parts the columns below this head: semicolons only where there are more of them than commas, for names may have one.
+fn delimiter(head: &str) -> u8 {
+    let count = |delimiter: char| head.matches(delimiter).count();
+    match (count('\t'), count(';') > count(',')) {
+        (1.., _) => b'\t',
+        (0, true) => b';',
+        (0, false) => b',',
+    }
+}
+
+/// A number that is written with a comma, with a point; all else as it is.
+fn with_point(cell: &str) -> String {
+    let is_whole = |text: &str| text.trim_start_matches(['+', '-']).bytes().all(|byte| byte.is_ascii_digit());
+    let is_fraction = |text: &str| text.starts_with(|first: char| first.is_ascii_digit()) && !text.contains([',', '.']);
+    match cell.split_once(',') {
+        Some((whole, fraction)) if is_whole(whole) && is_fraction(fraction) => format!("{whole}.{fraction}"),
+        _ => cell.to_owned(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -189,6 +214,29 @@ mod tests {
         assert_eq!(table.level(first, 2, &factors[1]).unwrap().number, Some(0.2));
         assert_eq!((table.number(first, 1), table.number(second, 1)), (Ok(Some(1e-6)), Ok(None)));
         assert!(table.level(second, 0, &factors[0]).unwrap_err().ends_with("t.csv:4: \"load\" is empty"));
+    }
+
+    #[test]
+    fn tables_with_commas_in_numbers_are_those_with_points() {
+        let values = |text: &str| {
+            let table = table(text).unwrap();
+            assert_eq!((table.named(0), table.named(1)), (("load", "N"), ("worn", "mm3")), "{text}");
+            let row = &table.rows()[0];
+            (table.number(row, 0).unwrap(), table.number(row, 1).unwrap())
+        };
+        let expected = (Some(7.5), Some(-1.25e-3));
+        for text in [
+            "load [N],worn [mm3]\n7.5,-1.25e-3\n",
+            "load [N];worn [mm3]\n7,5;-1,25e-3\n",
+            "load [N];worn [mm3]\r\n7.5;-1.25e-3\r\n",
+            "load [N]\tworn [mm3]\n7,5\t-1,25e-3\n",
+        ] {
+            assert_eq!(values(text), expected, "{text}");
+        }
+        assert_eq!(
+            ["1.234,5", "1,2,3", "a, b", ",", "7,5 N"].map(with_point),
+            ["1.234,5", "1,2,3", "a, b", ",", "7.5 N"]
+        );
     }
 
     #[test]
