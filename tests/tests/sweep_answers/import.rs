@@ -88,6 +88,9 @@ fn measured_responses_are_analysed_without_a_scene() {
         assert!((found - published).abs() < 0.01, "{found} {published}");
     }
     assert!((best["desirability"].as_f64().unwrap() - 0.583).abs() < 0.0006);
+    // It lies between the levels of the table, and is marked there.
+    let contour = fs::read_to_string(directory.path("results/optimum/contour.svg")).unwrap();
+    assert!(contour.contains("optimum"), "no mark at the optimum");
     // One factor less to look at has no contour: that of the call before does not stay beside the new profiler.
     assert!(directory.path("results/optimum/contour.png").is_file());
     let held = ["--maximize", "abrasion", "--hold", "silica=0", "--hold", "silane=0"];

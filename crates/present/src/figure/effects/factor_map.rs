@@ -153,9 +153,11 @@ impl<'a> FactorMap<'a> {
         };
         contents.extend(lines.iter().map(line));
         contents.push(Content::Marks { points: runs.to_vec(), colour: INK, mark: Mark::Rimmed });
-        let place = mark.map(|(coded, _)| vec![self.natural(coded)]);
-        contents.extend(place.map(|points| Content::Marks { points, colour: INK, mark: Mark::Cross }));
-        write_numbers(&mut page, &axes, &lines, runs);
+        let marked: Vec<[f64; 2]> = mark.iter().map(|(coded, _)| self.natural(*coded)).collect();
+        write_numbers(&mut page, &axes, &lines, &[runs, &marked].concat());
+        if !marked.is_empty() {
+            contents.push(Content::Marks { points: marked, colour: INK, mark: Mark::Cross });
+        }
         page.panels.push(Panel { axes, contents });
         let bar = frame.x[1] + BESIDE;
         let bar = Frame { x: [bar, bar + BAR], y: [frame.y[0] + POINTED, frame.y[1] - POINTED] };
@@ -165,12 +167,12 @@ impl<'a> FactorMap<'a> {
     }
 }
 
-/// Writes on each line what it is the line of, where there is room away from runs and from other numbers.
-fn write_numbers(page: &mut Page, axes: &Axes, lines: &[(Vec<[f64; 2]>, String)], runs: &[[f64; 2]]) {
+/// Writes on each line what it is the line of: away from marks and other numbers, and as far from other lines as there is room.
+fn write_numbers(page: &mut Page, axes: &Axes, lines: &[(Vec<[f64; 2]>, String)], marks: &[[f64; 2]]) {
     let place = |point: &[f64; 2]| axes.place(point[0], point[1]);
-    let mut taken: Vec<Place> = runs.iter().map(place).collect();
-    for (points, text) in lines {
-        let places: Vec<Place> = points.iter().map(place).collect();
+    let mut taken: Vec<Place> = marks.iter().map(place).collect();
+    let all: Vec<Vec<Place>> = lines.iter().map(|(points, _)| points.iter().map(place).collect()).collect();
+    for (at, ((_, text), places)) in lines.iter().zip(&all).enumerate() {
         let length: f64 = places.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum();
         if length < SHORTEST {
             continue;
@@ -185,11 +187,12 @@ fn write_numbers(page: &mut Page, axes: &Axes, lines: &[(Vec<[f64; 2]>, String)]
             };
             inside && !taken.iter().any(is_near)
         };
-        // From the middle of the line outward.
-        let count = places.len();
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by_key(|at| at.abs_diff(count / 2));
-        let Some(found) = order.into_iter().map(|at| places[at]).find(|place| is_free(place)) else { continue };
+        let others = || all.iter().enumerate().filter(|(other, _)| *other != at).flat_map(|(_, places)| places);
+        let to_others = |(x, y): &Place| {
+            others().map(|(other_x, other_y)| (other_x - x).hypot(other_y - y)).fold(f64::INFINITY, f64::min)
+        };
+        let free = places.iter().filter(|place| is_free(place)).map(|place| (to_others(place), *place));
+        let Some((_, found)) = free.max_by(|one, other| one.0.total_cmp(&other.0)) else { continue };
         let (x, y) = found;
         let frame = Frame { x: [x - half[0], x + half[0]], y: [y - half[1], y + half[1]] };
         page.keys.push(Key { frame, colour: GROUND, style: KeyStyle::Area });

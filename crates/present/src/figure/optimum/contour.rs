@@ -19,7 +19,10 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
     if !map.varies() {
         return None;
     }
-    let best = factors.map(|factor| axes[factor].factor.factor.coded(shown.best[factor]));
+    let best = factors.map(|factor| match shown.best[factor] {
+        Setting::Coded(coded) => Some(coded),
+        level @ Setting::Level(_) => axes[factor].factor.factor.coded(level),
+    });
     let mark = if let [Some(x), Some(y)] = best { Some(([x, y], "optimum".to_owned())) } else { None };
     let others = (0..axes.len()).filter(|factor| !factors.contains(factor));
     let others: Vec<String> = others

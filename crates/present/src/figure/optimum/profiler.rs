@@ -136,13 +136,17 @@ fn row(shown: &Shown<'_>, axes: &[FactorAxis<'_>], curves: &[Vec<Point>], y: &Ax
     axes.iter().zip(curves).enumerate().map(chart).collect()
 }
 
-/// Where a setting lies on an axis; between two levels as far as its value is.
+/// Where a setting lies on an axis; between two levels as far as its value is, for levels stand at equal distances.
 fn place_of(axis: &FactorAxis<'_>, setting: Setting) -> f64 {
-    match setting {
-        Setting::Coded(coded) if !axis.is_range() => {
-            let last = axis.names.len().saturating_sub(1) as f64;
-            0.5 * (coded + 1.0) * last
-        }
-        setting => axis.place(setting),
+    let Setting::Coded(coded) = setting else { return axis.place(setting) };
+    if axis.is_range() {
+        return axis.place(setting);
+    }
+    let place = |level: Setting| Some([axis.factor.factor.coded(level)?, axis.place(level)]);
+    let places: Vec<[f64; 2]> = axis.settings(VALUES).into_iter().filter_map(place).collect();
+    let between = places.windows(2).find(|pair| coded <= pair[1][0]).or_else(|| places.windows(2).last());
+    match between {
+        Some([[from, low], [to, high]]) => low + (high - low) * (coded - from) / (to - from),
+        _ => 0.0,
     }
 }
