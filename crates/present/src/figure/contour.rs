@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 /// A side of a square of the grid: the lower left of its two points, and whether it goes to the right or upward.
 type Side = (usize, usize, bool);
 
-/// Values on the points of a grid, the columns of which are `rows` long.
+/// Values on the points of a grid, the columns of which are `rows` long; NaN where there is none.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {
     /// Column by column, from below.
@@ -19,7 +19,7 @@ impl Field<'_> {
     /// closed ones where they begin.
     ///
     /// Every square of the grid is crossed from side to side; where the value is met on all four sides, the mean of the
-    /// corners tells which belong together.
+    /// corners tells which belong together. A square with a corner that has no value is not crossed.
     pub fn contours(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let columns = self.values.len() / self.rows.max(1);
         let mut neighbours: BTreeMap<Side, Vec<Side>> = BTreeMap::new();
@@ -52,6 +52,9 @@ impl Field<'_> {
         // Round the square from the lower left.
         let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(right, up)| self.value(column + right, row + up));
         let sides = [(column, row, true), (column + 1, row, false), (column, row + 1, true), (column, row, false)];
+        if corners.iter().any(|corner| corner.is_nan()) {
+            return Vec::new();
+        }
         let above = corners.map(|corner| corner >= level);
         let met: Vec<usize> = (0..4).filter(|side| above[*side] != above[(side + 1) % 4]).collect();
         match met[..] {
@@ -132,6 +135,8 @@ mod tests {
             assert_eq!(lines.len(), 2);
             assert!(lines.iter().flatten().all(|[x, y]| ((x - 10.0) * (y - 10.0) - level).abs() < 1.0));
         }
+        let right = field(21, |x, y| if x < 10.0 { f64::NAN } else { (x - 10.0) * (y - 10.0) });
+        assert_eq!(Field { values: &right, rows: 21 }.contours(20.0).len(), 1);
         assert!(Field { values: &values, rows: 21 }.contours(1e3).is_empty());
         assert!(Field { values: &[], rows: 0 }.contours(1.0).is_empty());
     }

@@ -65,6 +65,11 @@ impl<'a> FactorAxis<'a> {
         self.names.is_empty() && self.values > 2
     }
 
+    /// Numeric levels as the range that they span, where a factor is also looked at between them.
+    pub fn as_range(self) -> Self {
+        Self { names: Vec::new(), ..self }
+    }
+
     /// Whether it is a range.
     pub fn is_range(&self) -> bool {
         self.names.is_empty()
@@ -225,6 +230,16 @@ mod tests {
         assert_eq!(marks, [(2.0, "20".to_owned()), (0.0, "5".to_owned()), (1.0, "10".to_owned())]);
         assert_eq!(axis.settings(9), [1, 2, 0].map(Setting::Level));
         assert_eq!(axis.name(Setting::Level(0)), "20 N");
+    }
+
+    #[test]
+    fn levels_that_are_looked_at_between_lie_as_far_apart_as_their_values() {
+        let sulphur = factor("sulphur", FactorKind::Levels(vec![1.0, 2.0, 6.0]), &["1 g", "2 g", "6 g"]);
+        let axis = FactorAxis::new(&sulphur, (0..3).map(Setting::Level)).as_range();
+        assert_eq!(axis.label(), "sulphur, g");
+        let places: Vec<f64> = axis.settings(3).into_iter().map(|setting| axis.place(setting)).collect();
+        assert_eq!(places, [1.0, 3.5, 6.0]);
+        assert!(axis.axis(600.0).marks.is_none());
     }
 
     #[test]

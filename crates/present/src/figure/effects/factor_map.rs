@@ -1,7 +1,7 @@
 //! A map over two factors: colours, lines of equal value with their numbers, the runs, and one mark.
 
 use super::FactorAxis;
-use crate::colour::{GROUND, INK, colour_index, colour_map};
+use crate::colour::{APART, COLOURS, GROUND, INK, colour_index, colour_map};
 use crate::figure::axes::{Axes, Axis, Frame, most_ticks_upward};
 use crate::figure::canvas::{Anchor, LINE, Place, TEXT};
 use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend};
@@ -28,6 +28,8 @@ const POINTED: f64 = 34.0;
 /// Height of the numbers on lines, and least length of a line that has one, pixels.
 const NUMBER: u32 = 26;
 const SHORTEST: f64 = 160.0;
+/// Open lines that are shorter are not drawn, pixels: beside places without a value they are pieces of lines.
+const PIECE: f64 = 100.0;
 
 /// Values over two factors.
 pub struct FactorMap<'a> {
@@ -37,19 +39,18 @@ pub struct FactorMap<'a> {
     pub axes: [&'a FactorAxis<'a>; 2],
     /// Coded values at the ends.
     ends: [[f64; 2]; 2],
-    /// Column by column, from below, in the unit in which they are shown.
+    /// Column by column, from below, in the unit in which they are shown; NaN where there is none.
     values: Vec<f64>,
 }
 
 impl<'a> FactorMap<'a> {
-    /// The values of a function of the coded values of two factors, as far as there are runs and a little beyond; none where
-    /// the function has no value.
+    /// The values of a function of the coded values of two factors, as far as there are runs and a little beyond.
     pub fn new(
         analysis: &Analysis,
         factors: [usize; 2],
         axes: [&'a FactorAxis<'a>; 2],
         value: impl Fn([f64; 2]) -> Option<f64>,
-    ) -> Option<Self> {
+    ) -> Self {
         let coded = |at: usize| {
             let of = &axes[at].factor.factor;
             analysis.runs.iter().filter_map(move |(settings, _)| of.coded(settings[factors[at]]))
@@ -59,11 +60,11 @@ impl<'a> FactorMap<'a> {
             [low - BEYOND * (high - low), high + BEYOND * (high - low)]
         });
         let part = |index: usize, [low, high]: [f64; 2]| low + (high - low) * index as f64 / (POINTS - 1) as f64;
-        let values = (0..POINTS * POINTS).map(|at| value([part(at / POINTS, ends[0]), part(at % POINTS, ends[1])]));
-        Some(Self { factors, axes, ends, values: values.collect::<Option<_>>()? })
+        let value = |at: usize| value([part(at / POINTS, ends[0]), part(at % POINTS, ends[1])]).unwrap_or(f64::NAN);
+        Self { factors, axes, ends, values: (0..POINTS * POINTS).map(value).collect() }
     }
 
-    /// Whether not all values are the same.
+    /// Whether there are values that are not all the same.
     pub fn varies(&self) -> bool {
         let [low, high] = self.range();
         high > low
@@ -102,10 +103,13 @@ impl<'a> FactorMap<'a> {
     fn picture(&self) -> Picture {
         let [low, high] = self.range();
         let rows = (0..POINTS).rev();
-        let indices = rows.flat_map(|row| {
-            (0..POINTS).map(move |column| colour_index((self.values[column * POINTS + row] - low) / (high - low)))
-        });
-        Picture { columns: POINTS, rows: POINTS, indices: indices.collect(), palette: colour_map() }
+        let index = |value: f64| match value {
+            _ if value.is_nan() => COLOURS as u8,
+            _ => colour_index((value - low) / (high - low)),
+        };
+        let indices = rows.flat_map(|row| (0..POINTS).map(move |column| index(self.values[column * POINTS + row])));
+        let palette = colour_map().into_iter().chain([APART]).collect();
+        Picture { columns: POINTS, rows: POINTS, indices: indices.collect(), palette }
     }
 
     /// Lines through the values at which the colour bar has numbers, with what these say.
@@ -123,13 +127,16 @@ impl<'a> FactorMap<'a> {
         lines.map(|(places, text)| (places.into_iter().map(point).collect(), text)).collect()
     }
 
-    /// The page: `label` says what the values are, `runs` are where runs are, and `mark` is a place in coded values with what
-    /// it is.
-    pub fn page(&self, label: &str, runs: &[[f64; 2]], mark: Option<([f64; 2], String)>) -> Page {
+    /// The page: `label` says what the values are, `none` where there is none, `runs` are where runs are, and `mark` is a place
+    /// in coded values with what it is.
+    pub fn page(&self, label: &str, none: &str, runs: &[[f64; 2]], mark: Option<([f64; 2], String)>) -> Page {
         let mut page = Page { size: [COLUMN, 0.0], ..Page::default() };
         let meaning = |mark, text: String| Meaning { colour: INK, style: KeyStyle::Mark(mark), text };
         let mut meanings = vec![meaning(Mark::Rimmed, "runs".to_owned())];
         meanings.extend(mark.as_ref().map(|(_, text)| meaning(Mark::Cross, text.clone())));
+        if self.values.iter().any(|value| value.is_nan()) {
+            meanings.push(Meaning { colour: APART, style: KeyStyle::Area, text: none.to_owned() });
+        }
         let top = legend(&mut page, &meanings, MARGIN) + 12.0;
         let [low, high] = self.range();
         let scale = Axis::linear(low..=high, shortened(label, TEXT, HEIGHT));
@@ -145,7 +152,8 @@ impl<'a> FactorMap<'a> {
         let x = self.axes[0].between(range(0), frame.width());
         let below = x.room_below();
         let axes = Axes { frame, x, y };
-        let lines = self.contours(&scale, HEIGHT - 2.0 * POINTED);
+        let mut lines = self.contours(&scale, HEIGHT - 2.0 * POINTED);
+        lines.retain(|(points, _)| points.first() == points.last() || length_of(&axes, points) >= PIECE);
         let mut contents = vec![Content::Map(self.picture())];
         let line = |(points, _): &(Vec<[f64; 2]>, String)| Content::Line {
             points: points.clone(),
@@ -167,14 +175,19 @@ impl<'a> FactorMap<'a> {
     }
 }
 
+/// Length of a line on the page, pixels.
+fn length_of(axes: &Axes, points: &[[f64; 2]]) -> f64 {
+    let places: Vec<Place> = points.iter().map(|[x, y]| axes.place(*x, *y)).collect();
+    places.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum()
+}
+
 /// Writes on each line what it is the line of: away from marks and other numbers, and as far from other lines as there is room.
 fn write_numbers(page: &mut Page, axes: &Axes, lines: &[(Vec<[f64; 2]>, String)], marks: &[[f64; 2]]) {
     let place = |point: &[f64; 2]| axes.place(point[0], point[1]);
     let mut taken: Vec<Place> = marks.iter().map(place).collect();
     let all: Vec<Vec<Place>> = lines.iter().map(|(points, _)| points.iter().map(place).collect()).collect();
-    for (at, ((_, text), places)) in lines.iter().zip(&all).enumerate() {
-        let length: f64 = places.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum();
-        if length < SHORTEST {
+    for (at, ((points, text), places)) in lines.iter().zip(&all).enumerate() {
+        if length_of(axes, points) < SHORTEST {
             continue;
         }
         let half = [0.5 * text_width(text, NUMBER) + 6.0, 0.5 * f64::from(NUMBER) + 2.0];

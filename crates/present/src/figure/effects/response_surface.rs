@@ -17,16 +17,16 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     };
     let value = |coded| predicted(subject, factors, coded).map(|value| subject.unit.value(value));
     let map = FactorMap::new(subject.analysis, factors, factors.map(|factor| &subject.axes[factor]), value);
-    let Some(map) = map.filter(FactorMap::varies) else {
+    if !map.varies() {
         figures
             .left_out
             .push("The response surface is not drawn: the model does not vary over its factors.".to_owned());
         return;
-    };
+    }
     let stationary = stationary(subject, factors);
     let within = stationary.filter(|(coded, _)| map.is_within(*coded));
     let mark = within.map(|(coded, nature)| (coded, format!("{nature} of the surface")));
-    let page = map.page(&subject.label(), &map.runs(subject.analysis), mark);
+    let page = map.page(&subject.label(), "no prediction", &map.runs(subject.analysis), mark);
     let caption = caption(subject, &map, stationary);
     subject.add(figures, "surface", "Response surface of", caption, page);
 }

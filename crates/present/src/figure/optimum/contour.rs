@@ -13,9 +13,9 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
     let surrogates = shown.surrogates();
     let value = |coded: [f64; 2]| {
         let changed = [0, 1].map(|at| (factors[at], Setting::Coded(coded[at])));
-        shown.desirability(&surrogates, &shown.with(&changed))
+        shown.desirability(&surrogates, &shown.with(&changed)).filter(|desirability| *desirability > 0.0)
     };
-    let map = FactorMap::new(shown.analysis, factors, factors.map(|factor| &axes[factor]), value)?;
+    let map = FactorMap::new(shown.analysis, factors, factors.map(|factor| &axes[factor]), value);
     if !map.varies() {
         return None;
     }
@@ -37,8 +37,9 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
         name: "contour".to_owned(),
         title: "Desirability over two factors".to_owned(),
         caption: format!(
-            "How much all goals are met over two factors, with lines of equal desirability; 0 where a limit is missed.{held}"
+            "How much all goals are met over two factors, with lines of equal desirability; grey where it is 0: a limit is \
+             missed, or a goal altogether.{held}"
         ),
-        page: map.page("desirability", &map.runs(shown.analysis), mark),
+        page: map.page("desirability", "desirability 0", &map.runs(shown.analysis), mark),
     })
 }

@@ -29,7 +29,8 @@ type Point = (f64, f64, Option<[f64; 2]>);
 
 /// The figure.
 pub fn figure(shown: &Shown<'_>) -> Figure {
-    let axes = axes(shown.analysis);
+    let axes: Vec<FactorAxis<'_>> =
+        axes(shown.analysis).into_iter().zip(shown.axes).map(|(axis, range)| looked_at(axis, range)).collect();
     let surrogates = shown.surrogates();
     let across = axes.len();
     let width = (BOX * across as f64 + 300.0).min(TWO_COLUMNS);
@@ -80,6 +81,15 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     }
 }
 
+/// A factor as an axis: levels between which the optimum may be, or a value is held, lie on a range of values.
+fn looked_at<'a>(axis: FactorAxis<'a>, range: &Range) -> FactorAxis<'a> {
+    let is_between = match range {
+        Range::Range => true,
+        Range::Settings(settings) => settings.iter().any(|setting| matches!(setting, Setting::Coded(_))),
+    };
+    if is_between { axis.as_range() } else { axis }
+}
+
 /// The values of a function along a factor.
 fn curve(
     shown: &Shown<'_>,
@@ -87,12 +97,12 @@ fn curve(
     factor: usize,
     value: impl Fn(&[Setting]) -> Option<(f64, Option<[f64; 2]>)>,
 ) -> Vec<Point> {
-    let settings: Vec<Setting> = match (&shown.axes[factor], axis.is_range()) {
-        (Range::Settings(settings), false) if settings.len() > 1 => settings.clone(),
-        (_, true) => {
+    let settings: Vec<Setting> = match &shown.axes[factor] {
+        _ if axis.is_range() => {
             let last = (VALUES - 1) as f64;
             (0..VALUES).map(|at| Setting::Coded(-1.0 + 2.0 * at as f64 / last)).collect()
         }
+        Range::Settings(settings) if settings.len() > 1 => settings.clone(),
         _ => axis.settings(VALUES),
     };
     let point = |setting: Setting| {
@@ -126,7 +136,7 @@ fn row(shown: &Shown<'_>, axes: &[FactorAxis<'_>], curves: &[Vec<Point>], y: &Ax
             contents.push(Content::Line { points: places.clone(), stroke: Stroke::solid(FAINT, LINE) });
             contents.push(Content::Marks { points: places, colour: DATA, mark: Mark::Dot });
         }
-        let best = place_of(axis, shown.best[factor]);
+        let best = axis.place(shown.best[factor]);
         let line = vec![[best, *y.range.start()], [best, *y.range.end()]];
         contents.push(Content::Line { points: line, stroke: Stroke::solid(DERIVED, LINE) });
         let x = axis.axis(axis.room());
@@ -134,19 +144,4 @@ fn row(shown: &Shown<'_>, axes: &[FactorAxis<'_>], curves: &[Vec<Point>], y: &Ax
         Chart { title: String::new(), x, y: if factor == 0 { y.clone() } else { y.clone().shared() }, contents }
     };
     axes.iter().zip(curves).enumerate().map(chart).collect()
-}
-
-/// Where a setting lies on an axis; between two levels as far as its value is, for levels stand at equal distances.
-fn place_of(axis: &FactorAxis<'_>, setting: Setting) -> f64 {
-    let Setting::Coded(coded) = setting else { return axis.place(setting) };
-    if axis.is_range() {
-        return axis.place(setting);
-    }
-    let place = |level: Setting| Some([axis.factor.factor.coded(level)?, axis.place(level)]);
-    let places: Vec<[f64; 2]> = axis.settings(VALUES).into_iter().filter_map(place).collect();
-    let between = places.windows(2).find(|pair| coded <= pair[1][0]).or_else(|| places.windows(2).last());
-    match between {
-        Some([[from, low], [to, high]]) => low + (high - low) * (coded - from) / (to - from),
-        _ => 0.0,
-    }
 }
