@@ -179,6 +179,14 @@ impl WorkingDirectory {
         command
     }
 
+    /// The program, to be run here so that it hears SIGHUP, also where the tests were begun behind `nohup`.
+    pub fn command_with_hangup<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Command {
+        let mut command = Command::new("env");
+        command.current_dir(self.directory.path()).env(CALLED.0, CALLED.1);
+        command.arg("--default-signal=HUP").arg(program()).args(arguments);
+        command
+    }
+
     /// Runs the program here.
     pub fn plateau<A: AsRef<OsStr>>(&self, arguments: impl IntoIterator<Item = A>) -> Outcome {
         run(self.command(arguments))

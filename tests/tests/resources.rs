@@ -85,17 +85,21 @@ fn a_signal_during_the_preparation_is_heard() {
     let cases = [("TERM", 143, &large[..]), ("INT", 130, &large), ("HUP", 129, &large), ("XCPU", 152, &fibres)];
     for (signal, status, sets) in cases {
         let directory = WorkingDirectory::new();
+        let arguments = endless("run.h5", "1 h");
         let mut command =
-            directory.command(endless("run.h5", "1 h").iter().map(String::as_str).chain(sets.iter().copied()));
+            directory.command_with_hangup(arguments.iter().map(String::as_str).chain(sets.iter().copied()));
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         assert!(wait_until(|| catches_save(child.id())), "no handler of SIGUSR1");
         send("USR1", child.id());
         send(signal, child.id());
         let mut ended = None;
-        assert!(wait_until(|| {
+        let has_ended = wait_until(|| {
             ended = child.try_wait().unwrap();
             ended.is_some()
-        }));
+        });
+        if !has_ended {
+            kill(child);
+        }
         assert_eq!(ended.and_then(|ended| ended.code()), Some(status), "{signal}");
         assert_eq!(directory.names(), [""; 0], "{signal}");
     }
@@ -117,8 +121,12 @@ fn a_terminal_that_goes_leaves_a_checkpoint_unless_that_is_to_be_ignored() {
     let directory = WorkingDirectory::new();
     for (signal, status, ignored) in [("HUP", 129, false), ("XCPU", 152, false), ("TERM", 143, true)] {
         let file = format!("{signal}.h5");
-        let order = if ignored { "trap '' HUP" } else { ":" };
-        let mut command = directory.command_after(order, endless(&file, "1 h"));
+        let arguments = endless(&file, "1 h");
+        let mut command = if ignored {
+            directory.command_after("trap '' HUP", arguments)
+        } else {
+            directory.command_with_hangup(arguments)
+        };
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         assert!(has_samples(&directory.path(&file)));
         if ignored {
