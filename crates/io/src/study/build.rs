@@ -114,8 +114,14 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
         let name = table.name.as_ref().map_or_else(|| key.0[0].clone(), |name| name.get_ref().clone());
         let at = table.name.as_ref().map_or(table.key.span(), Spanned::span);
         place.check_name(&name, || place.at(at.start), "factor.name", problems);
-        let values = values(table, &key.0[0], document.design.get_ref() == "csv", place);
-        let values = values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()));
+        // What values an unknown key has nobody knows.
+        let values = match schema::find(&key.0[0]) {
+            None => Values::Levels(Vec::new()),
+            Some(_) => {
+                let values = values(table, &key.0[0], document.design.get_ref() == "csv", place);
+                values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()))
+            }
+        };
         if !names.insert(name.clone()) {
             problems.push(Problem::new(&place.at(at.start), "factor.name", format!("\"{name}\" is the name of two")));
         }
@@ -171,10 +177,11 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
                 }
             };
             let [low, high] = range.get_ref().each_ref().map(of);
-            let (Some(from), Some(to)) = (low.number, high.number) else {
-                let message = format!("{} to {}: expected two numbers or quantities", low.text, high.text);
-                return Err(place.problem(range, "factor.range", message));
+            let number = |end: &Spanned<toml::Value>| {
+                let refused = |why: String| place.problem(end, "factor.range", why);
+                Level::end_of_range(key, end.get_ref()).map_err(refused)
             };
+            let (from, to) = (number(&range.get_ref()[0])?, number(&range.get_ref()[1])?);
             if from >= to || (logarithmic && from <= 0.0) {
                 let wanted = if logarithmic { "0 < lower < upper" } else { "lower < upper" };
                 let message = format!("{} to {}: expected {wanted}", low.text, high.text);

@@ -6,7 +6,7 @@ use plateau_study::design::Setting;
 
 use crate::number;
 use crate::scene::schema::{self, Kind};
-use crate::units::{self, Dimension};
+use crate::units::{self, Dimension, UnitError};
 
 /// Keys of a scene that a study varies together.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +61,24 @@ impl Level {
         let table: Result<toml::Table, _> = format!("value = {text}").parse();
         let value = table.ok().filter(|table| table.len() == 1).and_then(|mut table| table.remove("value"));
         Self::new(key, &value.unwrap_or_else(|| toml::Value::String(text.to_owned())))
+    }
+
+    /// A value of a key as an end of a range, in SI units.
+    ///
+    /// # Errors
+    /// Why it cannot be one, in words.
+    pub fn end_of_range(key: &str, value: &toml::Value) -> Result<f64, String> {
+        match (dimension(key), value) {
+            (Some(expected), toml::Value::String(text)) => {
+                units::parse(text, expected).map_err(|error| error.to_string())
+            }
+            (Some(expected), toml::Value::Integer(_) | toml::Value::Float(_)) => {
+                Err(UnitError::NoUnit { text: value.to_string(), expected }.to_string())
+            }
+            (None, toml::Value::Integer(integer)) => Ok(*integer as f64),
+            (None, toml::Value::Float(number)) if number.is_finite() => Ok(*number),
+            (_, other) => Err(format!("{other} is no number, as a range has at its ends; words are levels")),
+        }
     }
 
     /// The number before the unit, and the unit.
