@@ -49,5 +49,5 @@ ranks_end 3 fail-alike
     { cat "$output" && echo 'what failed all ranks was not said once' && exit 1; }
 
 # One test at a time: every one of them starts several processes that wait for each other. Should they wait for ever, it fails.
-PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun timeout 900 cargo test --release --locked --workspace --test end_to_end \
+PLATEAU_PROGRAM=$target/plateau-mpi PLATEAU_MPIRUN=$mpirun timeout 1800 cargo test --release --locked --workspace --test end_to_end \
     --target-dir "$target" -- --ignored --test-threads 1 ranks::

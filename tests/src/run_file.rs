@@ -184,14 +184,18 @@ impl RunFile {
             groups.extend(group.groups().expect("groups"));
             for dataset in group.datasets().expect("datasets") {
                 let path = dataset.name();
-                let is_status = matches!(
-                    dataset.dtype().and_then(|dtype| dtype.to_descriptor()).expect("a known type"),
-                    TypeDescriptor::Enum(_)
-                );
-                let bits = if is_status {
-                    self.bytes(&path).into_iter().map(u64::from).collect()
-                } else {
-                    self.floats(&path).into_iter().map(f64::to_bits).collect()
+                let kind = dataset.dtype().and_then(|dtype| dtype.to_descriptor()).expect("a known type");
+                let bits = match kind {
+                    TypeDescriptor::Enum(_) => self.bytes(&path).into_iter().map(u64::from).collect(),
+                    TypeDescriptor::Integer(_) => {
+                        dataset.read_raw::<i64>().expect("whole numbers").into_iter().map(i64::cast_unsigned).collect()
+                    }
+                    TypeDescriptor::VarLenUnicode => {
+                        let texts = dataset.read_raw::<VarLenUnicode>().expect("texts");
+                        let bytes = texts.iter().flat_map(|text| text.as_bytes().iter().copied().chain([0]));
+                        bytes.map(u64::from).collect()
+                    }
+                    _ => self.floats(&path).into_iter().map(f64::to_bits).collect(),
                 };
                 content.insert(path, Content { shape: dataset.shape(), bits });
             }

@@ -14,6 +14,8 @@ use plateau_tests::program::{WorkingDirectory, run, scene};
 use plateau_tests::run_file::{Content, RunFile, differences, differences_of_start};
 use plateau_tests::scenes::few_or_all;
 
+mod answers;
+
 /// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
     let sets = [
@@ -31,12 +33,12 @@ fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {
     command
 }
 
-/// The calls to look at, each with a fault: unless all are asked for every so many, which is no multiple of the number of faults.
-fn strikes(calls: usize) -> Vec<(Fault, usize)> {
+/// The calls to look at, each with a fault: unless all are asked for every `step`th, which is no multiple of the number of faults.
+fn strikes(calls: usize, step: usize) -> Vec<(Fault, usize)> {
     let asked = std::env::var("PLATEAU_FAULTS").ok();
     let first = asked.as_ref().and_then(|first| first.parse().ok()).unwrap_or(1);
     let all = (first..=calls).flat_map(|call| Fault::ALL.map(|fault| (fault, call)));
-    all.step_by(if asked.is_some() { 1 } else { few_or_all(149, 47) }).collect()
+    all.step_by(if asked.is_some() { 1 } else { step }).collect()
 }
 
 /// The content of an undisturbed run.
@@ -82,7 +84,7 @@ fn a_run_loses_nothing() {
     let whole = whole();
     let calls = count(short_run(&WorkingDirectory::new(), &[]));
     println!("{calls} calls of a run");
-    for (fault, call) in strikes(calls) {
+    for (fault, call) in strikes(calls, few_or_all(149, 47)) {
         let directory = WorkingDirectory::new();
         let outcome = strike(short_run(&directory, &[]), fault, call);
         let what = format!("{fault:?} at call {call} of {calls}: {outcome:?}");
@@ -130,7 +132,7 @@ fn going_on_loses_nothing() {
     let (whole, killed) = (whole(), Killed::new());
     let calls = count(short_run(&killed.directory(), &["--resume"]));
     println!("{calls} calls of --resume");
-    for (fault, call) in strikes(calls) {
+    for (fault, call) in strikes(calls, few_or_all(149, 47)) {
         let directory = killed.directory();
         let outcome = strike(short_run(&directory, &["--resume"]), fault, call);
         check(&directory, &whole, &format!("{fault:?} at call {call} of {calls} of --resume: {outcome:?}"));
@@ -145,7 +147,7 @@ fn repairing_loses_nothing() {
     println!("{calls} calls of repair");
     let samples = |directory: &WorkingDirectory| RunFile::follow(directory.path("run.h5")).unwrap().shape("/time");
     let expected = samples(&killed.directory());
-    for (fault, call) in strikes(calls) {
+    for (fault, call) in strikes(calls, few_or_all(149, 47)) {
         let directory = killed.directory();
         let outcome = strike(repair(&directory), fault, call);
         let what = format!("{fault:?} at call {call} of {calls} of repair: {outcome:?}");

@@ -11,6 +11,8 @@ use plateau_tests::run_file::{Content, RunFile, differences};
 
 use crate::heat::hot;
 
+mod killed;
+
 /// The launcher, to be run in a directory.
 fn mpirun(directory: &WorkingDirectory) -> Command {
     let launcher = std::env::var("PLATEAU_MPIRUN").expect("PLATEAU_MPIRUN, for example \"mpirun --oversubscribe\"");

@@ -117,8 +117,11 @@ pub fn write_rows<E: From<DatasetFileError>>(
         Ok(temporary)
     });
     let temporary = started.map_err(|error| failed(error.to_string()))?;
-    let file = create(temporary.path(), content).map_err(|error| failed(error.to_string()))?;
+    let (file, datasets) = create(temporary.path(), content).map_err(|error| failed(error.to_string()))?;
     give(&Rows { file: &file, path })?;
+    // The library writes some values when a dataset is closed, and then nobody hears that it failed.
+    file.flush().map_err(|error| failed(error.to_string()))?;
+    drop(datasets);
     file.close().map_err(|error| failed(error.to_string()))?;
     Ok(temporary.publish(replace).map_err(|error| failed(error.to_string()))?)
 }
@@ -146,7 +149,8 @@ pub fn now() -> String {
     iso_8601(SystemTime::now())
 }
 
-fn create(path: &Path, content: &Content) -> hdf5::Result<File> {
+/// The file and its datasets.
+fn create(path: &Path, content: &Content) -> hdf5::Result<(File, Vec<Dataset>)> {
     let file = FileBuilder::new().with_fapl(|list| list.libver_v110().file_locking(false)).open_rw(path)?;
     let mut dimensions = Dimensions::new(&file)?;
     for name in ["conventions", "Conventions"] {
@@ -159,11 +163,13 @@ fn create(path: &Path, content: &Content) -> hdf5::Result<File> {
             Attribute::Integer(integer) => write_number(&file, name, *integer)?,
         }
     }
+    let mut datasets = Vec::with_capacity(content.dimensions.len() + content.variables.len());
     let mut lengths = BTreeMap::new();
     for Coordinate { name, unit, long_name, values } in &content.dimensions {
         lengths.insert(*name, values.len());
         let scale = dataset(&file, name, &[values.len()], unit, long_name, values)?;
         dimensions.make_scale(&scale, name)?;
+        datasets.push(scale);
     }
     for Variable { name, dimensions: along, unit, long_name, values } in &content.variables {
         let shape: Vec<usize> = along.iter().map(|name| lengths.get(name).copied().unwrap_or(0)).collect();
@@ -179,9 +185,10 @@ fn create(path: &Path, content: &Content) -> hdf5::Result<File> {
             }
         };
         dimensions.attach(&dataset, along)?;
+        datasets.push(dataset);
     }
     dimensions.finish()?;
-    Ok(file)
+    Ok((file, datasets))
 }
 
 fn dataset<T: H5Type>(

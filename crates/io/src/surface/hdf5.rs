@@ -223,6 +223,8 @@ pub fn write(path: &Path, patch: &Patch) -> Result<(), Hdf5Error> {
     }
     let pitch = [patch.column_pitch, patch.row_pitch];
     dataset.new_attr::<f64>().shape(2).create("pitch")?.write_raw(&pitch)?;
+    // The library writes some values when the dataset is closed, and then nobody hears that it failed.
+    file.flush()?;
     drop(dataset);
     file.close()?;
     Ok(())

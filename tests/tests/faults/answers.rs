@@ -1,0 +1,160 @@
+//! What is made of runs: a study, its results, a fit, a report, figures and a table are each there as a whole, or as they were before.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use plateau_tests::fault::{count, strike};
+use plateau_tests::program::{WorkingDirectory, repository, scene};
+use plateau_tests::run_file::{Content, RunFile, differences};
+
+use super::{few_or_all, strikes};
+
+/// A command, and the file or folder that it makes.
+struct Case {
+    arguments: &'static [&'static str],
+    makes: &'static str,
+    /// Whether a file of that name stands there before.
+    replaces: bool,
+}
+
+const CASES: [Case; 9] = [
+    Case { arguments: &["sweep", "run", "study.toml"], makes: "results", replaces: false },
+    Case { arguments: &["sweep", "collect", "swept.toml", "--force"], makes: "swept", replaces: false },
+    Case { arguments: &["fit", "fit.toml"], makes: "fitted", replaces: false },
+    Case { arguments: &["report", "run.h5", "-o", "report.html", "--force"], makes: "report.html", replaces: true },
+    Case { arguments: &["plot", "run.h5", "-o", "figures", "--force"], makes: "figures", replaces: false },
+    Case {
+        arguments: &["export", "run.h5", "--to", "csv", "-o", "run.csv", "--force"],
+        makes: "run.csv",
+        replaces: true,
+    },
+    Case {
+        arguments: &["export", "run.h5", "--to", "npz", "-o", "run.npz", "--force"],
+        makes: "run.npz",
+        replaces: true,
+    },
+    Case { arguments: &["export", "run.h5", "--to", "vtk", "-o", "maps", "--force"], makes: "maps", replaces: false },
+    Case { arguments: &["surface", "patch.sdf", "--to", "patch.h5", "--force"], makes: "patch.h5", replaces: true },
+];
+
+const EARLIER: &[u8] = b"what was there before";
+
+const SMALL: [&str; 4] = ["mesh.rows=8", "mesh.disc_columns=160", "mesh.pin_columns=16", "operation.duration='0.5 s'"];
+
+/// A study of a small mesh; `tables` follow what all have.
+fn study(design: &str, directory: &str, tables: &str) -> String {
+    format!(
+        "version = 1\ntitle = \"Faults\"\nbase = \"{}\"\nset = {SMALL:?}\ndesign = {design}\ndirectory = \"{directory}\"\n{tables}\
+         [[response]]\nname = \"area\"\ndataset = \"/series/contact_area\"\nat = \"end\"\n",
+        scene("quick.toml")
+    )
+}
+
+/// A directory with all that the commands read.
+fn prepared() -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    let load = |values: &str| format!("[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n{values}\n");
+    let levels = load("levels = [\"5 N\", \"7 N\", \"10 N\"]");
+    for (file, results) in [("study.toml", "results"), ("swept.toml", "swept")] {
+        directory.write(file, study("\"full-factorial\"", results, &levels));
+    }
+    let fit = format!("[fit]\nruns = 6\n{}", load("range = [\"5 N\", \"10 N\"]"));
+    let measured = "measured = \"0.2 mm2\"\nuncertainty = \"0.01 mm2\"\n";
+    directory.write("fit.toml", study("\"latin-hypercube\"\npoints = 5", "fitted", &fit) + measured);
+    let base = scene("quick.toml");
+    let done = |arguments: &[&str]| assert_eq!(directory.plateau(arguments).status, Some(0), "{arguments:?}");
+    let sets = SMALL.iter().flat_map(|set| ["--set", set]);
+    done(&["run", base.as_str(), "-o", "run.h5"].into_iter().chain(sets).collect::<Vec<_>>());
+    done(&["sweep", "run", "swept.toml"]);
+    directory.write("patch.sdf", fs::read(repository().join("data/surfaces/afm_256x256.sdf")).unwrap());
+    for case in CASES.iter().filter(|case| case.replaces) {
+        directory.write(case.makes, EARLIER);
+    }
+    directory
+}
+
+type Files = BTreeMap<PathBuf, Option<Vec<u8>>>;
+
+/// The files of a directory with their content, by their paths in it.
+fn files(directory: &WorkingDirectory) -> Files {
+    let content = directory.content().into_iter().filter(|(path, _)| path.is_file());
+    content.map(|(path, bytes)| (path.strip_prefix(directory.path("")).unwrap().to_owned(), bytes)).collect()
+}
+
+/// Whether a file is of the kind that has another name or other moments in it each time, or is gone in the end.
+fn is_of_the_moment(path: &Path) -> bool {
+    let has_part = |name: &str| path.iter().any(|part| part == name);
+    let has_ending = |ending: &str| path.extension().is_some_and(|found| found == ending);
+    has_part("journal") || has_part("under-way") || has_ending("lock") || has_ending("tmp")
+}
+
+/// Checks that what a case makes is the same in two directories; `all` says that nothing may be missing.
+fn compare(case: &Case, made: &WorkingDirectory, whole: &WorkingDirectory, all: bool, what: &str) {
+    let of = |directory| {
+        let mut files = files(directory);
+        files.retain(|path, _| path.starts_with(case.makes) && !is_of_the_moment(path));
+        files
+    };
+    let (made_files, whole_files) = (of(made), of(whole));
+    if all {
+        assert!(made_files.keys().eq(whole_files.keys()), "{what}: {:?}", made_files.keys());
+    }
+    for (path, bytes) in made_files.iter().filter(|(_, bytes)| all || bytes.as_deref() != Some(EARLIER)) {
+        if path.extension().is_some_and(|ending| ending == "h5") {
+            let [one, other] = [made, whole].map(|directory| hdf5_content(&directory.path(&path.to_string_lossy())));
+            assert_eq!(one.0, other.0, "{what}: {}", path.display());
+            assert_eq!(differences(&one.1, &other.1), [""; 0], "{what}: {}", path.display());
+        } else if path.ends_with("files.txt") && !all {
+            // It names the files before they are there, so that no other is ever taken for one of them.
+        } else {
+            assert!(whole_files.get(path) == Some(bytes), "{what}: {} is another", path.display());
+        }
+    }
+}
+
+/// The attributes of a file, but the moment at which results were collected, and its datasets.
+fn hdf5_content(file: &Path) -> (BTreeMap<String, String>, BTreeMap<String, Content>) {
+    let file = RunFile::open(file);
+    let mut attributes = file.attributes();
+    attributes.remove("collected");
+    (attributes, file.content())
+}
+
+fn copied(files: &Files) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    for (path, bytes) in files {
+        directory.write(&path.to_string_lossy(), bytes.as_deref().unwrap());
+    }
+    directory
+}
+
+#[test]
+fn what_is_made_of_runs_is_whole_or_as_before() {
+    let before = files(&prepared());
+    for case in &CASES {
+        let command = |directory: &WorkingDirectory| directory.command(case.arguments);
+        let whole = copied(&before);
+        let calls = count(command(&whole));
+        println!("{calls} calls of {}", case.arguments.join(" "));
+        for (fault, call) in strikes(calls, few_or_all(13, 5)) {
+            let directory = copied(&before);
+            let outcome = strike(command(&directory), fault, call);
+            let what = format!("{fault:?} at call {call} of {calls} of {:?}: {outcome:?}", case.arguments);
+            let after = files(&directory);
+            let mut read = before.iter().filter(|(path, _)| !path.starts_with(case.makes));
+            assert!(read.all(|(path, bytes)| after.get(path) == Some(bytes)), "{what}: what it reads has changed");
+            compare(case, &directory, &whole, outcome.status == Some(0), &what);
+            let again = directory.plateau(case.arguments);
+            assert_eq!(again.status, Some(0), "again after {what}: {again:?}");
+            compare(case, &directory, &whole, true, &format!("again after {what}"));
+            // Whose temporary file a killed process left nobody can tell who does not hold a lock: it may be another machine's.
+            let is_left = |path: &&PathBuf| path.extension().is_some_and(|ending| ending == "tmp");
+            let is_killed = outcome.status.is_none();
+            assert!(
+                is_killed || !files(&directory).keys().any(|path| is_left(&path)),
+                "{what}: temporary files are left"
+            );
+        }
+    }
+}
