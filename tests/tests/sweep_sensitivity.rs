@@ -37,6 +37,27 @@ fn sensitivity(directory: &WorkingDirectory, arguments: &[&str]) -> Outcome {
 }
 
 #[test]
+fn without_results_nothing_is_written_and_what_to_do_is_said() {
+    let directory = WorkingDirectory::new();
+    let scene = scene("quick.toml");
+    directory.write(
+        "study.toml",
+        format!(
+            "version = 1\ntitle = \"None\"\nbase = \"{scene}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
+             [[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nlevels = [\"4 N\", \"12 N\"]\n\
+             [[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\nat = \"end\"\n"
+        ),
+    );
+    for command in [&["effects"][..], &["sensitivity"], &["predict"], &["optimize", "--maximize", "worn"]] {
+        let outcome = directory.plateau(["sweep", command[0], "study.toml"].iter().chain(&command[1..]));
+        assert_eq!(outcome.status, Some(1), "{outcome:?}");
+        assert!(outcome.stderr.contains("sweep run study.toml makes the runs"), "{outcome:?}");
+    }
+    assert!(!directory.path("results/effects/effects.csv").exists());
+    assert!(!directory.path("results/sensitivity/sensitivity.csv").exists());
+}
+
+#[test]
 fn parts_of_a_product() {
     let directory = study("design = \"sobol\"\npoints = 24");
     let found: Value = serde_json::from_str(&sensitivity(&directory, &["--json"]).stdout).unwrap();

@@ -19,8 +19,21 @@ pub fn answered(mut answer: clap::Error) -> ExitCode {
     if let Some(tip) = tip(&answer) {
         answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
-    let message = answer.to_string();
+    let message = in_plain_words(&answer.to_string());
     Failure::input(message.trim_start_matches("error: ").trim_end()).report()
+}
+
+/// What the standard library says of a text that is no number, as one says it who does not know programming.
+fn in_plain_words(message: &str) -> String {
+    let words = [
+        ("invalid digit found in string", "expected a whole number"),
+        ("number too large to fit in target type", "the number is too large"),
+        ("number too small to fit in target type", "the number is too small"),
+        ("cannot parse integer from empty string", "expected a whole number"),
+        ("invalid float literal", "expected a number"),
+        ("cannot parse float from empty string", "expected a number"),
+    ];
+    words.iter().fold(message.to_owned(), |message, (found, plain)| message.replace(found, plain))
 }
 
 /// What one who is new to the program may have meant.

@@ -13,17 +13,18 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
-/// A number with about four significant digits.
+/// A number with about four significant digits, for people.
 pub fn short(number: f64) -> String {
     let magnitude = number.abs();
-    if number == 0.0 {
+    let text = if number == 0.0 {
         "0".into()
     } else if !(1e-3..1e6).contains(&magnitude) {
         format!("{number:.3e}")
     } else {
         let decimals = (3 - magnitude.log10().floor() as i32).max(0) as usize;
         format!("{number:.decimals$}")
-    }
+    };
+    with_minus(&text)
 }
 
 /// A number with so many significant digits; very large and very small ones with an exponent.
@@ -136,7 +137,7 @@ mod tests {
         assert_eq!(with_error(4.425_974, None), "4.4260");
         assert_eq!(short(0.012_345_6), "0.01235");
         assert_eq!(short(123.456), "123.5");
-        assert_eq!(short(1.5e-14), "1.500e-14");
+        assert_eq!(short(1.5e-14), "1.500e\u{2212}14");
         assert_eq!(significant(9.9996, 4), "10.00");
         assert_eq!(significant(0.230_196_108, 6), "0.230196");
         assert_eq!(significant(-1_234_567.0, 6), "-1234567");

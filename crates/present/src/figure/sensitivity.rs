@@ -23,6 +23,8 @@ const NAMES: f64 = 560.0;
 /// Parts of the room of a factor: ends of the bar of the total index, and of that of first order.
 const TOTAL: [f64; 2] = [0.04, 0.40];
 const FIRST: [f64; 2] = [-0.40, -0.04];
+/// Least length of an interval that is drawn, as a part of the variance.
+const SHORTEST: f64 = 1e-3;
 /// Height of the box of elementary effects, pixels.
 const HEIGHT: f64 = 800.0;
 
@@ -38,13 +40,14 @@ pub fn indices(response: &str, file: &str, factors: &[&str], indices: &SobolIndi
         for (index, part, colour) in
             [(&indices.total[*factor], TOTAL, DATA_AREA), (&indices.first[*factor], FIRST, DATA)]
         {
+            let index = index.possible();
             let ends = part.map(|part| middle(at) + part);
-            let spans = [0.0, index.value.max(0.0)].map(|x| [x, ends[0], ends[1]]).to_vec();
+            let spans = [0.0, index.value].map(|x| [x, ends[0], ends[1]]).to_vec();
             contents.push(Content::Band { spans, colour, opacity: 1.0 });
             longest = longest.max(index.value);
-            if let Some([low, high]) = index.interval {
+            if let Some([low, high]) = index.interval.filter(|[low, high]| high - low > SHORTEST) {
                 let y = 0.5 * (ends[0] + ends[1]);
-                let points = vec![[low.max(0.0), y], [high.max(0.0), y]];
+                let points = vec![[low, y], [high, y]];
                 contents.push(Content::Line { points, stroke: Stroke::solid(INK, LINE) });
                 longest = longest.max(high);
             }

@@ -68,6 +68,15 @@ pub struct Index {
     pub interval: Option<[f64; 2]>,
 }
 
+impl Index {
+    /// The same as far as it can be: a part of a whole lies between 0 and 1, and the sample's error may lead beyond.
+    pub fn possible(&self) -> Self {
+        // No −0.
+        let held = |part: f64| part.clamp(0.0, 1.0) + 0.0;
+        Self { value: held(self.value), interval: self.interval.map(|ends| ends.map(held)) }
+    }
+}
+
 /// Where a response has to be known: two independent samples A and B of the ranges, and for each factor A with that factor of B.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample {
@@ -273,6 +282,8 @@ mod tests {
         };
         let found = indices(&sample.ask(|s| Ok::<_, DesignError>(value(s))).unwrap(), &Options::default()).unwrap();
         assert!((found.first[0].value - 14.0 / 15.0).abs() < 0.02 && (found.total[1].value - 1.0 / 15.0).abs() < 0.02);
+        let beyond = Index { value: -1e-5, interval: Some([-0.01, 1.002]) }.possible();
+        assert_eq!(format!("{beyond:?}"), "Index { value: 0.0, interval: Some([0.0, 1.0]) }");
         let constant = sample.ask(|_| Ok::<_, DesignError>(3.0)).unwrap();
         assert_eq!(indices(&constant, &Options::default()), None);
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use plateau_io::number;
+use plateau_io::study::Study;
 use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
 use plateau_present::study::analysis::{Analysis, Asked};
@@ -11,12 +12,12 @@ use plateau_study::effects::EffectsError;
 
 use super::collect::{Found, collected};
 use crate::failure::Failure;
-use crate::message;
+use crate::{called, message};
 
 /// The results of a study that asks for responses. Runs without results are said.
 ///
 /// # Errors
-/// [`Failure::Input`] when the study has no response; [`Failure::Run`] when the results cannot be read.
+/// [`Failure::Input`] when the study has no response; [`Failure::Run`] when the results cannot be read, or there are none.
 pub fn analysable(plan: &Plan) -> Result<Found, Failure> {
     let study = plan.study();
     if study.responses.is_empty() {
@@ -28,6 +29,9 @@ pub fn analysable(plan: &Plan) -> Result<Found, Failure> {
     }
     let found = collected(plan)?;
     let collected = &found.collected;
+    if collected.runs.iter().all(|run| run.responses.iter().all(|response| !response.is_finite())) {
+        return Err(Failure::run(nothing_yet(study, collected)));
+    }
     let left_out = collected.runs.len() - collected.count("finished");
     if left_out > 0 {
         message::warning(format_args!(
@@ -39,6 +43,21 @@ pub fn analysable(plan: &Plan) -> Result<Found, Failure> {
         ));
     }
     Ok(found)
+}
+
+/// What is said of a study without a single value.
+fn nothing_yet(study: &Study, collected: &Collected) -> String {
+    let path = study.path.display();
+    let program = called::program();
+    let study_argument = called::argument(&study.path.to_string_lossy());
+    let to_do = match collected.count("finished") {
+        _ if study.is_imported() => {
+            format!("{program} sweep import {study_argument} TABLE.csv brings them")
+        }
+        0 => format!("{program} sweep run {study_argument} makes the runs"),
+        finished => format!("the {} that finished have none: look at the responses", number::count(finished, "run")),
+    };
+    format!("{path}: there is no result to analyse yet; {to_do}")
 }
 
 /// A study, its results and what they tell.

@@ -175,8 +175,9 @@ impl Told {
             Known::Nothing(why) => format!("{name}\n  {why}\n"),
             Known::Indices(indices, reason) => {
                 let shown = |index: &Index| {
+                    let index = index.possible();
                     let interval = index.interval.map(|[low, high]| format!(" ({low:.3} … {high:.3})"));
-                    number::with_minus(&format!("{:.3}{}", index.value, interval.unwrap_or_default()))
+                    format!("{:.3}{}", index.value, interval.unwrap_or_default())
                 };
                 let mut order: Vec<usize> = (0..self.factors.len()).collect();
                 order.sort_by(|one, other| indices.total[*other].value.total_cmp(&indices.total[*one].value));

@@ -13,8 +13,9 @@ use crate::figure::picture::Picture;
 use crate::figure::stroke::Stroke;
 use crate::study::analysis::Analysis;
 
-/// Points of the map along each axis.
+/// Points of the map along each axis, and where there are places without a value, whose rim is to be seen.
 const POINTS: usize = 121;
+const FINE: usize = 361;
 /// Room beyond the outermost points of the design, as a part of the range.
 const BEYOND: f64 = 0.06;
 /// Height of the box, pixels.
@@ -39,6 +40,8 @@ pub struct FactorMap<'a> {
     pub axes: [&'a FactorAxis<'a>; 2],
     /// Coded values at the ends.
     ends: [[f64; 2]; 2],
+    /// Points along each axis.
+    points: usize,
     /// Column by column, from below, in the unit in which they are shown; NaN where there is none.
     values: Vec<f64>,
 }
@@ -59,9 +62,13 @@ impl<'a> FactorMap<'a> {
             let (low, high) = coded(at).fold((-1.0, 1.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
             [low - BEYOND * (high - low), high + BEYOND * (high - low)]
         });
-        let part = |index: usize, [low, high]: [f64; 2]| low + (high - low) * index as f64 / (POINTS - 1) as f64;
-        let value = |at: usize| value([part(at / POINTS, ends[0]), part(at % POINTS, ends[1])]).unwrap_or(f64::NAN);
-        Self { factors, axes, ends, values: (0..POINTS * POINTS).map(value).collect() }
+        let at_points = |points: usize| {
+            let part = |index: usize, [low, high]: [f64; 2]| low + (high - low) * index as f64 / (points - 1) as f64;
+            let value = |at: usize| value([part(at / points, ends[0]), part(at % points, ends[1])]).unwrap_or(f64::NAN);
+            Self { factors, axes, ends, points, values: (0..points * points).map(value).collect() }
+        };
+        let map = at_points(POINTS);
+        if map.values.iter().any(|value| value.is_nan()) && map.varies() { at_points(FINE) } else { map }
     }
 
     /// Whether there are values that are not all the same.
@@ -102,21 +109,22 @@ impl<'a> FactorMap<'a> {
 
     fn picture(&self) -> Picture {
         let [low, high] = self.range();
-        let rows = (0..POINTS).rev();
+        let rows = (0..self.points).rev();
         let index = |value: f64| match value {
             _ if value.is_nan() => COLOURS as u8,
             _ => colour_index((value - low) / (high - low)),
         };
-        let indices = rows.flat_map(|row| (0..POINTS).map(move |column| index(self.values[column * POINTS + row])));
+        let indices =
+            rows.flat_map(|row| (0..self.points).map(move |column| index(self.values[column * self.points + row])));
         let palette = colour_map().into_iter().chain([APART]).collect();
-        Picture { columns: POINTS, rows: POINTS, indices: indices.collect(), palette }
+        Picture { columns: self.points, rows: self.points, indices: indices.collect(), palette }
     }
 
     /// Lines through the values at which the colour bar has numbers, with what these say.
     fn contours(&self, scale: &Axis, length: f64) -> Vec<(Vec<[f64; 2]>, String)> {
-        let field = Field { values: &self.values, rows: POINTS };
+        let field = Field { values: &self.values, rows: self.points };
         let point = |[column, row]: [f64; 2]| {
-            let part = |place: f64, [low, high]: [f64; 2]| low + (high - low) * place / (POINTS - 1) as f64;
+            let part = |place: f64, [low, high]: [f64; 2]| low + (high - low) * place / (self.points - 1) as f64;
             self.natural([part(column, self.ends[0]), part(row, self.ends[1])])
         };
         let levels = scale.ticks(most_ticks_upward(length));
@@ -141,7 +149,7 @@ impl<'a> FactorMap<'a> {
         let [low, high] = self.range();
         let scale = Axis::linear(low..=high, shortened(label, TEXT, HEIGHT));
         // A picture's outer points lie on the edge of the box by their middles.
-        let half = |at: usize| 0.5 * (self.ends[at][1] - self.ends[at][0]) / (POINTS - 1) as f64;
+        let half = |at: usize| 0.5 * (self.ends[at][1] - self.ends[at][0]) / (self.points - 1) as f64;
         let range = |at: usize| {
             let [low, high] = self.ends[at];
             self.axes[at].natural(low - half(at))..=self.axes[at].natural(high + half(at))

@@ -5,7 +5,7 @@ use plateau_study::design::Setting;
 use plateau_study::optimum::Axis as Range;
 
 use super::Shown;
-use crate::colour::{DATA, DERIVED, FAINT};
+use crate::colour::{DATA, DERIVED, FAINT, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
@@ -13,12 +13,16 @@ use crate::figure::effects::{FactorAxis, axes, range_of, said_of_cuts};
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
 use crate::figure::page::{Content, KeyStyle, Mark};
-use crate::figure::stroke::{SOLID, Stroke};
+use crate::figure::stroke::{Dashes, SOLID, Stroke};
 
 /// Height of a box, pixels.
 const HEIGHT: f64 = 400.0;
 /// Values along a range.
 const VALUES: usize = 41;
+/// How often a piece between two values is halved to find where the desirability comes to 0: a part in 10⁻⁷ of the range.
+const HALVINGS: usize = 20;
+/// Dashes of limits.
+const DASHES: Dashes = &[14.0, 9.0];
 /// Whether one sees through bands.
 const OPACITY: f64 = 0.25;
 /// Width of the boxes of one factor up to this many factors; with more they share the page, pixels.
@@ -36,12 +40,13 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     let width = (BOX * across as f64 + 300.0).min(TWO_COLUMNS);
     let mut charts = Vec::new();
     let mut cut = "";
-    for (response, surrogate) in shown.analysis.responses.iter().zip(&surrogates) {
+    for (at, (response, surrogate)) in shown.analysis.responses.iter().zip(&surrogates).enumerate() {
         let Some(surrogate) = surrogate else { continue };
         let unit = &response.scale.unit;
         let curves: Vec<Vec<Point>> = (0..across)
             .map(|factor| {
-                curve(shown, &axes[factor], factor, |settings| {
+                let along = settings(shown, &axes[factor], factor);
+                curve(shown, &axes[factor], factor, along, |settings| {
                     let forecast = surrogate.forecast(settings, shown.confidence).ok()?;
                     Some((
                         unit.value(forecast.value),
@@ -58,24 +63,36 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
             .iter()
             .flatten()
             .flat_map(|(_, value, ends)| [Some(*value), ends.map(|ends| ends[0]), ends.map(|ends| ends[1])]);
-        let y = Axis::linear(range_of(values.flatten()), shortened(&response.head(), TEXT, HEIGHT));
-        charts.extend(row(shown, &axes, &curves, &y, false));
+        let limits = limits(shown, at).into_iter().map(|limit| unit.value(limit)).collect::<Vec<_>>();
+        let range = range_of(values.flatten().chain(limits.iter().copied()));
+        let y = Axis::linear(range, shortened(&response.head(), TEXT, HEIGHT));
+        charts.extend(row(shown, &axes, &curves, &y, &limits, false));
     }
     let curves: Vec<Vec<Point>> = (0..across)
         .map(|factor| {
-            curve(shown, &axes[factor], factor, |settings| Some((shown.desirability(&surrogates, settings)?, None)))
+            let worth = |settings: &[Setting]| shown.desirability(&surrogates, settings);
+            let is_worth = |coded| {
+                worth(&shown.with(&[(factor, Setting::Coded(coded))])).is_some_and(|desirability| desirability > 0.0)
+            };
+            let mut along = settings(shown, &axes[factor], factor);
+            along.extend(ends_of(&along, is_worth));
+            curve(shown, &axes[factor], factor, along, |settings| Some((worth(settings)?, None)))
         })
         .collect();
-    charts.extend(row(shown, &axes, &curves, &Axis::linear(up_from_zero(1.0), "desirability"), true));
-    let meaning = |colour, text: String| Meaning { colour, style: KeyStyle::Line(SOLID), text };
+    charts.extend(row(shown, &axes, &curves, &Axis::linear(up_from_zero(1.0), "desirability"), &[], true));
+    let meaning = |colour, dashes, text: String| Meaning { colour, style: KeyStyle::Line(dashes), text };
     let level = number::rounded(100.0 * shown.confidence, 4);
-    let meanings = [meaning(DATA, format!("predicted, {level} % of means")), meaning(DERIVED, "optimum".to_owned())];
+    let mut meanings = vec![
+        meaning(DATA, SOLID, format!("predicted, {level} % of means")),
+        meaning(DERIVED, SOLID, "optimum".to_owned()),
+    ];
+    meanings.extend((!shown.limits.is_empty()).then(|| meaning(INK, DASHES, "limit".to_owned())));
     Figure {
         name: "profiler".to_owned(),
         title: "Responses and desirability against each factor".to_owned(),
         caption: format!(
             "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
-             optimum; bands are intervals of the mean of many runs.{cut}"
+             optimum; bands are intervals of the mean of many runs, dashes are limits.{cut}"
         ),
         page: page(width, HEIGHT, across, charts, &meanings),
     }
@@ -90,21 +107,54 @@ fn looked_at<'a>(axis: FactorAxis<'a>, range: &Range) -> FactorAxis<'a> {
     if is_between { axis.as_range() } else { axis }
 }
 
-/// The values of a function along a factor.
+/// The limits of a response.
+fn limits(shown: &Shown<'_>, response: usize) -> Vec<f64> {
+    let own = shown.limits.iter().filter(|limit| limit.response == response);
+    own.flat_map(|limit| [limit.least, limit.most]).flatten().collect()
+}
+
+/// Where a factor is looked at; the optimum is one of these.
+fn settings(shown: &Shown<'_>, axis: &FactorAxis<'_>, factor: usize) -> Vec<Setting> {
+    match &shown.axes[factor] {
+        _ if axis.is_range() => {
+            let last = (VALUES - 1) as f64;
+            let even = (0..VALUES).map(|at| Setting::Coded(-1.0 + 2.0 * at as f64 / last));
+            even.chain([shown.best[factor]]).collect()
+        }
+        Range::Settings(settings) if settings.len() > 1 => settings.clone(),
+        _ => axis.settings(VALUES),
+    }
+}
+
+/// The ends of the parts of a range in which something is worth anything, from both sides: there a limit is reached, or one
+/// goal is worth nothing.
+fn ends_of(settings: &[Setting], is_worth: impl Fn(f64) -> bool) -> Vec<Setting> {
+    let coded = |setting: &Setting| if let Setting::Coded(coded) = setting { Some(*coded) } else { None };
+    let mut places: Vec<f64> = settings.iter().filter_map(coded).collect();
+    places.sort_by(f64::total_cmp);
+    let places: Vec<(f64, bool)> = places.into_iter().map(|place| (place, is_worth(place))).collect();
+    let end = |pair: &[(f64, bool)]| {
+        let [mut within, mut without] = match pair {
+            [(one, true), (other, false)] | [(other, false), (one, true)] => [*one, *other],
+            _ => return None,
+        };
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (within + without);
+            if is_worth(middle) { within = middle } else { without = middle }
+        }
+        Some([within, without].map(Setting::Coded))
+    };
+    places.windows(2).filter_map(end).flatten().collect()
+}
+
+/// The values of a function at settings of a factor.
 fn curve(
     shown: &Shown<'_>,
     axis: &FactorAxis<'_>,
     factor: usize,
+    settings: Vec<Setting>,
     value: impl Fn(&[Setting]) -> Option<(f64, Option<[f64; 2]>)>,
 ) -> Vec<Point> {
-    let settings: Vec<Setting> = match &shown.axes[factor] {
-        _ if axis.is_range() => {
-            let last = (VALUES - 1) as f64;
-            (0..VALUES).map(|at| Setting::Coded(-1.0 + 2.0 * at as f64 / last)).collect()
-        }
-        Range::Settings(settings) if settings.len() > 1 => settings.clone(),
-        _ => axis.settings(VALUES),
-    };
     let point = |setting: Setting| {
         let (value, ends) = value(&shown.with(&[(factor, setting)]))?;
         Some((axis.place(setting), value, ends))
@@ -114,8 +164,15 @@ fn curve(
     points
 }
 
-/// One box for each factor, with one scale of values.
-fn row(shown: &Shown<'_>, axes: &[FactorAxis<'_>], curves: &[Vec<Point>], y: &Axis, is_last: bool) -> Vec<Chart> {
+/// One box for each factor, with one scale of values and lines at limits.
+fn row(
+    shown: &Shown<'_>,
+    axes: &[FactorAxis<'_>],
+    curves: &[Vec<Point>],
+    y: &Axis,
+    limits: &[f64],
+    is_last: bool,
+) -> Vec<Chart> {
     let chart = |(factor, (axis, points)): (usize, (&FactorAxis<'_>, &Vec<Point>))| {
         let mut contents = Vec::new();
         let spans: Vec<[f64; 3]> =
@@ -140,8 +197,37 @@ fn row(shown: &Shown<'_>, axes: &[FactorAxis<'_>], curves: &[Vec<Point>], y: &Ax
         let line = vec![[best, *y.range.start()], [best, *y.range.end()]];
         contents.push(Content::Line { points: line, stroke: Stroke::solid(DERIVED, LINE) });
         let x = axis.axis(axis.room());
+        contents.extend(limits.iter().map(|limit| Content::Line {
+            points: vec![[*x.range.start(), *limit], [*x.range.end(), *limit]],
+            stroke: Stroke { dashes: DASHES, ..Stroke::solid(INK, LINE) },
+        }));
+        let at_best: Vec<[f64; 2]> =
+            points.iter().filter(|(place, ..)| *place == best).map(|(place, value, _)| [*place, *value]).collect();
+        contents.push(Content::Marks { points: at_best, colour: DERIVED, mark: Mark::Dot });
         let x = if is_last { x } else { Axis { label: String::new(), numbered: false, ..x } };
         Chart { title: String::new(), x, y: if factor == 0 { y.clone() } else { y.clone().shared() }, contents }
     };
     axes.iter().zip(curves).enumerate().map(chart).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ends_of_what_is_worth_anything_are_found_between_settings() {
+        let settings = [-1.0, -0.5, 0.0, 0.5, 1.0].map(Setting::Coded);
+        let ends = |is_worth: fn(f64) -> bool| -> Vec<f64> {
+            let coded = |setting| if let Setting::Coded(coded) = setting { coded } else { f64::NAN };
+            ends_of(&settings, is_worth).into_iter().map(coded).collect()
+        };
+        // From 0.3 on; within first, then without.
+        let found = ends(|coded| coded >= 0.3);
+        assert_eq!(found.len(), 2);
+        assert!(found[0] >= 0.3 && found[1] < 0.3 && found[0] - found[1] < 1e-6, "{found:?}");
+        // A single setting that is worth something has an end on either side.
+        let found = ends(|coded| coded == 0.0);
+        assert!(found.len() == 4 && found.iter().all(|coded| coded.abs() < 1e-6), "{found:?}");
+        assert!(ends(|_| true).is_empty() && ends(|_| false).is_empty());
+    }
 }
