@@ -70,7 +70,8 @@ pub fn selected(response: &AnalysedResponse) -> Option<String> {
     let Selected { left_out, aicc, aicc_of_all } = response.selected.as_ref()?;
     let all = aicc_of_all.map_or_else(String::new, |all| format!(" instead of {} with all", number::rounded(all, 5)));
     let left_out = if left_out.is_empty() { "none".to_owned() } else { left_out.join(", ") };
-    Some(format!("terms left out: {left_out}; AICc {}{all}", number::rounded(*aicc, 5)))
+    let aicc = if aicc.is_finite() { number::rounded(*aicc, 5) } else { "has no value with so few runs".to_owned() };
+    Some(format!("terms left out: {left_out}; AICc {aicc}{all}"))
 }
 
 /// Sets of effects that are listed.

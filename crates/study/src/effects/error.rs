@@ -12,7 +12,7 @@ pub enum EffectsError {
         missing: usize,
     },
     /// A response that is the same everywhere tells nothing.
-    #[error("the response is {value} in all {observations} observations: no factor has an effect on it")]
+    #[error("the response is {value:?} in all {observations} observations: no factor has an effect on it")]
     Constant {
         /// The response.
         value: f64,
@@ -20,7 +20,7 @@ pub enum EffectsError {
         observations: usize,
     },
     /// A response that is no number to calculate with.
-    #[error("observation {observation}: the response {value:e} is beyond ±1e150")]
+    #[error("observation {}: the response {value:e} is beyond ±1e150", .observation + 1)]
     Response {
         /// Which, from 0.
         observation: usize,
