@@ -200,6 +200,34 @@ fn a_rank_that_is_asked_to_stop_stops_all_in_good_order() {
 
 #[test]
 #[ignore = "needs MPI"]
+fn ranks_that_prepare_a_run_end_at_a_signal() {
+    // To one rank alone, and to the launcher, which passes it on to all.
+    for rank in [Some(1), None] {
+        let directory = WorkingDirectory::new();
+        let stderr = File::create(directory.path("stderr")).expect("a file");
+        let mut command = mpirun(&directory);
+        command.args(["-n", "2", "sh", "-c", LEAVE_PROCESS_NUMBER]).arg(program());
+        // Fibres that are so long that nearly all of them miss the pin: hours of one loop.
+        let fibres =
+            ["--set", "pin.base.synthetic.fibre_length=1e5 m", "--set", "pin.base.synthetic.fibre_width=1e-7 m"];
+        command.args(short_run(&fibres)).stdout(Stdio::null()).stderr(stderr);
+        let mut launcher = command.spawn().expect("the launcher");
+        assert!(wait_until(|| [0, 1].iter().all(|rank| directory.path(&rank.to_string()).exists())));
+        std::thread::sleep(std::time::Duration::from_secs(2));
+        let process = rank.map_or_else(|| launcher.id().to_string(), |rank| process_of_rank(&directory, rank));
+        assert!(Command::new("kill").args(["-s", "TERM", &process]).status().expect("kill").success());
+        let ended = wait_until(|| launcher.try_wait().expect("a process").is_some());
+        let _ = launcher.kill();
+        assert!(ended, "the ranks do not hear the signal");
+        assert_ne!(launcher.wait().expect("an end").code(), Some(0));
+        let stderr = fs::read_to_string(directory.path("stderr")).expect("what was said");
+        assert_eq!(stderr.matches("before the first step").count(), 1, "{stderr}");
+        assert!(!directory.names().iter().any(|name| name.starts_with("run.h5")), "{:?}", directory.names());
+    }
+}
+
+#[test]
+#[ignore = "needs MPI"]
 fn what_ranks_did_is_gone_on_with() {
     let enough = ["--set", "operation.steps=1500000", "--resume"];
     let mut job = EndlessJob::in_directory(WorkingDirectory::new(), 2, &enough);

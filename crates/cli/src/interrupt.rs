@@ -44,8 +44,8 @@ impl Interrupt {
     }
 
     /// Until what this gives is dropped, a noted signal ends the program, wherever it is: surfaces may take long to read and make.
-    /// Where the system gives no thread to look, signals are noted only.
-    pub fn end_at_once(&self) -> Preparation {
+    /// It says so if it `speaks`: of several processes one does. Where the system gives no thread to look, signals are noted only.
+    pub fn end_at_once(&self, speaks: bool) -> Preparation {
         let goes_on = Arc::new(Mutex::new(true));
         let (signal, preparation) = (Arc::clone(&self.signal), Arc::clone(&goes_on));
         let look = move || {
@@ -56,10 +56,8 @@ impl Interrupt {
                     return;
                 }
                 if let Some(signal) = noted(&signal) {
-                    let stopped = Failure::Stopped {
-                        signal,
-                        message: Some(format!("stopped by signal {signal} before the first step")),
-                    };
+                    let message = || format!("stopped by signal {signal} before the first step");
+                    let stopped = Failure::Stopped { signal, message: speaks.then(message) };
                     stopped.say();
                     exit(stopped.status().into());
                 }

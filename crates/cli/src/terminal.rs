@@ -62,7 +62,7 @@ impl Terminal {
 
     /// Until the run is prepared, a signal ends the program at once.
     pub fn end_while_preparing(&mut self) {
-        self.preparation = Some(self.interrupt.end_at_once());
+        self.preparation = Some(self.interrupt.end_at_once(self.visible));
     }
 }
 

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use plateau_tests::program::{WorkingDirectory, kill, wait_until};
+use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::scenes::Stream;
 use plateau_tests::scenes::few_or_all;
 
@@ -122,4 +122,48 @@ fn a_long_run_that_was_stopped_or_killed_goes_on() {
     assert!(last.stderr.contains("a run that was stopped goes on from step "), "{last:?}");
     assert_eq!(results(&directory), results(&whole));
     assert!(!directory.path("results/under-way").exists(), "what was kept is of no more use");
+}
+
+#[test]
+fn a_signal_ends_runs_that_are_prepared_while_others_keep_their_state() {
+    // The second run has fibres that are so long that nearly all of them miss the pin: its preparation takes hours.
+    let study = format!(
+        r#"version = 1
+base = "{}"
+set = ["operation.duration = '10 h'", "numerics.time_acceleration = 1", "pin.base.synthetic.fibre_width = '1e-7 m'"]
+design = "full-factorial"
+order = "standard"
+directory = "results"
+
+[[factor]]
+key = "pin.base.synthetic.fibre_length"
+levels = ["400 um", "1e5 m"]
+
+[[response]]
+name = "contact area"
+dataset = "/series/contact_area_mean"
+at = "end"
+"#,
+        scene("quick.toml")
+    );
+    let directory = WorkingDirectory::new();
+    directory.write("study.toml", study);
+    for (jobs, kept) in [("2", 1), ("1", 0)] {
+        // With one job, of the second run alone.
+        let task = if kept == 0 { &["--task", "2/2"][..] } else { &[] };
+        let mut command = directory.command(["sweep", "run", "study.toml", "--jobs", jobs].iter().chain(task));
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        thread::sleep(Duration::from_millis(700));
+        assert!(child.try_wait().unwrap().is_none(), "both runs take hours");
+        assert!(Command::new("kill").args(["-s", "TERM", &child.id().to_string()]).status().unwrap().success());
+        if !wait_until(|| child.try_wait().unwrap().is_some()) {
+            kill(child);
+            panic!("the preparation does not hear the signal");
+        }
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(143), "{output:?}");
+        let states = fs::read_dir(directory.path("results/under-way")).map_or(0, Iterator::count);
+        assert_eq!(states, kept, "{output:?}");
+        let _ = fs::remove_dir_all(directory.path("results"));
+    }
 }

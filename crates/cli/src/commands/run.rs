@@ -21,10 +21,8 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let _ = report_file_size_limit();
     // From now on: preparing a large scene takes long enough to be told to stop meanwhile.
     let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
-    if job.ranks() == 1 {
-        // Several processes agree on when they end.
-        terminal.end_while_preparing();
-    }
+    // Of several processes, too, each ends by itself: nothing is written yet.
+    terminal.end_while_preparing();
     let scene = load_scene(&lengthened(arguments))?;
     let mode = match (arguments.resume, &arguments.extend_to) {
         (_, Some(_)) => StartMode::Extend,

@@ -8,9 +8,9 @@ use plateau_core::simulation::{Execution, Simulation, SimulationError};
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::record::{Outcome, REVOLUTIONS, Series};
-use plateau_io::surface;
 use plateau_run::{Assembly, RunError, Sink};
 
+use super::surfaces::surfaces;
 use super::under_way::UnderWay;
 
 /// Whether a run goes on, and what others want to know meanwhile.
@@ -55,7 +55,7 @@ fn finish(
     watcher: &dyn Watcher,
     under_way: &mut UnderWay,
 ) -> Result<Outcome, Ended> {
-    let surfaces = surface::load(scene).map_err(|error| Ended::Failed(error.to_string()))?.surfaces;
+    let surfaces = surfaces(scene, watcher)?;
     // A study keeps no maps.
     let mut scene = scene.clone();
     scene.output.maps.clear();
@@ -80,8 +80,10 @@ fn finish(
 }
 
 /// Why a run did not finish.
-enum Ended {
+pub enum Ended {
+    /// A signal came.
     Stopped(u8),
+    /// What went wrong.
     Failed(String),
 }
 

@@ -5,6 +5,7 @@
 //! | the scenes of all runs, resolved | [`resolved`] |
 //! | what they will cost | [`estimate`] |
 //! | one run, from its scene to its record | [`make`] |
+//! | its surfaces, given up when a signal comes | [`surfaces`] |
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what those that are made at a time share | [`floor`] |
 //! | extra runs that confirm a prediction | [`confirmation`] |
@@ -17,6 +18,7 @@ pub mod floor;
 pub mod make;
 pub mod progress;
 pub mod resolved;
+pub mod surfaces;
 pub mod under_way;
 
 use std::path::{Path, PathBuf};
