@@ -328,7 +328,7 @@ pub struct ExportArguments {
     /// Run file, also of a run that goes on or was stopped
     pub run: PathBuf,
     /// Format of the files
-    #[arg(long, value_name = "FORMAT")]
+    #[arg(long, value_name = "FORMAT", alias = "format")]
     pub to: ExportFormat,
     /// File to write, for vtk the folder, made if it is not there; named like the run file unless given
     #[arg(short, long, value_name = "FILE")]

@@ -66,8 +66,10 @@ pub fn to_fifteen_digits(number: f64) -> f64 {
 /// A number with at most so many significant digits, for people: no zeros at the end, and a sign that is as wide as a plus.
 pub fn rounded(number: f64, digits: usize) -> String {
     let text = significant(number, digits);
-    let is_plain = text.contains('.') && !text.contains('e');
-    with_minus(if is_plain { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
+    let (mantissa, exponent) =
+        text.split_once('e').map_or((text.as_str(), None), |(mantissa, power)| (mantissa, Some(power)));
+    let mantissa = if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    with_minus(&exponent.map_or_else(|| mantissa.to_owned(), |power| format!("{mantissa}e{power}")))
 }
 
 /// So many of a thing, of which there may be one.

@@ -135,6 +135,11 @@ pub fn parse_difference_as(text: &str, si_unit: &str) -> Result<f64, String> {
     }
 }
 
+/// What 0 of a unit is in the SI unit: 273.15 K for degrees Celsius, else 0.
+pub fn zero_of(unit: &str) -> f64 {
+    if is_celsius(unit) { CELSIUS } else { 0.0 }
+}
+
 /// Degrees Celsius are no multiple of a kelvin, and have a meaning only as a temperature alone.
 fn is_celsius(unit: &str) -> bool {
     matches!(unit, "degC" | "°C")

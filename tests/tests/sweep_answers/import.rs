@@ -244,7 +244,7 @@ fn tables_that_fit_no_point_are_refused_by_line() {
         ("silica,silane,abrasion", "no column of the factor \"sulphur\""),
         ("silica,silane,sulphur,abrasian", "column \"abrasian\" is no factor and no response with imported = true"),
         ("silica,silane,sulphur", "no column of a response with imported = true"),
-        ("silica,silane,sulphur,abrasion [mm2]", "expected \"abrasion\", with the unit that the study gives"),
+        ("silica,silane,sulphur,abrasion [mm2]", "expected \"abrasion\", for the study gives it no unit"),
     ] {
         let cells = vec!["1"; head.split(',').count()].join(",");
         directory.write("t.csv", format!("{head}\n{cells}\n"));
@@ -263,4 +263,86 @@ fn tables_that_fit_no_point_are_refused_by_line() {
         Some(0),
         "the same again changes nothing"
     );
+}
+
+/// A test of a rig: humidity and supplier are no keys of a scene, the ambient temperature is one, in degrees Celsius.
+const RIG: &str = r#"version = 1
+title = "Rig"
+design = "full-factorial"
+directory = "results"
+[[factor]]
+name = "humidity"
+levels = ["20 %RH", "80 %RH"]
+[[factor]]
+name = "supplier"
+levels = ["A", "B"]
+[[factor]]
+name = "ambient"
+key = "thermal.ambient"
+range = ["0 degC", "200 degC"]
+[[response]]
+name = "wear"
+imported = true
+unit = "mm3"
+"#;
+
+#[test]
+fn factors_of_a_rig_need_no_key_and_responses_may_be_in_any_unit() {
+    let directory = WorkingDirectory::new();
+    directory.write("study.toml", RIG);
+    directory.plateau(["sweep", "plan", "study.toml", "--csv", "plan.csv"]);
+    // In mm3: 1 + 0.01 humidity + 0.002 ambient, and 0.5 more for supplier B.
+    let wear = |humidity: f64, supplier: &str, ambient: f64| {
+        1.0 + 0.01 * humidity + 0.002 * ambient + if supplier == "B" { 0.5 } else { 0.0 }
+    };
+    let plan = fs::read_to_string(directory.path("plan.csv")).unwrap();
+    let mut lines = plan.lines();
+    let head = lines.next().unwrap();
+    assert_eq!(head, "run,humidity,supplier,ambient,wear [m3]");
+    let mut filled = head.replace("[m3]", "[mm3]") + "\n";
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |at: usize| cells[at].split(' ').next().unwrap().parse::<f64>().unwrap();
+        filled += &format!("{line}{}\n", wear(number(1), cells[2], number(3)));
+    }
+    directory.write("filled.csv", filled);
+    let taken = ask(&directory, "import", &["filled.csv"]);
+    assert_eq!(["new", "complete"].map(|key| taken[key].as_u64()), [Some(8), Some(8)]);
+    let asked = ["--at", "humidity=35", "--at", "supplier=B", "--at", "ambient=60 degC", "--model", "main"];
+    let predicted = ask(&directory, "predict", &asked);
+    let found = predicted["places"][0]["responses"][0]["value"].as_f64().unwrap();
+    assert!((found * 1e9 - wear(35.0, "B", 60.0)).abs() < 1e-9, "{found}");
+    // The equation in the units of the study is that by which wear was made: degrees Celsius count from their own zero.
+    let said = directory.plateau(["sweep", "effects", "study.toml", "--model", "main"]);
+    assert!(said.stdout.contains("1.25000 + 0.0100000 humidity"), "{}", said.stdout);
+    assert!(said.stdout.contains("0.00200000 ambient"), "{}", said.stdout);
+    // In another unit it is no humidity of this study.
+    let refusal = refused(&directory, "predict", &["--at", "humidity=35 g/kg"]);
+    assert!(refusal.contains("humidity = 35 g/kg: expected a quantity such as \"20 %RH\""), "{refusal}");
+    // With a scene to run, every factor needs a key.
+    directory.write("study.toml", RIG.replace("title", "base = \"scene.toml\"\ntitle"));
+    let refusal = refused(&directory, "plan", &[]);
+    assert!(refusal.contains("study.toml:7:8: factor.key: missing, expected a key of the scene"), "{refusal}");
+}
+
+#[test]
+fn levels_of_a_table_are_compared_as_numbers() {
+    let study = |levels: &str| {
+        format!(
+            "version = 1\ndesign = \"csv\"\nfile = \"points.csv\"\ndirectory = \"results\"\n\
+             [[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n{levels}\n\
+             [[response]]\nname = \"z\"\nimported = true\n"
+        )
+    };
+    let directory = WorkingDirectory::new();
+    directory.write("study.toml", study("levels = [\"5 N\", \"6 N\", \"8 N\"]"));
+    directory.write("points.csv", "load,z\n5000 mN,1\n6.0 N,2.1\n8 N,4\n5 N,1.1\n6 N,2\n0.008 kN,4.1\n");
+    ask(&directory, "import", &["points.csv"]);
+    let effects = ask(&directory, "effects", &[]);
+    // One-way analysis of variance by hand: sums of squares 9.3333 between and 0.015 within the levels.
+    let explained = effects["responses"][0]["r_squared"].as_f64().unwrap();
+    assert!((explained - (1.0 - 0.015 / 9.348_333_333_333_333)).abs() < 1e-12, "{explained}");
+    directory.write("points.csv", "load,z\n5 N,1\n7 N,2\n");
+    let refusal = refused(&directory, "plan", &[]);
+    assert!(refusal.contains("points.csv:3: load: 7 N is none of the levels 5 N, 6 N, 8 N"), "{refusal}");
 }

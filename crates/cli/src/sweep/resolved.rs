@@ -3,12 +3,13 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use plateau_io::study::Study;
 use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
 use rayon::prelude::*;
 
 use crate::failure::Failure;
-use crate::version;
+use crate::{message, number, version};
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
@@ -22,6 +23,8 @@ pub struct Resolved {
     pub firsts: Vec<usize>,
     /// Its steps.
     pub steps: Vec<u64>,
+    /// The shortest duration of a run, s.
+    pub shortest: f64,
     /// The files of the scenes, and those that they read.
     pub files: BTreeSet<PathBuf>,
 }
@@ -37,6 +40,21 @@ impl Resolved {
         (0..self.firsts.len()).filter(|place| self.is_repeat(*place)).count()
     }
 
+    /// Warns of responses that ask for a time after the end of some run, which then gives none.
+    pub fn warn_of_late_questions(&self, study: &Study) {
+        for response in &study.responses {
+            if let Some(time) = response.latest_time().filter(|time| *time > self.shortest * (1.0 + 1e-9)) {
+                message::warning(format_args!(
+                    "{}: response \"{}\" asks for {}, and the shortest run ends at {}: runs that end before have no value of it",
+                    study.path.display(),
+                    response.name,
+                    seconds(time),
+                    seconds(self.shortest)
+                ));
+            }
+        }
+    }
+
     /// Builds the scene of every run.
     ///
     /// # Errors
@@ -49,16 +67,18 @@ impl Resolved {
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;
             let identity = identity(&scene, &digests, &program)
                 .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
-            Ok(((identity, scene.steps), scene.files))
+            Ok(((identity, (scene.steps, scene.duration)), scene.files))
         };
         let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
         let problems: Vec<(usize, &String)> =
             (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
-            let (known, files): (Vec<(String, u64)>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
+            let (known, files): (Vec<(String, (u64, f64))>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
             let files = files.into_iter().flatten().chain(digests.files()).collect();
-            let (identities, steps): (Vec<String>, Vec<u64>) = known.into_iter().unzip();
-            return Ok(Self { firsts: firsts(&identities), identities, steps, files });
+            let (identities, lengths): (Vec<String>, Vec<(u64, f64)>) = known.into_iter().unzip();
+            let (steps, durations): (Vec<u64>, Vec<f64>) = lengths.into_iter().unzip();
+            let shortest = durations.into_iter().fold(f64::INFINITY, f64::min);
+            return Ok(Self { firsts: firsts(&identities), identities, steps, shortest, files });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();
@@ -76,4 +96,9 @@ impl Resolved {
         }
         Err(Failure::input(lines.join("\n")))
     }
+}
+
+/// A time in words.
+fn seconds(time: f64) -> String {
+    format!("{} s", number::rounded(time, 6))
 }

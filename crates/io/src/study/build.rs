@@ -14,6 +14,7 @@ use super::response_keys::{responses, series_name};
 use super::{DesignSource, Order, Study, measured, points_of_file, replicates};
 use crate::scene::{Origin, Problem, schema};
 use crate::text::odd_character;
+use crate::units;
 
 /// The newest version of the study format that this program reads.
 const VERSION: i64 = 1;
@@ -43,8 +44,19 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         let message = format!("{version}, this program reads version {VERSION}");
         problems.push(place.problem(&document.version, "version", message));
     }
-    let factors = factors(&document, place, &mut problems);
+    let mut factors = factors(&document, place, &mut problems);
     let source = source(&document, &factors, folder, place).map_err(|problem| problems.push(problem)).ok();
+    if let Some(DesignSource::File(points)) = &source {
+        let levels_of = |at: usize| points.iter().map(|point| point[at].clone()).collect::<Vec<_>>();
+        for (at, factor) in factors.iter_mut().enumerate().filter(|(_, factor)| factor.keys.is_empty()) {
+            let levels = levels_of(at);
+            factor.stated_unit = stated_unit(levels.first());
+            if let (Some(other), Some(file)) = (Factor::in_another_unit(&levels), &document.file) {
+                let message = format!("{} of \"{}\": expected all in the same unit", other.label, factor.name);
+                problems.push(place.problem(file, "file", message));
+            }
+        }
+    }
     let order = match document.order.as_ref().map(|order| (order, order.get_ref().as_str())) {
         None | Some((_, "random")) => Order::Random,
         Some((_, "standard")) => Order::Standard,
@@ -105,33 +117,44 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
         if problems.len() >= MOST_PROBLEMS {
             break;
         }
-        let key = table.key.get_ref();
-        for unknown in key.0.iter().filter(|key| schema::find(key).is_none()) {
-            let (section, name) = unknown.rsplit_once('.').unwrap_or(("", unknown));
-            let message = format!("\"{unknown}\": {}", schema::unknown(section, name));
-            problems.push(place.problem(&table.key, "factor.key", message));
+        let keys = table.key.as_ref().map_or(Vec::new(), |key| key.get_ref().0.clone());
+        if let Some(key) = &table.key {
+            for unknown in keys.iter().filter(|key| schema::find(key).is_none()) {
+                let (section, name) = unknown.rsplit_once('.').unwrap_or(("", unknown));
+                let without =
+                    if document.base.is_none() { "; what is set on a rig needs a name and no key" } else { "" };
+                let message = format!("\"{unknown}\": {}{without}", schema::unknown(section, name));
+                problems.push(place.problem(key, "factor.key", message));
+            }
+        } else if let Some((at, message)) = without_key(table, document) {
+            let place = at.map_or_else(|| Origin::File(place.file.clone()), |at| place.at(at));
+            problems.push(Problem::new(&place, "factor.key", message));
+            continue;
         }
-        let name = table.name.as_ref().map_or_else(|| key.0[0].clone(), |name| name.get_ref().clone());
-        let at = table.name.as_ref().map_or(table.key.span(), Spanned::span);
+        let name = table.name.as_ref().map_or_else(|| keys[0].clone(), |name| name.get_ref().clone());
+        let at = table.name.as_ref().map(Spanned::span).or(table.key.as_ref().map(Spanned::span)).unwrap_or_default();
         place.check_name(&name, || place.at(at.start), "factor.name", problems);
         // What values an unknown key has nobody knows.
-        let values = match schema::find(&key.0[0]) {
-            None => Values::Levels(Vec::new()),
-            Some(_) => {
-                let values = values(table, &key.0[0], document.design.get_ref() == "csv", place);
-                values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()))
-            }
+        let key = keys.first().map_or("", String::as_str);
+        let values = if !key.is_empty() && schema::find(key).is_none() {
+            Values::Levels(Vec::new())
+        } else {
+            let values = values(table, key, document.design.get_ref() == "csv", place);
+            values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()))
         };
         if !names.insert(name.clone()) {
             problems.push(Problem::new(&place.at(at.start), "factor.name", format!("\"{name}\" is the name of two")));
         }
         // A key may stand twice in one list: that sets it to the same value.
-        let twice = key.0.iter().find(|key| varied.contains(*key));
-        if let Some(twice) = twice {
-            problems.push(place.problem(&table.key, "factor.key", format!("\"{twice}\" is varied by two factors")));
+        if let (Some(twice), Some(key)) = (keys.iter().find(|key| varied.contains(*key)), &table.key) {
+            problems.push(place.problem(key, "factor.key", format!("\"{twice}\" is varied by two factors")));
         }
-        varied.extend(key.0.iter().cloned());
-        factors.push(Factor { name, keys: key.0.clone(), values });
+        varied.extend(keys.iter().cloned());
+        let stated_unit = match &values {
+            Values::Levels(levels) => stated_unit(levels.first()),
+            Values::Range { low, .. } => stated_unit(Some(low)),
+        };
+        factors.push(Factor { name, keys, stated_unit, values });
     }
     if factors.is_empty() {
         let message = "nothing is varied, expected at least one [[factor]]";
@@ -140,9 +163,30 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
     factors
 }
 
+/// What is wrong with a factor that has no key, and where.
+fn without_key(table: &document::Factor, document: &Document) -> Option<(Option<usize>, &'static str)> {
+    let at = table.name.as_ref().map(|name| name.span().start);
+    match (&document.base, at) {
+        (Some(_), _) => Some((
+            at,
+            "missing, expected a key of the scene such as \"operation.normal_force\"; factors that are set \
+            elsewhere, as on a rig, belong into a study without base",
+        )),
+        (None, None) => Some((None, "a factor has neither key nor name")),
+        (None, Some(_)) => None,
+    }
+}
+
+/// The unit of a level; empty for plain numbers and words.
+fn stated_unit(level: Option<&Level>) -> String {
+    level.and_then(Level::split).map_or_else(String::new, |(_, unit)| unit.to_owned())
+}
+
 fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>) -> Result<Values, Problem> {
     let of = |value: &Spanned<toml::Value>| Level::new(key, value.get_ref());
-    let at = |message: &str| Err(place.problem(&table.key, "factor", message));
+    let start =
+        table.key.as_ref().map(Spanned::span).or(table.name.as_ref().map(Spanned::span)).unwrap_or_default().start;
+    let at = |message: &str| Err(Problem::new(&place.at(start), "factor", message));
     if let Some(scale) = &table.scale
         && table.range.is_none()
     {
@@ -160,6 +204,13 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
             let mut known = HashSet::new();
             if let Some(at) = list.iter().position(|level| !known.insert(level.text.as_str())) {
                 return refuse(at, format!("{} is there twice", list[at].text));
+            }
+            if let Some(other) = key.is_empty().then(|| Factor::in_another_unit(&list)).flatten() {
+                return Err(place.problem(
+                    levels,
+                    "factor.levels",
+                    format!("{}: expected all in the same unit", other.text),
+                ));
             }
             let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));
             if let Some((at, found)) = odd {
@@ -193,10 +244,17 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
             {
                 return Err(place.problem(range, "factor.range", "this key holds whole numbers: give levels"));
             }
-            let units =
+            let units_of_ends =
                 [&low, &high].map(|level| level.label.trim().split_once(' ').map_or("", |(_, unit)| unit.trim()));
-            if units[0] != units[1] && !range.get_ref().iter().all(whole) {
+            if units_of_ends[0] != units_of_ends[1] && !range.get_ref().iter().all(whole) {
                 let message = format!("{} to {}: expected both in the same unit", low.text, high.text);
+                return Err(place.problem(range, "factor.range", message));
+            }
+            if logarithmic && units::zero_of(units_of_ends[0]) != 0.0 {
+                let message = format!(
+                    "{} to {}: equal ratios need a range in K, for 0 degC is not the lowest",
+                    low.text, high.text
+                );
                 return Err(place.problem(range, "factor.range", message));
             }
             Ok(Values::Range { low, high, logarithmic })

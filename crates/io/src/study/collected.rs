@@ -227,7 +227,7 @@ impl Collected {
                 None => Values::Text(levels().map(|level| level.label.clone()).collect()),
             };
             let unit = if matches!(values, Values::Float(_)) { factor.unit() } else { "" };
-            let meaning = format!("{}: {}", factor.name, factor.keys.join(", "));
+            let meaning = format!("{}: {}", factor.name, factor.keys_in_words());
             content.variables.push(variable(names.free(&factor.name, "factor"), unit, meaning, values));
         }
         for (at, response) in study.responses.iter().enumerate() {

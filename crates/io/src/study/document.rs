@@ -49,7 +49,8 @@ pub(super) struct Replicates {
 #[serde(deny_unknown_fields)]
 pub(super) struct Factor {
     pub name: Option<Spanned<String>>,
-    pub key: Spanned<Keys>,
+    /// Absent of a factor that is set elsewhere, as on a rig.
+    pub key: Option<Spanned<Keys>>,
     pub levels: Option<Spanned<Vec<Spanned<Value>>>>,
     pub range: Option<Spanned<[Spanned<Value>; 2]>>,
     pub scale: Option<Spanned<String>>,

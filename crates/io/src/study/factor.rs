@@ -13,8 +13,10 @@ use crate::units::{self, Dimension, UnitError};
 pub struct Factor {
     /// Its name.
     pub name: String,
-    /// The keys that are set, all to the same value.
+    /// The keys that are set, all to the same value; none of a factor that is set elsewhere, as on a rig.
     pub keys: Vec<String>,
+    /// The unit in which values of a factor without a key are stated; empty for plain numbers and words.
+    pub stated_unit: String,
     /// What they are set to.
     pub values: Values,
 }
@@ -47,7 +49,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// What a value means for a key.
+    /// What a value means for a key; where the key is empty, a number is taken in the unit in which it is stated.
     pub fn new(key: &str, value: &toml::Value) -> Self {
         let label = match value {
             toml::Value::String(text) => text.clone(),
@@ -56,8 +58,14 @@ impl Level {
         Self { text: value.to_string(), number: si_number(key, value), label }
     }
 
-    /// What a text means for a key: a value in TOML; what is none is a text.
+    /// What a text means for a key: a value in TOML, or a plain number in percent; what is none is a text. A minus may be that of
+    /// print, as the program writes it.
     pub fn parse(key: &str, text: &str) -> Self {
+        let text = &text.replace('\u{2212}', "-");
+        let percent = text.strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
+        if let Some(percent) = percent.filter(|_| dimension(key).is_none()) {
+            return Self::new(key, &toml::Value::Float(percent / 100.0));
+        }
         let table: Result<toml::Table, _> = format!("value = {text}").parse();
         let value = table.ok().filter(|table| table.len() == 1).and_then(|mut table| table.remove("value"));
         Self::new(key, &value.unwrap_or_else(|| toml::Value::String(text.to_owned())))
@@ -69,6 +77,9 @@ impl Level {
     /// Why it cannot be one, in words.
     pub fn end_of_range(key: &str, value: &toml::Value) -> Result<f64, String> {
         match (dimension(key), value) {
+            (None, toml::Value::String(_)) if key.is_empty() => {
+                si_number(key, value).ok_or_else(|| format!("{value} is no number with a unit"))
+            }
             (Some(expected), toml::Value::String(text)) => {
                 units::parse(text, expected).map_err(|error| error.to_string())
             }
@@ -81,8 +92,8 @@ impl Level {
         }
     }
 
-    /// The number before the unit, and the unit.
-    fn split(&self) -> Option<(f64, &str)> {
+    /// The number before the unit, and the unit; none of a word.
+    pub fn split(&self) -> Option<(f64, &str)> {
         let (number, unit) = self.label.trim().split_once(' ').unwrap_or((self.label.trim(), ""));
         Some((number.parse().ok()?, unit.trim()))
     }
@@ -137,19 +148,60 @@ impl Factor {
         }
         let share = (coded + 1.0) / 2.0;
         let value = if logarithmic { from * libm::pow(to / from, share) } else { from + (to - from) * share };
+        // With an exponent where there would be a row of zeros.
         let stated = |value: f64| match unit {
             "" => toml::Value::Float(value),
-            unit => toml::Value::String(format!("{value} {unit}")),
+            unit if (1e-4..1e9).contains(&value.abs()) || value == 0.0 => {
+                toml::Value::String(format!("{value} {unit}"))
+            }
+            unit => toml::Value::String(format!("{value:e} {unit}")),
         };
-        let level = Level::new(self.keys.first()?, &stated(value));
+        let level = Level::new(self.key(), &stated(value));
         // The run has the number to its last bit; people read the one that was meant, 0.3 in place of 0.30000000000000004.
-        let Level { label, .. } = Level::new(self.keys.first()?, &stated(number::to_fifteen_digits(value)));
+        let Level { label, .. } = Level::new(self.key(), &stated(number::to_fifteen_digits(value)));
         Some(Level { label, ..level })
+    }
+
+    /// The first of its keys, whose dimension its values have; empty if it has none.
+    pub fn key(&self) -> &str {
+        self.keys.first().map_or("", String::as_str)
+    }
+
+    /// Its keys in words.
+    pub fn keys_in_words(&self) -> String {
+        if self.keys.is_empty() { "set elsewhere".to_owned() } else { self.keys.join(", ") }
+    }
+
+    /// What a text means for this factor. A plain number is in the unit in which a factor without a key is stated.
+    pub fn parse(&self, text: &str) -> Level {
+        let level = Level::parse(self.key(), text);
+        match level.split() {
+            Some((_, "")) if self.keys.is_empty() && !self.stated_unit.is_empty() => {
+                Level::parse("", &format!("{} {}", level.label, self.stated_unit))
+            }
+            // In another unit it is no number that could be compared. A table of points is what tells the unit.
+            Some((_, unit)) if self.keys.is_empty() && unit != self.stated_unit && !self.is_of_a_table() => {
+                Level { number: None, ..level }
+            }
+            _ => level,
+        }
+    }
+
+    /// Whether its values are those of a table of points.
+    fn is_of_a_table(&self) -> bool {
+        matches!(&self.values, Values::Levels(levels) if levels.is_empty())
+    }
+
+    /// The first of some levels of a factor without a key that is in another unit than those before.
+    pub fn in_another_unit(levels: &[Level]) -> Option<&Level> {
+        let unit = |level: &Level| level.split().map(|(_, unit)| unit.to_owned());
+        let first = unit(levels.first()?)?;
+        levels.iter().find(|level| unit(level).is_some_and(|unit| unit != first))
     }
 
     /// Whether its keys hold whole numbers, so that nothing lies between two of them.
     pub fn is_whole(&self) -> bool {
-        let kind = self.keys.first().and_then(|key| schema::find(key)).map(|key| &key.kind);
+        let kind = schema::find(self.key()).map(|key| &key.kind);
         kind.is_some_and(|kind| matches!(kind, Kind::Integer(_) | Kind::CountOr(_)))
     }
 
@@ -158,8 +210,8 @@ impl Factor {
         name == self.name || self.keys.iter().any(|key| key == name)
     }
 
-    /// SI unit of its numbers; empty for words, `1` for plain numbers.
-    pub fn unit(&self) -> &'static str {
+    /// SI unit of its numbers, or that in which those of a factor without a key are stated; empty for words, `1` for plain numbers.
+    pub fn unit(&self) -> &str {
         let has_numbers = match &self.values {
             Values::Levels(levels) => levels.iter().all(|level| level.number.is_some()),
             Values::Range { .. } => true,
@@ -167,7 +219,11 @@ impl Factor {
         if !has_numbers {
             return "";
         }
-        self.keys.first().and_then(|key| dimension(key)).map_or("1", Dimension::si_unit)
+        match (dimension(self.key()), self.stated_unit.as_str()) {
+            (Some(dimension), _) => dimension.si_unit(),
+            (None, "") => "1",
+            (None, unit) => unit,
+        }
     }
 }
 
@@ -196,9 +252,13 @@ fn dimension(key: &str) -> Option<Dimension> {
     }
 }
 
-/// A value in SI units, if it is a number.
+/// A value in SI units, if it is a number; without a key in the unit in which it is stated.
 fn si_number(key: &str, value: &toml::Value) -> Option<f64> {
     match value {
+        toml::Value::String(text) if key.is_empty() => {
+            let (number, unit) = text.trim().split_once(' ')?;
+            number.parse().ok().filter(|number: &f64| number.is_finite() && !unit.trim().is_empty())
+        }
         toml::Value::String(text) => units::parse(text, dimension(key)?).ok(),
         toml::Value::Integer(integer) => Some(*integer as f64),
         toml::Value::Float(number) => Some(*number),
@@ -213,7 +273,8 @@ mod tests {
     fn factor(key: &str, ends: [&str; 2], logarithmic: bool) -> Factor {
         let level = |text: &str| Level::new(key, &format!("v = {text}").parse::<toml::Table>().unwrap()["v"]);
         let [low, high] = ends.map(level);
-        Factor { name: "f".into(), keys: vec![key.into()], values: Values::Range { low, high, logarithmic } }
+        let values = Values::Range { low, high, logarithmic };
+        Factor { name: "f".into(), keys: vec![key.into()], stated_unit: String::new(), values }
     }
 
     #[test]
@@ -237,6 +298,42 @@ mod tests {
         let load = factor("operation.normal_force", ["\"0.2 kN\"", "\"0.4 kN\""], false);
         let middle = load.at(Setting::Coded(0.0)).unwrap();
         assert_eq!((middle.label.as_str(), middle.text.as_str()), ("0.3 kN", "\"0.30000000000000004 kN\""));
+    }
+
+    #[test]
+    fn a_factor_of_a_rig_has_the_unit_in_which_it_is_stated() {
+        let level = |text: &str| Level::new("", &toml::Value::String(text.into()));
+        let values = Values::Range { low: level("20 %RH"), high: level("60 %RH"), logarithmic: false };
+        let humidity = Factor { name: "humidity".into(), keys: Vec::new(), stated_unit: "%RH".into(), values };
+        assert_eq!(humidity.unit(), "%RH");
+        let middle = humidity.at(Setting::Coded(0.0)).unwrap();
+        assert_eq!((middle.label.as_str(), middle.number), ("40 %RH", Some(40.0)));
+        assert_eq!(humidity.parse("30").label, "30 %RH");
+        assert_eq!(humidity.coded(&humidity.parse("30 %RH")), Some(-0.5));
+        assert_eq!(humidity.parse("30 g/kg").number, None);
+        assert_eq!(
+            Factor::in_another_unit(&[level("1 MPa"), level("2 MPa"), level("500 kPa")]),
+            Some(&level("500 kPa"))
+        );
+        assert_eq!(Factor::in_another_unit(&[level("supplier A"), level("supplier B")]), None);
+    }
+
+    #[test]
+    fn very_small_values_between_have_no_row_of_zeros() {
+        let rate = factor("materials.pin_primary.specific_wear_rate", ["\"1e-14 1/Pa\"", "\"9e-14 1/Pa\""], false);
+        assert_eq!(rate.at(Setting::Coded(0.0)).unwrap().label, "5e-14 1/Pa");
+        assert_eq!(rate.at(Setting::Coded(0.0)).unwrap().number, Some(5e-14));
+    }
+
+    #[test]
+    fn percent_and_the_minus_of_print_are_understood() {
+        let fraction = Level::parse("pin.base.synthetic.fibre_fraction", "30%");
+        assert_eq!((fraction.number, fraction.text.as_str()), (Some(0.3), "0.3"));
+        assert_eq!(Level::parse("pin.base.synthetic.fibre_fraction", "30 %").number, Some(0.3));
+        let rate = Level::parse("materials.pin_primary.specific_wear_rate", "5e\u{2212}14 1/Pa");
+        assert_eq!(rate.number, Some(5e-14));
+        // Not of quantities: of what?
+        assert_eq!(Level::parse("operation.normal_force", "30%").number, None);
     }
 
     #[test]

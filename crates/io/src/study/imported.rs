@@ -13,12 +13,15 @@ use super::factor::{Factor, Level};
 use super::plan::Plan;
 use super::value_table::{Row, ValueTable};
 use crate::temporary::Temporary;
+use crate::units::parse_as;
 
 /// Numbers of a table and of the design are the same if they differ by less than this part of the factor's largest one: tables
 /// are rounded by those who write them.
 const ROUNDED: f64 = 1e-6;
 /// What the column of replicates is called.
 const REPLICATE: &str = "replicate";
+/// Column of the number of a run, which is passed over.
+const RUN: &str = "run";
 
 /// The values of imported responses, by run (in the order of the design) and response of the study; NaN where there is none.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -116,7 +119,8 @@ impl Imported {
         let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
         let is_complete = |values: &&Vec<f64>| wanted.iter().all(|at| !values[*at].is_nan());
         let complete = imported.values.iter().filter(is_complete).count();
-        let responses = columns.responses.iter().map(|(_, response)| study.responses[*response].name.clone()).collect();
+        let responses =
+            columns.responses.iter().map(|(_, response, _)| study.responses[*response].name.clone()).collect();
         Ok(Taken { lines: table.rows().len(), responses, new, changed, complete })
     }
 
@@ -158,8 +162,8 @@ pub fn file(study: &Study) -> PathBuf {
     study.directory.join("imported.csv")
 }
 
-/// The head of a column.
-fn with_unit(name: &str, unit: &str) -> String {
+/// The head of a column: the name, and the unit in brackets if there is one.
+pub fn with_unit(name: &str, unit: &str) -> String {
     if ["", "1"].contains(&unit) { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
@@ -228,8 +232,8 @@ impl Places {
 struct Columns {
     factors: Vec<usize>,
     replicate: Option<usize>,
-    /// Columns of responses, with their place in the study.
-    responses: Vec<(usize, usize)>,
+    /// Columns of responses, with their place in the study and their SI unit.
+    responses: Vec<(usize, usize, &'static str)>,
 }
 
 impl Columns {
@@ -255,7 +259,8 @@ impl Columns {
             let Some(response) =
                 study.responses.iter().position(own).filter(|at| kept || study.responses[*at].is_imported())
             else {
-                if kept {
+                // The number of a run, as `plateau sweep plan --csv` writes it.
+                if kept || name == RUN {
                     continue;
                 }
                 let names: Vec<&str> =
@@ -265,15 +270,19 @@ impl Columns {
                     "column \"{head}\" is no factor and no response with imported = true; of these the study has {known}"
                 )));
             };
-            let wanted = study.responses[response].unit("");
+            let wanted: &'static str = study.responses[response].unit("");
             let unit = if study.responses[response].name == *head { "" } else { unit };
-            if unit.is_empty() && wanted != "1" || !unit.is_empty() && unit != wanted {
+            let measures_the_same = unit == wanted || parse_as(&format!("1 {unit}"), wanted).is_ok();
+            if unit.is_empty() && wanted != "1" || !unit.is_empty() && !measures_the_same {
+                let and = if wanted == "1" {
+                    "for the study gives it no unit"
+                } else {
+                    "or another unit that measures the same"
+                };
                 let wanted = with_unit(&study.responses[response].name, wanted);
-                return Err(at(format!(
-                    "column \"{head}\": expected \"{wanted}\", with the unit that the study gives"
-                )));
+                return Err(at(format!("column \"{head}\": expected \"{wanted}\", {and}")));
             }
-            columns.responses.push((column, response));
+            columns.responses.push((column, response, wanted));
         }
         if columns.responses.is_empty() && !kept {
             return Err(at(format!("no column of a response with imported = true; it has {}", heads())));
@@ -323,8 +332,8 @@ impl Columns {
 
     /// Puts the responses of a line where those of its run are; empty cells change nothing.
     fn put(&self, table: &ValueTable, row: &Row, values: &mut [f64]) -> Result<(), String> {
-        for (column, response) in &self.responses {
-            if let Some(number) = table.number(row, *column)? {
+        for (column, response, unit) in &self.responses {
+            if let Some(number) = table.quantity(row, *column, unit)? {
                 values[*response] = number;
             }
         }

@@ -1,8 +1,9 @@
 //! A design of one's own: a table of points in a CSV file.
 
+use std::collections::HashMap;
 use std::path::Path;
 
-use super::factor::{Factor, Level};
+use super::factor::{Factor, Level, Values};
 use super::value_table::{Row, ValueTable};
 
 /// Points of a study, each with one level for every factor.
@@ -25,17 +26,52 @@ pub fn read(path: &Path, factors: &[Factor], others: &[&str]) -> Result<Points, 
     if let Some(unknown) = (0..table.heads().len()).find(|at| !columns.contains(at) && !is_other(*at)) {
         return Err(format!("{shown}: column \"{}\" is no factor of the study", table.heads()[unknown]));
     }
+    let mut known: Vec<Spellings> = factors.iter().map(Spellings::of).collect();
     let point = |row: &Row| {
-        let levels = factors.iter().zip(&columns).map(|(factor, column)| table.level(row, *column, factor));
-        levels.collect::<Result<Vec<Level>, String>>()
+        let level = |((factor, column), known): ((&Factor, &usize), &mut Spellings)| {
+            let level = table.level(row, *column, factor)?;
+            known.first_spelt(level).map_err(|why| format!("{}: {}: {why}", table.place(row), factor.name))
+        };
+        factors.iter().zip(&columns).zip(&mut known).map(level).collect::<Result<Vec<Level>, String>>()
     };
     table.rows().iter().map(point).collect()
+}
+
+/// Levels of a factor as they were spelt first: `5 N`, `5.0 N` and `5000 mN` are one level.
+struct Spellings {
+    first: HashMap<String, Level>,
+    /// The levels that the study lists, in words; none where the table is all there is.
+    listed: Option<String>,
+}
+
+impl Spellings {
+    fn of(factor: &Factor) -> Self {
+        let Values::Levels(levels) = &factor.values else { return Self { first: HashMap::new(), listed: None } };
+        let first = levels.iter().map(|level| (meaning(level), level.clone())).collect();
+        Self { first, listed: (!levels.is_empty()).then(|| factor.to_string()) }
+    }
+
+    /// The same level as it was spelt first.
+    ///
+    /// # Errors
+    /// A level that the study does not list.
+    fn first_spelt(&mut self, level: Level) -> Result<Level, String> {
+        match (self.first.get(&meaning(&level)), &self.listed) {
+            (Some(first), _) => Ok(first.clone()),
+            (None, Some(listed)) => Err(format!("{} is none of the levels {listed}", level.label)),
+            (None, None) => Ok(self.first.entry(meaning(&level)).or_insert(level).clone()),
+        }
+    }
+}
+
+/// What equal levels have alike: their number up to what rounding makes of it, or their word.
+fn meaning(level: &Level) -> String {
+    level.number.map_or_else(|| level.label.clone(), |number| format!("{number:.12e}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::factor::Values;
 
     fn read_text(text: &str) -> Result<Points, String> {
         let directory = tempfile::tempdir().unwrap();
@@ -44,6 +80,7 @@ mod tests {
         let factor = |name: &str, key: &str| Factor {
             name: name.into(),
             keys: vec![key.into()],
+            stated_unit: String::new(),
             values: Values::Levels(Vec::new()),
         };
         let factors = [factor("load", "operation.normal_force"), factor("rows", "mesh.rows")];
@@ -55,6 +92,24 @@ mod tests {
         let points = read_text("mesh.rows, load, y [m2]\n20, 5 N, 1\n# no\n40, 7.5 N,\n").unwrap();
         let numbers: Vec<Vec<f64>> = points.iter().map(|p| p.iter().map(|l| l.number.unwrap()).collect()).collect();
         assert_eq!(numbers, [[5.0, 20.0], [7.5, 40.0]]);
+    }
+
+    #[test]
+    fn equal_levels_are_one_however_they_are_spelt() {
+        let points = read_text("rows,load\n1,5 N\n2,5000 mN\n3,5.0 N\n4,6 N\n").unwrap();
+        let labels: Vec<&str> = points.iter().map(|point| point[0].label.as_str()).collect();
+        assert_eq!(labels, ["5 N", "5 N", "5 N", "6 N"]);
+    }
+
+    #[test]
+    fn levels_that_the_study_lists_are_the_only_ones() {
+        let level = |text: &str| Level::parse("operation.normal_force", text);
+        let values = Values::Levels(vec![level("5 N"), level("6 N")]);
+        let keys = vec!["operation.normal_force".into()];
+        let factor = Factor { name: "load".into(), keys, stated_unit: String::new(), values };
+        let mut spellings = Spellings::of(&factor);
+        assert_eq!(spellings.first_spelt(level("6000 mN")).unwrap().label, "6 N");
+        assert_eq!(spellings.first_spelt(level("7 N")).unwrap_err(), "7 N is none of the levels 5 N, 6 N");
     }
 
     #[test]

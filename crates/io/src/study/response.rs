@@ -129,6 +129,14 @@ impl Response {
         }
     }
 
+    /// The last time, s, that the question names, if it names one.
+    pub fn latest_time(&self) -> Option<f64> {
+        match self.question {
+            Question::At(time) | Question::Mean(_, time) => Some(time),
+            _ => None,
+        }
+    }
+
     /// SI unit of the answer, given that of the series.
     pub fn unit<'a>(&self, of_series: &'a str) -> &'a str {
         match self.question {
@@ -145,11 +153,13 @@ impl Response {
     }
 }
 
-/// The SI units that responses have, each once: those of series and events, and `N`.
+/// The SI units that responses have, each once: those of series and events, and what is measured besides.
 pub fn units() -> Vec<&'static str> {
     let series = quantities(EXTRAS).map(|quantity| quantity.unit);
-    let mut units: Vec<&str> =
-        series.chain(EVENT_QUANTITIES.iter().map(|quantity| quantity.unit)).chain(["N"]).collect();
+    let mut units: Vec<&str> = series
+        .chain(EVENT_QUANTITIES.iter().map(|quantity| quantity.unit))
+        .chain(["N", "W", "m s-1", "Pa-1"])
+        .collect();
     units.sort_unstable();
     units.dedup();
     units

@@ -17,7 +17,7 @@ use super::place::{MOST_PROBLEMS, Place};
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent, units};
 use crate::scene::{Problem, schema};
-use crate::units::{Dimension, parse};
+use crate::units::{Dimension, parse, parse_as};
 
 /// The responses of a study.
 pub(super) fn responses(
@@ -218,9 +218,12 @@ fn imported(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
     }
     let unit = table.unit.as_ref().map_or("1", |unit| unit.get_ref().as_str());
     let known = units();
-    match (known.iter().find(|known| **known == unit), &table.unit) {
+    // Of `mm3` and `m3` the same is measured; what is kept is in SI units.
+    let measures_the_same = |si: &&&str| parse_as(&format!("1 {unit}"), si).is_ok();
+    let found = known.iter().find(|known| **known == unit).or_else(|| known.iter().find(measures_the_same));
+    match (found, &table.unit) {
         (None, Some(found)) => {
-            let message = format!("\"{unit}\", expected an SI unit as in results.csv: {}", known.join(", "));
+            let message = format!("\"{unit}\", expected a unit that measures the same as one of {}", known.join(", "));
             Err(place.problem(found, "response.unit", message))
         }
         (found, _) => Ok(Question::Imported(found.copied().unwrap_or("1"))),

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::factor::{Factor, Level};
 use crate::text::odd_character;
+use crate::units::parse_as;
 use crate::{limits, regular};
 
 /// A table.
@@ -136,7 +137,7 @@ impl ValueTable {
         }
         let (_, unit) = self.named(column);
         let text = if unit.is_empty() || cell.contains(' ') { cell.to_owned() } else { format!("{cell} {unit}") };
-        Ok(Level::parse(&factor.keys[0], &text))
+        Ok(factor.parse(&text))
     }
 
     /// A number in a line; none of an empty cell.
@@ -152,6 +153,21 @@ impl ValueTable {
         number.map(Some).ok_or_else(|| {
             format!("{}: \"{}\" is \"{cell}\", expected a number such as 0.35", self.place(row), self.heads[column])
         })
+    }
+
+    /// A quantity in a line, in this SI unit; none of an empty cell. The unit of the column may be another one that measures the same.
+    ///
+    /// # Errors
+    /// A cell that is no finite number.
+    pub fn quantity(&self, row: &Row, column: usize, si: &str) -> Result<Option<f64>, String> {
+        let (_, unit) = self.named(column);
+        let Some(number) = self.number(row, column)? else { return Ok(None) };
+        if unit.is_empty() || unit == si {
+            return Ok(Some(number));
+        }
+        let cell = self.cell(row, column);
+        let refused = |error: String| format!("{}: \"{}\" is \"{cell}\": {error}", self.place(row), self.heads[column]);
+        parse_as(&format!("{cell} {unit}"), si).map(Some).map_err(refused)
     }
 
     /// File and line of a row.
@@ -201,6 +217,7 @@ mod tests {
         let factor = |name: &str, key: &str| Factor {
             name: name.into(),
             keys: vec![key.into()],
+            stated_unit: String::new(),
             values: Values::Levels(Vec::new()),
         };
         let factors = [factor("load", "operation.normal_force"), factor("fibres", "pin.base.synthetic.fibre_fraction")];

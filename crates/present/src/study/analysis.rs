@@ -284,7 +284,13 @@ pub(super) fn setting(factor: &Factor, analysed: &AnalysedFactor, level: &Level)
             let of_table = || level.number.map(|value| (2.0 * value - (low + high)) / (high - low));
             Setting::Coded(coded.or_else(of_table).unwrap_or(0.0))
         }
-        FactorKind::Levels(_) | FactorKind::Categorical(_) => {
+        FactorKind::Levels(ref values) => {
+            let labelled = analysed.labels.iter().position(|label| *label == level.label);
+            Setting::Level(
+                labelled.or_else(|| values.iter().position(|value| Some(*value) == level.number)).unwrap_or(0),
+            )
+        }
+        FactorKind::Categorical(_) => {
             Setting::Level(analysed.labels.iter().position(|label| *label == level.label).unwrap_or(0))
         }
     }

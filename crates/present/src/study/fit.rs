@@ -175,7 +175,12 @@ mod tests {
         let level = |text: &str| Level::new("operation.normal_force", &toml::Value::String(text.to_owned()));
         let [low, high] = ends.map(level);
         let values = Values::Range { low, high, logarithmic: false };
-        FittedKey::of(&Factor { name: name.into(), keys: vec!["operation.normal_force".into()], values })
+        FittedKey::of(&Factor {
+            name: name.into(),
+            keys: vec!["operation.normal_force".into()],
+            stated_unit: String::new(),
+            values,
+        })
     }
 
     #[test]

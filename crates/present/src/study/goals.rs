@@ -126,8 +126,9 @@ pub fn observed(analysis: &Analysis, response: usize) -> Option<[f64; 2]> {
 
 /// A value of a response with its unit, in SI.
 fn value(response: &AnalysedResponse, text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    let (number, unit) = text.split_once(' ').map_or((text, ""), |(number, unit)| (number, unit.trim()));
+    let text = &text.trim().replace('\u{2212}', "-");
+    let spaced = text.strip_suffix('%').map_or_else(|| text.clone(), |number| format!("{} %", number.trim()));
+    let (number, unit) = spaced.split_once(' ').map_or((spaced.as_str(), ""), |(number, unit)| (number, unit.trim()));
     let known = Unit::known(response.unit);
     let mut names: Vec<String> = known.iter().map(|unit| plain(&unit.symbol)).filter(|name| !name.is_empty()).collect();
     names

@@ -85,7 +85,7 @@ impl<'a> Space<'a> {
         let mut levels: Vec<Option<Level>> = vec![None; self.study.factors.len()];
         for (name, text) in given {
             let factor = self.factor(name)?;
-            let level = Level::parse(&self.study.factors[factor].keys[0], text.trim());
+            let level = self.study.factors[factor].parse(text.trim());
             if levels[factor].replace(level).is_some() {
                 return Err(format!("{} is given twice", self.study.factors[factor].name));
             }
@@ -174,11 +174,11 @@ impl<'a> Space<'a> {
     fn level(&self, factor: usize, setting: Setting) -> Result<Level, String> {
         let (own, analysed) = (&self.study.factors[factor], &self.analysis.factors[factor]);
         let found = match setting {
-            Setting::Level(level) => analysed.labels.get(level).map(|label| Level::parse(&own.keys[0], label)),
+            Setting::Level(level) => analysed.labels.get(level).map(|label| own.parse(label)),
             Setting::Coded(_) if matches!(own.values, Values::Range { .. }) => own.at(setting),
             Setting::Coded(coded) => analysed.factor.range().map(|[low, high]| {
                 let value = 0.5 * ((1.0 - coded) * low + (1.0 + coded) * high);
-                Level::parse(&own.keys[0], &self.text(factor, value))
+                own.parse(&self.text(factor, value))
             }),
         };
         found.ok_or_else(|| format!("{} has no value there", own.name))

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EffectsError {
     /// Nothing to analyse.
-    #[error("no observation has a response ({missing} are missing): at least two are needed")]
+    #[error("fewer than two runs have a value of it ({missing} have none)")]
     Empty {
         /// Observations without a response.
         missing: usize,

@@ -39,7 +39,7 @@ struct Document<'a> {
 struct KeyReport<'a> {
     name: &'a str,
     keys: &'a [String],
-    unit: &'static str,
+    unit: &'a str,
     most_likely: f64,
     /// Pieces of the interval.
     interval: Vec<PieceReport>,

@@ -10,6 +10,7 @@ use plateau_io::study::journal::Entry;
 use plateau_io::study::measured::Measured;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
+use plateau_present::study::place::shortened;
 use plateau_run::Job;
 use plateau_study::design::Setting;
 use plateau_study::effects::Observation;
@@ -265,13 +266,6 @@ fn so_far(study: &Study, keys: &[Key], fit: &Fit) -> String {
         format!("{} {label}", factor.name)
     };
     study.factors.iter().zip(keys).zip(fit.best()).map(label).collect::<Vec<_>>().join(", ")
-}
-
-/// A quantity with four digits of its number.
-fn shortened(label: &str) -> String {
-    let (number, unit) = label.split_once(' ').unwrap_or((label, ""));
-    let short = number.parse().map_or_else(|_| number.to_owned(), |value| number::rounded(value, 4));
-    format!("{short} {unit}").trim_end().to_owned()
 }
 
 /// The values of a place in coded units.

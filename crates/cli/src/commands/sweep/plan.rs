@@ -1,7 +1,9 @@
 //! `plateau sweep plan`: what a study will do and cost.
 
+use plateau_io::study::imported::with_unit;
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
+use plateau_present::study::place::shortened;
 use plateau_present::study::words::{alias_lines, repeats_in_words};
 use plateau_run::execution::cores;
 use serde::Serialize;
@@ -13,7 +15,7 @@ use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;
 use crate::sweep::{self, journal};
 use crate::table::{columns, list, print, table};
-use crate::{number, output};
+use crate::{message, number, output};
 
 /// Runs that are listed; a table in CSV has all.
 const LISTED: usize = 16;
@@ -32,6 +34,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= RESOLVED && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
+        resolved.warn_of_late_questions(plan.study());
         let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
         let entries: Vec<&Entry> = different.filter_map(|place| journal.get(&resolved.identities[place])).collect();
         let failed = entries.iter().filter(|entry| entry.failure.is_some()).count();
@@ -40,6 +43,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     }
     if let Some(csv) = &arguments.csv {
         output::write(csv, table_of_runs(&plan).as_bytes(), arguments.force)?;
+        message::note(format_args!("wrote {}", csv.display()));
     }
     let report = Report::new(&plan, estimate, jobs, ended, repeats);
     if arguments.json {
@@ -88,6 +92,8 @@ struct Ended {
 struct FactorReport {
     name: String,
     keys: Vec<String>,
+    #[serde(skip)]
+    keys_in_words: String,
     values: String,
 }
 
@@ -106,6 +112,7 @@ impl Report {
                 .map(|factor| FactorReport {
                     name: factor.name.clone(),
                     keys: factor.keys.clone(),
+                    keys_in_words: factor.keys_in_words(),
                     values: factor.to_string(),
                 })
                 .collect(),
@@ -160,7 +167,7 @@ impl Report {
         let factors: Vec<(String, String)> = self
             .factors
             .iter()
-            .map(|factor| (factor.name.clone(), format!("{}  ({})", factor.values, factor.keys.join(", "))))
+            .map(|factor| (factor.name.clone(), format!("{}  ({})", factor.values, factor.keys_in_words)))
             .collect();
         text.push_str(&format!("\n{}", table("Factors", &factors)));
         if let Some(lines) = alias_lines(plan) {
@@ -171,7 +178,7 @@ impl Report {
             .chain(self.factors.iter().map(|factor| factor.name.as_str()))
             .chain((self.replicates > 1).then_some("replicate"))
             .collect();
-        let rows: Vec<Vec<String>> = plan.order().take(LISTED).map(|number| cells(plan, number)).collect();
+        let rows: Vec<Vec<String>> = plan.order().take(LISTED).map(|number| cells(plan, number, shortened)).collect();
         let more = self.runs.saturating_sub(LISTED);
         let heading = if more > 0 {
             format!("The first {LISTED} runs, in the order in which they are made ({more} more, --csv writes all)")
@@ -183,20 +190,25 @@ impl Report {
     }
 }
 
-/// Number, levels and replicate of a run.
-fn cells(plan: &Plan, number: usize) -> Vec<String> {
+/// Number, levels and replicate of a run; how a level is written.
+fn cells(plan: &Plan, number: usize, written: impl Fn(&str) -> String) -> Vec<String> {
     let run = plan.run(number);
     let replicate = (plan.replicates() > 1).then(|| (run.replicate + 1).to_string());
-    [number.to_string()].into_iter().chain(run.levels.into_iter().map(|level| level.label)).chain(replicate).collect()
+    let levels = run.levels.iter().map(|level| written(&level.label));
+    [number.to_string()].into_iter().chain(levels).chain(replicate).collect()
 }
 
-/// Every run in the order in which it is made, in CSV.
+/// Every run in the order in which it is made, in CSV, with empty columns for responses that `plateau sweep import` is to take in.
 fn table_of_runs(plan: &Plan) -> String {
+    let imported: Vec<_> = plan.study().responses.iter().filter(|response| response.is_imported()).collect();
     let names = plan.study().factors.iter().map(|factor| factor.name.clone());
     let header: Vec<String> = ["run".to_owned()]
         .into_iter()
         .chain(names)
         .chain((plan.replicates() > 1).then(|| "replicate".to_owned()))
+        .chain(imported.iter().map(|response| with_unit(&response.name, response.unit(""))))
         .collect();
-    csv_table(std::iter::once(header).chain(plan.order().map(|number| cells(plan, number))))
+    let row =
+        |number| cells(plan, number, str::to_owned).into_iter().chain(imported.iter().map(|_| String::new())).collect();
+    csv_table(std::iter::once(header).chain(plan.order().map(row)))
 }

@@ -28,6 +28,7 @@ pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
 fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let resolved = Resolved::of(&plan)?;
+    resolved.warn_of_late_questions(plan.study());
     // The first rank decides what is to be done: another one may see the journal a moment later.
     let journal = if job.leads() { journal(plan.study())? } else { Journal::default() };
     if journal.damaged > 0 {

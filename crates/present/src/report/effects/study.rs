@@ -31,7 +31,7 @@ pub fn html(of: &StudyPage) -> String {
         facts.push(("Replicates", format!("seeds of {}", replicates.keys.join(", "))));
     }
     let factor = |factor: &plateau_io::study::factor::Factor| {
-        vec![factor.name.clone(), factor.to_string(), factor.keys.join(", ")]
+        vec![factor.name.clone(), factor.to_string(), factor.keys_in_words()]
     };
     let heads = ["Factor", "Set to", "Keys"].map(str::to_owned);
     let factors: Vec<Vec<String>> = study.factors.iter().map(factor).collect();
