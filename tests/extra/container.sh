@@ -10,7 +10,7 @@ root=$PWD
 . tests/cluster/debian.sh
 
 if [ -z "${PLATEAU_LONG:-}" ]; then
-    echo "builds for ten minutes: PLATEAU_LONG=1 ./check extra runs it, and so do the weekly checks"
+    echo "builds for ten minutes: ./check --long extra runs it, and so do the weekly checks"
     exit 77
 fi
 if [ "$(id -u)" -ne 0 ]; then

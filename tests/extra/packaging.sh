@@ -13,7 +13,7 @@ root=$PWD
 . scripts/python.sh
 
 if [ -z "${PLATEAU_LONG:-}" ]; then
-    echo "takes some minutes: PLATEAU_LONG=1 ./check extra runs it, and so do the weekly checks"
+    echo "takes some minutes: ./check --long extra runs it, and so do the weekly checks"
     exit 77
 fi
 

@@ -18,7 +18,7 @@ PYTHON_SHA256=2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849
 
 # The wheel and Python are built: a quarter of an hour, which a change does not wait for.
 if [ -z "${PLATEAU_LONG:-}${PLATEAU_WHEEL:-}" ]; then
-    echo "builds for a quarter of an hour: PLATEAU_LONG=1 ./check extra runs it, and so do the weekly checks"
+    echo "builds for a quarter of an hour: ./check --long extra runs it, and so do the weekly checks"
     exit 77
 fi
 
