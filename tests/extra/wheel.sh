@@ -1,6 +1,7 @@
 #!/bin/sh
-# The wheel as its users have it, in a clean Python environment and as an ordinary user on Debian 11 (glibc 2.31) and Debian 12: without Rust, without a
-# compiler, without this checkout it runs a scene, opens the run and draws it. Builds the wheel unless PLATEAU_WHEEL names one. Debian 11
+# The wheel as its users have it, in a clean Python environment and as an ordinary user on Debian 11, 12 and 13 (glibc 2.31, 2.36, 2.41; those of
+# Ubuntu 20.04, 22.04 and 24.04, 2.31, 2.35 and 2.39, lie between them): without Rust, without a compiler, without this checkout it runs a scene, opens
+# the run, draws it and makes a study. Builds the wheel unless PLATEAU_WHEEL names one. Debian 11
 # comes with debootstrap into a folder that goes with the check; only root can do that. Its own Python is too old for what the package
 # needs, so Python 3.11 is built there from the source of Debian 12, which takes some minutes: PLATEAU_DEBIAN_11 names a folder that is kept,
 # and in which it is looked for.
@@ -25,9 +26,11 @@ fi
 lab=$(mktemp -d) || exit 1
 eleven=${PLATEAU_DEBIAN_11:-$lab/eleven}
 twelve=${PLATEAU_DEBIAN_12:-$lab/twelve}
+thirteen=${PLATEAU_DEBIAN_13:-$lab/thirteen}
 clean_up() {
     leave_debian "$eleven"
     leave_debian "$twelve"
+    leave_debian "$thirteen"
     rm -rf "$lab"
 }
 trap clean_up EXIT
@@ -50,10 +53,10 @@ chmod -R a+rX "$lab" "$lab/files"
 make_venv "$lab/venv"
 "$lab/venv/bin/python" -m pip install --quiet "${wheel}[plot]" || { echo 'pip cannot install the wheel with what it needs' && exit 77; }
 (cd "$lab/files" && env -i HOME="$lab" PATH="$lab/venv/bin:/usr/bin:/bin" "$lab/venv/bin/python" wheel_use.py) || exit 1
-echo "$(basename "$wheel") in a clean environment: a run, its file, a figure"
+echo "$(basename "$wheel") in a clean environment: a run, its file, a figure, a study"
 
 if [ "$(id -u)" -ne 0 ]; then
-    echo 'on Debian 11 and 12 it was not tried: only root may make those systems'
+    echo 'on Debian 11, 12 and 13 it was not tried: only root may make those systems'
     exit 77
 fi
 have_curl() { command -v curl >/dev/null 2>&1; }
@@ -74,12 +77,16 @@ use_wheel() {
     cp "$lab"/files/* "$1/home/user"
     inside "$1" chown -R user /home/user
     ! as_user "$1" 'command -v cargo || command -v rustc' || { echo 'there is a Rust' && exit 1; }
+    began=$(date +%s)
     as_user "$1" "$2 -m venv venv && venv/bin/pip install --quiet --disable-pip-version-check ./*.whl matplotlib" || exit 1
+    echo "pip install: $(($(date +%s) - began)) s"
     as_user "$1" 'venv/bin/python wheel_use.py && venv/bin/plateau --version' || exit 1
     echo "$(basename "$wheel") on Debian $(cat "$1/etc/debian_version"), glibc $(inside "$1" ldd --version | sed -n '1s/.* //p'), as an ordinary user: the same"
 }
 use_wheel "$eleven" /opt/python/bin/python3.11
 
 # As it is, with its own Python.
-make_debian bookworm "$twelve" python3 python3-venv
-use_wheel "$twelve" python3
+for system in "bookworm $twelve" "trixie $thirteen"; do
+    make_debian "${system%% *}" "${system#* }" python3 python3-venv
+    use_wheel "${system#* }" python3
+done
