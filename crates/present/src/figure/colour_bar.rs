@@ -31,19 +31,23 @@ impl ColourBar {
         Picture { columns: 1, rows: COLOURS, indices, palette: self.colours.colours() }
     }
 
-    /// Draws all but the strip. The bar ends in points: what is beyond has the colour of its end.
+    /// Draws all but the strip. The bar ends in points: what is beyond has the colour of its end. Nothing is below a bar that begins
+    /// at 0, for what has such a bar is never negative.
     pub fn draw_scale<B: DrawingBackend>(&self, canvas: &Canvas<B>) -> Result<(), FigureError> {
         let Frame { x: [left, right], y: [top, bottom] } = self.frame;
         let (middle, point) = (0.5 * (left + right), 0.7 * self.frame.width());
-        for (end, tip, value) in [(top, top - point, 1.0), (bottom, bottom + point, 0.0)] {
-            canvas.area(&[(left, end), (middle, tip), (right, end)], self.colours.colour(value))?;
+        let below = if self.axis.part(0.0) == 0.0 { bottom } else { bottom + point };
+        for (end, tip, value) in [(top, top - point, 1.0), (bottom, below, 0.0)] {
+            if tip != end {
+                canvas.area(&[(left, end), (middle, tip), (right, end)], self.colours.colour(value))?;
+            }
         }
         let outline = [
             (left, top),
             (middle, top - point),
             (right, top),
             (right, bottom),
-            (middle, bottom + point),
+            (middle, below),
             (left, bottom),
             (left, top),
         ];

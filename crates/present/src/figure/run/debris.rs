@@ -131,7 +131,10 @@ fn stack(balance: &Balance, parts: &[usize], time: &Unit, volume: &Unit) -> Vec<
             *floor += volume.value(values[*index]);
             spans.push([time.value(balance.times[*index]), low, *floor]);
         }
-        contents.push(Content::Band { spans, colour, opacity: 1.0 });
+        // A pool that is always empty, as with local debris, would be a hair on top.
+        if values.iter().any(|volume| *volume > 0.0) {
+            contents.push(Content::Band { spans, colour, opacity: 1.0 });
+        }
     }
     contents
 }
