@@ -32,13 +32,7 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Failure> {
         return plan::say(&plan, &task, arguments);
     }
     in_job(|job| {
-        if job.ranks() > 1 {
-            return Err(Failure::input(
-                "a fit is one process that makes several runs at a time: start it without mpirun, or make its first runs with \
-                 plateau sweep run",
-            ));
-        }
-        let fitted = rounds::fitted(plan, &task, arguments, job)?;
+        let Some(fitted) = rounds::fitted(plan, &task, arguments, job)? else { return Ok(()) };
         let result = fitted.fit.result();
         let keys: Vec<FittedKey> = fitted.plan.study().factors.iter().map(FittedKey::of).collect();
         let told = Told { fitted: &fitted, task: &task, result: &result, keys: &keys };

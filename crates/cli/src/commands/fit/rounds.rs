@@ -6,12 +6,13 @@ use std::path::PathBuf;
 
 use plateau_io::study::collected::{Collected, CollectedRun};
 use plateau_io::study::factor::{Factor, Level, Values};
-use plateau_io::study::journal::Entry;
+use plateau_io::study::journal::{Entry, Journal};
 use plateau_io::study::measured::Measured;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
 use plateau_present::study::place::shortened;
 use plateau_run::Job;
+use plateau_run::job::Agreement;
 use plateau_study::design::Setting;
 use plateau_study::effects::Observation;
 use plateau_study::fit::{Fit, FitError, Key, Measurement, ObservedSeries};
@@ -209,11 +210,12 @@ fn setting(key: &Key, level: &Level) -> Setting {
 }
 
 /// Makes runs and fits in turn until more runs would change little, or as many were made as the study allows. Everything is
-/// the same whenever it is done again, so runs that are in the journal are not made again.
+/// the same whenever it is done again, so runs that are in the journal are not made again. All processes of a job make runs; the
+/// first one fits and tells the others where the next runs are. Gives nothing in a process that does not lead.
 ///
 /// # Errors
 /// [`Failure::Input`] when scenes cannot be built, [`Failure::Run`] when runs fail, [`Failure::Stopped`] after a signal.
-pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) -> Result<Fitted, Failure> {
+pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) -> Result<Option<Fitted>, Failure> {
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     interrupt.listen_for_save().map_err(Failure::run)?;
     let (study, seeds) = (plan.study().clone(), plan.replicates());
@@ -223,7 +225,16 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
     for round in 1.. {
         let source = DesignSource::File(points.clone());
         let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::input)?;
-        let (collected, scenes) = made(&plan, arguments, job, &interrupt, &mut tried)?;
+        let Some((collected, scenes)) = made(&plan, arguments, job, &interrupt, &mut tried)? else {
+            let next = job.first_says(&[]).map_err(Failure::run)?;
+            if next.is_empty() {
+                return Ok(None);
+            }
+            for place in next.chunks(task.keys.len()) {
+                points.push(levels(&study, &place.iter().copied().map(f64::from_bits).collect::<Vec<_>>())?);
+            }
+            continue;
+        };
         let fit = task.fit(&study, &collected)?;
         let affordable = study.fit.runs.saturating_sub(plan.runs()) / seeds;
         let next = fit.next_points(AT_A_TIME.min(affordable), seeds);
@@ -233,9 +244,11 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
             (.., true) => Some(End::NowhereElse),
             _ => None,
         };
+        let told: Vec<u64> = next.iter().filter(|_| end.is_none()).flatten().map(|coded| coded.to_bits()).collect();
+        job.first_says(&told).map_err(Failure::run)?;
         if let Some(end) = end {
             let inputs = study.files.iter().cloned().chain(scenes).collect();
-            return Ok(Fitted { plan, collected, fit, rounds: round, first_points, end, inputs });
+            return Ok(Some(Fitted { plan, collected, fit, rounds: round, first_points, end, inputs }));
         }
         note_to_terminal(format_args!(
             "{} of at most {}: {}; {} more",
@@ -277,42 +290,50 @@ fn levels(study: &Study, place: &[f64]) -> Result<Vec<Level>, Failure> {
     study.factors.iter().zip(place).map(level).collect()
 }
 
-/// Makes the runs that are not there yet, and gives the results of all with the files of their scenes.
+/// Makes the runs that are not there yet, and gives the results of all with the files of their scenes, in the process that leads.
 fn made(
     plan: &Plan,
     arguments: &FitArguments,
     job: &mut Job,
     interrupt: &Interrupt,
     tried: &mut BTreeSet<String>,
-) -> Result<(Collected, BTreeSet<PathBuf>), Failure> {
+) -> Result<Option<(Collected, BTreeSet<PathBuf>)>, Failure> {
     let resolved = Resolved::of(plan)?;
-    let known = journal(plan.study())?;
+    // The first rank decides what is to be done: another one may see the journal a moment later.
+    let known = if job.leads() { journal(plan.study())? } else { Journal::default() };
     let is_pending = |number: &usize| match known.get(&resolved.identities[number - 1]) {
         Some(Entry { failure: None, .. }) => false,
         // Once each time that the command is given.
         Some(_) => arguments.retry && !tried.contains(&resolved.identities[number - 1]),
         None => true,
     };
-    let pending: Vec<usize> =
+    let mut pending: Vec<usize> =
         plan.order().filter(|number| !resolved.is_repeat(number - 1)).filter(is_pending).collect();
-    let known = if pending.is_empty() {
+    pending.retain(|_| job.leads());
+    let is_complete = job.first_says(&[pending.len() as u64]).map_err(Failure::run)? == [0];
+    let known = if is_complete {
         known
     } else {
         tried.extend(pending.iter().map(|number| resolved.identities[number - 1].clone()));
         let (jobs, workers) = (arguments.cores.runs_at_a_time(), arguments.cores.workers());
         let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
         let own = Interrupt::listen().map_err(Failure::run)?;
-        let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, true));
+        let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, job.leads()));
         let shared = job.share(&pending, jobs, None, &|number| floor.make(number));
         floor.end(shared.map_err(Failure::run))?;
-        if let Some(signal) = interrupt.signal() {
-            let message = Some(format!("stopped by signal {signal}; the same command goes on"));
-            return Err(Failure::Stopped { signal, message });
+        // Every result is on the disk when all have come here.
+        let own = Agreement { signal: interrupt.signal(), ..Agreement::default() };
+        if let Some(signal) = job.agree(own).map_err(Failure::run)?.signal {
+            let message = || format!("stopped by signal {signal}; the same command goes on");
+            return Err(Failure::Stopped { signal, message: job.leads().then(message) });
         }
-        journal(plan.study())?
+        if job.leads() { journal(plan.study())? } else { Journal::default() }
     };
+    if !job.leads() {
+        return Ok(None);
+    }
     let folder = || journal_folder(plan.study());
     let collected = Collected::new(plan, &resolved.identities, &known)
         .map_err(|error| Failure::run(format_args!("{}: {error}", folder().display())))?;
-    Ok((collected, resolved.files))
+    Ok(Some((collected, resolved.files)))
 }
