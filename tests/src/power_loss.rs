@@ -12,6 +12,7 @@ use std::fs;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use crate::fault::shim;
 use crate::program::{Outcome, WorkingDirectory, run};
@@ -23,6 +24,26 @@ const SECTOR: usize = 512;
 
 /// Files by their names in the working directory.
 pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// Has a command run on the machine as it is after so many starts, none being as it really is.
+///
+/// # Panics
+/// When no file can be made.
+pub fn after_starts(command: &mut Command, starts: usize) {
+    if starts == 0 {
+        return;
+    }
+    static BOOTS: OnceLock<tempfile::TempDir> = OnceLock::new();
+    let boots = BOOTS.get_or_init(|| tempfile::tempdir().expect("a temporary directory"));
+    let boot = boots.path().join(starts.to_string());
+    if !boot.exists() {
+        // Another test may read it at any time: it is made complete.
+        let made = tempfile::NamedTempFile::new_in(boots.path()).expect("a temporary file");
+        fs::write(made.path(), format!("00000000-0000-0000-0000-{starts:012}\n")).expect("the number of a start");
+        made.persist(&boot).expect("a file of that name");
+    }
+    command.env("LD_PRELOAD", shim("journal")).env("PLATEAU_BOOT", boot);
+}
 
 /// A call that changes a file or a folder. Names are those in the working directory.
 #[derive(Debug, Clone)]
@@ -116,8 +137,13 @@ impl Journal {
 
     /// Everything, as if it had come to the disk.
     fn at_end(&self) -> Files {
+        self.killed_after(self.calls.len())
+    }
+
+    /// What there is when the process is killed after so many calls, but the machine goes on.
+    pub fn killed_after(&self, calls: usize) -> Files {
         let mut disk = Disk::new(&self.before);
-        self.calls.iter().for_each(|call| disk.take(call));
+        self.calls[..calls].iter().for_each(|call| disk.take(call));
         disk.entries.iter().for_each(|entry| apply(&mut disk.names, entry));
         let files = disk.names.into_iter().filter_map(|(name, file)| Some((name, file?)));
         files.map(|(name, file)| (name, disk.files[file].newest().to_vec())).collect()

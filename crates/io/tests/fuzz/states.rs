@@ -47,6 +47,7 @@ fn good(scene: &Scene, path: &Path) -> Vec<u8> {
             reached: 0.5,
             events: EventProgress::default(),
         },
+        images: Vec::new(),
     };
     checkpoint::keep(path, &state).unwrap();
     fs::read(path).unwrap()
