@@ -188,6 +188,26 @@ fn a_run_loses_nothing_that_its_checkpoint_has() {
     println!("{tally:?}");
 }
 
+/// What the tests above are about does happen: without it they would fail.
+#[test]
+fn without_the_image_in_the_checkpoint_a_loss_may_cost_the_run() {
+    const MOST: usize = 400;
+    let (undisturbed, mut random) = (Undisturbed::new(), lot());
+    let costs_the_run = (0..MOST).any(|_| {
+        let calls = below(&mut random, undisturbed.journal.calls() + 1);
+        let directory = on(&undisturbed.journal.disk_after(calls, &mut random));
+        for path in checkpoint::paths(&directory.path("run.h5")) {
+            if let Ok(Some(mut state)) = checkpoint::read::<RunState>(&path) {
+                state.images.clear();
+                checkpoint::keep(&path, &state).unwrap();
+            }
+        }
+        let has_state = samples_kept(&directory).is_some();
+        has_state && run_after(1, run_of(&directory, &["--resume"])).status == Some(2)
+    });
+    assert!(costs_the_run, "none of {MOST} losses");
+}
+
 /// Losses during a command that is given a run which was stopped.
 fn losses_during(name: &str, command: impl Fn(&WorkingDirectory) -> Command) {
     let (undisturbed, mut random, mut tally) = (Undisturbed::new(), lot(), Tally::default());

@@ -104,7 +104,7 @@ pub enum CheckpointError {
     },
 }
 
-/// Bytes of a checkpoint, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
+/// Bytes of a checkpoint but for the image of the run file, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
 /// twice.
 pub fn size_estimate(mesh: &Mesh, chooses_acceleration: bool) -> u64 {
     let cells = (mesh.disc_cells() + mesh.pin_cells()) as u64;

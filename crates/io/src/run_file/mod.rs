@@ -42,7 +42,7 @@ pub use error::{ReadError, RunFileError};
 pub use header::{Earlier, End, Header, InputFile};
 pub use image::Image;
 pub use kept::{KeepError, keep};
-pub use layout::size_estimate;
+pub use layout::{image_estimate, size_estimate};
 pub(crate) use layout::{map_path, map_unit};
 pub use place::{check_place, resolve};
 pub use reader::{RunFile, Series, State};
