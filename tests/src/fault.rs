@@ -1,9 +1,10 @@
 //! Calls that change files and fail, or are the last that a process makes: every one of them in turn.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::{Mutex, PoisonError};
 
 use crate::program::{Outcome, repository, run};
 
@@ -40,7 +41,7 @@ impl Fault {
 /// When it fails.
 pub fn count(mut command: Command) -> usize {
     let count = tempfile::NamedTempFile::new().expect("a temporary file");
-    command.env("LD_PRELOAD", shim()).env("PLATEAU_FAULT", "none:0").env("PLATEAU_FAULT_COUNT", count.path());
+    command.env("LD_PRELOAD", shim("fault")).env("PLATEAU_FAULT", "none:0").env("PLATEAU_FAULT_COUNT", count.path());
     let outcome = run(command);
     assert_eq!(outcome.status, Some(0), "{outcome:?}");
     let count = fs::read_to_string(count.path()).expect("the number of calls");
@@ -52,7 +53,7 @@ pub fn count(mut command: Command) -> usize {
 /// # Panics
 /// When the program panics.
 pub fn strike(mut command: Command, fault: Fault, call: usize) -> Outcome {
-    command.env("LD_PRELOAD", shim()).env("PLATEAU_FAULT", format!("{}:{call}", fault.name()));
+    command.env("LD_PRELOAD", shim("fault")).env("PLATEAU_FAULT", format!("{}:{call}", fault.name()));
     let outcome = run(command);
     assert!(
         outcome.status.is_none_or(|status| status <= 2) && !outcome.stderr.contains("panicked"),
@@ -63,21 +64,25 @@ pub fn strike(mut command: Command, fault: Fault, call: usize) -> Outcome {
 
 /// Runs a command to which the system gives so many threads and no more.
 pub fn without_threads(mut command: Command, threads: usize) -> Outcome {
-    command.env("LD_PRELOAD", shim()).env("PLATEAU_THREADS", threads.to_string()).env_remove("RUST_BACKTRACE");
+    command.env("LD_PRELOAD", shim("fault")).env("PLATEAU_THREADS", threads.to_string()).env_remove("RUST_BACKTRACE");
     run(command)
 }
 
-/// The library that stands before the C library, built once.
-fn shim() -> PathBuf {
-    static SHIM: OnceLock<PathBuf> = OnceLock::new();
+/// The library of a file in `tests/src` that stands before the C library, built once.
+///
+/// # Panics
+/// When there is no C compiler.
+pub fn shim(name: &str) -> PathBuf {
+    static SHIMS: Mutex<BTreeMap<String, PathBuf>> = Mutex::new(BTreeMap::new());
     let build = || {
         let directory = tempfile::tempdir().expect("a temporary directory").keep();
-        let (source, library) = (repository().join("tests/src/fault.c"), directory.join("fault.so"));
+        let (source, library) =
+            (repository().join("tests/src").join(name).with_extension("c"), directory.join(name).with_extension("so"));
         let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
         let mut command = Command::new(compiler);
         command.args(["-shared", "-fPIC", "-O1", "-o"]).args([&library, &source]).arg("-ldl");
         assert!(command.status().expect("a C compiler").success(), "{command:?}");
         library
     };
-    SHIM.get_or_init(build).clone()
+    SHIMS.lock().unwrap_or_else(PoisonError::into_inner).entry(name.to_owned()).or_insert_with(build).clone()
 }

@@ -4,6 +4,7 @@ pub mod divergence;
 pub mod fault;
 pub mod figure;
 pub mod patience;
+pub mod power_loss;
 pub mod program;
 pub mod run_file;
 #[path = "../../crates/core/tests/scenes.rs"]

@@ -131,12 +131,13 @@ fn a_lock_goes_with_its_run_however_that_ends() {
         command.args(["--set", "operation.duration=100 h"]);
         command
     };
-    // A run writes when it has kept a state of its own.
+    // A run writes when its file has taken the place of the one before, and it has kept a state of its own.
+    let is_running = || RunFile::follow(directory.path("run.h5")).is_ok_and(|run| run.text("state") == "running");
     let state = || fs::metadata(directory.path("run.h5.checkpoint")).and_then(|file| file.modified()).ok();
     for (signal, status) in [("INT", 130), ("TERM", 143)] {
         let before = state();
         let mut child = start(&directory, endless("--resume"), "said");
-        assert!(wait_until(|| state() != before && directory.path("run.h5.lock").exists()));
+        assert!(wait_until(|| is_running() && state() != before && directory.path("run.h5.lock").exists()));
         // Also who only wants to close the file, or to begin anew, is refused, and changes nothing.
         let lock = fs::read(directory.path("run.h5.lock")).unwrap();
         let repair = directory.plateau(["repair", "run.h5"]);
@@ -148,7 +149,7 @@ fn a_lock_goes_with_its_run_however_that_ends() {
     }
     let before = state();
     let child = start(&directory, endless("--resume"), "said");
-    assert!(wait_until(|| state() != before && directory.path("run.h5.lock").exists()));
+    assert!(wait_until(|| is_running() && state() != before && directory.path("run.h5.lock").exists()));
     kill(child);
     assert!(directory.path("run.h5.lock").exists(), "a killed process leaves its lock");
     directory.plateau(["repair", "run.h5"]).quiet_success();

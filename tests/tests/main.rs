@@ -28,6 +28,7 @@ mod new_scene;
 mod not_finite;
 mod plausible;
 mod plot_command;
+mod power_loss;
 mod ranks;
 mod replaced;
 mod report;

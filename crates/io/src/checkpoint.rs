@@ -4,7 +4,7 @@
 //! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
 //!
 //! ```text
-//! magic    16 bytes: "plateau state 4\n"
+//! magic    16 bytes: "plateau state 5\n"
 //! length   8 bytes: of what follows but for the digest, the least first
 //! content  the state, in the encoding of the crate postcard 1
 //! digest   32 bytes: SHA-256 of the content
@@ -24,11 +24,12 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
+use crate::run_file::Image;
 use crate::temporary::Temporary;
 use crate::{limits, regular};
 
 /// How every checkpoint begins.
-const MAGIC: &[u8; 16] = b"plateau state 4\n";
+const MAGIC: &[u8; 16] = b"plateau state 5\n";
 /// Bytes before the content.
 const HEAD: u64 = 16 + 8;
 /// How those of every version do.
@@ -59,6 +60,8 @@ pub struct RunState {
     pub finished: bool,
     /// What takes the steps.
     pub simulation: SimulationState,
+    /// How the run file was organised, unless it is closed. Of a run that was gone on with there is one of the file before, too.
+    pub images: Vec<Image>,
 }
 
 /// The state of what takes the steps of a run.
@@ -101,7 +104,7 @@ pub enum CheckpointError {
     },
 }
 
-/// Bytes of a checkpoint, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
+/// Bytes of a checkpoint but for the image of the run file, at most: heights, substrates and statuses of all cells, of a run that chooses its acceleration
 /// twice.
 pub fn size_estimate(mesh: &Mesh, chooses_acceleration: bool) -> u64 {
     let cells = (mesh.disc_cells() + mesh.pin_cells()) as u64;

@@ -41,6 +41,8 @@ const DEPTH: usize = 6;
 pub struct Claim {
     lock: PathBuf,
     owner: Owner,
+    /// Who had the lock and left it.
+    before: Option<Process>,
 }
 
 /// What a lock says.
@@ -147,7 +149,7 @@ impl Claim {
             // After a power failure, too, it is complete or not there.
             file.write_all(text.as_bytes()).and_then(|()| file.sync_all()).map_err(system)?;
             if make(temporary.path(), lock, &text).map_err(system)? {
-                return Ok(Self { lock: lock.to_owned(), owner });
+                return Ok(Self { lock: lock.to_owned(), owner, before: None });
             }
             let Some(there) = read(path, lock)? else { continue };
             if there.writer.life() != Life::Ended || depth == DEPTH {
@@ -157,9 +159,14 @@ impl Claim {
             // Only who has the right replaces that lock, and nobody else would remove it.
             if read(path, lock)?.is_some_and(|now| now == there) {
                 fs::rename(temporary.path(), lock).map_err(system)?;
-                return Ok(Self { lock: lock.to_owned(), owner });
+                return Ok(Self { lock: lock.to_owned(), owner, before: Some(there.writer) });
             }
         }
+    }
+
+    /// The process that wrote the file before and ended without giving up its claim.
+    pub fn before(&self) -> Option<&Process> {
+        self.before.as_ref()
     }
 
     /// Whether a file could be claimed now, for a quick answer; touches nothing. True where there is the lock of a process that

@@ -56,6 +56,13 @@ impl Process {
         }
     }
 
+    /// Whether this machine was started anew since: what it had not handed to the disk may be gone.
+    pub fn is_of_earlier_start(&self) -> bool {
+        let this = Self::this();
+        let known = !self.boot.is_empty() && !this.boot.is_empty();
+        known && self.host == this.host && self.boot != this.boot
+    }
+
     /// Whether it lives.
     pub fn life(&self) -> Life {
         let this = Self::this();
@@ -202,7 +209,11 @@ mod tests {
         let this = Process::this();
         assert_eq!(this.life(), Life::Lives);
         assert_eq!(Process { started: this.started + 1, ..this.clone() }.life(), Life::Ended);
-        assert_eq!(Process { boot: "before".into(), ..this.clone() }.life(), Life::Ended);
+        let before = Process { boot: "before".into(), ..this.clone() };
+        assert_eq!(before.life(), Life::Ended);
+        assert!(before.is_of_earlier_start() && !this.is_of_earlier_start());
+        assert!(!Process { host: "elsewhere".into(), ..before.clone() }.is_of_earlier_start());
+        assert!(!Process { boot: String::new(), ..before }.is_of_earlier_start());
         assert_eq!(Process { host: "elsewhere".into(), ..this.clone() }.life(), Life::Unknown);
         assert_eq!(Process { numbers: "pid:[1]".into(), ..this }.life(), Life::Unknown);
     }

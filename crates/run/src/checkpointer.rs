@@ -93,7 +93,7 @@ impl Checkpointer {
         let simulation = assembly.checkpoint()?;
         let Some(synced) = synced else { return Ok(()) };
         let RunIdentity { program, scene, inputs, .. } = self.identity.clone();
-        let state = RunState {
+        let mut state = RunState {
             program,
             scene,
             inputs,
@@ -103,12 +103,15 @@ impl Checkpointer {
             wall_time: self.earlier + self.start.elapsed().as_secs_f64(),
             finished,
             simulation,
+            images: Vec::new(),
         };
         self.wait(observer);
         let run_file = self.run_file.clone();
         let write = move || {
             // Without an answer the run file is not complete; its writer says why.
-            if synced.wait() { checkpoint::write(&run_file, &state) } else { Ok(()) }
+            let Some(images) = synced.wait() else { return Ok(()) };
+            state.images = images;
+            checkpoint::write(&run_file, &state)
         };
         let thread = std::thread::Builder::new().name("checkpoint".into()).spawn(write);
         self.writing = thread.map_err(|error| warn(observer, &error)).ok();

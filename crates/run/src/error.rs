@@ -8,7 +8,7 @@ use plateau_core::simulation::SimulationError;
 use plateau_io::checkpoint::CheckpointError;
 use plateau_io::claim::ClaimError;
 use plateau_io::number;
-use plateau_io::run_file::{ReadError, RunFileError};
+use plateau_io::run_file::{KeepError, ReadError, RunFileError};
 use plateau_io::surface::SurfaceError;
 use thiserror::Error;
 
@@ -95,6 +95,9 @@ pub enum InputError {
         /// What is wrong with it.
         what: String,
     },
+    /// What is there cannot be kept.
+    #[error(transparent)]
+    Keep(#[from] KeepError),
     /// The run file that is to be gone on with cannot be read.
     #[error("{0}; without --resume, --force begins again")]
     Unreadable(ReadError),

@@ -99,22 +99,33 @@ fn refusal(run_file: &Path, difference: impl std::fmt::Display) -> InputError {
 
 /// Goes on with the run file of the first of the states that it has what they say of; its writer and which state it is.
 ///
+/// The file is made anew, so the state gets the image of that one and is written once more before it takes the place of the old
+/// one; with the image of the old one, too, for nobody knows which of both a loss of power leaves.
+///
 /// # Errors
 /// [`InputError`] when it has it of none, [`RunError::Failed`] when the file cannot be written anew.
 pub fn writer(
     path: &Path,
     header: &Header,
-    states: &[RunState],
+    states: &mut [RunState],
     observer: &mut dyn Observer,
 ) -> Result<(RunWriter, usize), RunError> {
     let mut refusals = Vec::new();
-    for (place, state) in states.iter().enumerate() {
+    for (place, state) in states.iter_mut().enumerate() {
         let earlier = Earlier {
             samples: state.samples,
             snapshots: state.snapshots,
             wall_time: std::time::Duration::try_from_secs_f64(state.wall_time).unwrap_or_default(),
         };
-        match RunWriter::resume(path, header, earlier) {
+        state.images.retain(|image| image.is_of(path));
+        let images = state.images.clone();
+        let keep = |image| {
+            state.images.push(image);
+            if let Err(error) = checkpoint::write(path, state) {
+                observer.warning(&format_args!("cannot write a checkpoint: {error}; the one before still holds"));
+            }
+        };
+        match RunWriter::resume(path, header, earlier, &images, keep) {
             Ok(writer) => return Ok((writer, place)),
             Err(error @ RunFileError::Earlier { .. }) => {
                 let step = state.simulation.run.steps();

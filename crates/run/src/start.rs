@@ -5,7 +5,7 @@ use std::path::Path;
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::Claim;
 use plateau_io::process::{Writer, writer_of};
-use plateau_io::run_file::{Damage, Header, RunFile, RunWriter, State, verify};
+use plateau_io::run_file::{Damage, Header, ReadError, RunFile, RunWriter, State, keep, verify};
 use plateau_io::temporary::Temporary;
 
 use crate::checkpointer::RunIdentity;
@@ -58,7 +58,7 @@ impl Request<'_> {
             true => resume::states(path, identity, self.extends(), observer)?,
             false => Vec::new(),
         };
-        let there = if resumes { self.look()? } else { None };
+        let there = if resumes { self.look(&states, claim.as_ref(), observer)? } else { None };
         let finished = self.is_finished(states.first(), there.as_ref())?;
         let steps: Vec<u64> = states.iter().map(|state| state.simulation.run.steps()).collect();
         job.compare(&format!("{finished} {steps:?}"))?;
@@ -72,7 +72,7 @@ impl Request<'_> {
         if resumes && states.is_empty() {
             observer.note(&"there is no checkpoint yet: begins from the beginning");
         }
-        let (writer, place) = if job.leads() { self.lead(&states, observer)? } else { (None, 0) };
+        let (writer, place) = if job.leads() { self.lead(&mut states, observer)? } else { (None, 0) };
         // The first rank has seen which of the states holds.
         let (place, _) = job.sum(place, 0)?;
         let state = (!states.is_empty()).then(|| states.swap_remove(place));
@@ -132,7 +132,11 @@ impl Request<'_> {
     }
 
     /// The writer of the run file, and which of the states it goes on from.
-    fn lead(&self, states: &[RunState], observer: &mut dyn Observer) -> Result<(Option<RunWriter>, usize), RunError> {
+    fn lead(
+        &self,
+        states: &mut [RunState],
+        observer: &mut dyn Observer,
+    ) -> Result<(Option<RunWriter>, usize), RunError> {
         let Self { path, header, options, .. } = *self;
         if !states.is_empty() {
             return resume::writer(path, header, states, observer).map(|(writer, place)| (Some(writer), place));
@@ -146,14 +150,37 @@ impl Request<'_> {
     }
 
     /// Looks at the file that is to be gone on with, if there is one; it must be of this run, unless it may be replaced.
-    fn look(&self) -> Result<Option<There>, InputError> {
+    fn look(
+        &self,
+        states: &[RunState],
+        claim: Option<&Claim>,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<There>, InputError> {
         let Self { path, identity, options, .. } = *self;
         if !path.exists() {
             return Ok(None);
         }
         let there = match RunFile::open(path) {
+            Ok(there) => there,
+            // A checkpoint knows what it was.
+            Err(_) if states.iter().flat_map(|state| &state.images).any(|image| image.is_of(path)) => {
+                return Ok(Some(There { state: State::Running, holds: [0, 0] }));
+            }
             Err(_) if options.replace => return Ok(None),
-            there => there.map_err(InputError::Unreadable)?,
+            Err(ReadError::Damaged { .. } | ReadError::NotHdf5 { .. } | ReadError::Foreign { .. })
+                if states.is_empty() && claim.is_none_or(|claim| claim.before().is_some()) =>
+            {
+                if claim.is_some() {
+                    let kept = keep(path)?;
+                    observer.note(&format_args!(
+                        "{} cannot be read: its run was stopped, as by a loss of power, before its first checkpoint; it is kept as {}",
+                        path.display(),
+                        kept.display()
+                    ));
+                }
+                return Ok(None);
+            }
+            Err(error) => return Err(InputError::Unreadable(error)),
         };
         let scene = there.attribute("scene").unwrap_or_default();
         match resume::compare_scenes(path, &scene, identity, self.extends()) {

@@ -12,7 +12,7 @@ use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::checkpoint;
 use plateau_io::claim::lock_of;
 use plateau_io::plausibility;
-use plateau_io::run_file::{resolve, size_estimate};
+use plateau_io::run_file::{image_estimate, resolve, size_estimate};
 use plateau_io::scene::{Scene, Warning, memory_estimate};
 use plateau_io::surface::{self, Loaded};
 use plateau_run::execution::{decide, time_per_step};
@@ -228,7 +228,13 @@ impl Check {
             maps,
             memory: memory_estimate(scene),
             run_file: size_estimate(mesh, &scene.output.maps, &extras, schedule.samples(), maps as u64),
-            checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()),
+            checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()).saturating_add(image_estimate(
+                mesh,
+                &scene.output.maps,
+                &extras,
+                schedule.samples(),
+                maps as u64,
+            )),
             workers: execution.workers,
             instruction_set: execution.means(),
             estimated_time: preparing_time + seconds_per_step * scene.steps as f64,

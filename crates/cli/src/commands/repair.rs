@@ -7,7 +7,7 @@ use std::time::Duration;
 use plateau_io::checkpoint;
 use plateau_io::claim::Claim;
 use plateau_io::process::{Writer, writer_of};
-use plateau_io::run_file::{self, Repair, RepairError, RunFile};
+use plateau_io::run_file::{self, LeftOut, Repair, RepairError, RunFile};
 use plateau_io::units::{self, Dimension};
 
 use crate::arguments::RepairArguments;
@@ -44,28 +44,62 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
 /// What became of a file, on one line.
 fn repair_one(path: &Path, force: bool) -> Result<String, Failure> {
     let file = path.display();
-    if !run_file::is_healthy(path).map_err(Failure::input)? {
-        refuse_if_written(path, force)?;
+    match run_file::is_healthy(path) {
+        Ok(true) => {}
+        Ok(false) => refuse_if_written(path, force)?,
+        // There may be a checkpoint of before it was damaged.
+        Err(_) if run_file::last_writer(path).is_some() => refuse_if_written(path, force)?,
+        Err(error) => return Err(Failure::input(error)),
     }
     match run_file::repair(path) {
         Ok(Repair::Healthy) => Ok(format!("{file} is healthy: nothing was done\n")),
-        Ok(Repair::Repaired { copy, samples, moments }) => Ok(format!(
-            "{file} is repaired: {}, {} with maps; what was there is {}\n",
-            number::count(samples, "sample"),
-            number::count(moments, "moment"),
-            copy.display()
-        )),
+        Ok(Repair::Repaired { copy, samples, moments, left_out }) => {
+            if let Some(what) = told(left_out) {
+                message::note(format_args!("{file}: {what}"));
+            }
+            Ok(format!(
+                "{file} is repaired: {}, {} with maps; what was there is {}\n",
+                number::count(samples, "sample"),
+                number::count(moments, "moment"),
+                copy.display()
+            ))
+        }
         Err(RepairError::Claimed(error)) if !error.lacks_space() => Err(Failure::input(error)),
         Err(error @ (RepairError::Read(_) | RepairError::Unknown { .. })) => Err(Failure::input(error)),
         Err(error) => Err(Failure::run(error)),
     }
 }
 
+/// What may be missing in a file, in words.
+fn told(left_out: LeftOut) -> Option<&'static str> {
+    match left_out {
+        LeftOut::Nothing => None,
+        LeftOut::Unreadable => Some("it cannot be read as it is; what came after its last checkpoint is left out"),
+        LeftOut::NotOnDisk => Some(
+            "the machine was started anew since it was written; what came after its last checkpoint may not have reached the \
+             disk, and is left out",
+        ),
+        LeftOut::Doubtful => Some(
+            "the machine was started anew since it was written, and there is no checkpoint: its last samples may not have \
+             reached the disk, and be wrong",
+        ),
+    }
+}
+
 /// How long a run that goes on may touch nothing.
-fn silence(run: &RunFile) -> Duration {
-    let every = run.scene().get("output").and_then(|output| output.get("checkpoint_every")?.as_str());
+fn silence(scene: &toml::Table) -> Duration {
+    let every = scene.get("output").and_then(|output| output.get("checkpoint_every")?.as_str());
     let every = every.and_then(|every| units::parse(every, Dimension::Time).ok()).unwrap_or(0.0);
     SILENCE.max(Duration::try_from_secs_f64(2.5 * every).unwrap_or(Duration::MAX))
+}
+
+/// The machine on which a file was written last, and the scene of its run.
+fn origin(path: &Path) -> Result<(String, toml::Table), Failure> {
+    match (RunFile::open(path), run_file::last_writer(path)) {
+        (Ok(run), _) => Ok((run.attribute("host").unwrap_or_default(), run.scene().clone())),
+        (Err(_), Some((writer, scene))) => Ok((writer.host, scene.parse().unwrap_or_default())),
+        (Err(error), None) => Err(Failure::input(error)),
+    }
 }
 
 /// Refuses a file whose run goes on, or may.
@@ -84,15 +118,14 @@ fn refuse_if_written(path: &Path, force: bool) -> Result<(), Failure> {
         }
         Writer::Nobody | Writer::Hidden => {}
     }
-    let run = RunFile::open(path).map_err(Failure::input)?;
-    let host = run.attribute("host").unwrap_or_default();
+    let (host, scene) = origin(path)?;
     if force || host == machine::host() {
         return Ok(());
     }
     let [last, _] = checkpoint::paths(path);
     // Another machine's clock may go ahead.
     let ages = [path, &last].map(|path| Some(fs::metadata(path).ok()?.modified().ok()?.elapsed().unwrap_or_default()));
-    let Some(age) = ages.into_iter().flatten().min().filter(|age| *age < silence(&run)) else {
+    let Some(age) = ages.into_iter().flatten().min().filter(|age| *age < silence(&scene)) else {
         message::note(format_args!("{file} was last written on the machine {host}"));
         return Ok(());
     };

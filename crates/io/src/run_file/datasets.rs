@@ -53,6 +53,13 @@ impl Datasets {
         self.digests
     }
 
+    /// All of them.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Dataset> {
+        let series = self.series.iter().map(|(_, dataset)| dataset);
+        let maps = self.maps.iter().map(|(_, dataset)| dataset);
+        [&self.time].into_iter().chain(series).chain(&self.map_time).chain(maps)
+    }
+
     /// Appends samples and makes them visible to readers.
     pub(super) fn append_samples(&mut self, file: &File, batch: &[Sample]) -> hdf5::Result<()> {
         let columns = self

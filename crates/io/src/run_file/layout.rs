@@ -366,7 +366,20 @@ pub fn size_estimate(mesh: &Mesh, maps: &[Map], extras: &[&Extra], samples: u64,
         let bytes = if map.is_status() { cells } else { cells * float };
         bytes + bytes / 1000 + PER_CHUNK + PER_MAP
     };
-    let coordinates = (mesh.rows() + mesh.disc_columns() + mesh.pin_columns()) as u64 * float + mesh.pin_cells() as u64;
+    let coordinates = coordinate_bytes(mesh);
     let maps = maps.iter().map(map).sum::<u64>().saturating_mul(moments);
     STRUCTURE.saturating_add(coordinates).saturating_add(series).saturating_add(maps)
+}
+
+/// Bytes of all of such a file that is neither a value of a series nor of a map, at most.
+pub fn image_estimate(mesh: &Mesh, maps: &[Map], extras: &[&Extra], samples: u64, moments: u64) -> u64 {
+    let series = quantities(extras).count() as u64 + 1;
+    let chunks = series.saturating_mul(samples.div_ceil(series_chunk(samples) as u64));
+    let levels = (maps.len() as u64).saturating_mul(moments);
+    STRUCTURE + coordinate_bytes(mesh).saturating_add(chunks.saturating_add(levels).saturating_mul(PER_CHUNK))
+}
+
+fn coordinate_bytes(mesh: &Mesh) -> u64 {
+    let places = mesh.rows() + mesh.disc_columns() + mesh.pin_columns();
+    (places * size_of::<f64>() + mesh.pin_cells()) as u64
 }

@@ -92,6 +92,11 @@ impl RunFile {
         })
     }
 
+    /// The same file by another name than that by which it was opened.
+    pub(super) fn known_as(self, path: &Path) -> Self {
+        Self { path: path.into(), ..self }
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path

@@ -1,7 +1,6 @@
 //! Run files of runs that were killed, made such that every program reads them.
 
-use std::fs::{self, File};
-use std::io::{self, ErrorKind};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -10,13 +9,17 @@ use thiserror::Error;
 
 use super::dimension::EMPTY_FILE;
 use super::error::not_anew;
+use super::kept::{KeepError, keep};
 use super::place::{Place, resolve};
+use super::restored::Restored;
 use super::seal::Seal;
 use super::store::set_up;
-use super::{Earlier, End, Header, ReadError, RunFile, RunFileError, State};
+use super::{Earlier, End, Header, Image, ReadError, RunFile, RunFileError, State};
+use crate::checkpoint::{self, RunState};
 use crate::claim::{Claim, ClaimError};
-use crate::hdf5_file;
+use crate::process::Process;
 use crate::temporary::Temporary;
+use crate::{hdf5_file, random};
 
 /// What became of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,7 +34,22 @@ pub enum Repair {
         samples: usize,
         /// Moments of which there are maps.
         moments: usize,
+        /// What it does not hold, or may hold and should not.
+        left_out: LeftOut,
     },
+}
+
+/// What may be missing in a file that was repaired.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LeftOut {
+    /// Nothing: the machine that wrote it goes on, or another one did.
+    Nothing,
+    /// What came after the last checkpoint, for the file could not be read: it is as it was then.
+    Unreadable,
+    /// What came after the last checkpoint, for the machine was started anew since and not all of it may have come to the disk.
+    NotOnDisk,
+    /// Nothing, though the machine was started anew since: there is no checkpoint that tells what had come to the disk.
+    Doubtful,
 }
 
 /// Why a file is not repaired; it is as it was.
@@ -57,15 +75,8 @@ pub enum RepairError {
     #[error(transparent)]
     Write(#[from] RunFileError),
     /// What is there cannot be kept.
-    #[error("cannot keep a copy of {} as {}: {error}; nothing was changed", path.display(), copy.display())]
-    Copy {
-        /// The file.
-        path: PathBuf,
-        /// Its copy.
-        copy: PathBuf,
-        /// What the system said.
-        error: io::Error,
-    },
+    #[error(transparent)]
+    Keep(#[from] KeepError),
 }
 
 /// Whether a run file was closed in good order.
@@ -79,37 +90,81 @@ pub fn is_healthy(path: &Path) -> Result<bool, ReadError> {
     Ok(run.state() != State::Running && !marked)
 }
 
+/// Who wrote a file that was not closed, and the scene of its run, as the checkpoint beside it says; nothing if there is none.
+pub fn last_writer(path: &Path) -> Option<(Process, String)> {
+    checkpoint_of(path).map(|(state, image)| (image.writer, state.scene))
+}
+
+/// The newest checkpoint that knows how a file was organised.
+fn checkpoint_of(path: &Path) -> Option<(RunState, Image)> {
+    let states = checkpoint::paths(path).into_iter().filter_map(|path| checkpoint::read::<RunState>(&path).ok()?);
+    states.into_iter().find_map(|mut state| {
+        let place = state.images.iter().position(|image| image.is_of(path))?;
+        let image = state.images.swap_remove(place);
+        Some((state, image))
+    })
+}
+
 /// Makes the file of a run that was killed anew: closed, `interrupted`, with all samples and maps that are complete, and
 /// with their digests. What was there is kept beside it, as `NAME.before-repair`.
+///
+/// Where the file cannot be read, or the machine was started anew since it was written, it is what it was at the newest checkpoint
+/// beside it, if there is one.
 ///
 /// The file is claimed meanwhile.
 ///
 /// # Errors
 /// [`RepairError`]; the file is then as it was.
 pub fn repair(path: &Path) -> Result<Repair, RepairError> {
-    if is_healthy(path)? {
+    if is_healthy(path).is_ok_and(|is_healthy| is_healthy) {
         return Ok(Repair::Healthy);
     }
-    let _claim = Claim::of(path)?;
-    if is_healthy(path)? {
+    let claim = Claim::of(path)?;
+    if is_healthy(path).is_ok_and(|is_healthy| is_healthy) {
         return Ok(Repair::Healthy);
     }
     Temporary::remove_abandoned(&resolve(path, true)?);
-    let old = RunFile::open(path)?;
-    let header = Header::of(&old)?;
+    let checkpoint = checkpoint_of(path);
+    if let Some((state, image)) = checkpoint.as_ref().filter(|(_, image)| image.writer.is_of_earlier_start()) {
+        return from_checkpoint(path, state, image, LeftOut::NotOnDisk);
+    }
+    let is_doubtful = claim.before().is_some_and(Process::is_of_earlier_start);
+    match (from_file(path, if is_doubtful { LeftOut::Doubtful } else { LeftOut::Nothing }), checkpoint) {
+        (Err(RepairError::Read(_) | RepairError::Write(RunFileError::Earlier { .. })), Some((state, image))) => {
+            from_checkpoint(path, &state, &image, LeftOut::Unreadable)
+        }
+        (repaired, _) => repaired,
+    }
+}
+
+/// Makes a file anew with all that is complete in it.
+fn from_file(path: &Path, left_out: LeftOut) -> Result<Repair, RepairError> {
+    let old = Restored::as_it_is(path)?;
+    let (samples, moments) = (old.run.whole_samples(), old.run.whole_moments());
+    make(path, old, [samples, moments], left_out)
+}
+
+/// Makes a file anew with what it had at a checkpoint.
+fn from_checkpoint(path: &Path, state: &RunState, image: &Image, left_out: LeftOut) -> Result<Repair, RepairError> {
+    make(path, Restored::as_it_was(path, image)?, [state.samples, state.snapshots], left_out)
+}
+
+fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Result<Repair, RepairError> {
+    let run = &old.run;
+    let [samples, moments] = [(holds[0], run.time().len()), (holds[1], run.map_time().len())].map(|(a, b)| a.min(b));
+    let header = Header::of(run)?;
     let known = |name: &str| quantities(&header.extras).any(|quantity| quantity.name == name);
-    if let Some(unknown) = old.series().iter().find(|series| !known(&series.name)) {
-        let program = old.attribute("program").unwrap_or_default();
+    if let Some(unknown) = run.series().iter().find(|series| !known(&series.name)) {
+        let program = run.attribute("program").unwrap_or_default();
         return Err(RepairError::Unknown { path: path.into(), name: unknown.name.clone(), program });
     }
     let place = Place::prepare(path, true, EMPTY_FILE)?;
     // The run ended when it was last heard of.
     let end_time = fs::metadata(path).and_then(|file| file.modified()).unwrap_or_else(|_| SystemTime::now());
-    let start_time = old.start_time().unwrap_or(end_time);
+    let start_time = run.start_time().unwrap_or(end_time);
     let wall_time = end_time.duration_since(start_time).unwrap_or_default();
-    let (samples, moments) = (old.whole_samples(), old.whole_moments());
-    let (file, mut datasets) = set_up(&place, &header, start_time).map_err(not_anew(path))?;
-    datasets.copy(&file, &old, Earlier { samples, snapshots: moments, wall_time })?;
+    let (file, mut datasets) = set_up(&place, &header, start_time, &random::word()).map_err(not_anew(path))?;
+    datasets.copy(&file, run, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
     let digests = datasets.into_digests();
     let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests, events: &[] };
@@ -119,33 +174,5 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     drop(old);
     let copy = keep(sealed.path())?;
     sealed.publish_durably()?;
-    Ok(Repair::Repaired { copy, samples, moments })
-}
-
-/// Gives a file a second name, or where there are no links, copies it.
-fn keep(path: &Path) -> Result<PathBuf, RepairError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let names = (1..).map(|number| match number {
-        1 => format!("{name}.before-repair"),
-        number => format!("{name}.before-repair-{number}"),
-    });
-    for copy in names.map(|name| path.with_file_name(name)) {
-        match fs::hard_link(path, &copy) {
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-            Ok(()) => return Ok(copy),
-            Err(_) => {
-                let made = File::create_new(&copy);
-                if made.as_ref().is_err_and(|error| error.kind() == ErrorKind::AlreadyExists) {
-                    continue;
-                }
-                let copied = made.and_then(|mut made| io::copy(&mut File::open(path)?, &mut made));
-                return copied.map(|_| copy.clone()).map_err(|error| RepairError::Copy {
-                    path: path.into(),
-                    copy,
-                    error,
-                });
-            }
-        }
-    }
-    unreachable!("there is always another number")
+    Ok(Repair::Repaired { copy, samples, moments, left_out })
 }

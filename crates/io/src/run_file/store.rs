@@ -12,11 +12,14 @@ use plateau_core::observe::{Sample, Snapshot};
 use super::datasets::Datasets;
 use super::dimension::EMPTY_FILE;
 use super::error::{failed, hdf5_reason, not_anew};
+use super::image::{Image, MARK, Values};
 use super::layout;
 use super::place::Place;
+use super::restored::Restored;
 use super::seal::Seal;
-use super::{Earlier, End, Header, RunFile, RunFileError};
-use crate::hdf5_file::writing::open_for_writing;
+use super::{Earlier, End, Header, RunFileError};
+use crate::hdf5_file::writing::{open_for_writing, write_text};
+use crate::random;
 
 /// A run file while it is written. Only one thread uses it.
 pub(super) struct Store {
@@ -28,6 +31,9 @@ pub(super) struct Store {
     started: Instant,
     file: File,
     datasets: Datasets,
+    /// What tells this file from others.
+    mark: String,
+    values: Values,
 }
 
 /// How much a run file holds.
@@ -44,21 +50,31 @@ impl Store {
         header.check()?;
         let (started, start_time) = (Instant::now(), SystemTime::now());
         let place = Place::prepare(path, overwrite, EMPTY_FILE)?;
-        let set_up = set_up(&place, header, start_time);
+        let mark = random::word();
+        let set_up = set_up(&place, header, start_time, &mark);
         let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), hdf5_reason(&error)))?;
+        // If the power is lost, there is no file or a whole one.
+        place.synchronise().map_err(|error| RunFileError::not_made(path.to_owned(), error.to_string()))?;
         let identity = identity(place.temporary());
         let path = place.publish()?;
-        Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets })
+        let values = Values::default();
+        Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets, mark, values })
     }
 
     /// Makes the file anew with the first samples and maps of the one that is there, of a run that was stopped, and takes
-    /// its place.
-    pub(super) fn resume(path: &Path, header: &Header, earlier: Earlier) -> Result<Self, RunFileError> {
+    /// its place. Before it does, `keep` is given its image, if there is one.
+    pub(super) fn resume(
+        path: &Path,
+        header: &Header,
+        earlier: Earlier,
+        images: &[Image],
+        keep: impl FnOnce(Image),
+    ) -> Result<Self, RunFileError> {
         header.check()?;
         let started = Instant::now().checked_sub(earlier.wall_time).unwrap_or_else(Instant::now);
         let place = Place::prepare(path, true, EMPTY_FILE)?;
-        let old = RunFile::open(path)
-            .map_err(|error| RunFileError::Earlier { path: path.into(), reason: error.to_string() })?;
+        let restored = Restored::to_go_on(path, images)?;
+        let old = &restored.run;
         let there = [old.time().len(), old.map_time().len()];
         if there[0] < earlier.samples || there[1] < earlier.snapshots {
             let reason = format!(
@@ -68,21 +84,33 @@ impl Store {
             return Err(RunFileError::Earlier { path: path.into(), reason });
         }
         let start_time = old.start_time().unwrap_or_else(SystemTime::now);
-        let (file, mut datasets) = set_up(&place, header, start_time).map_err(not_anew(path))?;
-        datasets.copy(&file, &old, earlier)?;
-        drop(old);
+        let (mark, mut values) = (random::word(), Values::default());
+        let (file, mut datasets) = set_up(&place, header, start_time, &mark).map_err(not_anew(path))?;
+        datasets.copy(&file, old, earlier)?;
+        drop(restored);
         // What is there may be all that there is of a long run.
         file.flush().map_err(not_anew(path))?;
+        values.add_new_of(datasets.all());
+        let image = Image::of(place.temporary(), &values, &mark);
+        let image = image.map_err(|error| RunFileError::Anew { path: path.into(), reason: error.to_string() })?;
+        if let Some(image) = image {
+            keep(image);
+        }
         let identity = identity(place.temporary());
         let path = place.publish_durably()?;
-        Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets })
+        Ok(Self { identity, path, header: header.clone(), start_time, started, file, datasets, mark, values })
     }
 
-    /// Hands all that was appended to the disk. A run whose file was replaced must not leave a checkpoint beside the other.
-    pub(super) fn sync(&self) -> Result<(), RunFileError> {
+    /// Hands all that was appended to the disk, and takes an image of the file as it is there. A run whose file was replaced must
+    /// not leave a checkpoint beside the other.
+    pub(super) fn sync(&mut self) -> Result<Option<Image>, RunFileError> {
         self.check_identity()?;
         self.file.flush().map_err(failed(&self.path))?;
-        let synced = fs::File::open(&self.path).and_then(|file| file.sync_all());
+        self.values.add_new_of(self.datasets.all());
+        let synced = fs::File::open(&self.path).and_then(|file| {
+            file.sync_all()?;
+            Image::of(&self.path, &self.values, &self.mark)
+        });
         synced.map_err(|error| RunFileError::Write { path: self.path.clone(), reason: error.to_string() })
     }
 
@@ -129,8 +157,9 @@ impl Store {
 }
 
 /// Makes a file at a place, complete but for samples and maps, which readers can follow.
-pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime) -> hdf5::Result<(File, Datasets)> {
+pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime, mark: &str) -> hdf5::Result<(File, Datasets)> {
     let file = open_for_writing(place.temporary())?;
+    write_text(&file, MARK, mark)?;
     layout::lay_out(&file, header, start, None)?;
     file.start_swmr()?;
     let datasets = Datasets::open(&file, header)?;

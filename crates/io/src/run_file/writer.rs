@@ -10,7 +10,7 @@ use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
 use super::store::Store;
-use super::{Earlier, End, Header, RunFileError};
+use super::{Earlier, End, Header, Image, RunFileError};
 
 /// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
 const QUEUED_SAMPLES: usize = 16 * 1024;
@@ -54,7 +54,7 @@ pub struct WriterReport {
 struct Queues {
     samples: Sender<Sample>,
     snapshots: Sender<Snapshot>,
-    syncs: Sender<Sender<()>>,
+    syncs: Sender<Sender<Vec<Image>>>,
     /// See [`Synced`].
     alive: Receiver<()>,
 }
@@ -96,10 +96,19 @@ impl RunWriter {
 
     /// Goes on with the run file at `path`, of a run that was stopped: what is in it beyond `earlier` is done once more.
     ///
+    /// A file that was not closed is taken as it was when one of the images was taken, if one is of it. The file that takes its
+    /// place has another image: `keep` is given that before it does, to be kept in a checkpoint.
+    ///
     /// # Errors
     /// [`RunFileError`] when the file cannot be read, holds less than that, or cannot be written anew; it is then as it was.
-    pub fn resume(path: &Path, header: &Header, earlier: Earlier) -> Result<Self, RunFileError> {
-        Self::start(path, header, Store::resume(path, header, earlier)?)
+    pub fn resume(
+        path: &Path,
+        header: &Header,
+        earlier: Earlier,
+        images: &[Image],
+        keep: impl FnOnce(Image),
+    ) -> Result<Self, RunFileError> {
+        Self::start(path, header, Store::resume(path, header, earlier, images, keep)?)
     }
 
     /// Whether the writer still takes what is sent.
@@ -225,7 +234,7 @@ fn write(
     mut store: Store,
     samples: &Receiver<Sample>,
     snapshots: &Receiver<Snapshot>,
-    syncs: &Receiver<Sender<()>>,
+    syncs: &Receiver<Sender<Vec<Image>>>,
 ) -> Result<Store, RunFileError> {
     match append_all(&mut store, samples, snapshots, syncs) {
         Ok(()) => Ok(store),
@@ -240,7 +249,7 @@ fn append_all(
     store: &mut Store,
     samples: &Receiver<Sample>,
     snapshots: &Receiver<Snapshot>,
-    syncs: &Receiver<Sender<()>>,
+    syncs: &Receiver<Sender<Vec<Image>>>,
 ) -> Result<(), RunFileError> {
     let mut batch: Vec<Sample> = Vec::new();
     let mut due = channel::never();
@@ -270,8 +279,7 @@ fn append_all(
                 batch.clear();
                 due = channel::never();
                 // Who asked may have given up.
-                store.sync()?;
-                let _ = answer.send(());
+                let _ = answer.send(store.sync()?.into_iter().collect());
             }
             recv(due) -> _ => {
                 store.append_samples(&batch)?;
@@ -295,13 +303,13 @@ fn append_all(
 /// An answer that a writer owes: whether what was sent to it is on the disk.
 #[derive(Debug)]
 pub struct Synced {
-    answers: Receiver<()>,
+    answers: Receiver<Vec<Image>>,
     /// Closed when the writer has ended. A question that it has not taken then stays in its queue, and is never answered.
     alive: Receiver<()>,
 }
 
 impl Synced {
-    fn new(answers: Receiver<()>, alive: Receiver<()>) -> Self {
+    fn new(answers: Receiver<Vec<Image>>, alive: Receiver<()>) -> Self {
         Self { answers, alive }
     }
 
@@ -309,15 +317,15 @@ impl Synced {
     pub fn already() -> Self {
         let (answer, answers) = channel::bounded(1);
         // There is room for it.
-        let _ = answer.send(());
+        let _ = answer.send(Vec::new());
         Self { answers, alive: channel::never() }
     }
 
-    /// Waits for the answer: whether it is on the disk.
-    pub fn wait(&self) -> bool {
+    /// Waits for the answer: the image of the file as it is on the disk, if it is there; none of a file that is closed.
+    pub fn wait(&self) -> Option<Vec<Image>> {
         crossbeam::select! {
-            recv(self.answers) -> answer => answer.is_ok(),
-            recv(self.alive) -> _ => self.answers.try_recv().is_ok(),
+            recv(self.answers) -> answer => answer.ok(),
+            recv(self.alive) -> _ => self.answers.try_recv().ok(),
         }
     }
 }
@@ -333,7 +341,7 @@ mod tests {
         let (answer, answers) = channel::bounded(1);
         questions.send(answer).unwrap();
         drop((taken, life));
-        assert!(!Synced::new(answers, alive).wait());
-        assert!(Synced::already().wait());
+        assert_eq!(Synced::new(answers, alive).wait(), None);
+        assert_eq!(Synced::already().wait(), Some(Vec::new()));
     }
 }
