@@ -62,6 +62,8 @@ impl Temporary {
     /// # Errors
     /// What the system says; [`ErrorKind::AlreadyExists`] when there is a file that is not to be replaced.
     pub fn publish(self, replace: bool) -> io::Result<()> {
+        // Else a loss of power could leave an empty file of this name.
+        File::open(&self.path)?.sync_all()?;
         if replace {
             self.permit_as(&self.target);
             return fs::rename(&self.path, &self.target);
@@ -90,7 +92,6 @@ impl Temporary {
     /// # Errors
     /// What the system says; the file that was there then still is.
     pub fn publish_durably(self) -> io::Result<()> {
-        File::open(&self.path)?.sync_all()?;
         let folder = folder(&self.target).to_owned();
         self.publish(true)?;
         // Some network file systems know nothing like that; the file has its name in any case.

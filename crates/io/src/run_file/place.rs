@@ -42,11 +42,6 @@ impl Place {
         self.temporary.path()
     }
 
-    /// Hands the file to the disk before it gets its name.
-    pub(super) fn synchronise(&self) -> io::Result<()> {
-        fs::File::open(self.temporary())?.sync_all()
-    }
-
     /// Replaces the file that is there, so that one of both is whole even if the power fails.
     pub(super) fn publish_durably(self) -> Result<PathBuf, RunFileError> {
         let Self { path, temporary, .. } = self;

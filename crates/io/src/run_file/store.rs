@@ -53,8 +53,6 @@ impl Store {
         let mark = random::word();
         let set_up = set_up(&place, header, start_time, &mark);
         let (file, datasets) = set_up.map_err(|error| RunFileError::not_made(path.to_owned(), hdf5_reason(&error)))?;
-        // If the power is lost, there is no file or a whole one.
-        place.synchronise().map_err(|error| RunFileError::not_made(path.to_owned(), error.to_string()))?;
         let identity = identity(place.temporary());
         let path = place.publish()?;
         let values = Values::default();
