@@ -19,6 +19,8 @@ pub struct SeriesFile {
     pub path: PathBuf,
     /// The series, in SI units.
     pub series: MeasuredSeries,
+    /// The unit in which the table has the time.
+    pub time_unit: String,
     /// Number of the last line.
     pub last_line: u64,
 }
@@ -97,7 +99,8 @@ pub fn read(path: &Path, wanted: Wanted<'_>) -> Result<SeriesFile, String> {
     if let Some(before) = table.rows().iter().zip(series.times()).find(|(_, time)| **time < 0.0).map(|(row, _)| row) {
         return Err(format!("{}: \"{}\" is before the run", table.place(before), head(time)));
     }
-    Ok(SeriesFile { path: path.to_owned(), series, last_line: table.rows().last().map_or(0, |row| row.line) })
+    let (time_unit, last_line) = (table.named(time).1.to_owned(), table.rows().last().map_or(0, |row| row.line));
+    Ok(SeriesFile { path: path.to_owned(), series, time_unit, last_line })
 }
 
 /// The column of one of these names; none where there is none.
@@ -153,7 +156,7 @@ mod tests {
     fn values_and_uncertainties_come_in_the_units_of_their_heads() {
         let text = "# rig 2\ntime [min],contact_area [mm2],uncertainty [um2],humidity\n0,1.5,2e4,40\n2,2.5,3e4,\n";
         let found = read_text(text, None).unwrap();
-        assert_eq!((found.series.times(), found.last_line), (&[0.0, 120.0][..], 4));
+        assert_eq!((found.series.times(), found.time_unit.as_str(), found.last_line), (&[0.0, 120.0][..], "min", 4));
         let near = |found: &[f64], expected: [f64; 2]| {
             assert!(found.iter().zip(expected).all(|(one, other)| (one / other - 1.0).abs() < 1e-12), "{found:?}");
         };

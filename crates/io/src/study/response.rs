@@ -252,7 +252,12 @@ mod tests {
         assert_eq!(ask(Question::End, &[]), None);
         let series = |times: [f64; 2]| {
             let series = MeasuredSeries::new(times.to_vec(), vec![2.0, 4.5], vec![0.5, 1.0], 0.0).unwrap();
-            Question::Measured(Arc::new(SeriesFile { path: "t.csv".into(), series, last_line: 3 }))
+            Question::Measured(Arc::new(SeriesFile {
+                path: "t.csv".into(),
+                series,
+                time_unit: "s".into(),
+                last_line: 3,
+            }))
         };
         // At 1.5 and 3 s the run has 1 and 4: (−1/0.5)² and (−0.5/1)², of two points.
         assert_eq!(ask(series([1.5, 3.0]), &ramp), Some((4.25_f64 / 2.0).sqrt()));

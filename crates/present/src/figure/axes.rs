@@ -149,6 +149,19 @@ impl Axes {
         (left + self.x.part(x) * self.frame.width(), bottom - self.y.part(y) * self.frame.height())
     }
 
+    /// The pair of values at a place.
+    pub fn values(&self, (x, y): Place) -> [f64; 2] {
+        let value = |axis: &Axis, part: f64| {
+            let (begin, end) = (*axis.range.start(), *axis.range.end());
+            match axis.scale {
+                Scale::Linear => begin + part * (end - begin),
+                Scale::Logarithmic => begin * (part * (end / begin).ln()).exp(),
+            }
+        };
+        let ([left, _], [_, bottom]) = (self.frame.x, self.frame.y);
+        [value(&self.x, (x - left) / self.frame.width()), value(&self.y, (bottom - y) / self.frame.height())]
+    }
+
     /// Place of a pair of values, moved into the box.
     pub fn place_within(&self, x: f64, y: f64) -> Place {
         self.place(

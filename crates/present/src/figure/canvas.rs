@@ -8,6 +8,7 @@ use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea as _, IntoF
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontTransform, RGBColor, ShapeStyle, WHITE};
 
+use super::brush::covered;
 use super::font::{self, FONT_NAME};
 use crate::colour::INK;
 use crate::label::on_one_line;
@@ -68,6 +69,8 @@ impl Anchor {
 /// A page of any backend.
 pub struct Canvas<B: DrawingBackend> {
     area: DrawingArea<B, Shift>,
+    /// Whether it is made of pixels, of which a line covers parts.
+    in_pixels: bool,
 }
 
 impl<B: DrawingBackend> Canvas<B> {
@@ -81,7 +84,13 @@ impl<B: DrawingBackend> Canvas<B> {
     /// A page without a ground, to be laid over what is there.
     pub fn clear(backend: B) -> Self {
         font::register();
-        Self { area: backend.into_drawing_area() }
+        Self { area: backend.into_drawing_area(), in_pixels: false }
+    }
+
+    /// The same for a page that is made of pixels.
+    #[must_use]
+    pub fn in_pixels(self) -> Self {
+        Self { in_pixels: true, ..self }
     }
 
     /// Finishes the page.
@@ -91,6 +100,15 @@ impl<B: DrawingBackend> Canvas<B> {
 
     /// A line through places.
     pub fn line(&self, places: &[Place], colour: RGBColor, width: u32) -> Result<(), FigureError> {
+        if self.in_pixels {
+            let (wide, high) = self.area.dim_in_pixel();
+            for (place, part) in covered(places, f64::from(width)) {
+                if (0..wide as i32).contains(&place.0) && (0..high as i32).contains(&place.1) {
+                    self.area.draw_pixel(place, &colour.mix(part)).map_err(failed)?;
+                }
+            }
+            return Ok(());
+        }
         let style = ShapeStyle { color: colour.into(), filled: false, stroke_width: width };
         let places: Vec<_> = places.iter().map(pixels).collect();
         let mut begin = 0;

@@ -13,7 +13,7 @@ use super::format::Figure;
 use super::page::{Content, KeyStyle, Mark};
 use super::stroke::{SOLID, Stroke};
 use crate::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
-use crate::study::fit::FittedKey;
+use crate::study::fit::{FittedKey, parts};
 use plateau_io::number;
 
 /// Height of a box, pixels.
@@ -22,6 +22,10 @@ const HEIGHT: f64 = 620.0;
 const MOST_ACROSS: usize = 3;
 /// How far above the threshold profiles are shown, as multiples of it.
 const ABOVE: f64 = 2.5;
+/// Room below 0, as a part of that.
+const BELOW: f64 = 0.05;
+/// Whether one sees through what is shaded.
+const OPACITY: f64 = 0.3;
 /// Places between two places of a region for its lines.
 const FINER: usize = 4;
 /// What a value without end is taken for.
@@ -43,7 +47,8 @@ fn profiles(result: &FitResult, keys: &[FittedKey]) -> Figure {
     let threshold = result.profiles.first().map_or(1.0, |profile| profile.threshold);
     let top = ABOVE * threshold;
     let chart = |(at, (key, profile)): (usize, (&FittedKey, &Profile))| {
-        let y = Axis::linear(0.0..=top, "rise of −2 ln L");
+        // A profile that is 0 all along is not hidden by the frame.
+        let y = Axis::linear(-BELOW * top..=top, "rise of −2 ln L");
         Chart {
             title: String::new(),
             x: axis(key, &profile.values),
@@ -55,14 +60,15 @@ fn profiles(result: &FitResult, keys: &[FittedKey]) -> Figure {
     let line = |colour, text: String| Meaning { colour, style: KeyStyle::Line(SOLID), text };
     let meanings = [
         line(DATA, "profile likelihood".to_owned()),
-        line(DERIVED, format!("{} interval: below {}", level(result), number::rounded(threshold, 3))),
+        line(DERIVED, format!("limit at {}: {}", level(result), number::rounded(threshold, 3))),
+        Meaning { colour: DATA_AREA, style: KeyStyle::Area, text: format!("{} interval", level(result)) },
         line(FAINT, "most likely".to_owned()),
     ];
     Figure {
         name: "profiles".to_owned(),
         title: "Profile likelihood of the keys".to_owned(),
         caption: "How far −2 ln of the likelihood rises when a key is held at a value and all others are as likely as they can \
-                  be. Values below the line are in the interval; a profile that stays below it up to an end of the range is \
+                  be. Values where it is below the line are in the interval, which is shaded; a profile that stays below it up to an end of the range is \
                   not determined there."
             .to_owned(),
         page: page(width, HEIGHT, across, charts, &meanings),
@@ -73,14 +79,35 @@ fn profile_contents(key: &FittedKey, profile: &Profile, best: f64, top: f64) -> 
     let ends = [profile.values.first(), profile.values.last()].map(|end| end.map_or(0.0, |end| key.on_axis(*end)));
     let line = |points: Vec<[f64; 2]>, colour, width| Content::Line { points, stroke: Stroke::solid(colour, width) };
     let best = key.on_axis(best);
-    let mut contents = vec![
-        line(vec![[best, 0.0], [best, top]], FAINT, LINE),
-        line(vec![[ends[0], profile.threshold], [ends[1], profile.threshold]], DERIVED, LINE + 1),
-    ];
     let place = |(value, rise): (&f64, &f64)| [key.on_axis(*value), *rise];
     let places: Vec<[f64; 2]> = profile.values.iter().zip(&profile.rises).map(place).collect();
+    let shaded = parts(profile).into_iter().map(|piece| Content::Band {
+        spans: spans(&places, piece.ends.map(|end| key.on_axis(end)), profile.threshold),
+        colour: DATA,
+        opacity: OPACITY,
+    });
+    let mut contents: Vec<Content> = shaded.collect();
+    contents.extend([
+        line(vec![[best, 0.0], [best, top]], FAINT, LINE),
+        line(vec![[ends[0], profile.threshold], [ends[1], profile.threshold]], DERIVED, LINE + 1),
+    ]);
     contents.extend(below(&places, top).into_iter().map(|points| line(points, DATA, LINE + 2)));
     contents
+}
+
+/// What lies between a profile and its threshold, from end to end of a piece.
+fn spans(places: &[[f64; 2]], ends: [f64; 2], threshold: f64) -> Vec<[f64; 3]> {
+    let at = |x: f64| {
+        let pair = places.windows(2).find(|pair| pair[0][0] <= x && x <= pair[1][0] && pair[0][0] < pair[1][0]);
+        let rise = pair.map_or(threshold, |pair| {
+            let share = (x - pair[0][0]) / (pair[1][0] - pair[0][0]);
+            pair[0][1].min(HIGH) + share * (pair[1][1].min(HIGH) - pair[0][1].min(HIGH))
+        });
+        [x, rise.min(threshold), threshold]
+    };
+    let inner = places.iter().filter(|[x, _]| *x > ends[0] && *x < ends[1]);
+    let inner = inner.map(|[x, rise]| [*x, rise.min(threshold), threshold]);
+    [at(ends[0])].into_iter().chain(inner).chain([at(ends[1])]).collect()
 }
 
 /// The parts of a line that lie below a value, cut where they cross it.
@@ -207,6 +234,14 @@ fn level(result: &FitResult) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_shaded_is_below_the_limit() {
+        let places = [[0.0, 9.0], [1.0, 1.0], [2.0, 0.0], [3.0, 8.0]];
+        let found = spans(&places, [0.625, 2.5], 4.0);
+        assert_eq!(found, [[0.625, 4.0, 4.0], [1.0, 1.0, 4.0], [2.0, 0.0, 4.0], [2.5, 4.0, 4.0]]);
+        assert!(found.iter().all(|[_, low, high]| low <= high));
+    }
 
     #[test]
     fn lines_are_cut_where_they_leave_the_box() {

@@ -3,6 +3,7 @@
 //! | what | where |
 //! |---|---|
 //! | a page and what is put on it: lines, areas, bitmaps, text | [`canvas`] |
+//! | the pixels that a line covers | [`brush`] |
 //! | the font | [`font`] |
 //! | a box with axes round it | [`axes`] |
 //! | where ticks are and what they say | [`ticks`] |
@@ -25,6 +26,7 @@
 
 pub mod accuracy;
 mod axes;
+mod brush;
 mod canvas;
 mod chart;
 mod colour_bar;

@@ -75,6 +75,8 @@ pub enum Mark {
     Point,
     /// A dot with a white rim, to be seen on a map.
     Rimmed,
+    /// The same, hollow: what lies elsewhere.
+    Hollow,
     /// An upright cross with a white rim.
     Cross,
 }
@@ -232,6 +234,11 @@ impl Mark {
             Self::Rimmed => {
                 disc(Self::RADIUS + Self::RIM, GROUND)?;
                 disc(Self::RADIUS, colour)
+            }
+            Self::Hollow => {
+                disc(Self::RADIUS + 0.5 * Self::RIM, GROUND)?;
+                disc(Self::RADIUS - 0.5 * Self::RIM, colour)?;
+                disc(Self::RADIUS - 1.25 * Self::RIM, GROUND)
             }
             Self::Cross => {
                 cross(2.0 * Self::RADIUS + Self::RIM, 5.0 + Self::RIM, GROUND)?;

@@ -4,14 +4,13 @@ use plateau_study::sensitivity::{ElementaryEffect, SobolIndices};
 
 use super::axes::Axis;
 use super::canvas::{LINE, TEXT};
-use super::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
+use super::chart::{COLUMN, Chart, Meaning, about_zero, page, up_from_zero};
 use super::font::shortened;
 use super::format::Figure;
-use super::labels::Labels;
+use super::labels::{Labels, write_labels};
 use super::page::{Content, KeyStyle, Mark};
 use super::stroke::{SOLID, Stroke};
 use crate::colour::{DATA, DATA_AREA, FAINT, INK};
-use crate::figure::canvas::Anchor;
 use crate::quantity::Unit;
 
 /// Height of the two bars of a factor with the room between factors, pixels.
@@ -55,7 +54,7 @@ pub fn indices(response: &str, file: &str, factors: &[&str], indices: &SobolIndi
     }
     let names = order.iter().enumerate().map(|(at, factor)| (middle(at), shortened(factors[*factor], TEXT, NAMES)));
     let chart = Chart {
-        title: String::new(),
+        title: response.to_owned(),
         x: Axis::linear(up_from_zero(longest.max(0.1)), "part of the variance"),
         y: Axis::marked(0.0..=count, "", names.collect()),
         contents,
@@ -80,14 +79,14 @@ pub fn effects(response: &str, file: &str, factors: &[&str], effects: &[Elementa
     let place = |effect: &ElementaryEffect| [effect.mean_size, effect.deviation].map(|value| unit.difference(value));
     let points: Vec<[f64; 2]> = effects.iter().map(place).filter(|place| place.iter().all(|x| x.is_finite())).collect();
     let largest = |axis: usize| points.iter().map(|point| point[axis]).fold(0.0, f64::max);
-    let (x, y) = (up_from_zero(1.06 * largest(0)), up_from_zero(1.06 * largest(1)));
+    let (x, y) = (about_zero(1.06 * largest(0)), about_zero(1.06 * largest(1)));
     let end = x.end().min(*y.end());
     let contents = vec![
         Content::Line { points: vec![[0.0, 0.0], [end, end]], stroke: Stroke::solid(FAINT, LINE) },
         Content::Marks { points: points.clone(), colour: DATA, mark: Mark::Dot },
     ];
     let chart = Chart {
-        title: String::new(),
+        title: format!("elementary effects on {response}"),
         x: Axis::linear(x, unit.label("mean size μ* of the effects")),
         y: Axis::linear(y, unit.label("standard deviation σ")),
         contents,
@@ -98,11 +97,9 @@ pub fn effects(response: &str, file: &str, factors: &[&str], effects: &[Elementa
         let spot = |point: &[f64; 2]| axes.place_within(point[0], point[1]);
         let mut labels = Labels::new(axes.frame, points.iter().map(spot));
         let named = effects.iter().zip(factors).filter(|(effect, _)| place(effect).iter().all(|x| x.is_finite()));
-        for (effect, name) in named {
-            if let Some(begin) = labels.beside(name, spot(&place(effect))) {
-                page.write(*name, begin, Anchor::Right, TEXT);
-            }
-        }
+        labels.avoid([axes.place(0.0, 0.0), axes.place(end, end)]);
+        let named = named.map(|(effect, name)| ((*name).to_owned(), spot(&place(effect)))).collect();
+        write_labels(&mut page, &axes, &labels, named);
     }
     Figure {
         name: format!("{file}-effects"),

@@ -3,7 +3,12 @@
 use super::canvas::Place;
 
 /// How far the simplified curve may be from a place that is left out, pixels.
-const TOLERANCE: f64 = 0.75;
+const TOLERANCE: f64 = 0.25;
+/// Places at which a curve turns by less are no corners; its cosine. They may be moved along the curve so far, pixels.
+const GENTLE: f64 = 0.94;
+const MOVED: f64 = 8.0;
+/// Steps in which better places are looked for along a curve, pixels.
+const STEP: f64 = 0.5;
 /// Places so near to the one before are left out at once, pixels.
 const SAME: f64 = 0.5;
 
@@ -31,7 +36,48 @@ pub fn simplified(places: &[Place]) -> Vec<Place> {
             open.extend([(begin, at), (at, end)]);
         }
     }
-    distinct.into_iter().zip(kept).filter_map(|(place, kept)| kept.then_some(place)).collect()
+    on_pixels(&distinct, &kept)
+}
+
+/// The places that are kept. Those that are no corners are moved along the curve to where it passes through a pixel: vector
+/// formats have whole pixels, and a place that is rounded far would be a kink.
+fn on_pixels(distinct: &[Place], kept: &[bool]) -> Vec<Place> {
+    let places: Vec<usize> = (0..distinct.len()).filter(|at| kept[*at]).collect();
+    let off = |(x, y): Place| (x - x.round()).hypot(y - y.round());
+    let moved = |index: usize| {
+        let here = distinct[places[index]];
+        let (Some(before), Some(after)) = (index.checked_sub(1), places.get(index + 1)) else { return here };
+        let (before, after) = (distinct[places[before]], distinct[*after]);
+        if cosine(before, here, after) < GENTLE {
+            return here;
+        }
+        let mut best = (off(here), here);
+        for (mut at, forward, end) in [(places[index], true, after), (places[index], false, before)] {
+            let reach = MOVED.min(0.4 * (end.0 - here.0).hypot(end.1 - here.1));
+            let mut way = 0.0;
+            while way < reach {
+                let next = if forward { at + 1 } else { at - 1 };
+                let (from, to) = (distinct[at], distinct[next]);
+                let length = (to.0 - from.0).hypot(to.1 - from.1);
+                for step in 1..=((length.min(reach - way) / STEP) as usize) {
+                    let part = STEP * step as f64 / length;
+                    let place = (from.0 + part * (to.0 - from.0), from.1 + part * (to.1 - from.1));
+                    if off(place) < best.0 {
+                        best = (off(place), place);
+                    }
+                }
+                (way, at) = (way + length, next);
+            }
+        }
+        best.1
+    };
+    (0..places.len()).map(moved).collect()
+}
+
+/// The cosine of the angle by which a line through three places turns.
+fn cosine(before: Place, here: Place, after: Place) -> f64 {
+    let (one, other) = ((here.0 - before.0, here.1 - before.1), (after.0 - here.0, after.1 - here.1));
+    (one.0 * other.0 + one.1 * other.1) / (one.0.hypot(one.1) * other.0.hypot(other.1))
 }
 
 /// Distance of a place from the line between two others.
@@ -54,6 +100,17 @@ mod tests {
         assert_eq!(simplified(&[]), []);
         assert_eq!(simplified(&[(1.0, 2.0)]), [(1.0, 2.0)]);
         assert_eq!(simplified(&[(1.0, 2.0), (1.1, 2.0)]).len(), 1);
+    }
+
+    #[test]
+    fn a_curve_stays_a_curve_when_its_places_are_rounded() {
+        let curve: Vec<_> = (0..=160).map(|at| (3.0 * f64::from(at) + 0.4, 0.01 * f64::from(at * at) + 0.3)).collect();
+        let rounded: Vec<_> = simplified(&curve).into_iter().map(|(x, y)| (x.round(), y.round())).collect();
+        let inner = &rounded[1..rounded.len() - 1];
+        let sharpest = inner.windows(3).map(|three| super::cosine(three[0], three[1], three[2])).fold(1.0, f64::min);
+        // It turns by 47 degrees in all; no place has more than 4 of them.
+        assert!(sharpest > f64::cos(4.0_f64.to_radians()) && rounded.len() > 12, "{sharpest}, {}", rounded.len());
+        assert!(inner.iter().all(|(x, y)| (0.01 * ((x - 0.4) / 3.0).powi(2) + 0.3 - y).abs() < 1.0));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! its peaks point down. As the pin wears by far more than it is rough, its heights are counted from their mean. (`plateau
 //! surface` describes a surface by itself: there peaks are positive on both bodies, as in ISO 25178-2.)
 
+mod printed;
 mod range;
 mod unit;
 
@@ -14,6 +15,7 @@ use plotters::style::RGBColor;
 
 use crate::colour::STATUSES;
 
+pub use printed::{power_of_axis, printed_number, printed_unit, with_power};
 pub use range::{BEYOND, RobustRange};
 pub use unit::Unit;
 

@@ -5,7 +5,7 @@ use plateau_io::study::factor::{Factor, Values};
 use plateau_study::fit::{Combination, FitResult, FittedResponse, Piece, Profile};
 
 use super::reading::Reading;
-use crate::quantity::Unit;
+use crate::quantity::{Unit, power_of_axis, printed_unit, with_power};
 
 /// Probability below which a misfit is said.
 const SIGNIFICANT: f64 = 0.05;
@@ -26,9 +26,6 @@ pub struct FittedKey {
     power: i32,
 }
 
-/// Numbers of these sizes stand on axes without a power of ten.
-const PLAIN: std::ops::Range<f64> = 0.01..1e5;
-
 impl FittedKey {
     /// A factor of the study.
     pub fn of(factor: &Factor) -> Self {
@@ -37,11 +34,10 @@ impl FittedKey {
             Values::Range { low, high, logarithmic } => (vec![high, low], *logarithmic),
             Values::Levels(levels) => (levels.iter().collect(), false),
         };
-        let largest = stated.iter().filter_map(|level| level.number).map(f64::abs).fold(0.0, f64::max);
+        let numbers: Vec<f64> = stated.iter().filter_map(|level| level.number).collect();
         let reading = Reading::of(stated, false);
-        let size = reading.value(largest);
-        let is_plain = PLAIN.contains(&size) || !(size > 0.0 && size.is_finite());
-        let power = if is_plain { 0 } else { 3 * (libm::log10(size) / 3.0).floor() as i32 };
+        let ends = [numbers.first(), numbers.last()].map(|end| end.map_or(0.0, |end| reading.value(*end)));
+        let power = power_of_axis(ends, logarithmic);
         Self { name: factor.name.clone(), logarithmic, reading, power }
     }
 
@@ -62,8 +58,7 @@ impl FittedKey {
 
     /// What an axis says.
     pub fn label(&self) -> String {
-        let power = if self.power == 0 { String::new() } else { format!("10{} ", number::raised(self.power)) };
-        match format!("{power}{}", self.unit()).trim_end() {
+        match with_power(self.power, &printed_unit(self.unit())).as_str() {
             "" => self.name.clone(),
             unit => format!("{}, {unit}", self.name),
         }
@@ -85,8 +80,40 @@ impl FittedKey {
                 format!("not determined by these data: anywhere from {} to {}", number(*low), self.words(*high))
             }
         };
-        profile.pieces.iter().map(piece).collect::<Vec<_>>().join(" or ")
+        parts(profile).iter().map(piece).collect::<Vec<_>>().join(" or ")
     }
+}
+
+/// The pieces of an interval, without the parts between two places of the profile where that is above the threshold.
+pub fn parts(profile: &Profile) -> Vec<Piece> {
+    let places: Vec<(f64, f64)> = profile.values.iter().copied().zip(profile.rises.iter().copied()).collect();
+    let mut parts = Vec::new();
+    for Piece { ends: [low, high], open } in &profile.pieces {
+        let (mut begin, mut is_open) = (Some(*low), open[0]);
+        let within = |value: f64| value > *low && value < *high;
+        for pair in places.windows(2).filter(|pair| within(pair[0].0) || within(pair[1].0)) {
+            let [(from, rise), (to, next)] = [pair[0], pair[1]];
+            if (rise <= profile.threshold) == (next <= profile.threshold) {
+                continue;
+            }
+            let share =
+                if next.is_finite() && rise.is_finite() { (profile.threshold - rise) / (next - rise) } else { 0.5 };
+            let crossing = from + share * (to - from);
+            // The ends themselves are known better.
+            if !within(from) && rise > profile.threshold || !within(to) && next > profile.threshold {
+                continue;
+            }
+            match begin.take() {
+                Some(low) if next > profile.threshold => {
+                    parts.push(Piece { ends: [low, crossing], open: [is_open, false] });
+                    is_open = false;
+                }
+                begun => begin = begun.or(Some(crossing)),
+            }
+        }
+        parts.extend(begin.map(|low| Piece { ends: [low, *high], open: [is_open, open[1]] }));
+    }
+    parts
 }
 
 /// The unit in which a response and its deviations are read.
@@ -197,6 +224,28 @@ mod tests {
         assert_eq!(words([1000.0, 1500.0], [true, false]), "up to 1.5 kN, not determined below");
         assert_eq!(words([1200.0, 2000.0], [false, true]), "from 1.2 kN on, not determined above");
         assert_eq!(words([1000.0, 2000.0], [true, true]), "not determined by these data: anywhere from 1 to 2 kN");
+    }
+
+    #[test]
+    fn a_stretch_above_the_limit_is_in_no_interval() {
+        let profile = Profile {
+            values: vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
+            rises: vec![8.0, 0.0, 1.0, 9.0, 3.0, 0.0],
+            threshold: 4.0,
+            pieces: vec![Piece { ends: [1.4, 6.0], open: [false, true] }],
+        };
+        let found = parts(&profile);
+        // By hand: 1 + 3/8 of the way from 3 to 4, and 5/6 of that from 4 to 5.
+        let ends: Vec<[f64; 2]> = found.iter().map(|piece| piece.ends).collect();
+        assert!((ends[0][1] - 3.375).abs() < 1e-12 && (ends[1][0] - 4.833_333).abs() < 1e-5, "{ends:?}");
+        assert_eq!((ends.len(), ends[0][0], ends[1][1]), (2, 1.4, 6.0));
+        assert_eq!(found.iter().map(|piece| piece.open).collect::<Vec<_>>(), [[false, false], [false, true]]);
+        let whole = Profile { rises: vec![8.0, 0.0, 1.0, 2.0, 3.0, 0.0], ..profile };
+        assert_eq!(parts(&whole), whole.pieces);
+        // All of it below, from end to end.
+        let open = vec![Piece { ends: [1.0, 6.0], open: [true, true] }];
+        let flat = Profile { rises: vec![0.0; 6], pieces: open, ..whole };
+        assert_eq!(parts(&flat), flat.pieces);
     }
 
     #[test]

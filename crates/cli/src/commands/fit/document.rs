@@ -1,6 +1,6 @@
 //! What `plateau fit --json` prints.
 
-use plateau_present::study::fit::{determined, notes};
+use plateau_present::study::fit::{determined, notes, parts};
 use plateau_present::study::fit_series::notes as notes_of_series;
 use serde::Serialize;
 
@@ -96,8 +96,7 @@ pub fn text(told: &Told<'_>, files: &[String]) -> Result<String, Failure> {
         keys: &factor.keys,
         unit: factor.unit(),
         most_likely: *best,
-        interval: profile
-            .pieces
+        interval: parts(profile)
             .iter()
             .map(|piece| PieceReport {
                 low: piece.ends[0],

@@ -3,6 +3,7 @@
 use plateau_io::study::results_table::table as table_of_runs;
 use plateau_present::figure::fit::figures;
 use plateau_present::figure::fit_series::figures as of_series;
+use plateau_present::study::fit::parts;
 
 use super::Told;
 use crate::arguments::FitArguments;
@@ -26,7 +27,8 @@ pub fn write(told: &Told<'_>, arguments: &FitArguments) -> Result<Vec<String>, F
         run.run.levels.iter().map(|level| level.number.unwrap_or(f64::NAN)).collect::<Vec<f64>>()
     };
     let runs: Vec<Vec<f64>> = told.fitted.collected.runs.iter().map(values).collect();
-    let figures = [figures(told.result, told.keys, &runs), of_series(told.result, &told.series())].concat();
+    let figures =
+        [figures(told.result, told.keys, &runs), of_series(told.result, &told.series(), &told.times())].concat();
     let names: Vec<String> =
         tables.iter().map(|(name, _)| (*name).to_owned()).chain(names_of(figures.iter())).collect();
     folder.begin(&names, &told.fitted.inputs)?;
@@ -51,7 +53,7 @@ fn keys(told: &Told<'_>) -> Vec<Vec<String>> {
     let mut lines = vec![heads(["key", "unit", "most_likely", "low", "high", "open_below", "open_above"])];
     let study = told.fitted.plan.study();
     for ((factor, best), profile) in study.factors.iter().zip(&told.result.best).zip(&told.result.profiles) {
-        for piece in &profile.pieces {
+        for piece in parts(profile) {
             let [low, high] = piece.ends.map(exactly);
             let [below, above] = piece.open.map(|open| open.to_string());
             lines.push(vec![factor.name.clone(), factor.unit().to_owned(), exactly(*best), low, high, below, above]);

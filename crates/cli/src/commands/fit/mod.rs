@@ -56,6 +56,13 @@ impl Told<'_> {
         self.task.series.iter().map(of).collect()
     }
 
+    /// The units in which the tables of the series have the time.
+    fn times(&self) -> Vec<&str> {
+        let responses = &self.fitted.plan.study().responses;
+        let unit = |at: &usize| responses[*at].measured_series().map_or("s", |file| file.time_unit.as_str());
+        self.task.series.iter().map(unit).collect()
+    }
+
     /// SI units of those of which a value was measured.
     fn units(&self) -> Vec<&str> {
         let responses = &self.fitted.plan.study().responses;

@@ -8,6 +8,7 @@ use plateau_study::effects::FactorKind;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::TEXT;
 use crate::figure::font::{shortened, text_width};
+use crate::quantity::{power_of_axis, printed_number, printed_unit, with_power};
 use crate::study::analysis::{AnalysedFactor, LOGARITHM};
 use crate::study::reading::split;
 use plateau_io::number::{self, raised};
@@ -30,8 +31,10 @@ pub struct FactorAxis<'a> {
     pub factor: &'a AnalysedFactor,
     /// What its levels are called without the unit, in the order of the factor; none for ranges.
     pub names: Vec<String>,
-    /// The unit that all levels have, or the unit of the range.
+    /// The unit that all levels have, or the unit of the range, as it is printed.
     pub unit: String,
+    /// Power of ten that stands before the unit of a range, so that numbers on the axis are short.
+    power: i32,
     /// Where levels stand, in the order of the factor.
     ranks: Vec<usize>,
     /// Coded values of the least and the largest setting that was observed.
@@ -56,8 +59,14 @@ impl<'a> FactorAxis<'a> {
         coded.sort_unstable_by(f64::total_cmp);
         coded.dedup_by(|one, other| (*one - *other).abs() < 1e-9);
         let ends = [coded.first().map_or(-1.0, |low| low.min(-1.0)), coded.last().map_or(1.0, |high| high.max(1.0))];
-        let unit = if names.is_empty() { factor.reading.unit.clone() } else { unit };
-        Self { factor, names, unit, ranks, ends, values: coded.len() }
+        let unit = printed_unit(if names.is_empty() { &factor.reading.unit } else { &unit });
+        let axis = Self { factor, names, unit, power: 0, ranks, ends, values: coded.len() };
+        Self { power: axis.power_of_range(), ..axis }
+    }
+
+    /// The power of ten before the unit where the factor is a range.
+    fn power_of_range(&self) -> i32 {
+        if self.is_range() { power_of_axis(self.ends.map(|end| self.natural(end)), self.has_equal_ratios()) } else { 0 }
     }
 
     /// Whether it has values between its ends, so that lines are drawn from predictions.
@@ -67,7 +76,8 @@ impl<'a> FactorAxis<'a> {
 
     /// Numeric levels as the range that they span, where a factor is also looked at between them.
     pub fn as_range(self) -> Self {
-        Self { names: Vec::new(), ..self }
+        let axis = Self { names: Vec::new(), ..self };
+        Self { power: axis.power_of_range(), ..axis }
     }
 
     /// Whether it is a range.
@@ -79,6 +89,11 @@ impl<'a> FactorAxis<'a> {
     pub fn natural(&self, coded: f64) -> f64 {
         let value = self.analysed(coded);
         if self.factor.reading.is_logarithmic() { 10_f64.powf(value) } else { value }
+    }
+
+    /// The value of a coded setting as it stands on the axis: with its power of ten left out.
+    pub fn on_axis(&self, coded: f64) -> f64 {
+        self.natural(coded) / libm::pow(10.0, f64::from(self.power))
     }
 
     /// The same as the analysis has it, which may be a logarithm.
@@ -122,7 +137,7 @@ impl<'a> FactorAxis<'a> {
     pub fn place(&self, setting: Setting) -> f64 {
         match setting {
             Setting::Level(level) => self.ranks.get(level).map_or(0.0, |rank| *rank as f64),
-            Setting::Coded(coded) => self.natural(coded),
+            Setting::Coded(coded) => self.on_axis(coded),
         }
     }
 
@@ -130,7 +145,7 @@ impl<'a> FactorAxis<'a> {
     pub fn name(&self, setting: Setting) -> String {
         match setting {
             Setting::Level(level) => self.names.get(level).map_or_else(String::new, |name| self.with_unit(name)),
-            Setting::Coded(coded) => self.with_unit(&number::rounded(self.natural(coded), 3)),
+            Setting::Coded(coded) => self.with_unit(&printed_number(self.natural(coded), 3)),
         }
     }
 
@@ -141,7 +156,10 @@ impl<'a> FactorAxis<'a> {
     /// What the axis says: name and unit.
     pub fn label(&self) -> String {
         let name = self.plain_name();
-        if self.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", self.unit) }
+        match with_power(self.power, &self.unit).as_str() {
+            "" => name.to_owned(),
+            unit => format!("{name}, {unit}"),
+        }
     }
 
     /// Settings on the axis: all levels from the left, or so many values from end to end.
@@ -162,7 +180,7 @@ impl<'a> FactorAxis<'a> {
             return -BESIDE..=self.names.len() as f64 - 1.0 + BESIDE;
         }
         let margin = MARGIN * (self.ends[1] - self.ends[0]);
-        self.natural(self.ends[0] - margin)..=self.natural(self.ends[1] + margin)
+        self.on_axis(self.ends[0] - margin)..=self.on_axis(self.ends[1] + margin)
     }
 
     /// Length that the axis needs to be read, pixels.
@@ -194,7 +212,14 @@ fn named(labels: &[String]) -> (Vec<String>, String) {
     let parts: Vec<(Option<f64>, &str)> = labels.iter().map(|label| split(label)).collect();
     let unit = parts.first().map_or("", |(_, unit)| *unit);
     if !parts.iter().all(|(number, other)| number.is_some() && *other == unit) {
-        return (labels.to_vec(), String::new());
+        let printed = |label: &String| match split(label) {
+            (Some(_), unit) if !unit.is_empty() => {
+                let number = label.split_whitespace().next().unwrap_or_default();
+                format!("{} {}", plain(number), printed_unit(unit))
+            }
+            _ => label.clone(),
+        };
+        return (labels.iter().map(printed).collect(), String::new());
     }
     (labels.iter().map(|label| plain(label.split_whitespace().next().unwrap_or_default())).collect(), unit.to_owned())
 }
@@ -247,7 +272,7 @@ mod tests {
         let words = ["contact".to_owned(), "track".to_owned()];
         assert_eq!(named(&words), (words.to_vec(), String::new()));
         let mixed = ["50 um".to_owned(), "1 mm".to_owned()];
-        assert_eq!(named(&mixed), (mixed.to_vec(), String::new()));
+        assert_eq!(named(&mixed), (vec!["50 µm".to_owned(), "1 mm".to_owned()], String::new()));
         assert_eq!(named(&["0.2".to_owned(), "-0.4".to_owned()]).0, ["0.2", "\u{2212}0.4"]);
         assert_eq!(
             ["2.5e-14", "1e6", "-3E2"].map(plain),
@@ -263,6 +288,29 @@ mod tests {
         assert!(axis.axis(axis.room()).marks.unwrap().iter().all(|(_, name)| !name.contains('\u{2026}')));
         let marks = axis.axis(300.0).marks.unwrap();
         assert!(marks.iter().all(|(_, name)| text_width(name, TEXT) <= 300.0 / 1.9));
+    }
+
+    #[test]
+    fn small_numbers_have_a_power_of_ten_beside_the_unit() {
+        let name = format!("{LOGARITHM}wear rate");
+        let levels = ["2e-14 1/Pa", "1e-13 1/Pa"].map(|text| {
+            plateau_io::study::factor::Level::new(
+                "materials.pin_primary.specific_wear_rate",
+                &toml::Value::String(text.into()),
+            )
+        });
+        let [low, high] = [0, 1].map(|at| libm::log10(levels[at].number.unwrap()));
+        let factor = AnalysedFactor {
+            factor: Factor { name, kind: FactorKind::Range { low, high } },
+            labels: Vec::new(),
+            reading: Reading::of(&levels, true),
+        };
+        let axis = FactorAxis::new(&factor, [-1.0, 0.0, 1.0].into_iter().map(Setting::Coded));
+        assert_eq!(axis.label(), "wear rate, 10⁻¹⁴ 1/Pa");
+        assert_eq!(axis.name(Setting::Coded(0.0)), "4.47·10⁻¹⁴ 1/Pa");
+        let ticks: Vec<String> = axis.axis(400.0).ticks(4).into_iter().map(|(_, tick)| tick).collect();
+        assert_eq!(ticks, ["2", "5", "10"]);
+        assert!((axis.place(Setting::Coded(-1.0)) - 2.0).abs() < 1e-9);
     }
 
     #[test]

@@ -1,23 +1,29 @@
 //! A map over two factors: colours, lines of equal value with their numbers, the runs, and one mark.
 
+use std::ops::RangeInclusive;
+
+use plateau_study::design::Setting;
+
 use super::FactorAxis;
 use crate::colour::{APART, COLOURS, GROUND, INK, colour_index, colour_map};
 use crate::figure::axes::{Axes, Axis, Frame, most_ticks_upward};
-use crate::figure::canvas::{Anchor, LINE, Place, TEXT};
-use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend};
+use crate::figure::canvas::{Anchor, LINE, Place};
+use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend, note};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::contour::Field;
-use crate::figure::font::{shortened, text_width};
+use crate::figure::font::text_width;
 use crate::figure::page::{Content, Key, KeyStyle, Mark, Page, Panel};
 use crate::figure::picture::Picture;
 use crate::figure::stroke::Stroke;
 use crate::study::analysis::Analysis;
 
-/// Points of the map along each axis, and where there are places without a value, whose rim is to be seen.
-const POINTS: usize = 121;
-const FINE: usize = 361;
-/// Room beyond the outermost points of the design, as a part of the range.
-const BEYOND: f64 = 0.06;
+/// Steps of the map along each axis, and where there are places without a value, whose rim is to be seen.
+const STEPS: usize = 160;
+const FINE: usize = 320;
+/// One step beyond the runs for so many of the map: marks at its ends are not on the frame.
+const ROOM: usize = 16;
+/// How far settings may differ that are the same, in coded units.
+const SAME: f64 = 1e-6;
 /// Height of the box, pixels.
 const HEIGHT: f64 = 800.0;
 /// Room on the right for a colour bar with numbers and label, its width and its distance from the map, pixels.
@@ -28,9 +34,11 @@ const BESIDE: f64 = 36.0;
 const POINTED: f64 = 34.0;
 /// Height of the numbers on lines, and least length of a line that has one, pixels.
 const NUMBER: u32 = 26;
-const SHORTEST: f64 = 160.0;
+const SHORTEST: f64 = 70.0;
+/// How far numbers are from the rim of the map if that can be, pixels.
+const OFF_RIM: f64 = 14.0;
 /// Open lines that are shorter are not drawn, pixels: beside places without a value they are pieces of lines.
-const PIECE: f64 = 100.0;
+const PIECE: f64 = 70.0;
 
 /// Values over two factors.
 pub struct FactorMap<'a> {
@@ -38,37 +46,90 @@ pub struct FactorMap<'a> {
     pub factors: [usize; 2],
     /// The same as axes.
     pub axes: [&'a FactorAxis<'a>; 2],
-    /// Coded values at the ends.
+    /// Coded values at the ends of the runs.
     ends: [[f64; 2]; 2],
-    /// Points along each axis.
-    points: usize,
+    /// Steps between these, and beyond them on either side.
+    steps: usize,
+    room: usize,
+    /// The rim of the runs, in coded values, where these do not reach to the corners.
+    rim: Vec<[f64; 2]>,
     /// Column by column, from below, in the unit in which they are shown; NaN where there is none.
     values: Vec<f64>,
 }
 
+/// Where runs are: with all other factors as they are on the map, and elsewhere; each place once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MapRuns {
+    /// In the plane of the map.
+    pub within: Vec<[f64; 2]>,
+    /// With other settings of the other factors.
+    pub elsewhere: Vec<[f64; 2]>,
+}
+
+impl MapRuns {
+    /// What is said of those elsewhere.
+    pub fn note(&self) -> String {
+        let said = "hollow dots: runs with other values of the factors that are held";
+        if self.elsewhere.is_empty() { String::new() } else { said.to_owned() }
+    }
+
+    fn all(&self) -> Vec<[f64; 2]> {
+        [&self.within[..], &self.elsewhere[..]].concat()
+    }
+}
+
 impl<'a> FactorMap<'a> {
-    /// The values of a function of the coded values of two factors, as far as there are runs and a little beyond.
+    /// The values of a function of the coded values of two factors, as far as there are runs.
     pub fn new(
         analysis: &Analysis,
         factors: [usize; 2],
         axes: [&'a FactorAxis<'a>; 2],
         value: impl Fn([f64; 2]) -> Option<f64>,
     ) -> Self {
-        let coded = |at: usize| {
-            let of = &axes[at].factor.factor;
-            analysis.runs.iter().filter_map(move |(settings, _)| of.coded(settings[factors[at]]))
-        };
+        let coded = |settings: &[Setting], at: usize| axes[at].factor.factor.coded(settings[factors[at]]);
+        let places: Vec<[f64; 2]> =
+            analysis.runs.iter().filter_map(|(settings, _)| Some([coded(settings, 0)?, coded(settings, 1)?])).collect();
         let ends = [0, 1].map(|at| {
-            let (low, high) = coded(at).fold((-1.0, 1.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
-            [low - BEYOND * (high - low), high + BEYOND * (high - low)]
+            let coded = places.iter().map(|place| place[at]);
+            let (low, high) = coded.fold((-1.0, 1.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
+            [low, high]
         });
-        let at_points = |points: usize| {
-            let part = |index: usize, [low, high]: [f64; 2]| low + (high - low) * index as f64 / (points - 1) as f64;
-            let value = |at: usize| value([part(at / points, ends[0]), part(at % points, ends[1])]).unwrap_or(f64::NAN);
-            Self { factors, axes, ends, points, values: (0..points * points).map(value).collect() }
+        // Ranges reach to their corners; axial points beyond them do not.
+        let is_beyond = ends.iter().flatten().any(|end| end.abs() > 1.0 + SAME);
+        let rim = if is_beyond { hull(&places) } else { Vec::new() };
+        let at_steps = |steps: usize| {
+            let room = steps / ROOM;
+            let mut map = Self { factors, axes, ends, steps, room, rim: rim.clone(), values: Vec::new() };
+            let points = map.points();
+            let at = |at: usize| {
+                let coded = map.coded([(at / points) as f64, (at % points) as f64]);
+                if map.is_within(coded) { value(coded).unwrap_or(f64::NAN) } else { f64::NAN }
+            };
+            map.values = (0..points * points).map(at).collect();
+            map
         };
-        let map = at_points(POINTS);
-        if map.values.iter().any(|value| value.is_nan()) && map.varies() { at_points(FINE) } else { map }
+        let map = at_steps(STEPS);
+        let has_gaps = |map: &Self| (0..map.values.len()).any(|at| map.is_gap(at));
+        if (has_gaps(&map) || is_beyond) && map.varies() { at_steps(FINE) } else { map }
+    }
+
+    /// Points along each axis.
+    fn points(&self) -> usize {
+        self.steps + 1 + 2 * self.room
+    }
+
+    /// Coded values at a column and a row.
+    fn coded(&self, place: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|at| {
+            let [low, high] = self.ends[at];
+            low + (high - low) * (place[at] - self.room as f64) / self.steps as f64
+        })
+    }
+
+    /// Whether a point of the map has no value although there are runs about it.
+    fn is_gap(&self, at: usize) -> bool {
+        let points = self.points();
+        self.values[at].is_nan() && self.is_within(self.coded([(at / points) as f64, (at % points) as f64]))
     }
 
     /// Whether there are values that are not all the same.
@@ -78,55 +139,68 @@ impl<'a> FactorMap<'a> {
     }
 
     /// The least and the greatest value.
-    fn range(&self) -> [f64; 2] {
+    pub fn range(&self) -> [f64; 2] {
         let fold = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
         self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], fold)
     }
 
     /// Values of both factors, in their units, at coded values.
     fn natural(&self, coded: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|at| self.axes[at].natural(coded[at]))
+        [0, 1].map(|at| self.axes[at].on_axis(coded[at]))
     }
 
-    /// Where the runs of the study are, each place once.
-    pub fn runs(&self, analysis: &Analysis) -> Vec<[f64; 2]> {
-        let mut points: Vec<[f64; 2]> = Vec::new();
+    /// Where the runs of the study are; `held` are the settings of all factors on the map, none of those that are averaged over.
+    pub fn runs(&self, analysis: &Analysis, held: &[Option<Setting>]) -> MapRuns {
+        let mut runs = MapRuns::default();
+        let mut elsewhere: Vec<[f64; 2]> = Vec::new();
         for (settings, _) in &analysis.runs {
             let coded = [0, 1].map(|at| self.axes[at].factor.factor.coded(settings[self.factors[at]]));
             let [Some(x), Some(y)] = coded else { continue };
+            let is_held = |factor: usize| {
+                let of = &analysis.factors[factor].factor;
+                let Some(held) = held.get(factor).copied().flatten() else { return true };
+                match (of.coded(settings[factor]), of.coded(held)) {
+                    (Some(own), Some(held)) => (own - held).abs() < SAME,
+                    _ => settings[factor] == held,
+                }
+            };
+            let is_within = (0..settings.len()).all(|factor| self.factors.contains(&factor) || is_held(factor));
+            let own = if is_within { &mut runs.within } else { &mut elsewhere };
             let point = self.natural([x, y]);
-            if !points.contains(&point) {
-                points.push(point);
+            if !own.contains(&point) {
+                own.push(point);
             }
         }
-        points
+        elsewhere.retain(|point| !runs.within.contains(point));
+        MapRuns { elsewhere, ..runs }
     }
 
-    /// Whether coded values are on the map.
+    /// Whether coded values are on the map: where there are runs.
     pub fn is_within(&self, coded: [f64; 2]) -> bool {
-        (0..2).all(|at| (self.ends[at][0]..=self.ends[at][1]).contains(&coded[at]))
+        let in_ends = |at: usize| (self.ends[at][0] - SAME..=self.ends[at][1] + SAME).contains(&coded[at]);
+        let in_rim =
+            self.rim.iter().zip(self.rim.iter().cycle().skip(1)).all(|(one, other)| turn(*one, *other, coded) > -SAME);
+        (0..2).all(in_ends) && in_rim
     }
 
     fn picture(&self) -> Picture {
         let [low, high] = self.range();
-        let rows = (0..self.points).rev();
-        let index = |value: f64| match value {
-            _ if value.is_nan() => COLOURS as u8,
-            _ => colour_index((value - low) / (high - low)),
+        let points = self.points();
+        let index = |at: usize| match self.values[at] {
+            value if !value.is_nan() => colour_index((value - low) / (high - low)),
+            _ if self.is_gap(at) => COLOURS as u8,
+            _ => COLOURS as u8 + 1,
         };
-        let indices =
-            rows.flat_map(|row| (0..self.points).map(move |column| index(self.values[column * self.points + row])));
-        let palette = colour_map().into_iter().chain([APART]).collect();
-        Picture { columns: self.points, rows: self.points, indices: indices.collect(), palette }
+        let rows = (0..points).rev();
+        let indices = rows.flat_map(|row| (0..points).map(move |column| column * points + row)).map(index);
+        let palette = colour_map().into_iter().chain([APART, GROUND]).collect();
+        Picture { columns: points, rows: points, indices: indices.collect(), palette }
     }
 
     /// Lines through the values at which the colour bar has numbers, with what these say.
     fn contours(&self, scale: &Axis, length: f64) -> Vec<(Vec<[f64; 2]>, String)> {
-        let field = Field { values: &self.values, rows: self.points };
-        let point = |[column, row]: [f64; 2]| {
-            let part = |place: f64, [low, high]: [f64; 2]| low + (high - low) * place / (self.points - 1) as f64;
-            self.natural([part(column, self.ends[0]), part(row, self.ends[1])])
-        };
+        let field = Field { values: &self.values, rows: self.points() };
+        let point = |place: [f64; 2]| self.natural(self.coded(place));
         let levels = scale.ticks(most_ticks_upward(length));
         let lines = levels
             .into_iter()
@@ -135,25 +209,31 @@ impl<'a> FactorMap<'a> {
         lines.map(|(places, text)| (places.into_iter().map(point).collect(), text)).collect()
     }
 
-    /// The page: `label` says what the values are, `none` where there is none, `runs` are where runs are, and `mark` is a place
-    /// in coded values with what it is.
-    pub fn page(&self, label: &str, none: &str, runs: &[[f64; 2]], mark: Option<([f64; 2], String)>) -> Page {
+    /// The page: `scale` makes an axis of the values, `none` says where there is none, `runs` are where runs are, and `mark` is a
+    /// place in coded values with what it is; notes stand below.
+    pub fn page(
+        &self,
+        scale: impl Fn(RangeInclusive<f64>, f64) -> Axis,
+        none: &str,
+        runs: &MapRuns,
+        mark: Option<([f64; 2], String)>,
+        notes: &[String],
+    ) -> Page {
         let mut page = Page { size: [COLUMN, 0.0], ..Page::default() };
         let meaning = |mark, text: String| Meaning { colour: INK, style: KeyStyle::Mark(mark), text };
-        let mut meanings = vec![meaning(Mark::Rimmed, "runs".to_owned())];
+        let marks = [(Mark::Rimmed, &runs.within, "runs"), (Mark::Hollow, &runs.elsewhere, "runs elsewhere")];
+        let marks = marks.into_iter().filter(|(_, places, _)| !places.is_empty());
+        let mut meanings: Vec<Meaning> = marks.map(|(mark, _, text)| meaning(mark, text.to_owned())).collect();
         meanings.extend(mark.as_ref().map(|(_, text)| meaning(Mark::Cross, text.clone())));
-        if self.values.iter().any(|value| value.is_nan()) {
+        if (0..self.values.len()).any(|at| self.is_gap(at)) {
             meanings.push(Meaning { colour: APART, style: KeyStyle::Area, text: none.to_owned() });
         }
         let top = legend(&mut page, &meanings, MARGIN) + 12.0;
         let [low, high] = self.range();
-        let scale = Axis::linear(low..=high, shortened(label, TEXT, HEIGHT));
+        let scale = scale(low..=high, HEIGHT);
         // A picture's outer points lie on the edge of the box by their middles.
-        let half = |at: usize| 0.5 * (self.ends[at][1] - self.ends[at][0]) / (self.points - 1) as f64;
-        let range = |at: usize| {
-            let [low, high] = self.ends[at];
-            self.axes[at].natural(low - half(at))..=self.axes[at].natural(high + half(at))
-        };
+        let [first, last] = [-0.5, self.points() as f64 - 0.5].map(|place| self.natural(self.coded([place; 2])));
+        let range = |at: usize| first[at]..=last[at];
         let y = self.axes[1].between(range(1), HEIGHT);
         let left = (MARGIN + y.room_beside(HEIGHT)).round();
         let frame = Frame { x: [left, COLUMN - BAR_ROOM], y: [top, top + HEIGHT].map(f64::round) };
@@ -168,9 +248,23 @@ impl<'a> FactorMap<'a> {
             stroke: Stroke::solid(GROUND, LINE - 1),
         };
         contents.extend(lines.iter().map(line));
-        contents.push(Content::Marks { points: runs.to_vec(), colour: INK, mark: Mark::Rimmed });
+        let outline = self.outline();
+        contents.extend(
+            (outline.len() > 1).then(|| Content::Line { points: outline, stroke: Stroke::solid(GROUND, LINE + 3) }),
+        );
+        contents.push(Content::Marks { points: runs.elsewhere.clone(), colour: INK, mark: Mark::Hollow });
+        contents.push(Content::Marks { points: runs.within.clone(), colour: INK, mark: Mark::Rimmed });
         let marked: Vec<[f64; 2]> = mark.iter().map(|(coded, _)| self.natural(*coded)).collect();
-        write_numbers(&mut page, &axes, &lines, &[runs, &marked].concat());
+        let is_valued = |place: Place| {
+            let [x, y] = axes.values(place);
+            let part = |at: usize, value: f64| {
+                let axis = if at == 0 { &axes.x } else { &axes.y };
+                (axis.part(value) * self.points() as f64) as usize
+            };
+            let (column, row) = (part(0, x).min(self.points() - 1), part(1, y).min(self.points() - 1));
+            !self.values[column * self.points() + row].is_nan()
+        };
+        write_numbers(&mut page, &axes, &lines, &[runs.all(), marked.clone()].concat(), is_valued);
         if !marked.is_empty() {
             contents.push(Content::Marks { points: marked, colour: INK, mark: Mark::Cross });
         }
@@ -179,8 +273,39 @@ impl<'a> FactorMap<'a> {
         let bar = Frame { x: [bar, bar + BAR], y: [frame.y[0] + POINTED, frame.y[1] - POINTED] };
         page.colour_bars.push(ColourBar::new(bar, scale));
         page.size[1] = (frame.y[1] + below + MARGIN).ceil();
+        notes.iter().for_each(|text| note(&mut page, text));
         page
     }
+
+    /// The rim of the runs, where it is no rectangle.
+    fn outline(&self) -> Vec<[f64; 2]> {
+        self.rim.iter().chain(self.rim.first()).map(|coded| self.natural(*coded)).collect()
+    }
+}
+
+/// Twice the area of a triangle; positive where its corners go round against the clock.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// The smallest convex polygon with all places in it, against the clock (Andrew's chain); none of places along a line.
+fn hull(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut sorted = places.to_vec();
+    sorted.sort_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
+    sorted.dedup();
+    let half = |places: &mut dyn Iterator<Item = [f64; 2]>| {
+        let mut chain: Vec<[f64; 2]> = Vec::new();
+        for place in places {
+            while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], place) <= SAME {
+                chain.pop();
+            }
+            chain.push(place);
+        }
+        chain.pop();
+        chain
+    };
+    let hull = [half(&mut sorted.iter().copied()), half(&mut sorted.iter().rev().copied())].concat();
+    if hull.len() > 2 { hull } else { Vec::new() }
 }
 
 /// Length of a line on the page, pixels.
@@ -189,35 +314,90 @@ fn length_of(axes: &Axes, points: &[[f64; 2]]) -> f64 {
     places.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum()
 }
 
-/// Writes on each line what it is the line of: away from marks and other numbers, and as far from other lines as there is room.
-fn write_numbers(page: &mut Page, axes: &Axes, lines: &[(Vec<[f64; 2]>, String)], marks: &[[f64; 2]]) {
+/// Writes on each line what it is the line of: away from marks and other numbers, as far from other lines as there is room, and
+/// where there are values if that can be.
+fn write_numbers(
+    page: &mut Page,
+    axes: &Axes,
+    lines: &[(Vec<[f64; 2]>, String)],
+    marks: &[[f64; 2]],
+    is_valued: impl Fn(Place) -> bool,
+) {
     let place = |point: &[f64; 2]| axes.place(point[0], point[1]);
     let mut taken: Vec<Place> = marks.iter().map(place).collect();
     let all: Vec<Vec<Place>> = lines.iter().map(|(points, _)| points.iter().map(place).collect()).collect();
-    for (at, ((points, text), places)) in lines.iter().zip(&all).enumerate() {
-        if length_of(axes, points) < SHORTEST {
-            continue;
-        }
-        let half = [0.5 * text_width(text, NUMBER) + 6.0, 0.5 * f64::from(NUMBER) + 2.0];
-        let is_free = |(x, y): &Place| {
-            let [left, right] = axes.frame.x;
-            let [top, bottom] = axes.frame.y;
-            let inside = x - half[0] > left && x + half[0] < right && y - half[1] > top && y + half[1] < bottom;
-            let is_near = |(other_x, other_y): &Place| {
-                (other_x - x).abs() < 2.0 * half[0] + 6.0 && (other_y - y).abs() < 2.0 * half[1] + 6.0
+    let mut written: Vec<&str> = Vec::new();
+    // First where no other line is covered; then, of values that stand nowhere yet, where there is room at all.
+    for covering in [false, true] {
+        for (at, ((points, text), places)) in lines.iter().zip(&all).enumerate() {
+            if length_of(axes, points) < SHORTEST || (covering && written.contains(&text.as_str())) {
+                continue;
+            }
+            let half = [0.5 * text_width(text, NUMBER) + 6.0, 0.5 * f64::from(NUMBER) + 2.0];
+            let others = || all.iter().enumerate().filter(|(other, _)| *other != at).flat_map(|(_, places)| places);
+            let is_free = |(x, y): &Place| {
+                let [left, right] = axes.frame.x;
+                let [top, bottom] = axes.frame.y;
+                let inside = x - half[0] > left && x + half[0] < right && y - half[1] > top && y + half[1] < bottom;
+                let is_within = |(other_x, other_y): &Place, room: [f64; 2]| {
+                    (other_x - x).abs() < room[0] && (other_y - y).abs() < room[1]
+                };
+                let own = [2.0 * half[0] + 6.0, 2.0 * half[1] + 6.0];
+                let covers = || others().any(|other| is_within(other, [half[0] + 4.0, half[1] + 4.0]));
+                inside && !taken.iter().any(|other| is_within(other, own)) && (covering || !covers())
             };
-            inside && !taken.iter().any(is_near)
-        };
-        let others = || all.iter().enumerate().filter(|(other, _)| *other != at).flat_map(|(_, places)| places);
-        let to_others = |(x, y): &Place| {
-            others().map(|(other_x, other_y)| (other_x - x).hypot(other_y - y)).fold(f64::INFINITY, f64::min)
-        };
-        let free = places.iter().filter(|place| is_free(place)).map(|place| (to_others(place), *place));
-        let Some((_, found)) = free.max_by(|one, other| one.0.total_cmp(&other.0)) else { continue };
-        let (x, y) = found;
-        let frame = Frame { x: [x - half[0], x + half[0]], y: [y - half[1], y + half[1]] };
-        page.keys.push(Key { frame, colour: GROUND, style: KeyStyle::Area });
-        page.write(text.clone(), (x - half[0] + 6.0, y), Anchor::Right, NUMBER);
-        taken.push(found);
+            let to_others = |(x, y): &Place| {
+                others().map(|(other_x, other_y)| (other_x - x).hypot(other_y - y)).fold(f64::INFINITY, f64::min)
+            };
+            // How many corners of the number are off the rim, then how far it is from other lines.
+            let on_map = |(x, y): &Place| {
+                let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+                let valued = |room: f64| {
+                    let at = |(right, down): &(f64, f64)| (x + right * (half[0] + room), y + down * (half[1] + room));
+                    corners.iter().filter(|corner| is_valued(at(corner))).count()
+                };
+                valued(0.0) + valued(OFF_RIM)
+            };
+            let places = places.windows(2).flat_map(|pair| {
+                let middle = (0.5 * (pair[0].0 + pair[1].0), 0.5 * (pair[0].1 + pair[1].1));
+                [pair[0], middle]
+            });
+            let free = places.filter(is_free).map(|place| (on_map(&place), to_others(&place), place));
+            let best = free.max_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+            let Some((_, _, found)) = best else { continue };
+            let (x, y) = found;
+            let frame = Frame { x: [x - half[0], x + half[0]], y: [y - half[1], y + half[1]] };
+            page.keys.push(Key { frame, colour: GROUND, style: KeyStyle::Area });
+            page.write(text.clone(), (x - half[0] + 6.0, y), Anchor::Right, NUMBER);
+            taken.push(found);
+            written.push(text);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{hull, turn};
+
+    #[test]
+    fn the_rim_of_a_central_composite_is_an_octagon() {
+        let far = std::f64::consts::SQRT_2;
+        let places = [
+            [-1.0, -1.0],
+            [1.0, -1.0],
+            [-1.0, 1.0],
+            [1.0, 1.0],
+            [-far, 0.0],
+            [far, 0.0],
+            [0.0, -far],
+            [0.0, far],
+            [0.0, 0.0],
+        ];
+        let rim = hull(&places);
+        assert_eq!(rim.len(), 8);
+        let is_within = |place: [f64; 2]| (0..8).all(|at| turn(rim[at], rim[(at + 1) % 8], place) > -1e-6);
+        assert!(places.into_iter().all(is_within));
+        assert!(!is_within([far, far]) && !is_within([1.2, 0.9]));
+        assert!(hull(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]).is_empty());
     }
 }

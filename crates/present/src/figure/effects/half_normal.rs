@@ -5,10 +5,10 @@ use plateau_study::effects::{Effects, HalfNormal};
 use super::{ResponseFigures, Subject};
 use crate::colour::{DATA, DATA_AREA, FAINT};
 use crate::figure::axes::Axis;
-use crate::figure::canvas::{Anchor, LINE, TEXT};
-use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
+use crate::figure::canvas::{LINE, TEXT};
+use crate::figure::chart::{COLUMN, Chart, Meaning, about_zero, page};
 use crate::figure::font::shortened;
-use crate::figure::labels::Labels;
+use crate::figure::labels::{Labels, write_labels};
 use crate::figure::page::{Content, KeyStyle, Mark};
 use crate::figure::stroke::{SOLID, Stroke};
 
@@ -37,7 +37,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let last = shown.iter().map(|effect| effect.quantile).fold(0.0, f64::max);
     let (significant, others): (Vec<&HalfNormal>, Vec<&HalfNormal>) =
         shown.iter().partition(|effect| effects.is_significant(&effects.terms[effect.term]) == Some(true));
-    let (x, y) = (up_from_zero(1.06 * last), up_from_zero(1.06 * largest));
+    let (x, y) = (about_zero(1.06 * last), about_zero(1.06 * largest));
     let mut contents = Vec::new();
     let mut meanings = Vec::new();
     let slope = standard_error(effects).map(|error| subject.unit.value(error));
@@ -81,17 +81,20 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
             axes.place_within(x, y)
         };
         let mut labels = Labels::new(axes.frame, shown.iter().map(place));
+        if let Some(slope) = slope {
+            let end = axes.x.range.end().min(axes.y.range.end() / slope);
+            labels.avoid([axes.place(0.0, 0.0), axes.place(end, slope * end)]);
+        }
         let labelled: Vec<&HalfNormal> =
             if is_told { significant } else { others.iter().rev().take(LABELLED).copied().collect() };
         // The largest first: it is the one that must not be missed.
         let mut labelled = labelled;
         labelled.sort_by(|one, other| other.size.total_cmp(&one.size));
-        for effect in labelled {
-            let text = shortened(&effects.terms[effect.term].label, TEXT, LABEL);
-            if let Some(begin) = labels.beside(&text, place(effect)) {
-                page.write(text, begin, Anchor::Right, TEXT);
-            }
-        }
+        let named = labelled
+            .into_iter()
+            .map(|effect| (shortened(&effects.terms[effect.term].label, TEXT, LABEL), place(effect)))
+            .collect();
+        write_labels(&mut page, &axes, &labels, named);
     }
     let caption = format!(
         "Sizes of effects against half-normal quantiles: those that are nothing but error lie along a line through the \

@@ -9,7 +9,7 @@ use plateau_study::effects::Model;
 use super::{FactorAxis, ResponseFigures, Subject, range_of};
 use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, TEXT};
-use crate::figure::chart::{COLUMN, MARGIN, TWO_COLUMNS};
+use crate::figure::chart::{COLUMN, MARGIN, TWO_COLUMNS, note};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Mark, Page, Panel};
 use crate::figure::stroke::Stroke;
@@ -21,11 +21,11 @@ const HEIGHTS: [f64; 2] = [330.0, 560.0];
 /// Room between boxes beside each other.
 const BETWEEN: f64 = 36.0;
 /// Room on the right for what lines mean.
-const LEGEND: f64 = 400.0;
+const LEGEND: f64 = 420.0;
 /// Width of the sample of a colour.
 const KEY: f64 = 60.0;
 /// Values at which a line of predictions is calculated.
-const VALUES: usize = 25;
+const VALUES: usize = 121;
 
 /// A line of a box: what it is the line of, and its points in the unit of the response.
 struct Line {
@@ -66,7 +66,12 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let lines = || rows.iter().flat_map(|(_, _, pairs)| pairs).flat_map(|pair| &pair.lines);
     let range = range_of(lines().flat_map(|line| &line.points).map(|[_, value]| *value));
     let predicted = lines().any(|line| line.predicted);
-    let page = matrix(subject, &rows, &Axis::linear(range, ""));
+    let y = Axis { label: String::new(), ..subject.value_axis(range, HEIGHTS[0]) };
+    let mut page = matrix(subject, &rows, &y);
+    if predicted && all > 2 {
+        note(&mut page, &subject.held(&[], "predicted with the others at"));
+    }
+    note(&mut page, &subject.note_of_impossible(lines().flat_map(|line| &line.points).map(|[_, value]| *value)));
     let mut caption =
         "Mean response at pairs of levels: one factor along the axis, the other one as lines. Where lines are \
                        not parallel, the effect of one factor depends on the other."
@@ -156,13 +161,22 @@ fn matrix(subject: &Subject, rows: &[(usize, Vec<Setting>, Vec<Pair>)], y: &Axis
             let frame = Frame { x: [begin, begin + box_width], y: [top, top + height] };
             // The first box of a row is the lowest of its column: both have the numbers.
             let x = subject.axes[pair.along].axis(box_width);
-            let (x, y) = if at == 0 { (x, y.clone()) } else { (x.shared(), y.clone().shared()) };
+            // All have numbers below them, or one would look for them in another row.
+            let (x, y) = match at {
+                0 => (x, y.clone()),
+                _ => (Axis { label: String::new(), ..x }, y.clone().shared()),
+            };
             below = below.max(x.room_below());
-            page.panels.push(Panel { axes: Axes { frame, x, y }, contents: contents(pair) });
+            let contents = [subject.impossible(&x.range, &y.range), contents(pair)].concat();
+            page.panels.push(Panel { axes: Axes { frame, x, y }, contents });
         }
         legend(&mut page, &subject.axes[*lines_of], settings, [width - MARGIN - LEGEND + 40.0, top]);
         if row == 0 {
-            let label = shortened(&subject.label(), TEXT, height + 2.0 * MARGIN);
+            let label = shortened(
+                &subject.value_axis(y.range.clone(), height + 2.0 * MARGIN).label,
+                TEXT,
+                height + 2.0 * MARGIN,
+            );
             let place = (MARGIN + 1.1 * f64::from(TEXT), top + 0.5 * height);
             page.write(label, place, Anchor::Upward, TEXT);
         }
@@ -190,7 +204,7 @@ fn contents(pair: &Pair) -> Vec<Content> {
 /// Writes what the lines of a row mean, beside it.
 fn legend(page: &mut Page, axis: &FactorAxis, settings: &[Setting], [left, top]: [f64; 2]) {
     let room = LEGEND - 40.0;
-    page.write(shortened(&axis.factor.factor.name, TEXT, room), (left, top), Anchor::BelowRight, TEXT);
+    page.write(shortened(axis.plain_name(), TEXT, room), (left, top), Anchor::BelowRight, TEXT);
     for (number, setting) in settings.iter().enumerate() {
         let middle = top + (number as f64 + 1.7) * LINE_OF_TEXT;
         let frame = Frame { x: [left, left + KEY], y: [middle - 13.0, middle + 13.0] };

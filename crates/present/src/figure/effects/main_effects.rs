@@ -5,10 +5,8 @@ use plateau_study::effects::{Cell, Model};
 
 use super::{FactorAxis, ResponseFigures, Subject, range_of, said_of_cuts};
 use crate::colour::{DATA, FAINT};
-use crate::figure::axes::Axis;
-use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, page};
-use crate::figure::font::shortened;
+use crate::figure::canvas::LINE;
+use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, note, page};
 use crate::figure::page::{Content, KeyStyle, Mark};
 use crate::figure::stroke::{SOLID, Stroke};
 
@@ -20,7 +18,7 @@ const MOST_ACROSS: usize = 6;
 const LEFT: f64 = 210.0;
 const BETWEEN: f64 = 84.0;
 /// Values at which a line of predictions is calculated.
-const VALUES: usize = 41;
+const VALUES: usize = 121;
 /// Half the width of the end of an error bar, as a part of the axis.
 const CAP: f64 = 0.025;
 /// Whether one sees through the band of a predicted line.
@@ -48,13 +46,16 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         let ends = shown.intervals.iter().flat_map(|[_, low, high]| [*low, *high]);
         shown.points.iter().map(|[_, value]| *value).chain(ends)
     });
-    let y = Axis::linear(range_of(values.chain([mean])), shortened(&subject.label(), TEXT, HEIGHT));
+    let y = subject.value_axis(range_of(values.chain([mean])), HEIGHT);
     let Layout { width, across, box_width } = Layout::of(subject.axes);
     let chart = |(at, (axis, shown)): (usize, (&FactorAxis, &Shown))| Chart {
         title: String::new(),
         x: axis.axis(box_width),
         y: if at % across == 0 { y.clone() } else { y.clone().shared() },
-        contents: contents(shown, axis, mean),
+        contents: {
+            let x = axis.range();
+            [subject.impossible(&x, &y.range), contents(shown, axis, mean)].concat()
+        },
     };
     let charts = subject.axes.iter().zip(&shown).enumerate().map(chart).collect();
     let has_intervals = shown.iter().any(|shown| !shown.intervals.is_empty());
@@ -90,7 +91,13 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let ends = shown.iter().flat_map(|shown| &shown.intervals).flat_map(|[_, low, high]| [*low, *high]);
     let cut = said_of_cuts(subject.bounds(), &subject.unit, ends);
     let caption = format!("{what}. {uncertainty}{cut}");
-    let page = page(width, HEIGHT, across, charts, &meanings);
+    let mut page = page(width, HEIGHT, across, charts, &meanings);
+    if any_predicted {
+        let held =
+            if subject.axes.len() > 1 { subject.held(&[], "predicted with the others at") } else { String::new() };
+        note(&mut page, &held);
+    }
+    note(&mut page, &subject.note_of_impossible(shown.iter().flat_map(|shown| &shown.points).map(|[_, value]| *value)));
     subject.add(figures, "main-effects", "Main effects on", caption, page);
 }
 

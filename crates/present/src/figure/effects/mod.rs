@@ -9,12 +9,14 @@
 //! | the response over two factors | [`response_surface`] |
 //! | what the model leaves | [`residuals`] |
 //!
-//! What they have in common: a factor as an axis in [`factor_axis`], a map over two factors in [`factor_map`].
+//! What they have in common: a factor as an axis in [`factor_axis`], a response as one in [`value_axis`], a map over two factors in
+//! [`factor_map`].
 
 use std::ops::RangeInclusive;
 
 use plateau_io::study::bounds::Bounds;
-use plateau_study::effects::Effects;
+use plateau_study::design::Setting;
+use plateau_study::effects::{Effects, Model, Transform};
 
 use super::format::Figure;
 use super::page::Page;
@@ -30,6 +32,7 @@ mod main_effects;
 mod pareto;
 mod residuals;
 mod response_surface;
+mod value_axis;
 
 pub use factor_axis::FactorAxis;
 
@@ -87,9 +90,29 @@ impl Subject<'_> {
         self.unit.label(&self.response.title())
     }
 
-    /// What can be shown: what the response can be, and any value of a transform.
+    /// What can be shown: what the response can be, and what a transform can.
     fn bounds(&self) -> Bounds {
-        if self.response.scale.transform().is_some() { Bounds::NONE } else { self.response.bounds }
+        match self.response.scale.transform() {
+            None => self.response.bounds,
+            Some(Transform::SquareRoot) => Bounds { least: 0.0, ..Bounds::NONE },
+            Some(Transform::Logarithm | Transform::Logit) => Bounds::NONE,
+        }
+    }
+
+    /// What the factors that are not shown are at: ranges in their middle, and averages over levels.
+    fn held(&self, shown: &[usize], at: &str) -> String {
+        let others = self.axes.iter().enumerate().filter(|(factor, _)| !shown.contains(factor)).map(|(_, axis)| axis);
+        let is_number = |axis: &&FactorAxis<'_>| {
+            axis.is_range() || (self.effects.model == Model::Quadratic && axis.factor.factor.is_numeric())
+        };
+        let (numbers, words): (Vec<_>, Vec<_>) = others.partition(is_number);
+        let middle = |axis: &FactorAxis<'_>| format!("{} {}", axis.plain_name(), axis.name(Setting::Coded(0.0)));
+        let numbers: Vec<String> = numbers.into_iter().map(middle).collect();
+        let words: Vec<&str> = words.into_iter().map(FactorAxis::plain_name).collect();
+        let mut parts = Vec::new();
+        parts.extend((!numbers.is_empty()).then(|| format!("{at}: {}", numbers.join(", "))));
+        parts.extend((!words.is_empty()).then(|| format!("averaged over {}", words.join(", "))));
+        parts.join("; ")
     }
 
     /// The confidence level in per cent.

@@ -13,7 +13,7 @@ use super::{ResponseFigures, Subject};
 use crate::colour::{DATA, DATA_AREA, DERIVED, FAINT, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::chart::{COLUMN, Chart, Meaning, page, up_from_zero};
+use crate::figure::chart::{COLUMN, Chart, Meaning, note, page, up_from_zero};
 use crate::figure::font::shortened;
 use crate::figure::page::{Content, KeyStyle};
 use crate::figure::stroke::{SOLID, Stroke};
@@ -28,6 +28,9 @@ const PART: f64 = 0.7;
 const LEAST_HEIGHT: f64 = 120.0;
 /// Room for names of terms, pixels.
 const NAMES: f64 = 560.0;
+
+/// What stands behind the name of a term that cannot be told from others.
+const ASTERISK: &str = " *";
 
 /// A bar.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,12 +92,14 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let longest = bars.iter().map(|bar| bar.length).chain(limits).fold(0.0, f64::max);
     let names = bars.iter().enumerate().map(|(at, bar)| (count - 0.5 - at as f64, shortened(&bar.name, TEXT, NAMES)));
     let chart = Chart {
-        title: String::new(),
+        title: format!("effects on {}", subject.response.title()),
         x: Axis::linear(up_from_zero(longest), x_label),
         y: Axis::marked(0.0..=count, "", names.collect()),
         contents: contents(&bars, simultaneous),
     };
-    let page = page(COLUMN, height, 1, vec![chart], &meanings(subject, measure, &bars, simultaneous));
+    let has_asterisks = bars.iter().any(|bar| bar.name.ends_with(ASTERISK));
+    let mut page = page(COLUMN, height, 1, vec![chart], &meanings(subject, measure, &bars, simultaneous));
+    note(&mut page, if has_asterisks { "* cannot be told from other effects, which the table names" } else { "" });
     subject.add(figures, "pareto", "Sizes of effects on", caption(subject, measure, all), page);
 }
 
@@ -112,7 +117,7 @@ fn bar(subject: &Subject, term: &Term, measure: Measure) -> Option<Bar> {
         }
         Measure::Share => (100.0 * term.share, None),
     };
-    let mark = if term.aliased_with.is_empty() { "" } else { " *" };
+    let mark = if term.aliased_with.is_empty() { "" } else { ASTERISK };
     Some(Bar { name: format!("{}{mark}", term.label), length, limit })
 }
 
@@ -125,16 +130,17 @@ fn contents(bars: &[Bar], simultaneous: Option<f64>) -> Vec<Content> {
         let spans = [0.0, bar.length].map(|x| [x, ends[0], ends[1]]).to_vec();
         contents.push(Content::Band { spans, colour: colour(bar), opacity: 1.0 });
     }
-    // One line through all bars that have the same limit below each other.
-    let mut from = 0;
-    while from < bars.len() {
-        let same = |bar: &&Bar| bar.limit == bars[from].limit;
-        let to = from + bars[from..].iter().take_while(same).count();
-        if let Some(limit) = bars[from].limit {
-            let points = vec![[limit, count - from as f64], [limit, count - to as f64]];
-            contents.push(Content::Line { points, stroke: Stroke::solid(DERIVED, LINE + 1) });
+    // One line through all bars, with a step where a term has other degrees of freedom than the one above it.
+    let mut points: Vec<[f64; 2]> = Vec::new();
+    for (at, limit) in bars.iter().enumerate().filter_map(|(at, bar)| Some((at, bar.limit?))) {
+        let ends = [count - at as f64, count - at as f64 - 1.0];
+        match points.last_mut() {
+            Some(last) if last[0] == limit && last[1] == ends[0] => last[1] = ends[1],
+            _ => points.extend(ends.map(|y| [limit, y])),
         }
-        from = to;
+    }
+    if !points.is_empty() {
+        contents.push(Content::Line { points, stroke: Stroke::solid(DERIVED, LINE + 1) });
     }
     contents.extend(simultaneous.map(|margin| Content::Line {
         points: vec![[margin, 0.0], [margin, count]],
@@ -155,7 +161,15 @@ fn meanings(subject: &Subject, measure: Measure, bars: &[Bar], simultaneous: Opt
     let Some(first) = bars.iter().find_map(|bar| bar.limit) else { return Vec::new() };
     let confidence = subject.confidence();
     let is_common = bars.iter().all(|bar| bar.limit == Some(first));
-    let at = if is_common { format!(": {}", number::rounded(first, 3)) } else { String::new() };
+    let ends = bars
+        .iter()
+        .filter_map(|bar| bar.limit)
+        .fold([first; 2], |[low, high], limit| [low.min(limit), high.max(limit)]);
+    let at = if is_common {
+        format!(": {}", number::rounded(first, 3))
+    } else {
+        format!(": {} by degrees of freedom", ends.map(|end| number::rounded(end, 3)).join(" to "))
+    };
     let limit = match measure {
         Measure::Size => subject.unit.with_symbol(&format!("margin of error (Lenth, {confidence}){at}")),
         _ => format!("limit at {confidence}{at}"),

@@ -26,9 +26,19 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let stationary = stationary(subject, factors);
     let within = stationary.filter(|(coded, _)| map.is_within(*coded));
     let mark = within.map(|(coded, nature)| (coded, format!("{nature} of the surface")));
-    let page = map.page(&subject.label(), "no prediction", &map.runs(subject.analysis), mark);
+    let scale = |range, length| subject.value_axis(range, length);
+    let held: Vec<Option<Setting>> =
+        subject.axes.iter().map(|axis| axis.factor.factor.is_numeric().then_some(Setting::Coded(0.0))).collect();
+    let runs = map.runs(subject.analysis, &held);
+    let notes = [subject.held(&factors, "held"), runs.note(), said_of_impossible(subject, &map)];
+    let page = map.page(scale, "no prediction", &runs, mark, &notes);
     let caption = caption(subject, &map, stationary);
     subject.add(figures, "surface", "Response surface of", caption, page);
+}
+
+/// What is said of a surface that goes where the response cannot be.
+fn said_of_impossible(subject: &Subject, map: &FactorMap) -> String {
+    subject.note_of_impossible(map.range().into_iter()).trim_start_matches("grey: ").to_owned()
 }
 
 /// The two numeric factors that have the largest share in the differences between runs, in the order of the study.
@@ -84,7 +94,7 @@ fn level_point(at: impl Fn(f64, f64) -> Option<f64>) -> Option<([f64; 2], &'stat
 
 fn caption(subject: &Subject, map: &FactorMap, stationary: Option<([f64; 2], &'static str)>) -> String {
     let mut caption =
-        "Response that the quadratic model predicts, with lines of equal response and their values.".to_owned();
+        "Response that the quadratic model predicts, with lines of equal response and their values, as far as there are runs.".to_owned();
     let others = subject.axes.iter().enumerate().filter(|(factor, _)| !map.factors.contains(factor));
     let (numbers, words): (Vec<_>, Vec<_>) =
         others.map(|(_, axis)| axis).partition(|axis| axis.factor.factor.is_numeric());

@@ -83,7 +83,7 @@ impl Figure {
 fn png(page: &Page) -> Result<Vec<u8>, FigureError> {
     let (width, height) = page.pixels();
     let mut pixels = vec![0; 3 * width as usize * height as usize];
-    let canvas = Canvas::new(BitMapBackend::with_buffer(&mut pixels, (width, height)))?;
+    let canvas = Canvas::new(BitMapBackend::with_buffer(&mut pixels, (width, height)))?.in_pixels();
     for (frame, picture) in page.pictures() {
         let (width, height) = (frame.width().round() as u32, frame.height().round() as u32);
         canvas.bitmap((frame.x[0], frame.y[0]), (width, height), picture.stretched(width, height))?;

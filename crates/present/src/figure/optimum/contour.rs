@@ -3,8 +3,11 @@
 use plateau_study::design::Setting;
 
 use super::Shown;
+use crate::figure::axes::Axis;
+use crate::figure::canvas::TEXT;
 use crate::figure::effects::axes;
 use crate::figure::effects::factor_map::FactorMap;
+use crate::figure::font::shortened;
 use crate::figure::format::Figure;
 
 /// The figure; none where the desirability is the same all over.
@@ -28,18 +31,22 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
     let others: Vec<String> = others
         .map(|factor| format!("{} = {}", axes[factor].plain_name(), axes[factor].name(shown.best[factor])))
         .collect();
-    let held = if others.is_empty() {
-        String::new()
+    let (held, note) = if others.is_empty() {
+        (String::new(), String::new())
     } else {
-        format!(" The others are at the optimum: {}.", others.join(", "))
+        let plain = others.iter().map(|other| other.replacen(" = ", " ", 1)).collect::<Vec<_>>().join(", ");
+        (format!(" The others are at the optimum: {}.", others.join(", ")), format!("held at the optimum: {plain}"))
     };
+    let runs = map.runs(shown.analysis, &shown.best.iter().copied().map(Some).collect::<Vec<_>>());
+    let scale = |range, length| Axis::linear(range, shortened("desirability", TEXT, length));
+    let page = map.page(scale, "desirability 0", &runs, mark, &[note, runs.note()]);
     Some(Figure {
         name: "contour".to_owned(),
         title: "Desirability over two factors".to_owned(),
         caption: format!(
-            "How much all goals are met over two factors, with lines of equal desirability; grey where it is 0: a limit is \
-             missed, or a goal altogether.{held}"
+            "How much all goals are met over two factors, as far as there are runs, with lines of equal desirability; grey where \
+             it is 0: a limit is missed, or a goal altogether.{held}"
         ),
-        page: map.page("desirability", "desirability 0", &map.runs(shown.analysis), mark),
+        page,
     })
 }

@@ -1,5 +1,7 @@
 //! Each response, and the mean desirability, against each factor, with the others at the optimum.
 
+use std::ops::RangeInclusive;
+
 use plateau_io::number;
 use plateau_study::design::Setting;
 use plateau_study::optimum::Axis as Range;
@@ -8,7 +10,7 @@ use super::Shown;
 use crate::colour::{DATA, DERIVED, FAINT, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, note, page};
 use crate::figure::effects::{FactorAxis, axes, range_of, said_of_cuts};
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
@@ -18,7 +20,7 @@ use crate::figure::stroke::{Dashes, SOLID, Stroke};
 /// Height of a box, pixels.
 const HEIGHT: f64 = 400.0;
 /// Values along a range.
-const VALUES: usize = 41;
+const VALUES: usize = 121;
 /// How often a piece between two values is halved to find where the desirability comes to 0: a part in 10⁻⁷ of the range.
 const HALVINGS: usize = 20;
 /// Dashes of limits.
@@ -27,6 +29,9 @@ const DASHES: Dashes = &[14.0, 9.0];
 const OPACITY: f64 = 0.25;
 /// Width of the boxes of one factor up to this many factors; with more they share the page, pixels.
 const BOX: f64 = 620.0;
+
+/// The axis of the desirability: a curve at 0 is not on the frame.
+const WORTH: RangeInclusive<f64> = -0.05..=1.05;
 
 /// A place on the axis below, a value and the ends of its interval.
 type Point = (f64, f64, Option<[f64; 2]>);
@@ -79,7 +84,12 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
             curve(shown, &axes[factor], factor, along, |settings| Some((worth(settings)?, None)))
         })
         .collect();
-    charts.extend(row(shown, &axes, &curves, &Axis::linear(up_from_zero(1.0), "desirability"), &[], true));
+    charts.extend(row(shown, &axes, &curves, &Axis::linear(WORTH, "desirability"), &[], true));
+    let optimum: Vec<String> = self::axes(shown.analysis)
+        .iter()
+        .zip(shown.best)
+        .map(|(axis, best)| format!("{} {}", axis.plain_name(), axis.name(*best)))
+        .collect();
     let meaning = |colour, dashes, text: String| Meaning { colour, style: KeyStyle::Line(dashes), text };
     let level = number::rounded(100.0 * shown.confidence, 4);
     let mut meanings = vec![
@@ -94,7 +104,11 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
             "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
              optimum; bands are intervals of the mean of many runs, dashes are limits.{cut}"
         ),
-        page: page(width, HEIGHT, across, charts, &meanings),
+        page: {
+            let mut page = page(width, HEIGHT, across, charts, &meanings);
+            note(&mut page, &format!("each factor with the others held at the optimum: {}", optimum.join(", ")));
+            page
+        },
     }
 }
 
@@ -175,6 +189,10 @@ fn row(
 ) -> Vec<Chart> {
     let chart = |(factor, (axis, points)): (usize, (&FactorAxis<'_>, &Vec<Point>))| {
         let mut contents = Vec::new();
+        // Below the curves: what falls at the optimum is seen.
+        let best = axis.place(shown.best[factor]);
+        let line = vec![[best, *y.range.start()], [best, *y.range.end()]];
+        contents.push(Content::Line { points: line, stroke: Stroke::solid(DERIVED, LINE - 1) });
         let spans: Vec<[f64; 3]> =
             points.iter().filter_map(|(x, _, ends)| ends.map(|[low, high]| [*x, low, high])).collect();
         if axis.is_range() && !spans.is_empty() {
@@ -193,9 +211,6 @@ fn row(
             contents.push(Content::Line { points: places.clone(), stroke: Stroke::solid(FAINT, LINE) });
             contents.push(Content::Marks { points: places, colour: DATA, mark: Mark::Dot });
         }
-        let best = axis.place(shown.best[factor]);
-        let line = vec![[best, *y.range.start()], [best, *y.range.end()]];
-        contents.push(Content::Line { points: line, stroke: Stroke::solid(DERIVED, LINE) });
         let x = axis.axis(axis.room());
         contents.extend(limits.iter().map(|limit| Content::Line {
             points: vec![[*x.range.start(), *limit], [*x.range.end(), *limit]],

@@ -142,13 +142,17 @@ impl MapGroup<'_> {
     /// Puts the maps on the page, this far from its top and so wide; gives the place below.
     fn place(&self, page: &mut Page, begin: f64, width: f64, fit: Fit) -> f64 {
         let (mut top, mut last_box, mut right) = (begin, begin, MARGIN);
+        let mut most_lines = 1;
         for row in &self.rows {
             let each = width / row.len().max(1) as f64;
             let mut lowest = top;
+            // Maps beside each other begin at one height, however long what is written above them is.
+            let lines = row.iter().flatten().map(|section| section.words(each - BETWEEN).len()).max().unwrap_or(0);
+            most_lines = most_lines.max(lines);
             for (column, section) in row.iter().enumerate() {
                 let Some(section) = section else { continue };
                 let origin = [MARGIN + column as f64 * each, top];
-                let placed = section.place(page, origin, each - BETWEEN, fit, &self.palette);
+                let placed = section.place(page, origin, each - BETWEEN, fit, &self.palette, lines);
                 (lowest, last_box) = (lowest.max(placed.end), last_box.max(placed.box_end[1]));
                 right = right.max(placed.box_end[0]);
             }
@@ -157,9 +161,7 @@ impl MapGroup<'_> {
         if let Some(axis) = &self.scale {
             let left = right.round() + BESIDE;
             // Room for the points at its ends.
-            let titles =
-                self.rows.iter().flatten().flatten().map(|section| if section.remark.is_empty() { 1.0 } else { 2.0 });
-            let first = begin + titles.fold(1.0, f64::max) * LINE_OF_TEXT + 36.0;
+            let first = begin + most_lines as f64 * LINE_OF_TEXT + 36.0;
             let end = (last_box - 28.0).clamp(first + SHORTEST_BAR, first + LONGEST_BAR);
             let frame = Frame { x: [left, left + BAR], y: [first, end].map(f64::round) };
             page.colour_bars.push(ColourBar::new(frame, axis.clone()));
@@ -170,8 +172,23 @@ impl MapGroup<'_> {
 }
 
 impl MapSection<'_> {
-    /// Puts the map on the page with its upper left corner there.
-    fn place(&self, page: &mut Page, [left, top]: [f64; 2], width: f64, fit: Fit, palette: &[RGBColor]) -> Placed {
+    /// What is written above a map with so much room for it and its axis.
+    fn words(&self, width: f64) -> Vec<String> {
+        let room = width - Axis::linear(self.shape.y_range(self.mesh), self.shape.y_label()).room_beside(width);
+        let texts = [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty());
+        texts.flat_map(|text| wrapped(text, room)).collect()
+    }
+
+    /// Puts the map on the page with its upper left corner there, below so many lines of text.
+    fn place(
+        &self,
+        page: &mut Page,
+        [left, top]: [f64; 2],
+        width: f64,
+        fit: Fit,
+        palette: &[RGBColor],
+        lines: usize,
+    ) -> Placed {
         let columns = self.cells.len() / self.mesh.rows();
         let y_range = self.shape.y_range(self.mesh);
         let y = Axis::linear(y_range.clone(), self.shape.y_label());
@@ -184,11 +201,11 @@ impl MapSection<'_> {
         let space = (width - room).floor();
         let inner = (space * fit.size).floor();
         let mut y_top = top;
-        for text in [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty()) {
-            page.write(shortened(text, TEXT, space), (begin, y_top), Anchor::BelowRight, TEXT);
+        for text in self.words(width) {
+            page.write(shortened(&text, TEXT, space), (begin, y_top), Anchor::BelowRight, TEXT);
             y_top += LINE_OF_TEXT;
         }
-        y_top = (y_top + 8.0).round();
+        y_top = (top + LINE_OF_TEXT * lines as f64 + 8.0).round();
         let first = y_top;
         let last = windows.len() - 1;
         let mut box_end = [begin, y_top];
@@ -199,6 +216,8 @@ impl MapSection<'_> {
             let frame = Frame { x: [begin.round(), begin.round() + wide], y: [y_top, y_top + height] };
             let frame_end = frame.x[1];
             let label = if number == last { self.shape.x_label() } else { String::new() };
+            // A narrow map has no room for where the arc is measured.
+            let label = if text_width(&label, TEXT) > wide { label.replace(" at the mean radius", "") } else { label };
             let x = Axis::linear(window.x.clone(), label);
             let y = Axis { label: String::new(), ..y.clone() };
             let picture =
@@ -214,6 +233,18 @@ impl MapSection<'_> {
         page.write(self.shape.y_label(), (beside, 0.5 * (first + box_end[1])), Anchor::Upward, TEXT);
         Placed { box_end, end: y_top }
     }
+}
+
+/// A text in lines of at most this width, broken behind commas.
+fn wrapped(text: &str, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in text.split_inclusive(", ") {
+        match lines.last_mut() {
+            Some(line) if text_width(format!("{line}{part}").trim_end(), TEXT) <= room => line.push_str(part),
+            _ => lines.push(part.to_owned()),
+        }
+    }
+    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
 }
 
 /// The runs that have a map at any moment; of the others it is noted that they are left out.
@@ -314,6 +345,13 @@ mod tests {
             names: vec!["run".to_owned()],
             groups: vec![group(vec![disc(), disc()]), group(vec![vec![pin(), pin()]])],
         }
+    }
+
+    #[test]
+    fn long_words_above_a_map_stand_in_several_lines() {
+        assert_eq!(wrapped("disc, 0 s", 400.0), ["disc, 0 s"]);
+        let lines = wrapped("none 21.7, primary 29.8, secondary 48.5 %", 400.0);
+        assert_eq!(lines, ["none 21.7, primary 29.8,", "secondary 48.5 %"]);
     }
 
     #[test]
