@@ -21,6 +21,9 @@ const CHANCE: f64 = 0.04;
 /// The same of what a seed adds everywhere.
 const OF_SEED: f64 = 0.02;
 
+/// A response at coded settings.
+type Response = Box<dyn Fn(&[f64]) -> f64>;
+
 /// How smooth responses are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Smoothness {
@@ -106,7 +109,7 @@ impl Case {
     }
 
     /// A function by lot, with a standard deviation of about one over the ranges.
-    fn response(&self, random: &mut Random) -> Box<dyn Fn(&[f64]) -> f64> {
+    fn response(&self, random: &mut Random) -> Response {
         // Half a range to some ranges.
         let lengths: Vec<f64> = (0..self.factors).map(|_| 1.0 + 4.0 * random.uniform()).collect();
         let slopes: Vec<f64> = (0..self.factors).map(|_| random.normal()).collect();
