@@ -1,5 +1,6 @@
 //! `plateau sweep predict`, `optimize` and `import`: what the results of a study answer, as its users ask.
 
+mod centre_points;
 mod import;
 
 use std::fs;

@@ -198,7 +198,7 @@ fn the_page_holds_every_term_and_loads_nothing() {
     let directory = replicated();
     let report: Value = serde_json::from_str(&effects(&directory, &["--json"]).stdout).unwrap();
     let files: Vec<&str> = report["files"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
-    assert_eq!(files.len(), 2 + 3 * 5);
+    assert_eq!(files.len(), 3 + 3 * 5);
     assert!(files.iter().all(|file| directory.path(file).is_file()), "{files:?}");
     let page = read(&directory, "effects.html");
     for row in rows(&read(&directory, "effects.csv")) {

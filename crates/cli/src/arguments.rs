@@ -26,7 +26,7 @@ use plateau_run::ExecutionOptions;
 use crate::failure::Failure;
 
 pub use accuracy::AccuracyArguments;
-pub use answers::{ImportArguments, OptimizeArguments, PredictArguments};
+pub use answers::{ImportArguments, LimitOn, OptimizeArguments, PredictArguments};
 pub use cores::CoresArguments;
 pub use fit::FitArguments;
 pub use model::Terms;

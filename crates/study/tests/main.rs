@@ -2,9 +2,11 @@
 
 mod answers;
 mod coverage;
+
 mod designs;
 mod effects;
 mod effects_of_odd_data;
 mod fit_coverage;
 mod optimum;
+mod process_coverage;
 mod surrogate;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use plateau_study::design::Setting;
 use plateau_study::effects::{Effects, EffectsError, Factor, FactorKind, Model, Observation, Options, analyse};
-use plateau_study::optimum::{Axis, Goal, Limit, Optimum, OptimumError, Wish, optimum, overall};
+use plateau_study::optimum::{Axis, Goal, Kept, Limit, Optimum, OptimumError, Wish, optimum, overall};
 use plateau_study::surrogate::{Forecast, PolynomialSurrogate, Scale, Surrogate};
 use serde::Deserialize;
 
@@ -71,16 +71,52 @@ fn a_limit_that_binds_is_kept_and_reached() {
     // The most of x + y where x² + y² ≤ 1/2: at x = y = 1/2, by symmetry.
     let sum = Function(|at: &[Setting]| coded(at[0]) + coded(at[1]));
     let circle = Function(|at: &[Setting]| coded(at[0]).powi(2) + coded(at[1]).powi(2));
-    let limit = Limit { response: 1, least: None, most: Some(0.5), scale: 2.0 };
+    let limit = Limit { response: 1, least: None, most: Some(0.5), scale: 2.0, kept: Kept::Value };
     let axes = [Axis::Range, Axis::Range];
     let found = find(&[&sum, &circle], &[goal(0, Wish::Maximum([-2.0, 2.0]))], &[limit], &axes);
     assert!(found.keeps_limits && found.forecasts[1].value <= 0.5);
     // Along the limit the sum is level to second order.
     assert!((found.forecasts[0].value - 1.0).abs() < 1e-6, "{found:?}");
     // What nothing can keep is missed as little as can be.
-    let impossible = Limit { response: 1, least: Some(3.0), most: None, scale: 2.0 };
+    let impossible = Limit { response: 1, least: Some(3.0), most: None, scale: 2.0, kept: Kept::Value };
     let found = find(&[&sum, &circle], &[goal(0, Wish::Maximum([-2.0, 2.0]))], &[impossible], &axes);
     assert!(!found.keeps_limits && (found.forecasts[1].value - 2.0).abs() < 1e-12, "{found:?}");
+}
+
+/// x, with an interval of means of ± 0.1 and one of runs of ± 0.3.
+struct Uncertain;
+
+impl Surrogate for Uncertain {
+    fn name(&self) -> String {
+        "uncertain".to_owned()
+    }
+
+    fn forecast(&self, settings: &[Setting], _confidence: f64) -> Result<Forecast, EffectsError> {
+        let value = coded(settings[0]);
+        let within = |reach: f64| Some([value - reach, value + reach]);
+        Ok(Forecast { value, mean_interval: within(0.1), run_interval: within(0.3) })
+    }
+
+    fn leave_one_out_error(&self) -> Option<f64> {
+        None
+    }
+}
+
+#[test]
+fn a_limit_on_an_interval_leaves_a_margin() {
+    // The most of x where x, x + 0.1 or x + 0.3 is at most 1/2.
+    for (kept, expected) in [(Kept::Value, 0.5), (Kept::Means, 0.4), (Kept::Runs, 0.2)] {
+        let limit = Limit { response: 0, least: None, most: Some(0.5), scale: 2.0, kept };
+        let found = find(&[&Uncertain], &[goal(0, Wish::Maximum([-2.0, 2.0]))], &[limit], &[Axis::Range]);
+        assert!((coded(found.settings[0]) - expected).abs() < 1e-6 && found.keeps_limits, "{kept:?}: {found:?}");
+        assert!(limit.holds(&found.forecasts[0]), "{kept:?}: {found:?}");
+        let other = Limit { most: None, least: Some(1.2), ..limit };
+        let missed = find(&[&Uncertain], &[goal(0, Wish::Maximum([-2.0, 2.0]))], &[other], &[Axis::Range]);
+        assert!(!missed.keeps_limits && missed.overall == 0.0, "{missed:?}");
+        // 1.2 less 1 and its margin, as a part of 2.
+        let margin = 0.5 - expected;
+        assert!((other.missed_by(&missed.forecasts[0]) - 0.5 * (0.2 + margin)).abs() < 1e-6, "{missed:?}");
+    }
 }
 
 #[test]

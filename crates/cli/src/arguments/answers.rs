@@ -64,6 +64,10 @@ pub struct OptimizeArguments {
     /// Keep a response below or above a value, such as "filled<=0.9"
     #[arg(long, value_name = "RESPONSE<=VALUE")]
     pub limit: Vec<String>,
+    /// What has to keep the limits: the predicted mean, which half of all runs miss where it lies on a limit; its interval; or the
+    /// interval of one more run
+    #[arg(long, value_enum, default_value = "mean")]
+    pub limit_on: LimitOn,
     /// Hold a factor at a value, such as load="8 N"
     #[arg(long, value_name = "FACTOR=VALUE", value_parser = assignment)]
     pub hold: Vec<(String, String)>,
@@ -92,6 +96,17 @@ pub struct OptimizeArguments {
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,
+}
+
+/// What has to keep a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum LimitOn {
+    /// The predicted mean
+    Mean,
+    /// The interval of the mean of many runs
+    Means,
+    /// The interval of one more run
+    Runs,
 }
 
 /// Arguments of `plateau sweep import`.

@@ -1,7 +1,7 @@
 //! What is fitted to the responses of a study, as a command line says it.
 
 use clap::Args;
-use plateau_present::study::analysis::Asked;
+use plateau_present::study::analysis::{Asked, Processes};
 
 /// What is fitted to the responses of a study.
 #[derive(Debug, Clone, Args)]
@@ -23,7 +23,7 @@ impl ModelArguments {
         Asked {
             model: self.model.map(Into::into),
             by_aicc: self.terms == Terms::Aicc,
-            with_processes: self.model.is_none(),
+            processes: if self.model.is_none() { Processes::ForForecasts } else { Processes::None },
             confidence: self.confidence,
         }
     }

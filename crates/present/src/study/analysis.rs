@@ -1,7 +1,5 @@
 //! What the collected results of a study tell of its factors: from runs to observations, and what is fitted.
 
-use std::collections::BTreeSet;
-
 use plateau_io::study::bounds::Bounds;
 use plateau_io::study::collected::{Collected, unit_of};
 use plateau_io::study::factor::{Factor, Level, Values};
@@ -9,18 +7,22 @@ use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Study};
 use plateau_study::design::{Kind, Setting};
 use plateau_study::effects::{
-    self, BoxCox, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, Selection, analyse, select,
+    self, Advice, BoxCox, Curvature, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, Selection,
+    analyse, select,
 };
 use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
+use plateau_study::surrogate::{PolynomialSurrogate, Surrogate};
 
 use super::fit_scale::FitScale;
 use super::model::Choice;
 use super::reading::Reading;
 use crate::quantity::Unit;
 
-/// Values of a table of one's own up to which a factor has levels; with more it has a range, and where its values mostly
-/// come once.
+/// Values up to which a number of a design has levels; with more it has a range.
 const MOST_LEVELS: usize = 10;
+
+/// How much smaller the leave-one-out error has to be for a transform to be advised.
+const LOWERED: f64 = 0.95;
 
 /// What stands before the name of a factor whose logarithm is analysed.
 pub const LOGARITHM: &str = "log₁₀ ";
@@ -59,6 +61,10 @@ pub struct AnalysedResponse {
     pub unit: &'static str,
     /// What it can be at all.
     pub bounds: Bounds,
+    /// What the runs have; none where all have the same.
+    pub observed: Option<Observed>,
+    /// Number of factors.
+    pub factors: usize,
     /// On which scale a model is fitted to it.
     pub scale: FitScale,
     /// What is fitted to it.
@@ -67,11 +73,15 @@ pub struct AnalysedResponse {
     pub effects: Result<Effects, EffectsError>,
     /// What the model misses.
     pub misfit: Option<Misfit>,
+    /// What centre points differ by from a model without squares.
+    pub curvature: Option<Curvature>,
     /// The power of the response that the model fits best.
     pub box_cox: Option<BoxCox>,
+    /// The transform to try: none where it would not forecast points better that it does not know.
+    pub advice: Option<Advice>,
     /// The choice among the terms of the model; none where all are kept.
     pub selected: Option<Selected>,
-    /// What may forecast it besides the model: a process of the response as it is, whatever the scale of the model.
+    /// What may forecast it besides the model: a process, on the same scale.
     pub process: Option<GaussianProcess>,
 }
 
@@ -79,6 +89,14 @@ impl AnalysedResponse {
     /// What is fitted: its name, or `log(contact area, mm²)`.
     pub fn title(&self) -> String {
         self.scale.title(&self.name)
+    }
+
+    /// What is fitted, in words: the model, or the terms of it that were chosen.
+    pub fn model_words(&self) -> String {
+        let (Some(_), Ok(effects)) = (&self.selected, &self.effects) else { return self.choice.words() };
+        let terms: Vec<&str> = effects.terms.iter().map(|term| term.label.as_str()).collect();
+        let terms = if terms.is_empty() { "the mean alone".to_owned() } else { terms.join(", ") };
+        format!("model: {terms}; chosen from {}", self.choice.terms())
     }
 
     /// SI unit of what is fitted.
@@ -90,6 +108,29 @@ impl AnalysedResponse {
     pub fn unit_shown(&self, effects: &Effects) -> Unit {
         let largest = effects.responses().map(f64::abs).fold(0.0, f64::max);
         Unit::readable_with_differences(self.unit_of_fit(), largest)
+    }
+}
+
+/// What the runs have of a response, SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observed {
+    /// The least.
+    pub low: f64,
+    /// The most.
+    pub high: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+}
+
+impl Observed {
+    /// Of values; none where fewer than two differ.
+    fn new(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mean = values.iter().map(|value| value / values.len() as f64).sum::<f64>();
+        let square = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64;
+        (low < high && square > 0.0).then(|| Self { low, high, deviation: square.sqrt() })
     }
 }
 
@@ -111,28 +152,33 @@ pub struct Asked {
     pub model: Option<Model>,
     /// Whether terms that the runs do not support are left out.
     pub by_aicc: bool,
-    /// Whether what forecasts a response may be a Gaussian process, where points fill the ranges.
-    pub with_processes: bool,
+    /// Whether what forecasts a response may be a Gaussian process.
+    pub processes: Processes,
     /// Confidence level of intervals.
     pub confidence: f64,
+}
+
+/// Which Gaussian processes are fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Processes {
+    /// None.
+    None,
+    /// Those for what is expected alone, of any design.
+    ForValues,
+    /// Those for intervals, too, where points fill the ranges.
+    ForForecasts,
 }
 
 impl Analysis {
     /// Analyses every response of a study, with the model that is asked for or one that the design allows.
     pub fn new(study: &Study, collected: &Collected, asked: Option<Model>, confidence: f64) -> Self {
-        Self::of(study, collected, Asked { model: asked, by_aicc: false, with_processes: false, confidence })
+        Self::of(study, collected, Asked { model: asked, by_aicc: false, processes: Processes::None, confidence })
     }
 
     /// Analyses every response of a study as it is asked for.
     pub fn of(study: &Study, collected: &Collected, asked: Asked) -> Self {
-        let different = collected.runs.iter().enumerate().filter(|(place, run)| run.first == *place);
-        let points = different.map(|(_, run)| run.run.point).collect::<BTreeSet<_>>().len();
-        let factors: Vec<AnalysedFactor> = study
-            .factors
-            .iter()
-            .enumerate()
-            .map(|(at, factor)| analysed(factor, &levels(collected, at), points))
-            .collect();
+        let factors: Vec<AnalysedFactor> =
+            study.factors.iter().enumerate().map(|(at, factor)| analysed(factor, &levels(collected, at))).collect();
         let plain: Vec<effects::Factor> = factors.iter().map(|factor| factor.factor.clone()).collect();
         let settings: Vec<Vec<Setting>> = collected
             .runs
@@ -174,7 +220,8 @@ fn analyse_one(
     let response = &study.responses[at];
     let unit = response.unit(unit_of(&response.series));
     let finite = collected.runs.iter().map(|run| run.responses[at].abs()).filter(|value| value.is_finite());
-    let scale = FitScale::new(response.transform, unit, finite.fold(0.0, f64::max));
+    let largest = finite.fold(0.0, f64::max);
+    let scale = FitScale::new(response.transform, unit, largest);
     let (mut observations, mut beyond) = (Vec::new(), None);
     for (place, (run, settings)) in collected.runs.iter().zip(settings).enumerate() {
         let value = scale.scale.of(run.responses[at]);
@@ -190,6 +237,7 @@ fn analyse_one(
     let choice = Choice::new(asked.model, study, factors, &observations, options.blocks);
     let options = Options { model: choice.model, ..options };
     let mut selected = None;
+    let is_on_scale = beyond.is_none();
     let effects = match beyond {
         Some(error) => Err(error),
         None if asked.by_aicc => select(factors, &observations, &options).map(|selection| {
@@ -199,18 +247,58 @@ fn analyse_one(
         }),
         None => analyse(factors, &observations, &options),
     };
-    // Terms were left out because the runs do not support them: it would be no news that they explain something.
-    let misfit = effects.as_ref().ok().filter(|_| selected.is_none()).and_then(Effects::misfit);
+    // Terms were left out because the runs do not support them: it would be no news that they explain something. What
+    // replicates tell is.
+    let misfit = effects.as_ref().ok().and_then(Effects::misfit);
+    let misfit = misfit.filter(|misfit| selected.is_none() || misfit.by_replicates);
+    let curvature = effects.as_ref().ok().and_then(Effects::curvature);
     let box_cox = effects.as_ref().ok().and_then(|effects| effects.box_cox(response.transform));
-    let process = (asked.with_processes && fills_ranges(study)).then(|| {
-        for (observation, run) in observations.iter_mut().zip(&collected.runs) {
-            observation.response = run.responses[at];
+    let advice = box_cox.zip(effects.as_ref().ok()).and_then(|(found, effects)| {
+        let advice = found.advice(response.transform)?;
+        let transform = match advice {
+            Advice::Try(transform) => Some(transform),
+            Advice::NoTransform => None,
+            Advice::OtherPower => return Some(advice),
+        };
+        let other = FitScale::new(transform, unit, largest).scale;
+        let on_other = |each: &Observation| {
+            let response = other.of(scale.scale.back(each.response)).unwrap_or(f64::NAN);
+            Observation { response, ..each.clone() }
+        };
+        let other_effects = analyse(factors, &observations.iter().map(on_other).collect::<Vec<_>>(), &options).ok()?;
+        let error = |effects, scale| PolynomialSurrogate::new("", effects, scale).leave_one_out_error();
+        match (error(effects, scale.scale), error(&other_effects, other)) {
+            (Some(own), Some(other)) if other > LOWERED * own => None,
+            _ => Some(advice),
         }
-        GaussianProcess::fit(factors, &observations, &ProcessOptions::default()).ok()
     });
-    let process = process.flatten();
-    let (name, bounds) = (response.name.clone(), response.bounds());
-    AnalysedResponse { name, unit, bounds, scale, choice, effects, misfit, box_cox, selected, process }
+    // Without the responses that the transform is not for a process would know what the model does not.
+    let fitted = || GaussianProcess::fit(factors, &observations, &ProcessOptions::default()).ok();
+    let process = match asked.processes {
+        Processes::ForValues if is_on_scale => fitted(),
+        Processes::ForForecasts if is_on_scale && fills_ranges(study) => {
+            fitted().map(GaussianProcess::with_likely_lengths)
+        }
+        _ => None,
+    };
+    let observed = Observed::new(collected.runs.iter().map(|run| run.responses[at]));
+    let (name, bounds, factors) = (response.name.clone(), response.bounds(), factors.len());
+    AnalysedResponse {
+        name,
+        unit,
+        bounds,
+        observed,
+        factors,
+        scale,
+        choice,
+        effects,
+        misfit,
+        curvature,
+        box_cox,
+        advice,
+        selected,
+        process,
+    }
 }
 
 /// Whether points of the design lie all over the ranges, and not at few levels.
@@ -233,7 +321,7 @@ fn levels(collected: &Collected, factor: usize) -> Vec<Level> {
     levels
 }
 
-fn analysed(factor: &Factor, found: &[Level], points: usize) -> AnalysedFactor {
+fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
     let stated: Vec<&Level> = match &factor.values {
         // One end may be zero, which is so in any unit.
         Values::Range { low, high, .. } => vec![high, low],
@@ -265,7 +353,9 @@ fn analysed(factor: &Factor, found: &[Level], points: usize) -> AnalysedFactor {
         Some(numbers) if numbers.len() == 2 && found.len() > 2 => {
             return range(factor.name.clone(), numbers[0], numbers[1]);
         }
-        Some(numbers) if numbers.len() > MOST_LEVELS || is_table && numbers.len() > 2 && 2 * numbers.len() > points => {
+        // A table has values where they are, such as the middle at centre points alone: compared one by one, levels could not be
+        // told from those of other factors.
+        Some(numbers) if numbers.len() > MOST_LEVELS || is_table && numbers.len() > 2 => {
             let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
             return range(factor.name.clone(), least, numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max));
         }

@@ -131,7 +131,17 @@ pub fn determined(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
     if combinations.iter().all(|combination| combination.powers.len() < 2) {
         return None;
     }
-    let words: Vec<String> = combinations.iter().map(|combination| product(combination, keys)).collect();
+    let told = |combination: &Combination| {
+        let power = |(key, exponent): &(usize, f64)| libm::pow(keys[*key].value(result.best[*key]), *exponent);
+        let value: f64 = combination.powers.iter().map(power).product();
+        let [value, low, high] =
+            [value, value / combination.factor, value * combination.factor].map(|value| number::rounded(value, DIGITS));
+        let units = combination.powers.iter().map(|(key, _)| keys[*key].unit()).filter(|unit| !unit.is_empty());
+        let units: Vec<&str> = units.collect();
+        let units = if units.is_empty() { String::new() } else { format!(", with {}", units.join(" and ")) };
+        format!("{} = {value} ({low} … {high}{units})", product(combination, keys))
+    };
+    let words: Vec<String> = combinations.iter().map(told).collect();
     let verb = if words.len() == 1 { "is" } else { "are" };
     Some(format!("Only {} {verb} determined by these data, near the most likely values.", words.join(" and ")))
 }
@@ -251,7 +261,7 @@ mod tests {
     #[test]
     fn a_ridge_in_words() {
         let keys = [key("captured fraction", ["1 N", "2 N"]), key("load", ["1 N", "2 N"])];
-        let combination = Combination { powers: vec![(0, 1.0), (1, 0.9)] };
+        let combination = Combination { powers: vec![(0, 1.0), (1, 0.9)], factor: 1.1 };
         assert_eq!(product(&combination, &keys), "captured fraction × load^0.9");
     }
 }

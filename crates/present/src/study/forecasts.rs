@@ -4,12 +4,16 @@ use plateau_io::number;
 use plateau_io::study::bounds::Bounds;
 use plateau_study::design::Setting;
 use plateau_study::effects::{EffectsError, Transform};
-use plateau_study::surrogate::{Choice, Forecast, PolynomialSurrogate, Surrogate, choose};
+use plateau_study::surrogate::{Choice, Forecast, PolynomialSurrogate, ScaledProcess, Surrogate, choose};
 
-use super::analysis::AnalysedResponse;
+use super::analysis::{AnalysedResponse, Observed};
 
 /// Digits of predictions.
 const DIGITS: usize = 4;
+/// Digits of leave-one-out errors.
+const ERROR_DIGITS: usize = 3;
+/// Points for each factor that a process should have.
+const POINTS_FOR_EACH: usize = 10;
 
 impl AnalysedResponse {
     /// What forecasts the response: the model or the process, whichever forecasts points better that it does not know; none
@@ -18,10 +22,34 @@ impl AnalysedResponse {
         self.choice_of_surrogate().map(|choice| choice.surrogate)
     }
 
-    /// Why it is that one; none where there was no choice.
+    /// Why it is that one, how its error compares with the range of the runs, and whether these are few; none where there was
+    /// no choice.
     pub fn reason_of_surrogate(&self) -> Option<String> {
         self.process.as_ref().and(self.effects.as_ref().ok())?;
-        self.choice_of_surrogate().map(|choice| choice.reason)
+        self.reason_of_choice()
+    }
+
+    /// The same where there was no choice, too.
+    pub fn reason_of_choice(&self) -> Option<String> {
+        let Choice { surrogate, reason } = self.choice_of_surrogate()?;
+        let range = self.observed.map(|Observed { low, high, .. }| {
+            format!("; the runs have {} to {}", self.shown(low), self.shown_with_unit(high))
+        });
+        let is_process = self.effects.is_err() || surrogate.name().starts_with(ScaledProcess::NAME);
+        let few = self.note_of_points().filter(|_| is_process);
+        Some(reason + &range.unwrap_or_default() + &few.unwrap_or_default())
+    }
+
+    /// That a process has few points.
+    fn note_of_points(&self) -> Option<String> {
+        let (process, factors) = (self.process.as_ref()?, self.factors);
+        (process.points() < POINTS_FOR_EACH * factors).then(|| {
+            format!(
+                "; {} for {} are few, take {POINTS_FOR_EACH} for each factor or more",
+                number::count(process.points(), "point"),
+                number::count(factors, "factor"),
+            )
+        })
     }
 
     fn choice_of_surrogate(&self) -> Option<Choice<'_>> {
@@ -30,12 +58,16 @@ impl AnalysedResponse {
             candidates.push(Box::new(PolynomialSurrogate::new(&self.name, effects, self.scale.scale)));
         }
         if let Some(process) = &self.process {
-            candidates.push(Box::new(process.clone()));
+            candidates.push(Box::new(ScaledProcess::new(&self.name, process, self.scale.scale)));
         }
         let within = |surrogate| Box::new(Within { surrogate, bounds: self.bounds }) as Box<dyn Surrogate + '_>;
         choose(candidates.into_iter().map(within).collect(), |error| {
             let unit = &self.scale.unit;
-            unit.with_symbol(&number::rounded(unit.difference(error), DIGITS))
+            let shown = unit.with_symbol(&number::rounded(unit.difference(error), ERROR_DIGITS));
+            // The part of the variance of the runs that is foretold: 1 is all of it, 0 no more than the mean does.
+            let part = self.observed.map(|Observed { deviation, .. }| 1.0 - (error / deviation).powi(2));
+            shown
+                + &part.map_or_else(String::new, |part| format!(" (Q² {})", number::with_minus(&format!("{part:.3}"))))
         })
     }
 
@@ -64,12 +96,18 @@ impl AnalysedResponse {
         let ends = [forecast.mean_interval, forecast.run_interval].into_iter().flatten().flatten();
         let bounds = self.bounds;
         let reached = |bound: f64| bound.is_finite() && ends.clone().any(|end| end == bound);
-        let said = match (bounds.hold(forecast.value), reached(bounds.least), reached(bounds.most)) {
-            (false, ..) => "the model expects what cannot be, so it does not hold here",
-            (true, false, false) => return None,
-            (true, true, false) => "the interval is cut at 0, for less cannot be",
-            (true, false, true) => "the interval is cut at 1, for more cannot be",
-            (true, true, true) => "the interval is cut at 0 and 1, for less or more cannot be",
+        let is_at = |bound: f64| bound.is_finite() && forecast.value == bound;
+        let said = match (reached(bounds.least), reached(bounds.most)) {
+            _ if is_at(bounds.least) => {
+                "the model expects less than 0, which cannot be: it does not hold here, and 0 is shown"
+            }
+            _ if is_at(bounds.most) => {
+                "the model expects more than 1, which cannot be: it does not hold here, and 1 is shown"
+            }
+            (false, false) => return None,
+            (true, false) => "the interval is cut at 0, for less cannot be",
+            (false, true) => "the interval is cut at 1, for more cannot be",
+            (true, true) => "the interval is cut at 0 and 1, for less or more cannot be",
         };
         let transform = if bounds.most == 1.0 { Transform::Logit } else { Transform::Logarithm };
         let advice = match self.scale.transform() {
@@ -79,6 +117,18 @@ impl AnalysedResponse {
         Some(format!("{}: {said}{advice}", self.name))
     }
 
+    /// That the runs do not tell the response at a place; none where they do.
+    pub fn note_of_place(&self, settings: &[Setting]) -> Option<String> {
+        let tells = self.surrogate()?.tells(settings).ok()?;
+        (!tells).then(|| {
+            format!(
+                "{}: the runs do not tell it here, for some terms cannot be told from others; what is predicted takes these for \
+                 nothing, and there is no interval",
+                self.name
+            )
+        })
+    }
+
     /// The cells of a forecast: name, value, interval of means, interval of runs.
     pub fn cells(&self, forecast: &Forecast) -> Vec<String> {
         let intervals = [forecast.mean_interval, forecast.run_interval].map(|interval| self.interval(interval));
@@ -86,8 +136,8 @@ impl AnalysedResponse {
     }
 }
 
-/// A surrogate whose intervals leave out what a response cannot be. Its value stays: that a model expects what cannot be says
-/// that it does not hold there.
+/// A surrogate whose forecasts leave out what a response cannot be. A search for the best place sees what is beyond, so that it
+/// knows the way back.
 struct Within<'a> {
     surrogate: Box<dyn Surrogate + 'a>,
     bounds: Bounds,
@@ -101,7 +151,12 @@ impl Surrogate for Within<'_> {
     fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError> {
         let Forecast { value, mean_interval, run_interval } = self.surrogate.forecast(settings, confidence)?;
         let clipped = |interval: Option<[f64; 2]>| interval.map(|ends| self.bounds.clipped(ends));
+        let [value, _] = self.bounds.clipped([value; 2]);
         Ok(Forecast { value, mean_interval: clipped(mean_interval), run_interval: clipped(run_interval) })
+    }
+
+    fn tells(&self, settings: &[Setting]) -> Result<bool, EffectsError> {
+        self.surrogate.tells(settings)
     }
 
     fn value(&self, settings: &[Setting]) -> Result<f64, EffectsError> {

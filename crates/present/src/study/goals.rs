@@ -1,6 +1,6 @@
 //! Goals and limits of an optimum, as they are given in words: `contact area`, `filled=0.7`, `worn=0.1 mm3..0.3 mm3`.
 
-use plateau_study::optimum::{Limit, Wish};
+use plateau_study::optimum::{Kept, Limit, Wish};
 
 use super::analysis::{AnalysedResponse, Analysis};
 use crate::quantity::Unit;
@@ -85,11 +85,11 @@ pub fn wish(analysis: &Analysis, aim: Aim, text: &str) -> Result<(usize, Wish), 
     if wish.is_sound() { Ok((number, wish)) } else { Err(at("expected values that ascend".to_owned())) }
 }
 
-/// A limit: `NAME<=VALUE` or `NAME>=VALUE`.
+/// A limit: `NAME<=VALUE` or `NAME>=VALUE`, and what has to keep it.
 ///
 /// # Errors
 /// What was found and what was expected.
-pub fn limit(analysis: &Analysis, text: &str) -> Result<Limit, String> {
+pub fn limit(analysis: &Analysis, text: &str, kept: Kept) -> Result<Limit, String> {
     let at = |error: String| format!("--limit \"{text}\": {error}");
     let (split, is_least) = match (text.split_once("<="), text.split_once(">=")) {
         (Some(split), None) => (split, false),
@@ -101,7 +101,7 @@ pub fn limit(analysis: &Analysis, text: &str) -> Result<Limit, String> {
     let [low, high] = observed(analysis, response).ok_or_else(|| at("no run has this response".to_owned()))?;
     let scale = if high > low { high - low } else { 1.0 };
     let (least, most) = if is_least { (Some(value), None) } else { (None, Some(value)) };
-    Ok(Limit { response, least, most, scale })
+    Ok(Limit { response, least, most, scale, kept })
 }
 
 /// A power of a goal: `NAME=NUMBER`.

@@ -59,14 +59,19 @@ impl Choice {
         }
     }
 
-    /// What is fitted, in words.
-    pub fn words(&self) -> String {
-        let terms = match self.model {
+    /// The terms of the model, in words.
+    pub fn terms(&self) -> &'static str {
+        match self.model {
             Model::MainEffects => "main effects",
             Model::Interactions => "main effects and interactions of two factors",
             Model::Full => "main effects and interactions of all orders",
             Model::Quadratic => "main effects, interactions of two factors and squares",
-        };
+        }
+    }
+
+    /// What is fitted, in words.
+    pub fn words(&self) -> String {
+        let terms = self.terms();
         let reason = if self.reason.is_empty() { String::new() } else { format!("; {}", self.reason) };
         format!("model: {terms}{reason}")
     }

@@ -208,6 +208,12 @@ impl<'a> Space<'a> {
         said.collect()
     }
 
+    /// A coded value, in words.
+    pub fn shown(&self, factor: usize, coded: f64) -> String {
+        let [low, high] = self.analysis.factors[factor].factor.range().unwrap_or([-1.0, 1.0]);
+        shortened(&self.text(factor, 0.5 * ((1.0 - coded) * low + (1.0 + coded) * high)))
+    }
+
     /// The range between two coded values, in words.
     pub fn range(&self, factor: usize, coded: [f64; 2]) -> String {
         let [low, high] = self.analysis.factors[factor].factor.range().unwrap_or([-1.0, 1.0]);

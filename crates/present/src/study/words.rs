@@ -1,7 +1,7 @@
 //! What is said of a study: how well a model fits, what cannot be told apart, what repeats.
 
 use plateau_io::study::plan::Plan;
-use plateau_study::effects::{Advice, Effects};
+use plateau_study::effects::{Advice, BoxCox, Effects};
 
 use plateau_io::number;
 
@@ -52,17 +52,41 @@ pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
     parts.join(", ")
 }
 
+/// What centre points say of a curve, in a line; none of designs without them.
+pub fn curvature(response: &AnalysedResponse, confidence: f64, shown: impl Fn(f64) -> String) -> Option<String> {
+    let found = response.curvature?;
+    let [low, high] = found.interval.map(&shown);
+    let level = number::rounded(100.0 * confidence, 4);
+    let advice = match found.test.p < 1.0 - confidence {
+        true => {
+            ": the response is curved, and the design does not tell in which factor; axial points would (central-composite)"
+        }
+        false => ": no curve is seen",
+    };
+    Some(format!(
+        "curvature: centre points differ from the plane of the others by {} ({low} … {high}, {level} %), p {}{advice}",
+        shown(found.difference),
+        probability(found.test.p)
+    ))
+}
+
 /// Which power of the response fits best, and what to try; none where the one that was fitted does.
 pub fn box_cox(response: &AnalysedResponse) -> Option<String> {
     let found = response.box_cox?;
-    let advice = found.advice(response.scale.transform())?;
+    let advice = response.advice?;
     let [low, high] = found.interval.map(|end| number::rounded(end, 2));
+    let is_at_end = found.interval.iter().any(|end| BoxCox::POWERS.contains(end));
+    let at_end = if is_at_end { ", looked for between −5 and 5 alone" } else { "" };
     let advice = match advice {
         Advice::Try(transform) => format!("try transform = \"{}\"", transform.name()),
         Advice::NoTransform => "try it without transform".to_owned(),
-        Advice::OtherPower => "none of the transforms is this power".to_owned(),
+        Advice::OtherPower => {
+            "none of the transforms is this power; keep the response as it is, and look for a bend in the residuals, \
+                                which another --model may explain"
+                .to_owned()
+        }
     };
-    Some(format!("Box-Cox: lambda = {} ({low} to {high}): {advice}", number::rounded(found.power, 2)))
+    Some(format!("Box-Cox: lambda = {} ({low} to {high}{at_end}): {advice}", number::rounded(found.power, 2)))
 }
 
 /// Which terms were left out, and why; none where all are kept.

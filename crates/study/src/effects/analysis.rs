@@ -78,7 +78,8 @@ pub(super) fn analyse_terms(
     let has_sole = fit.leverages.iter().any(|leverage| *leverage > SOLE);
     let predicted = (residual.squares.freedom > 0 && !has_sole).then(|| 1.0 - press(&fit) / total.sum);
     let adjusted = residual.squares.mean().zip(total.mean()).map(|(residual, total)| 1.0 - residual / total);
-    let judge = Judge { total: total.sum, error: variance.map(|_| residual.squares), quantile };
+    let columns = matrix.column_iter().map(|column| column.add_scalar(-column.mean()).norm_squared()).collect();
+    let judge = Judge { total: total.sum, error: variance.map(|_| residual.squares), quantile, columns };
     let (blocks, terms) = terms(&regressors, &fit, &judge);
     let left_out = if is_chosen { LeftOut::Other } else { left_out(&regressors, &usable, model) };
     let error = error_source(&residual, exact, left_out);

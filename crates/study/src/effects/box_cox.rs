@@ -30,6 +30,9 @@ pub struct BoxCox {
 }
 
 impl BoxCox {
+    /// Powers between which the best is looked for.
+    pub const POWERS: [f64; 2] = POWERS;
+
     /// Whether a power fits hardly worse than the best.
     pub fn allows(&self, power: f64) -> bool {
         (self.interval[0]..=self.interval[1]).contains(&power)

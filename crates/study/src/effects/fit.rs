@@ -17,6 +17,8 @@ pub(super) struct Fit {
     pub kept: Vec<usize>,
     /// Columns that are combinations, and the kept columns they consist of.
     pub dependent: Vec<(usize, Vec<usize>)>,
+    /// How many of each kept column there are in the columns that are combinations, in the order of `dependent`.
+    pub relations: Vec<DVector<f64>>,
     /// Coefficients of the kept columns.
     pub coefficients: DVector<f64>,
     /// Inverse of the triangle that the kept columns were brought to: times its transpose it is the covariance of the
@@ -57,11 +59,12 @@ impl Fit {
             let threshold = CONTRIBUTES * triangle.column(column).norm();
             let contributes =
                 |position: &usize| weights[*position].abs() * triangle.column(kept[*position]).norm() > threshold;
-            (column, (0..kept.len()).filter(contributes).map(|position| kept[position]).collect())
+            let parts: Vec<usize> = (0..kept.len()).filter(contributes).map(|position| kept[position]).collect();
+            ((column, parts), weights.column(0).into_owned())
         };
         let dependent = (0..matrix.ncols()).filter(|column| kept.binary_search(column).is_err());
-        let dependent = dependent.map(combination).collect();
-        Self { kept, dependent, coefficients, root, residuals, leverages }
+        let (dependent, relations) = dependent.map(combination).unzip();
+        Self { kept, dependent, relations, coefficients, root, residuals, leverages }
     }
 
     /// The fit to a matrix without any length.
@@ -69,6 +72,7 @@ impl Fit {
         Self {
             kept: vec![],
             dependent: (0..matrix.ncols()).map(|column| (column, vec![])).collect(),
+            relations: vec![DVector::zeros(0); matrix.ncols()],
             coefficients: DVector::zeros(0),
             root: DMatrix::zeros(0, 0),
             residuals: responses.clone(),
@@ -93,6 +97,17 @@ impl Fit {
     pub fn predict(&self, row: &[f64]) -> (f64, f64) {
         let row = DVector::from_iterator(self.kept.len(), self.kept.iter().map(|column| row[*column]));
         (row.dot(&self.coefficients), self.root.tr_mul(&row).norm_squared())
+    }
+
+    /// Whether the observations tell the fitted value for a row of the model matrix: whether the columns that are combinations
+    /// are the same ones there. What is a multiple of the mean, as the square of a number with two values is, does not count.
+    pub fn tells(&self, row: &[f64]) -> bool {
+        let own = DVector::from_iterator(self.kept.len(), self.kept.iter().map(|column| row[*column]));
+        let is_same = |((column, parts), weights): (&(usize, Vec<usize>), &DVector<f64>)| {
+            let size = row.iter().fold(1.0_f64, |size, value| size.max(value.abs()));
+            parts.iter().all(|part| *part == 0) || (row[*column] - own.dot(weights)).abs() <= CONTRIBUTES * size
+        };
+        self.dependent.iter().zip(&self.relations).all(is_same)
     }
 
     /// The coefficient of a column; zero if it has none of its own.

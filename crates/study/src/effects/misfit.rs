@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fit::Fit;
 use super::model::Model;
+use super::no_squares::no_squares_of;
 use super::regressors::Regressors;
 use super::residual::{Residuals, test};
 use super::result::{Effects, Squares, Test};
@@ -85,7 +86,12 @@ impl Effects {
             return None;
         }
         let inner = &self.inner;
-        let regressors = Regressors::new(&inner.factors, &inner.usable, model, inner.regressors.has_blocks()).ok()?;
+        // Squares that the runs do not allow are no advice: they would be told from nothing.
+        let has_blocks = inner.regressors.has_blocks();
+        if model == Model::Quadratic && no_squares_of(&inner.factors, &inner.usable, has_blocks).is_some() {
+            return None;
+        }
+        let regressors = Regressors::new(&inner.factors, &inner.usable, model, has_blocks).ok()?;
         if regressors.widths().iter().sum::<usize>() > MOST_COLUMNS {
             return None;
         }

@@ -35,6 +35,7 @@
 
 mod analysis;
 mod box_cox;
+mod curvature;
 mod distribution;
 mod equation;
 mod error;
@@ -60,6 +61,7 @@ mod transform;
 
 pub use analysis::{Options, analyse};
 pub use box_cox::{Advice, BoxCox};
+pub use curvature::Curvature;
 pub use distribution::normal_quantiles;
 pub(crate) use distribution::t_quantile;
 pub use equation::{Equation, EquationTerm, Variable};

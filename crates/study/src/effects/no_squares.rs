@@ -58,9 +58,13 @@ impl fmt::Display for NoSquares {
 /// Squares of numbers that have two values do not count: they are part of the mean.
 pub fn no_squares(factors: &[Factor], observations: &[Observation], blocks: bool) -> Option<NoSquares> {
     factors.iter().try_for_each(Factor::check).ok()?;
-    let usable = Usable::new(factors, observations).ok()?;
-    let regressors = Regressors::new(factors, &usable, Model::Quadratic, blocks).ok()?;
-    let curved: Vec<bool> = (0..factors.len()).map(|factor| regressors.is_curved(factor, &usable)).collect();
+    no_squares_of(factors, &Usable::new(factors, observations).ok()?, blocks)
+}
+
+/// The same of what can be analysed.
+pub(super) fn no_squares_of(factors: &[Factor], usable: &Usable, blocks: bool) -> Option<NoSquares> {
+    let regressors = Regressors::new(factors, usable, Model::Quadratic, blocks).ok()?;
+    let curved: Vec<bool> = (0..factors.len()).map(|factor| regressors.is_curved(factor, usable)).collect();
     if !curved.contains(&true) {
         return Some(NoSquares::TwoValues);
     }
@@ -81,7 +85,7 @@ pub fn no_squares(factors: &[Factor], observations: &[Observation], blocks: bool
         return Some(NoSquares::FewRuns { runs, coefficients });
     }
     // Which columns depend on others does not depend on the responses.
-    let matrix = regressors.matrix(&usable).ok()?;
+    let matrix = regressors.matrix(usable).ok()?;
     let fit = Fit::new(&matrix, &DVector::zeros(runs));
     let mut aliased: Vec<String> = Vec::new();
     for (column, _) in fit.dependent.iter().filter(|(column, _)| !is_straight(column)) {

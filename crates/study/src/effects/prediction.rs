@@ -14,18 +14,36 @@ impl Effects {
         Ok(self.inner.predict(&self.inner.regressors.row(settings, None)?))
     }
 
+    /// Whether the runs tell the response at settings. Where terms cannot be told from each other, they do at some settings alone,
+    /// those of the runs among them; elsewhere a prediction takes terms without an estimate of their own for nothing.
+    ///
+    /// # Errors
+    /// If the settings do not fit the factors, or a level was never observed.
+    pub fn tells(&self, settings: &[Setting]) -> Result<bool, EffectsError> {
+        Ok(self.inner.fit.tells(&self.inner.regressors.row(&self.by_value(settings), None)?))
+    }
+
     /// The response where some factors, by index, have these settings: averaged over the levels of all others and over
     /// blocks, with their numbers at the middle of the range.
     ///
     /// # Errors
     /// If there is no such factor, a setting does not fit its factor, or a level was never observed.
     pub fn predict_at(&self, given: &[(usize, Setting)]) -> Result<Prediction, EffectsError> {
+        Ok(self.inner.predict(&self.row_at(given)?))
+    }
+
+    /// Whether the runs tell that response.
+    pub(super) fn tells_at(&self, given: &[(usize, Setting)]) -> bool {
+        self.row_at(given).is_ok_and(|row| self.inner.fit.tells(&row))
+    }
+
+    fn row_at(&self, given: &[(usize, Setting)]) -> Result<Vec<f64>, EffectsError> {
         let mut settings = vec![None; self.inner.factors.len()];
         for (factor, setting) in given {
             let found = EffectsError::Settings { found: factor + 1, expected: settings.len() };
             *settings.get_mut(*factor).ok_or(found)? = Some(*setting);
         }
-        Ok(self.inner.predict(&self.inner.regressors.row_at(&settings)?))
+        self.inner.regressors.row_at(&settings)
     }
 }
 

@@ -90,6 +90,9 @@ pub struct Term {
     pub share: f64,
     /// Test against the error.
     pub test: Option<Test>,
+    /// How many times as large the variance of the estimate is as it would be if the term were not correlated with any other
+    /// (variance inflation factor); of terms with one degree of freedom.
+    pub inflation: Option<f64>,
     /// How large the effect is; for terms with one degree of freedom.
     pub estimate: Option<Estimate>,
 }

@@ -69,7 +69,7 @@ impl Effects {
 
     /// Settings with the ends of numbers that have two levels as these levels: −1 is the least value, whichever level is the
     /// first.
-    fn by_value(&self, settings: &[Setting]) -> Vec<Setting> {
+    pub(super) fn by_value(&self, settings: &[Setting]) -> Vec<Setting> {
         let level = |(at, setting): (usize, &Setting)| match (
             *setting,
             self.inner.factors.get(at).map(|factor| &factor.kind),

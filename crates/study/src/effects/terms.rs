@@ -16,6 +16,8 @@ pub(super) struct Judge {
     pub error: Option<Squares>,
     /// Quantile of t.
     pub quantile: f64,
+    /// Sums of squares of the columns of the model matrix about their means.
+    pub columns: Vec<f64>,
 }
 
 /// The blocks' term, if any, and the factors' terms.
@@ -54,9 +56,25 @@ pub(super) fn terms(regressors: &Regressors, fit: &Fit, judge: &Judge) -> (Optio
             [position] if widths[term] == 1 && !factors.is_empty() => Some(judge.estimate(fit, *position)),
             _ => None,
         };
+        let inflation = match positions[term].as_slice() {
+            [position] if widths[term] == 1 => {
+                Some(fit.variance(*position) * judge.columns[fit.kept[*position]]).filter(|inflation| *inflation > 0.0)
+            }
+            _ => None,
+        };
         let test = judge.error.and_then(|error| test(Squares { freedom, sum: sum_of_squares }, error));
         let share = sum_of_squares / judge.total;
-        Term { label: labels[term].clone(), factors, freedom, aliased_with, sum_of_squares, share, test, estimate }
+        Term {
+            label: labels[term].clone(),
+            factors,
+            freedom,
+            aliased_with,
+            sum_of_squares,
+            share,
+            test,
+            inflation,
+            estimate,
+        }
     });
     let blocks = if regressors.has_blocks() { all.next() } else { None };
     (blocks, all.collect())

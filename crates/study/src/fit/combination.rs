@@ -17,6 +17,8 @@ const LEAST_EXPONENT: f64 = 0.05;
 pub struct Combination {
     /// Keys by index, each with its exponent; the first exponent is 1.
     pub powers: Vec<(usize, f64)>,
+    /// By which factor the product may be larger or smaller than at the most likely place, at the level of intervals.
+    pub factor: f64,
 }
 
 impl Fit {
@@ -55,12 +57,22 @@ fn determined(slopes: &[Vec<f64>], halves: &[f64], threshold: f64) -> Option<Vec
     let mut rows: Vec<Vec<f64>> =
         known.iter().map(|axis| (0..keys).map(|key| axes.eigenvectors[(key, *axis)] / halves[key]).collect()).collect();
     reduce(&mut rows);
+    // With u along these eigenvectors alone, −2 ln L rises by the threshold where gᵀu changes by √(threshold · gᵀH⁺g).
+    let reach = |powers: &[(usize, f64)]| {
+        let along = |axis: &usize| {
+            let change: f64 =
+                powers.iter().map(|(key, power)| power * halves[*key] * axes.eigenvectors[(*key, *axis)]).sum();
+            change * change / axes.eigenvalues[*axis]
+        };
+        (threshold * known.iter().map(along).sum::<f64>()).sqrt()
+    };
     let combination = |row: &Vec<f64>| {
         let mut powers: Vec<(usize, f64)> =
             row.iter().copied().enumerate().filter(|(_, exponent)| exponent.abs() >= LEAST_EXPONENT).collect();
         // The one that was made 1 comes first.
         powers.sort_by_key(|(key, exponent)| (*exponent != 1.0, *key));
-        Combination { powers }
+        let factor = libm::exp(reach(&powers));
+        Combination { powers, factor }
     };
     Some(rows.iter().map(combination).collect())
 }
@@ -95,6 +107,8 @@ mod tests {
         assert_eq!(found.len(), 1);
         let [(0, one), (1, half)] = found[0].powers[..] else { panic!("{found:?}") };
         assert!(one == 1.0 && (half - 0.5).abs() < 1e-12);
+        // −2 ln L is (50·(u₁ + u₂))², and the logarithm of the product u₁ + u₂.
+        assert!((libm::log(found[0].factor) - 3.84_f64.sqrt() / 50.0).abs() < 1e-9, "{found:?}");
     }
 
     #[test]

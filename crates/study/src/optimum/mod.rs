@@ -26,6 +26,9 @@ const LEAST_POINTS: usize = 16;
 /// Points from which the search goes on.
 const STARTS: usize = 16;
 
+/// A response as near to its limit as this part of the difference that counts is on it.
+const ON_LIMIT: f64 = 2e-3;
+
 /// Where a factor may be.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Axis {
@@ -35,7 +38,19 @@ pub enum Axis {
     Settings(Vec<Setting>),
 }
 
-/// What a response has to keep, as it is expected.
+/// What of a response has to keep a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kept {
+    /// What is expected: about half of all runs keep it where that lies on the limit.
+    #[default]
+    Value,
+    /// The interval of the mean of many runs.
+    Means,
+    /// The interval of one more run.
+    Runs,
+}
+
+/// What a response has to keep.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
     /// Which response, by index.
@@ -46,6 +61,8 @@ pub struct Limit {
     pub most: Option<f64>,
     /// A difference of the response that counts, to weigh how far different limits are missed.
     pub scale: f64,
+    /// What has to keep it.
+    pub kept: Kept,
 }
 
 /// The best settings.
@@ -57,7 +74,7 @@ pub struct Optimum {
     pub forecasts: Vec<Forecast>,
     /// How much each goal's response is liked.
     pub desirabilities: Vec<f64>,
-    /// Their mean.
+    /// Their mean; 0 where a limit is missed.
     pub overall: f64,
     /// Whether all limits are kept.
     pub keeps_limits: bool,
@@ -171,7 +188,13 @@ impl Problem<'_> {
         let settings = self.settings(combination, place);
         let values = self.surrogates.iter().map(|surrogate| surrogate.value(&settings));
         let values: Vec<f64> = values.collect::<Result<_, _>>()?;
-        let missed: f64 = self.limits.iter().map(|limit| limit.missed(values[limit.response])).sum();
+        let mut missed = 0.0;
+        for limit in self.limits {
+            missed += match limit.kept {
+                Kept::Value => limit.missed(values[limit.response]),
+                _ => limit.missed_by(&self.surrogates[limit.response].forecast(&settings, self.confidence)?),
+            };
+        }
         let desirabilities = self.desirabilities(&values);
         let overall = overall(self.goals, &desirabilities);
         if missed > 0.0 {
@@ -194,14 +217,39 @@ impl Problem<'_> {
         let forecasts: Vec<Forecast> = forecasts.collect::<Result<_, _>>()?;
         let values: Vec<f64> = forecasts.iter().map(|forecast| forecast.value).collect();
         let desirabilities = self.desirabilities(&values);
-        let overall = overall(self.goals, &desirabilities);
-        let keeps_limits = self.limits.iter().all(|limit| limit.missed(values[limit.response]) <= 0.0);
+        let keeps_limits = self.limits.iter().all(|limit| limit.missed_by(&forecasts[limit.response]) <= 0.0);
+        let overall = if keeps_limits { overall(self.goals, &desirabilities) } else { 0.0 };
         Ok(Optimum { settings, forecasts, desirabilities, overall, keeps_limits })
     }
 }
 
 impl Limit {
-    /// How far a response is beyond the limit, in differences that count.
+    /// How far what has to keep the limit is beyond it, in differences that count. Without an interval that is what is expected.
+    pub fn missed_by(&self, forecast: &Forecast) -> f64 {
+        let [low, high] = self.kept_by(forecast);
+        let missed = [(self.least, low), (self.most, high)].map(|(limit, end)| limit.map_or(0.0, |_| self.missed(end)));
+        missed[0].max(missed[1])
+    }
+
+    /// Whether the limit holds an optimum back: what has to keep it lies on it.
+    pub fn holds(&self, forecast: &Forecast) -> bool {
+        let [low, high] = self.kept_by(forecast);
+        let is_on =
+            |limit: Option<f64>, end: f64| limit.is_some_and(|limit| (limit - end).abs() < ON_LIMIT * self.scale);
+        is_on(self.least, low) || is_on(self.most, high)
+    }
+
+    /// The ends of what has to keep the limit.
+    fn kept_by(&self, forecast: &Forecast) -> [f64; 2] {
+        let interval = match self.kept {
+            Kept::Value => None,
+            Kept::Means => forecast.mean_interval,
+            Kept::Runs => forecast.run_interval,
+        };
+        interval.unwrap_or([forecast.value; 2])
+    }
+
+    /// How far a value is beyond the limit, in differences that count.
     fn missed(&self, value: f64) -> f64 {
         let below = self.least.map_or(0.0, |least| (least - value).max(0.0));
         let above = self.most.map_or(0.0, |most| (value - most).max(0.0));

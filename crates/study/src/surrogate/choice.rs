@@ -21,10 +21,16 @@ pub fn choose<'a>(candidates: Vec<Box<dyn Surrogate + 'a>>, shown: impl Fn(f64) 
     }
     let size = |at: &usize| errors[*at].unwrap_or(f64::INFINITY);
     let best = (0..candidates.len()).min_by(|one, other| size(one).total_cmp(&size(other)))?;
-    let reason = match told.len() {
-        1 => format!("leave-one-out error: {}", told[0]),
-        _ => format!("leave-one-out error: {}; the smaller one is taken", told.join(", ")),
+    let known = errors.iter().flatten().count();
+    let taken = match (told.len(), known) {
+        (1, _) => "",
+        (_, 0) => "; nothing tells which one is better, and the first one is taken",
+        (count, known) if known < count => {
+            "; what is not known cannot be compared, for a term depends on single points, and the other one is taken"
+        }
+        _ => "; the smaller one is taken",
     };
+    let reason = format!("leave-one-out error: {}{taken}", told.join(", "));
     let surrogate = candidates.into_iter().nth(best)?;
     Some(Choice { surrogate, reason })
 }
@@ -55,10 +61,13 @@ mod tests {
     #[test]
     fn the_smaller_error_is_taken_and_both_are_named() {
         let candidates: Vec<Box<dyn Surrogate>> =
-            vec![Box::new(Known("a", None)), Box::new(Known("b", Some(2.0))), Box::new(Known("c", Some(0.5)))];
+            vec![Box::new(Known("a", Some(3.0))), Box::new(Known("b", Some(2.0))), Box::new(Known("c", Some(0.5)))];
         let choice = choose(candidates, |error| format!("{error} mm")).unwrap();
         assert_eq!(choice.surrogate.name(), "c");
-        assert_eq!(choice.reason, "leave-one-out error: a not known, b 2 mm, c 0.5 mm; the smaller one is taken");
+        assert_eq!(choice.reason, "leave-one-out error: a 3 mm, b 2 mm, c 0.5 mm; the smaller one is taken");
+        let candidates: Vec<Box<dyn Surrogate>> = vec![Box::new(Known("a", None)), Box::new(Known("b", Some(2.0)))];
+        let choice = choose(candidates, |error| error.to_string()).unwrap();
+        assert!(choice.surrogate.name() == "b" && !choice.reason.contains("smaller"), "{}", choice.reason);
         assert!(choose(Vec::new(), |error| error.to_string()).is_none());
     }
 }

@@ -6,6 +6,7 @@
 mod choice;
 pub mod gaussian_process;
 mod polynomial;
+mod scaled_process;
 
 pub use choice::{Choice, choose};
 
@@ -13,6 +14,7 @@ use crate::design::Setting;
 use crate::effects::EffectsError;
 
 pub use polynomial::{PolynomialSurrogate, Scale};
+pub use scaled_process::ScaledProcess;
 
 /// What a surrogate expects of a response, in the unit of the response.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +38,15 @@ pub trait Surrogate {
     /// If the settings do not fit the factors, or a level was never observed.
     fn forecast(&self, settings: &[Setting], confidence: f64) -> Result<Forecast, EffectsError>;
 
+    /// Whether the runs tell the response at settings. Where they do not, a forecast has no intervals, and takes what cannot be told
+    /// from other things for nothing.
+    ///
+    /// # Errors
+    /// Those of [`forecast`](Self::forecast).
+    fn tells(&self, _settings: &[Setting]) -> Result<bool, EffectsError> {
+        Ok(true)
+    }
+
     /// The response at settings alone, for those who ask often.
     ///
     /// # Errors
@@ -45,6 +56,6 @@ pub trait Surrogate {
     }
 
     /// Root mean square of what responses differ by from a fit without their point, in the unit of the response; none
-    /// where a term depends on one point alone.
+    /// where more than a quarter of the points cannot be left out, for a term depends on one of them alone.
     fn leave_one_out_error(&self) -> Option<f64>;
 }

@@ -4,6 +4,10 @@ use super::{Forecast, Surrogate};
 use crate::design::Setting;
 use crate::effects::{Effects, EffectsError, Model, Transform, Variance, t_quantile};
 
+/// Part of the points that must be there to be left out for an error to be known. A single centre point of a response surface,
+/// without which there are no squares, is no reason to know nothing.
+const LEAST_PART: f64 = 0.75;
+
 /// The scale on which a model was fitted to a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
@@ -62,6 +66,9 @@ impl Surrogate for PolynomialSurrogate<'_> {
             return Err(EffectsError::Confidence(confidence));
         }
         let spread = self.effects.spread(settings)?;
+        if !self.effects.tells(settings)? {
+            return Ok(Forecast { value: self.scale.back(spread.value), mean_interval: None, run_interval: None });
+        }
         let interval = |variance: Variance| {
             let reach = t_quantile(1.0 - confidence, variance.freedom) * variance.estimate.sqrt();
             [spread.value - reach, spread.value + reach].map(|end| self.scale.back(end))
@@ -75,6 +82,10 @@ impl Surrogate for PolynomialSurrogate<'_> {
         Ok(Forecast { value: self.scale.back(spread.value), mean_interval, run_interval })
     }
 
+    fn tells(&self, settings: &[Setting]) -> Result<bool, EffectsError> {
+        self.effects.tells(settings)
+    }
+
     fn value(&self, settings: &[Setting]) -> Result<f64, EffectsError> {
         Ok(self.scale.back(self.effects.spread(settings)?.value))
     }
@@ -82,6 +93,8 @@ impl Surrogate for PolynomialSurrogate<'_> {
     fn leave_one_out_error(&self) -> Option<f64> {
         let held_out = self.effects.held_out()?;
         let missed = |[response, without]: &[f64; 2]| (self.scale.back(*response) - self.scale.back(*without)).powi(2);
-        Some((held_out.iter().map(missed).sum::<f64>() / held_out.len() as f64).sqrt())
+        let known: Vec<f64> = held_out.iter().flatten().map(missed).collect();
+        let are_most = LEAST_PART * held_out.len() as f64 <= known.len() as f64;
+        are_most.then(|| (known.iter().sum::<f64>() / known.len() as f64).sqrt())
     }
 }

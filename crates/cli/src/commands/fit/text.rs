@@ -55,7 +55,12 @@ pub fn level(told: &Told<'_>) -> String {
 fn keys(told: &Told<'_>) -> Vec<Vec<String>> {
     let row = |at: usize| {
         let key = &told.keys[at];
-        vec![key.name.clone(), key.words(told.result.best[at]), key.interval(&told.result.profiles[at])]
+        // What can be anywhere has no value that is likelier than others.
+        let likely = match told.result.profiles[at].is_undetermined() {
+            true => "–".to_owned(),
+            false => key.words(told.result.best[at]),
+        };
+        vec![key.name.clone(), likely, key.interval(&told.result.profiles[at])]
     };
     (0..told.keys.len()).map(row).collect()
 }

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use plateau_present::Unit;
 use plateau_present::figure::Format;
-use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis, Asked};
+use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis, Asked, Processes};
 use plateau_present::study::equation::paragraphs;
 use plateau_present::study::model::lack_of_fit;
-use plateau_present::study::words::{box_cox, fit, quality, repeats_in_words, selected};
-use plateau_study::effects::{self, Term};
+use plateau_present::study::words::{box_cox, curvature, fit, quality, repeats_in_words, selected};
+use plateau_study::effects::{self, Effects, Term};
 
 use super::analysed::Analysed;
 use super::effects_document::Document;
@@ -20,12 +20,17 @@ use crate::output_folder::OutputFolder;
 use crate::table::{columns, print, table};
 use crate::{number, sweep};
 
+/// Inflation of variances above which terms are said to be correlated.
+const MOST_INFLATION: f64 = 10.0;
+/// How much the sum of all shares differs from R² for it to be said.
+const SHARES_DIFFER: f64 = 0.02;
+
 /// Analyses the results.
 pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
     let asked = Asked {
         model: arguments.model.map(Into::into),
         by_aicc: arguments.terms == Terms::Aicc,
-        with_processes: false,
+        processes: Processes::None,
         confidence: arguments.confidence,
     };
     let plan = sweep::plan(&arguments.study)?;
@@ -34,7 +39,7 @@ pub fn effects(arguments: &EffectsArguments) -> Result<(), Failure> {
     let analysed = Analysed::of(plan, asked)?;
     let Analysed { plan, collected, analysis, .. } = &analysed;
     let study = plan.study();
-    effects_files::write(&mut folder, &analysed, &rows(analysis))?;
+    effects_files::write(&mut folder, &analysed, &rows(analysis), &residuals(&analysed))?;
     let files = folder.files().to_vec();
     if arguments.json {
         let report = Document::new(&study.title, collected.repeats(), analysis, files);
@@ -72,6 +77,7 @@ fn rows(analysis: &Analysis) -> String {
         "f",
         "p",
         "share",
+        "variance_inflation",
         "effect",
         "coefficient",
         "standard_error",
@@ -97,6 +103,7 @@ fn rows(analysis: &Analysis) -> String {
                 shown(term.test.map(|test| test.f)),
                 shown(term.test.map(|test| test.p)),
                 shown(Some(term.share)),
+                shown(term.inflation),
                 shown(term.estimate.map(|estimate| estimate.effect)),
                 shown(term.estimate.map(|estimate| estimate.coefficient)),
                 shown(uncertainty.map(|uncertainty| uncertainty.standard_error)),
@@ -123,6 +130,53 @@ fn rows(analysis: &Analysis) -> String {
     csv_table(lines)
 }
 
+/// A line for each response and run: what the model makes of it, and how much depends on it. In the SI unit of what is fitted.
+fn residuals(analysed: &Analysed) -> String {
+    let Analysed { collected, analysis, .. } = analysed;
+    let heads =
+        ["response", "run", "made_as", "replicate", "fitted", "residual", "standardised", "leverage", "cooks_distance"];
+    let mut lines = vec![heads.map(str::to_owned).to_vec()];
+    let shown = |value: f64| if value.is_finite() { format!("{value:?}") } else { String::new() };
+    for response in &analysis.responses {
+        let Ok(effects) = &response.effects else { continue };
+        let standardised = effects.standardised_residuals();
+        for (at, (fitted, [leverage, distance])) in effects.fitted.iter().zip(effects.influences()).enumerate() {
+            let run = &collected.runs[fitted.observation].run;
+            let standardised = standardised.as_ref().map_or(f64::NAN, |all| all[at]);
+            let numbers = [fitted.fitted, fitted.residual, standardised, leverage, distance];
+            let which = [run.number, analysis.order[fitted.observation], run.replicate + 1].map(|one| one.to_string());
+            lines.push([vec![response.name.clone()], which.to_vec(), numbers.map(shown).to_vec()].concat());
+        }
+    }
+    csv_table(lines)
+}
+
+/// Terms whose estimates are many times less certain than they would be alone, for they are correlated with others; a line.
+fn inflated(effects: &Effects) -> Option<String> {
+    let large = effects.terms.iter().filter(|term| term.inflation.is_some_and(|inflation| inflation > MOST_INFLATION));
+    let large: Vec<String> = large
+        .map(|term| format!("{} {}", term.label, number::rounded(term.inflation.unwrap_or_default(), 2)))
+        .collect();
+    (!large.is_empty()).then(|| {
+        format!(
+            "correlated with other terms, so that their effects are hardly told apart (variance inflation above {MOST_INFLATION}): {}",
+            large.join(", ")
+        )
+    })
+}
+
+/// That shares do not add up to R²; none where they nearly do.
+fn shares(effects: &Effects) -> Option<String> {
+    let sum: f64 = effects.rows().map(|term| term.share).sum();
+    ((sum - effects.r_squared).abs() > SHARES_DIFFER).then(|| {
+        format!(
+            "shares add up to {:.0} %, not to R²: terms are correlated, and a share is what is lost without the term and all others \
+             kept (type III)",
+            100.0 * sum
+        )
+    })
+}
+
 /// What is said of a response.
 fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
     let effects = match &response.effects {
@@ -133,13 +187,16 @@ fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
     let misfit = response.misfit.as_ref().map(|misfit| lack_of_fit(misfit, effects.r_squared));
     let transformed = response.scale.transform().map(|_| format!("all results are those of {}", response.title()));
     let notes = [
-        Some(response.choice.words()),
+        Some(response.model_words()),
         misfit,
+        curvature(response, effects.confidence, |value| unit.with_symbol(&number::short(unit.difference(value)))),
         Some(fit(effects)),
         Some(quality(effects, |value| unit.with_symbol(&number::short(unit.difference(value))))),
         transformed,
         selected(response),
         box_cox(response),
+        inflated(effects),
+        shares(effects),
     ];
     let heading =
         notes.into_iter().flatten().fold(response.name.clone(), |heading, note| format!("{heading}\n  {note}"));

@@ -51,6 +51,7 @@ struct Report {
     residual_standard_deviation: Option<f64>,
     error_from: String,
     lack_of_fit: Option<MisfitReport>,
+    curvature: Option<CurvatureReport>,
     box_cox: Option<BoxCoxReport>,
     terms_left_out: Option<Vec<String>>,
     aicc: Option<f64>,
@@ -71,6 +72,15 @@ struct MisfitReport {
     model_to_try: Option<&'static str>,
     /// Of the model to try.
     r_squared: Option<f64>,
+}
+
+/// What centre points differ by from the plane of the others.
+#[derive(Debug, Serialize)]
+struct CurvatureReport {
+    difference: f64,
+    interval: [f64; 2],
+    f: f64,
+    p: f64,
 }
 
 /// Powers of the response that the model fits best.
@@ -108,6 +118,8 @@ struct TermReport {
     degrees_of_freedom: usize,
     sum_of_squares: f64,
     share: f64,
+    /// Of the variance of the estimate, by correlation with other terms.
+    variance_inflation: Option<f64>,
     f: Option<f64>,
     p: Option<f64>,
     effect: Option<f64>,
@@ -145,6 +157,12 @@ impl Report {
                 model_to_try: misfit.better.map(|better| name(better.model)),
                 r_squared: misfit.better.map(|better| better.r_squared),
             }),
+            curvature: response.curvature.map(|found| CurvatureReport {
+                difference: found.difference,
+                interval: found.interval,
+                f: found.test.f,
+                p: found.test.p,
+            }),
             box_cox: response.box_cox.map(|found| BoxCoxReport { lambda: found.power, interval: found.interval }),
             terms_left_out: response.selected.as_ref().map(|selected| selected.left_out.clone()),
             aicc: response.selected.as_ref().map(|selected| selected.aicc),
@@ -167,6 +185,7 @@ impl TermReport {
             degrees_of_freedom: term.freedom,
             sum_of_squares: term.sum_of_squares,
             share: term.share,
+            variance_inflation: term.inflation,
             f: term.test.map(|test| test.f),
             p: term.test.map(|test| test.p),
             effect: term.estimate.map(|estimate| estimate.effect),

@@ -11,6 +11,8 @@ use crate::version;
 
 /// The table.
 const TABLE: &str = "effects.csv";
+/// The table of single runs.
+const RUNS: &str = "residuals.csv";
 /// The page.
 const PAGE: &str = "effects.html";
 
@@ -20,16 +22,17 @@ pub struct Drawn {
     pub picture: Picture,
 }
 
-/// Writes the table, the figures of all responses and the page with them.
+/// Writes the tables, the figures of all responses and the page with them.
 ///
 /// # Errors
 /// [`Failure::Run`] when a figure cannot be drawn, and those of [`OutputFolder`].
-pub fn write(folder: &mut OutputFolder, analysed: &Analysed, table: &str) -> Result<(), Failure> {
+pub fn write(folder: &mut OutputFolder, analysed: &Analysed, table: &str, runs: &str) -> Result<(), Failure> {
     let Analysed { plan, collected, analysis, inputs } = analysed;
     let responses = figures(analysis);
     let names = names_of(responses.iter().flat_map(|of_response| &of_response.figures));
-    folder.begin(&[&[TABLE.to_owned(), PAGE.to_owned()], &names[..]].concat(), inputs)?;
+    folder.begin(&[&[TABLE.to_owned(), RUNS.to_owned(), PAGE.to_owned()], &names[..]].concat(), inputs)?;
     folder.write(TABLE, table.as_bytes())?;
+    folder.write(RUNS, runs.as_bytes())?;
     let mut pictures = Vec::new();
     for of_response in responses {
         let mut drawn = Vec::new();

@@ -7,6 +7,7 @@ mod effects_document;
 mod effects_files;
 mod import;
 mod optimize;
+mod optimize_limits;
 mod plan;
 mod predict;
 mod prediction_table;

@@ -9,16 +9,17 @@ use plateau_present::study::forecasts::heads;
 use plateau_present::study::goals::{self, Aim};
 use plateau_present::study::place::{Place, Space};
 use plateau_study::design::Setting;
-use plateau_study::optimum::{Axis, Goal, Limit, Optimum, Wish, optimum};
+use plateau_study::optimum::{Axis, Goal, Kept, Limit, Optimum, Wish, optimum};
 use plateau_study::surrogate::{Forecast, Surrogate};
 use serde::Serialize;
 
 use super::analysed::Analysed;
 use super::effects_files::draw_all;
+use super::optimize_limits::{LimitReport, Limited, limit_words};
 use super::predict::{
-    ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, reasons, settings_of,
+    ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, notes_of_place, reasons, settings_of,
 };
-use crate::arguments::OptimizeArguments;
+use crate::arguments::{LimitOn, OptimizeArguments};
 use crate::failure::Failure;
 use crate::output_folder::{OutputFolder, name_of, names_of};
 use crate::sweep::confirmation::{Confirmed, confirm};
@@ -38,15 +39,13 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let axes = axes(&analysed, &space, arguments)?;
     let contour = arguments.contour.as_deref().map(|names| pair(&space, names, &axes)).transpose()?;
     let (best, forecasts) = search(&analysed, &goals, &limits, &axes, arguments.fit.confidence)?;
-    if best.overall <= 0.0 || !best.keeps_limits {
-        message::warning(match best.keeps_limits {
-            false => "no settings within the ranges keep all limits; these miss least",
-            true => {
-                "a goal is worth nothing wherever the others are worth something; give wider values, such as NAME=LOW..HIGH"
-            }
-        });
+    if best.overall <= 0.0 && best.keeps_limits {
+        message::warning(
+            "a goal is worth nothing wherever the others are worth something; give wider values, such as NAME=LOW..HIGH",
+        );
     }
     let place = space.of(best.settings.clone()).map_err(Failure::input)?;
+    let limited = Limited { analysed: &analysed, limits: &limits, axes: &axes, forecasts: &forecasts };
     let shown = Shown {
         analysis,
         goals: &goals,
@@ -72,12 +71,15 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
                 .collect(),
             desirability: best.overall,
             keeps_limits: best.keeps_limits,
+            limits: limited.reports(),
+            at_ends: limited.at_ends(&best),
             confirmed,
             files,
         };
-        return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
+        print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"))?;
+        return kept(&best);
     }
-    let mut text = text_of(&analysed, &place, &forecasts, &goals, &best, arguments.fit.confidence);
+    let mut text = text_of(&limited, &place, &goals, &best, arguments.fit.confidence)?;
     if let Some(confirmed) = &confirmed {
         text.push_str(&confirmed_text(&analysed, confirmed));
     }
@@ -87,11 +89,17 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
         number::count(count, "figure"),
         folder.path().display()
     ));
-    print(&text)
+    print(&text)?;
+    kept(&best)
+}
+
+/// That all limits are kept.
+fn kept(best: &Optimum) -> Result<(), Failure> {
+    if best.keeps_limits { Ok(()) } else { Err(Failure::run("no settings within the ranges keep all limits")) }
 }
 
 /// The best settings, and what is expected of each response there; none of one without a model, of which nothing may be wanted.
-fn search(
+pub(super) fn search(
     analysed: &Analysed,
     goals: &[Goal],
     limits: &[Limit],
@@ -152,7 +160,12 @@ fn wanted(analysed: &Analysed, arguments: &OptimizeArguments) -> Result<(Vec<Goa
         };
         if option == "--weight" { goal.weight = power } else { goal.importance = power }
     }
-    let limits = arguments.limit.iter().map(|text| goals::limit(analysis, text)).collect::<Result<_, _>>();
+    let on = match arguments.limit_on {
+        LimitOn::Mean => Kept::Value,
+        LimitOn::Means => Kept::Means,
+        LimitOn::Runs => Kept::Runs,
+    };
+    let limits = arguments.limit.iter().map(|text| goals::limit(analysis, text, on)).collect::<Result<_, _>>();
     Ok((goals, limits.map_err(Failure::input)?))
 }
 
@@ -200,16 +213,20 @@ fn write(folder: &mut OutputFolder, figures: &[Figure], inputs: &[PathBuf]) -> R
 
 /// What is said of the optimum.
 fn text_of(
-    analysed: &Analysed,
+    limited: &Limited<'_>,
     place: &Place,
-    forecasts: &[Option<Forecast>],
     goals: &[Goal],
     best: &Optimum,
     confidence: f64,
-) -> String {
+) -> Result<String, Failure> {
+    let Limited { analysed, limits, forecasts, .. } = *limited;
     let words = Space::new(analysed.plan.study(), &analysed.analysis).words(place);
+    let found = match best.keeps_limits {
+        true => "best at",
+        false => "no settings within the ranges keep all limits; they are missed least at",
+    };
     let heading = format!(
-        "{}\n  best at {words}\n  desirability {}",
+        "{}\n  {found} {words}\n  desirability {}",
         analysed.plan.study().title,
         number::rounded(best.overall, 3)
     );
@@ -219,13 +236,22 @@ fn text_of(
         let response = &analysed.analysis.responses[at];
         let mut cells = response.cells(forecast.as_ref()?);
         let goal = goals.iter().zip(&best.desirabilities).find(|(goal, _)| goal.response == at);
-        cells.extend(goal.map_or([String::new(), String::new()], |(goal, worth)| {
-            [goal_words(analysed, goal), number::rounded(*worth, 3)]
-        }));
+        let own = limits.iter().filter(|limit| limit.response == at);
+        let wanted: Vec<String> = goal
+            .map(|(goal, _)| goal_words(analysed, goal))
+            .into_iter()
+            .chain(own.map(|limit| limit_words(response, limit)))
+            .collect();
+        cells.push(wanted.join("; "));
+        cells.push(goal.map_or_else(String::new, |(_, worth)| number::rounded(*worth, 3)));
         Some(cells)
     };
     let rows: Vec<Vec<String>> = forecasts.iter().enumerate().filter_map(line).collect();
-    columns(&heading, &names, &rows) + &reasons(analysed) + &notes_of_bounds(analysed, forecasts)
+    Ok(columns(&heading, &names, &rows)
+        + &limited.text(best, confidence)?
+        + &reasons(analysed)
+        + &notes_of_place(analysed, place)
+        + &notes_of_bounds(analysed, forecasts))
 }
 
 /// A goal in words.
@@ -250,6 +276,9 @@ struct Document<'a> {
     /// The mean of all goals.
     desirability: f64,
     keeps_limits: bool,
+    limits: Vec<LimitReport>,
+    /// Factors that are at an end of their range.
+    at_ends: Vec<String>,
     confirmed: Option<Vec<Option<Confirmed>>>,
     files: Vec<String>,
 }

@@ -175,7 +175,16 @@ fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], c
         cells
     };
     let rows: Vec<Vec<String>> = analysed.analysis.responses.iter().zip(forecasts).map(line).collect();
-    columns(&heading, &names, &rows) + &reasons(analysed) + &notes_of_bounds(analysed, forecasts)
+    columns(&heading, &names, &rows)
+        + &reasons(analysed)
+        + &notes_of_place(analysed, place)
+        + &notes_of_bounds(analysed, forecasts)
+}
+
+/// Of which responses the runs do not tell what is at a place, a line for each.
+pub(super) fn notes_of_place(analysed: &Analysed, place: &Place) -> String {
+    let notes = analysed.analysis.responses.iter().filter_map(|response| response.note_of_place(&place.settings));
+    notes.map(|note| format!("  {note}\n")).collect()
 }
 
 /// Which intervals are cut where a response cannot be, a line for each.

@@ -6,13 +6,11 @@ use plateau_io::study::plan::Plan;
 use plateau_present::Unit;
 use plateau_present::figure::effects::file_names;
 use plateau_present::figure::{Figure, sensitivity as figures};
-use plateau_present::study::analysis::Analysis;
+use plateau_present::study::analysis::{AnalysedResponse, Analysis, Asked, Processes};
 use plateau_present::study::cautions::{levels_and_ranges, together};
 use plateau_study::design::{Kind, Setting};
-use plateau_study::effects::{Factor, Observation};
+use plateau_study::effects::Factor;
 use plateau_study::sensitivity::{ElementaryEffect, Index, Options, elementary_effects, sobol_indices};
-use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
-use plateau_study::surrogate::{Surrogate, choose};
 
 use super::analysed::analysable;
 use super::collect::Found;
@@ -59,33 +57,22 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
 
 impl Told {
     fn new(plan: &Plan, results: &Collected, arguments: &SensitivityArguments) -> Self {
-        let analysis = Analysis::new(plan.study(), results, None, arguments.confidence);
+        let confidence = arguments.confidence;
+        let is_morris = matches!(plan.study().source, DesignSource::Kind(Kind::Morris { .. }));
+        let processes = if is_morris { Processes::None } else { Processes::ForValues };
+        let analysis =
+            Analysis::of(plan.study(), results, Asked { model: None, by_aicc: false, processes, confidence });
         let said = together(&analysis).into_iter().chain(levels_and_ranges(&analysis));
         said.for_each(|said| message::warning(format_args!("{said}")));
         let factors: Vec<Factor> = analysis.factors.iter().map(|factor| factor.factor.clone()).collect();
-        let is_morris = matches!(plan.study().source, DesignSource::Kind(Kind::Morris { .. }));
         let options = Options { confidence: arguments.confidence, ..Options::default() };
-        let known = |at: usize| {
-            let observations: Vec<Observation> = results
-                .runs
-                .iter()
-                .zip(&analysis.runs)
-                .enumerate()
-                .map(|(place, (run, (settings, responses)))| Observation {
-                    settings: settings.clone(),
-                    replicate: run.run.replicate,
-                    // What was measured elsewhere was measured for each run by itself.
-                    run: if plan.study().responses[at].is_imported() { place } else { run.first },
-                    response: responses[at],
-                })
-                .collect();
-            match is_morris {
-                true => Known::Effects(elementary_effects(&factors, &means(&observations, plan.replicates()))),
-                false => {
-                    let polynomial = analysis.responses[at].surrogate();
-                    indices(&factors, &observations, polynomial, &options, analysis.responses[at].unit)
-                }
+        let known = |at: usize| match is_morris {
+            true => {
+                let runs = analysis.runs.iter();
+                let points: Vec<_> = runs.map(|(settings, responses)| (settings.clone(), responses[at])).collect();
+                Known::Effects(elementary_effects(&factors, &means(&points, plan.replicates())))
             }
+            false => indices(&factors, &analysis.responses[at], &options),
         };
         let size = |at: usize| {
             let sizes = analysis.runs.iter().map(|(_, responses)| responses[at].abs());
@@ -186,7 +173,11 @@ impl Told {
                 };
                 let rows: Vec<Vec<String>> = order.iter().map(row).collect();
                 let names = ["factor", "alone (first order)", "with interactions (total)"];
-                columns(&format!("{name}: parts of the variance\n  {reason}"), &names, &rows)
+                let of_sample = format!(
+                    "intervals of {} are for the sample of places alone, not for what the function misses",
+                    self.level()
+                );
+                columns(&format!("{name}: parts of the variance\n  {reason}\n  {of_sample}"), &names, &rows)
             }
             Known::Effects(effects) => {
                 let unit = Unit::readable_with_differences(unit, size);
@@ -209,35 +200,23 @@ impl Told {
 }
 
 /// Indices from the surrogate that forecasts points best, of a polynomial and a Gaussian process.
-fn indices<'a>(
-    factors: &[Factor],
-    observations: &[Observation],
-    polynomial: Option<Box<dyn Surrogate + 'a>>,
-    options: &Options,
-    unit: &str,
-) -> Known {
-    let mut candidates: Vec<Box<dyn Surrogate + 'a>> = polynomial.into_iter().collect();
-    let mut problems = Vec::new();
-    match GaussianProcess::fit(factors, observations, &ProcessOptions::default()) {
-        Ok(process) => candidates.push(Box::new(process)),
-        Err(error) => problems.push(error.to_string()),
-    }
-    let size = observations.iter().map(|each| each.response.abs()).filter(|size| size.is_finite()).fold(0.0, f64::max);
-    let unit = Unit::readable_with_differences(unit, size);
-    let shown = |error: f64| unit.with_symbol(&number::rounded(unit.difference(error), 3));
-    let Some(choice) = choose(candidates, shown) else { return Known::Nothing(problems.join("; ")) };
-    match sobol_indices(factors, choice.surrogate.as_ref(), options) {
-        Ok(indices) => Known::Indices(indices, format!("of the {}; {}", choice.surrogate.name(), choice.reason)),
+fn indices(factors: &[Factor], response: &AnalysedResponse, options: &Options) -> Known {
+    let (Some(surrogate), Some(reason)) = (response.surrogate(), response.reason_of_choice()) else {
+        let why = response.effects.as_ref().err().map(ToString::to_string);
+        return Known::Nothing(why.unwrap_or_else(|| "nothing could be fitted".to_owned()));
+    };
+    match sobol_indices(factors, surrogate.as_ref(), options) {
+        Ok(indices) => Known::Indices(indices, format!("of the {}; {reason}", surrogate.name())),
         Err(error) => Known::Nothing(error.to_string()),
     }
 }
 
 /// Points in the order of the design, with the mean over the seeds; NaN where one of them has no response, for its other seeds
 /// would be compared with other ones.
-fn means(observations: &[Observation], seeds: usize) -> Vec<(Vec<Setting>, f64)> {
-    let mean = |point: &[Observation]| {
-        let sum: f64 = point.iter().map(|each| each.response).sum();
-        (point[0].settings.clone(), sum / point.len() as f64)
+fn means(runs: &[(Vec<Setting>, f64)], seeds: usize) -> Vec<(Vec<Setting>, f64)> {
+    let mean = |point: &[(Vec<Setting>, f64)]| {
+        let sum: f64 = point.iter().map(|(_, response)| response).sum();
+        (point[0].0.clone(), sum / point.len() as f64)
     };
-    observations.chunks(seeds.max(1)).map(mean).collect()
+    runs.chunks(seeds.max(1)).map(mean).collect()
 }

@@ -120,7 +120,7 @@ fn settings(axis: &FactorAxis) -> Vec<Setting> {
 fn pair(subject: &Subject, lines_of: usize, along: usize, settings: &[Setting]) -> Pair {
     let (effects, axis) = (subject.effects, &subject.axes[along]);
     let predicted = axis.is_continuous() || subject.axes[lines_of].is_continuous();
-    let cells = if predicted { Vec::new() } else { effects.cell_means(lines_of, along) };
+    let cells = if predicted { Vec::new() } else { effects.adjusted_means(&[lines_of, along]) };
     let line = |setting: &Setting| {
         let mut points: Vec<[f64; 2]> = if predicted {
             let values = axis.settings(VALUES).into_iter();

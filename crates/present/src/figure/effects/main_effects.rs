@@ -21,6 +21,8 @@ const BETWEEN: f64 = 84.0;
 const VALUES: usize = 121;
 /// Half the width of the end of an error bar, as a part of the axis.
 const CAP: f64 = 0.025;
+/// Means that differ by less than this part of the largest are the same.
+const SAME: f64 = 1e-9;
 /// Whether one sees through the band of a predicted line.
 const OPACITY: f64 = 0.25;
 
@@ -61,6 +63,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let has_intervals = shown.iter().any(|shown| !shown.intervals.is_empty());
     let (any_predicted, all_predicted) =
         (shown.iter().any(|shown| shown.predicted), shown.iter().all(|shown| shown.predicted));
+    let is_adjusted = (0..subject.axes.len()).any(|factor| is_adjusted(subject, factor));
     let what = match (any_predicted, all_predicted) {
         (_, true) => {
             "Response against each factor as the model predicts it, with the others at the middle of their range"
@@ -71,9 +74,16 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         }
         _ => "Mean response at the levels of each factor",
     };
+    let adjusted = if is_adjusted {
+        " Means at levels are adjusted for the other factors (least-squares means), for the runs do not have all levels alike."
+    } else {
+        ""
+    };
     let key = match (any_predicted, all_predicted) {
         (_, true) => "predicted",
+        (true, _) if is_adjusted => "adjusted mean at a level, or predicted",
         (true, _) => "mean of the runs at a level, or predicted",
+        _ if is_adjusted => "adjusted mean at a level",
         _ => "mean of the runs at a level",
     };
     let interval = subject.confidence();
@@ -90,7 +100,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     }
     let ends = shown.iter().flat_map(|shown| &shown.intervals).flat_map(|[_, low, high]| [*low, *high]);
     let cut = said_of_cuts(subject.bounds(), &subject.unit, ends);
-    let caption = format!("{what}. {uncertainty}{cut}");
+    let caption = format!("{what}.{adjusted} {uncertainty}{cut}");
     let mut page = page(width, HEIGHT, across, charts, &meanings);
     if any_predicted {
         let held =
@@ -101,10 +111,17 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     subject.add(figures, "main-effects", "Main effects on", caption, page);
 }
 
+/// Whether means at levels of a factor are not those of the runs.
+fn is_adjusted(subject: &Subject, factor: usize) -> bool {
+    let (of_runs, adjusted) = (subject.effects.level_means(factor), subject.effects.adjusted_means(&[factor]));
+    let size = of_runs.iter().fold(0.0_f64, |size, cell| size.max(cell.mean.abs()));
+    of_runs.iter().zip(&adjusted).any(|(one, other)| (one.mean - other.mean).abs() > SAME * size)
+}
+
 /// Means at levels; along ranges with many values, or with squares, what the model predicts.
 fn shown(subject: &Subject, factor: usize) -> Shown {
     let (axis, effects, unit) = (&subject.axes[factor], subject.effects, &subject.unit);
-    let cells = effects.level_means(factor);
+    let cells = effects.adjusted_means(&[factor]);
     let is_curved = effects.model == Model::Quadratic && axis.is_continuous();
     let predicted = cells.is_empty() || is_curved;
     let bounds = subject.bounds();

@@ -9,8 +9,8 @@ mod contour;
 mod profiler;
 
 use plateau_study::design::Setting;
-use plateau_study::optimum::{Axis, Goal, Limit, overall};
-use plateau_study::surrogate::Surrogate;
+use plateau_study::optimum::{Axis, Goal, Kept, Limit, overall};
+use plateau_study::surrogate::{Forecast, Surrogate};
 
 use super::format::Figure;
 use crate::study::analysis::Analysis;
@@ -58,10 +58,11 @@ impl<'a> Shown<'a> {
     fn desirability(&self, surrogates: &[Option<Box<dyn Surrogate + 'a>>], settings: &[Setting]) -> Option<f64> {
         let value = |response: usize| surrogates.get(response)?.as_ref()?.value(settings).ok();
         for limit in self.limits {
-            let value = value(limit.response)?;
-            let is_missed =
-                limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most);
-            if is_missed {
+            let forecast = match limit.kept {
+                Kept::Value => Forecast { value: value(limit.response)?, mean_interval: None, run_interval: None },
+                _ => surrogates.get(limit.response)?.as_ref()?.forecast(settings, self.confidence).ok()?,
+            };
+            if limit.missed_by(&forecast) > 0.0 {
                 return Some(0.0);
             }
         }

@@ -10,7 +10,7 @@ use crate::report::picture::{Picture, Pictures};
 use crate::study::analysis::{AnalysedFactor, AnalysedResponse};
 use crate::study::equation;
 use crate::study::model::lack_of_fit;
-use crate::study::words::{box_cox, fit, quality, selected};
+use crate::study::words::{box_cox, curvature, fit, quality, selected};
 use plateau_io::number;
 
 /// Digits of numbers.
@@ -40,12 +40,14 @@ pub fn html(response: &AnalysedResponse, axes: &[FactorAxis], pictures: &Picture
     if response.scale.transform().is_some() {
         text.push_str(&paragraph(&format!("all results are those of {}", response.title())));
     }
-    text.push_str(&paragraph(&response.choice.words()));
+    text.push_str(&paragraph(&response.model_words()));
     text.extend([selected(response), box_cox(response)].into_iter().flatten().map(|note| paragraph(&note)));
     if let Some(misfit) = &response.misfit {
         let misfit = capital(&lack_of_fit(misfit, effects.r_squared));
         text.push_str(&format!("<p class=\"notice\">{}.</p>\n", html::escape(&misfit)));
     }
+    let curved = curvature(response, effects.confidence, |value| unit.with_symbol(&rounded(unit.difference(value))));
+    text.extend(curved.map(|note| paragraph(&note)));
     text.push_str(&html::number_table(&caption, &heads(effects, &unit), &rows(effects, &unit)));
     text.push_str(HINT);
     let aliased = effects.rows().filter(|term| !term.aliased_with.is_empty());
@@ -164,10 +166,22 @@ fn stationary(effects: &Effects, axes: &[FactorAxis], unit: &Unit) -> Option<Str
         let value = rounded(axis.natural(*coded));
         format!("{} = {}", axis.plain_name(), format!("{value} {}", axis.factor.reading.unit).trim_end())
     };
+    if !point.within_ranges {
+        // Far away the numbers of a fit mean nothing: where to go is all that they tell.
+        let beyond = surface.factors.iter().zip(&point.coded).filter(|(_, coded)| coded.abs() > 1.0);
+        let directions: Vec<String> = beyond
+            .map(|(factor, coded)| {
+                format!("{} the range of {}", if *coded > 0.0 { "above" } else { "below" }, axes[*factor].plain_name())
+            })
+            .collect();
+        return Some(format!(
+            "The fitted surface is level nowhere within the ranges of the study; where it has {nature} lies {}.",
+            directions.join(", ")
+        ));
+    }
     let places: Vec<String> = surface.factors.iter().zip(&point.coded).map(place).collect();
-    let beyond = if point.within_ranges { "" } else { " Some of that is beyond the ranges of the study." };
     let value = unit.with_symbol(&rounded(unit.value(point.response.value)));
-    Some(format!("The fitted surface has {nature} of {value} at {}.{beyond}", places.join(", ")))
+    Some(format!("The fitted surface has {nature} of {value} at {}.", places.join(", ")))
 }
 
 /// A figure with its caption; the drawing stands in the page itself.

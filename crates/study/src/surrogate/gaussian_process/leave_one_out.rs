@@ -5,6 +5,7 @@
 //! of all points; the trend is that of the others.
 
 use super::GaussianProcess;
+use super::solved::Solved;
 
 /// A point and the forecast of it by the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +21,11 @@ pub struct LeftOut {
 impl GaussianProcess {
     /// Every point, in the order in which points were first observed, with the forecast of it by the others.
     pub fn left_out(&self) -> Vec<LeftOut> {
-        let solved = &self.solved;
+        self.left_out_with(&self.solved)
+    }
+
+    /// The same with other equations.
+    pub(super) fn left_out_with(&self, solved: &Solved) -> Vec<LeftOut> {
         let each = |(at, mean): (usize, &f64)| {
             let trend = solved.inverse_trend.row(at);
             let spread = (trend * &solved.trend_inverse).dot(&trend);

@@ -41,10 +41,7 @@ pub(super) fn most_likely(
         let gradient = solved.gradient(axes, averages, &hyperparameters);
         Some((-solved.log_likelihood, gradient.into_iter().map(|value| -value).collect()))
     };
-    let ends = |end: usize| -> Vec<f64> {
-        std::iter::repeat_n(libm::log(LENGTHS[end]), axes.len()).chain([libm::log(NOISES[end])]).collect()
-    };
-    let (low, high) = (ends(0), ends(1));
+    let (low, high) = ends(axes.len());
     let starts = match near {
         Some(near) => vec![to_logs(near)],
         None => {
@@ -58,6 +55,12 @@ pub(super) fn most_likely(
     let found = starts.iter().filter_map(|start| minimise(slope, start, &low, &high, TOLERANCE));
     let best = found.min_by(|one, other| one.value.total_cmp(&other.value))?;
     solve(&best.place)
+}
+
+/// The ends of the box in which lengths and noise are looked for, as logarithms.
+pub(super) fn ends(axes: usize) -> (Vec<f64>, Vec<f64>) {
+    let end = |end: usize| std::iter::repeat_n(libm::log(LENGTHS[end]), axes).chain([libm::log(NOISES[end])]).collect();
+    (end(0), end(1))
 }
 
 /// Places in the box where the search begins, spread evenly, as logarithms.
@@ -80,11 +83,11 @@ fn places(axes: usize) -> Vec<Vec<f64>> {
     points.collect()
 }
 
-fn from_logs(logs: &[f64]) -> Hyperparameters {
+pub(super) fn from_logs(logs: &[f64]) -> Hyperparameters {
     let (lengths, noise) = logs.split_at(logs.len() - 1);
     Hyperparameters { lengths: lengths.iter().map(|log| libm::exp(*log)).collect(), noise: libm::exp(noise[0]) }
 }
 
-fn to_logs(hyperparameters: &Hyperparameters) -> Vec<f64> {
+pub(super) fn to_logs(hyperparameters: &Hyperparameters) -> Vec<f64> {
     hyperparameters.lengths.iter().chain([&hyperparameters.noise]).map(|value| libm::log(*value)).collect()
 }

@@ -15,6 +15,7 @@
 //! | the correlation | `kernel` |
 //! | likelihood and equations with given lengths | `solved` |
 //! | the most likely lengths | `likelihood` |
+//! | what it costs that they are not known | `likely_lengths` |
 //! | forecasts and their slopes | `prediction` |
 //! | each point as the others forecast it | `leave_one_out` |
 
@@ -23,6 +24,7 @@ mod inputs;
 mod kernel;
 mod leave_one_out;
 mod likelihood;
+mod likely_lengths;
 mod prediction;
 mod solved;
 
@@ -32,6 +34,7 @@ use crate::effects::{EffectsError, Factor, Observation};
 use averages::Averages;
 use inputs::Inputs;
 pub use leave_one_out::LeftOut;
+use likely_lengths::Likely;
 pub use prediction::Local;
 use solved::Solved;
 
@@ -101,6 +104,10 @@ pub struct GaussianProcess {
     averages: Averages,
     hyperparameters: Hyperparameters,
     solved: Solved,
+    /// Sets of lengths and noise that may be true; empty where the most likely one is taken for certain.
+    likely: Vec<Likely>,
+    /// How many times as large variances are as the process says, for it to be no more certain than its leave-one-out errors.
+    calibration: f64,
 }
 
 impl GaussianProcess {
@@ -128,7 +135,7 @@ impl GaussianProcess {
             None => likelihood::most_likely(axes, trend, &averages, options.near.as_ref()),
         };
         let (hyperparameters, solved) = fitted.ok_or(GaussianProcessError::Singular)?;
-        Ok(Self { inputs, trend, averages, hyperparameters, solved })
+        Ok(Self { inputs, trend, averages, hyperparameters, solved, likely: Vec::new(), calibration: 1.0 })
     }
 
     /// The same process with one more point whose mean is as it is forecast, from so many runs: its variance is then what it
@@ -190,6 +197,11 @@ impl GaussianProcess {
     /// Standard deviation from seed to seed at one point, of both kinds; none without replicates.
     pub fn seed_deviation(&self) -> Option<f64> {
         (self.averages.freedom > 0).then(|| (self.run_variance() + self.averages.of_seeds).sqrt())
+    }
+
+    /// By how much the most likely σ², that of n, is less than the unbiased one, of n − p degrees of freedom.
+    fn unbiased(&self) -> f64 {
+        (self.averages.means.len() + self.averages.freedom) as f64 / self.freedom()
     }
 
     /// Degrees of freedom of σ².

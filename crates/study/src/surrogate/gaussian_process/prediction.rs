@@ -1,12 +1,12 @@
 //! What a Gaussian process expects where no run was made, and how that changes from place to place.
 
 use nalgebra::DVector;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::GaussianProcess;
 use super::kernel::{self, Axis};
+use super::solved::Solved;
 use crate::design::Setting;
-use crate::effects::EffectsError;
+use crate::effects::{EffectsError, t_quantile};
 use crate::surrogate::{Forecast, Surrogate};
 
 /// Mean and variance of the response at a point, of the mean over the seeds of the study.
@@ -70,18 +70,55 @@ impl GaussianProcess {
 
     /// Mean and variance, and Gh.
     fn local_of(&self, point: &[f64], known: &DVector<f64>, solved: &DVector<f64>) -> (Local, DVector<f64>) {
+        self.local_with(&self.solved, point, known, solved)
+    }
+
+    /// The same with other equations.
+    fn local_with(
+        &self,
+        with: &Solved,
+        point: &[f64],
+        known: &DVector<f64>,
+        solved: &DVector<f64>,
+    ) -> (Local, DVector<f64>) {
         let row = DVector::from_vec(self.trend.row(&self.inputs.axes, point));
-        let mean = self.averages.offset + row.dot(&self.solved.coefficients) + known.dot(&self.solved.weights);
-        let left = &row - self.solved.inverse_trend.transpose() * known;
-        let of_trend = &self.solved.trend_inverse * &left;
+        let mean = self.averages.offset + row.dot(&with.coefficients) + known.dot(&with.weights);
+        let left = &row - with.inverse_trend.transpose() * known;
+        let of_trend = &with.trend_inverse * &left;
         // Rounding may leave less than nothing at a point that was run.
         let share = (1.0 - known.dot(solved) + left.dot(&of_trend)).max(0.0);
-        (Local { mean, variance: self.solved.variance * share }, of_trend)
+        (Local { mean, variance: with.variance * share }, of_trend)
+    }
+
+    /// Variances of the mean over the seeds of the study at a point, and of one more run with them: of what is expected with
+    /// the most likely lengths, averaged over all lengths that may be true.
+    pub(super) fn variances(&self, point: &[f64], local: &Local) -> [f64; 2] {
+        let unbiased = self.unbiased();
+        if self.likely.is_empty() {
+            let of_mean = local.variance * unbiased;
+            return [of_mean, of_mean + self.run_variance() * unbiased];
+        }
+        let (mut of_mean, mut of_run) = (0.0, 0.0);
+        for likely in &self.likely {
+            let known = self.correlations_with(&likely.hyperparameters.lengths, point);
+            let solved = &likely.solved.inverse * &known;
+            let (other, _) = self.local_with(&likely.solved, point, &known, &solved);
+            let apart = (other.mean - local.mean).powi(2);
+            of_mean += likely.weight * (other.variance * unbiased + apart);
+            of_run += likely.weight * likely.hyperparameters.noise * likely.solved.variance * unbiased;
+        }
+        let of_mean = self.calibration * of_mean;
+        [of_mean, of_mean + of_run]
     }
 
     /// Correlations of a point with those that were run.
     fn correlations(&self, point: &[f64]) -> DVector<f64> {
-        let (axes, lengths) = (&self.inputs.axes, &self.hyperparameters.lengths);
+        self.correlations_with(&self.hyperparameters.lengths, point)
+    }
+
+    /// The same with other lengths.
+    fn correlations_with(&self, lengths: &[f64], point: &[f64]) -> DVector<f64> {
+        let axes = &self.inputs.axes;
         let points = self.averages.points.iter();
         let known = points.map(|other| kernel::between(axes, lengths, point, other));
         DVector::from_iterator(self.averages.points.len(), known)
@@ -97,18 +134,20 @@ impl Surrogate for GaussianProcess {
         if !(confidence > 0.0 && confidence < 1.0) {
             return Err(EffectsError::Confidence(confidence));
         }
-        let local = self.local(settings)?;
-        // σ² is estimated: its most likely value is that of n, its unbiased one that of n − p degrees of freedom.
-        let freedom = self.freedom();
-        let count = (self.averages.means.len() + self.averages.freedom) as f64;
-        let quantile = StudentsT::new(0.0, 1.0, freedom).map(|of| of.inverse_cdf(0.5 + 0.5 * confidence));
-        let of_mean = local.variance * count / freedom + self.seeds_variance();
-        let of_run = of_mean + self.run_variance() * count / freedom + self.averages.of_seeds;
-        let interval = |variance: f64| {
-            let reach = quantile.as_ref().ok()? * variance.sqrt();
-            Some([local.mean - reach, local.mean + reach])
+        let point = self.inputs.point(settings)?;
+        let local = self.local_at(&point);
+        let [of_mean, of_run] = self.variances(&point, &local);
+        // Sets of seeds are few, so that their variance rests on few degrees of freedom: those of the sum are Satterthwaite's.
+        let interval = |own: f64, of_seeds: f64| {
+            let variance = own + of_seeds;
+            let spread = own * own / self.freedom() + of_seeds * of_seeds / (self.averages.seeds.max(2) - 1) as f64;
+            let freedom = if spread > 0.0 { variance * variance / spread } else { self.freedom() };
+            let reach = t_quantile(1.0 - confidence, freedom) * variance.sqrt();
+            Some([local.mean - reach, local.mean + reach]).filter(|[low, _]| low.is_finite())
         };
-        Ok(Forecast { value: local.mean, mean_interval: interval(of_mean), run_interval: interval(of_run) })
+        let mean_interval = interval(of_mean, self.seeds_variance());
+        let run_interval = interval(of_run, self.seeds_variance() + self.averages.of_seeds);
+        Ok(Forecast { value: local.mean, mean_interval, run_interval })
     }
 
     fn leave_one_out_error(&self) -> Option<f64> {
