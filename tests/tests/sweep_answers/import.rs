@@ -346,3 +346,32 @@ fn levels_of_a_table_are_compared_as_numbers() {
     let refusal = refused(&directory, "plan", &[]);
     assert!(refusal.contains("points.csv:3: load: 7 N is none of the levels 5 N, 6 N, 8 N"), "{refusal}");
 }
+
+#[test]
+fn an_optimum_may_be_better_than_every_run() {
+    // A 3 × 3 grid on a surface whose top, 1 at (0.45, 0.35), lies between the points: the best run has 0.85.
+    let z = |a: f64, b: f64| 1.0 - (a - 0.45).powi(2) - (b - 0.35).powi(2) - 0.3 * (a - 0.45) * (b - 0.35);
+    let mut table = "a,b,z,minus z\n".to_owned();
+    for a in [-1.0, 0.0, 1.0] {
+        for b in [-1.0, 0.0, 1.0] {
+            table += &format!("{a},{b},{},{}\n", z(a, b), -z(a, b));
+        }
+    }
+    let names = |table: &str, names: [&str; 2], more: &str| {
+        names.map(|name| format!("[[{table}]]\nname = \"{name}\"\n{more}")).concat()
+    };
+    let factors = names("factor", ["a", "b"], "");
+    let responses = names("response", ["z", "minus z"], "imported = true\n");
+    let head = "version = 1\ndesign = \"csv\"\nfile = \"points.csv\"\ndirectory = \"results\"\n";
+    let directory = WorkingDirectory::new();
+    directory.write("study.toml", format!("{head}{factors}{responses}"));
+    directory.write("points.csv", table);
+    ask(&directory, "import", &["points.csv"]);
+    for goal in [["--maximize", "z"], ["--minimize", "minus z"]] {
+        let best = ask(&directory, "optimize", &[&goal[..], &["--model", "quadratic"]].concat());
+        for (factor, expected) in [0.45, 0.35].into_iter().enumerate() {
+            let found = best["settings"][factor]["number"].as_f64().unwrap();
+            assert!((found - expected).abs() < 1e-5, "{goal:?}: {found} in place of {expected}");
+        }
+    }
+}

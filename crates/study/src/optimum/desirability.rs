@@ -39,6 +39,28 @@ impl Wish {
         }
     }
 
+    /// The same, but what is better than its best end counts, too, up to a hundred times as far: to find how good a response may
+    /// become.
+    #[must_use]
+    pub fn without_end(self) -> Self {
+        const FAR: f64 = 100.0;
+        match self {
+            Self::Maximum([low, high]) => Self::Maximum([low - FAR * (high - low), high + FAR * (high - low)]),
+            Self::Minimum([low, high]) => Self::Minimum([low - FAR * (high - low), high + FAR * (high - low)]),
+            target @ Self::Target(_) => target,
+        }
+    }
+
+    /// The same with everything at this response, if that is better than where it was.
+    #[must_use]
+    pub fn up_to(self, response: f64) -> Self {
+        match self {
+            Self::Maximum([low, high]) => Self::Maximum([low, high.max(response)]),
+            Self::Minimum([low, high]) => Self::Minimum([low.min(response), high]),
+            target @ Self::Target(_) => target,
+        }
+    }
+
     /// Whether its values ascend, so that there is a way between them.
     pub fn is_sound(&self) -> bool {
         match *self {

@@ -38,6 +38,7 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let space = Space::new(analysed.plan.study(), analysis);
     let axes = axes(&analysed, &space, arguments)?;
     let contour = arguments.contour.as_deref().map(|names| pair(&space, names, &axes)).transpose()?;
+    let goals = beyond_runs(&analysed, &goals, &axes, arguments.fit.confidence)?;
     let (best, forecasts) = search(&analysed, &goals, &limits, &axes, arguments.fit.confidence)?;
     if best.overall <= 0.0 && best.keeps_limits {
         message::warning(
@@ -96,6 +97,22 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
 /// That all limits are kept.
 fn kept(best: &Optimum) -> Result<(), Failure> {
     if best.keeps_limits { Ok(()) } else { Err(Failure::run("no settings within the ranges keep all limits")) }
+}
+
+/// Goals whose best end is that of the runs, with the best that is expected within the ranges where that is better: else all settings
+/// that are better than every run would be worth the same.
+fn beyond_runs(analysed: &Analysed, goals: &[Goal], axes: &[Axis], confidence: f64) -> Result<Vec<Goal>, Failure> {
+    let extended = |goal: &Goal| {
+        let ends = goals::observed(&analysed.analysis, goal.response);
+        if !ends.is_some_and(|ends| [Wish::Maximum(ends), Wish::Minimum(ends)].contains(&goal.wish)) {
+            return Ok(*goal);
+        }
+        let alone = Goal { wish: goal.wish.without_end(), weight: 1.0, importance: 1.0, ..*goal };
+        let (_, forecasts) = search(analysed, &[alone], &[], axes, confidence)?;
+        let best = forecasts[goal.response].map(|forecast| forecast.value);
+        Ok(Goal { wish: best.map_or(goal.wish, |best| goal.wish.up_to(best)), ..*goal })
+    };
+    goals.iter().map(extended).collect()
 }
 
 /// The best settings, and what is expected of each response there; none of one without a model, of which nothing may be wanted.

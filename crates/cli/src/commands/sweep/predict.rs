@@ -207,7 +207,7 @@ pub(super) fn confirmed_text(analysed: &Analysed, confirmed: &[Option<Confirmed>
     let rows: Vec<Vec<String>> = rows
         .filter_map(|(response, confirmed)| Some(confirmed.as_ref()?.cells(&analysed.analysis, response)))
         .collect();
-    columns("Confirmed by extra runs", &["response", "mean ± standard error", "runs", ""], &rows)
+    columns("Confirmed by extra runs, mean ± standard error", &["response", "mean", "runs", ""], &rows)
 }
 
 /// What `plateau sweep predict --json` prints. All numbers are in SI units.
