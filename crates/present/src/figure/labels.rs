@@ -15,6 +15,8 @@ const OTHERS: f64 = 16.0;
 const FAR: [f64; 2] = [44.0, 700.0];
 const FARTHER: f64 = 16.0;
 const DIRECTIONS: usize = 48;
+/// Room between labels and the frame, pixels.
+const FRAME: f64 = 8.0;
 /// Points so near to each other are one for the eye, pixels.
 const SAME: f64 = 14.0;
 /// Distance of the places of a line that labels keep off, pixels, and the side of each.
@@ -60,6 +62,9 @@ impl Labels {
     pub fn new(whole: Frame, points: impl Iterator<Item = Place>) -> Self {
         let points: Vec<Place> = points.collect();
         let taken = points.iter().map(|point| around(*point, [2.0 * DOT, 2.0 * DOT])).collect();
+        // No letter touches the frame.
+        let inset = |[low, high]: [f64; 2]| [low + FRAME, high - FRAME];
+        let whole = Frame { x: inset(whole.x), y: inset(whole.y) };
         Self { whole, taken, points, lines: Vec::new(), leaders: Vec::new() }
     }
 

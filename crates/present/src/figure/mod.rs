@@ -18,6 +18,7 @@
 //! | the fibre map of a pin beside its micrograph | [`fibre_map`] |
 //! | labels beside points | [`labels`] |
 //! | lines of equal value | [`contour`] |
+//! | the rim of places | [`hull`] |
 //! | the figures of runs | [`run`] |
 //! | the figures of studies | [`effects`], [`optimum`] |
 //! | error against run time | [`accuracy`] |
@@ -38,6 +39,7 @@ pub mod fit_series;
 mod font;
 mod format;
 mod histogram;
+mod hull;
 mod labels;
 pub mod optimum;
 mod page;

@@ -12,6 +12,7 @@ use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend, note};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::contour::Field;
 use crate::figure::font::text_width;
+use crate::figure::hull::{hull, is_within};
 use crate::figure::page::{Content, Key, KeyStyle, Mark, Page, Panel};
 use crate::figure::picture::Picture;
 use crate::figure::stroke::Stroke;
@@ -178,8 +179,7 @@ impl<'a> FactorMap<'a> {
     /// Whether coded values are on the map: where there are runs.
     pub fn is_within(&self, coded: [f64; 2]) -> bool {
         let in_ends = |at: usize| (self.ends[at][0] - SAME..=self.ends[at][1] + SAME).contains(&coded[at]);
-        let in_rim =
-            self.rim.iter().zip(self.rim.iter().cycle().skip(1)).all(|(one, other)| turn(*one, *other, coded) > -SAME);
+        let in_rim = self.rim.is_empty() || is_within(&self.rim, coded, SAME);
         (0..2).all(in_ends) && in_rim
     }
 
@@ -283,31 +283,6 @@ impl<'a> FactorMap<'a> {
     }
 }
 
-/// Twice the area of a triangle; positive where its corners go round against the clock.
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-/// The smallest convex polygon with all places in it, against the clock (Andrew's chain); none of places along a line.
-fn hull(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut sorted = places.to_vec();
-    sorted.sort_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
-    sorted.dedup();
-    let half = |places: &mut dyn Iterator<Item = [f64; 2]>| {
-        let mut chain: Vec<[f64; 2]> = Vec::new();
-        for place in places {
-            while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], place) <= SAME {
-                chain.pop();
-            }
-            chain.push(place);
-        }
-        chain.pop();
-        chain
-    };
-    let hull = [half(&mut sorted.iter().copied()), half(&mut sorted.iter().rev().copied())].concat();
-    if hull.len() > 2 { hull } else { Vec::new() }
-}
-
 /// Length of a line on the page, pixels.
 fn length_of(axes: &Axes, points: &[[f64; 2]]) -> f64 {
     let places: Vec<Place> = points.iter().map(|[x, y]| axes.place(*x, *y)).collect();
@@ -372,32 +347,5 @@ fn write_numbers(
             taken.push(found);
             written.push(text);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{hull, turn};
-
-    #[test]
-    fn the_rim_of_a_central_composite_is_an_octagon() {
-        let far = std::f64::consts::SQRT_2;
-        let places = [
-            [-1.0, -1.0],
-            [1.0, -1.0],
-            [-1.0, 1.0],
-            [1.0, 1.0],
-            [-far, 0.0],
-            [far, 0.0],
-            [0.0, -far],
-            [0.0, far],
-            [0.0, 0.0],
-        ];
-        let rim = hull(&places);
-        assert_eq!(rim.len(), 8);
-        let is_within = |place: [f64; 2]| (0..8).all(|at| turn(rim[at], rim[(at + 1) % 8], place) > -1e-6);
-        assert!(places.into_iter().all(is_within));
-        assert!(!is_within([far, far]) && !is_within([1.2, 0.9]));
-        assert!(hull(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]).is_empty());
     }
 }
