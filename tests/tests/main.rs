@@ -22,6 +22,7 @@ mod hostile_sizes;
 mod hostile_text;
 mod integrity;
 mod killed;
+mod long_names;
 mod metrology;
 mod million;
 mod new_scene;
