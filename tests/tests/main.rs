@@ -27,6 +27,7 @@ mod metrology;
 mod million;
 mod new_scene;
 mod not_finite;
+mod others_files;
 mod plausible;
 mod plot_command;
 mod ranks;
