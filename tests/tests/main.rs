@@ -36,6 +36,7 @@ mod report;
 mod resources;
 mod resume;
 mod round_pin;
+mod said_of_studies;
 mod schedule;
 mod shell;
 mod surface_command;

@@ -81,9 +81,9 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
         .collect();
     charts.extend(row(shown, &axes, &curves, &Axis::linear(up_from_zero(1.0), "desirability"), &[], true));
     let meaning = |colour, dashes, text: String| Meaning { colour, style: KeyStyle::Line(dashes), text };
-    let level = number::rounded(100.0 * shown.confidence, 4);
+    let level = number::confidence(shown.confidence);
     let mut meanings = vec![
-        meaning(DATA, SOLID, format!("predicted, {level} % of means")),
+        meaning(DATA, SOLID, format!("predicted, {level} of means")),
         meaning(DERIVED, SOLID, "optimum".to_owned()),
     ];
     meanings.extend((!shown.limits.is_empty()).then(|| meaning(INK, DASHES, "limit".to_owned())));
