@@ -102,6 +102,41 @@ fn a_full_disc_ends_a_run_with_a_message_and_never_looks_finished() {
 }
 
 #[test]
+fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
+    let edits = [("duration = \"60 s\"", "steps = 1000000000"), ("sample_every = \"0.1 s\"", "sample_every_steps = 1")];
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&edits));
+    let arguments = ["run", "scene.toml", "-o", "run.h5", "--set", "output.checkpoint_every=3600 s"];
+    let samples = |name: &str| RunFile::follow(directory.path(name)).map_or(0, |run| run.shape("/time")[0]);
+    let begin_and_kill = |more: &[&str]| {
+        let mut command = directory.command(arguments.iter().chain(more));
+        let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let begun = || samples("run.h5") >= 10 && (more.is_empty() || directory.path("run.h5.before-resume").exists());
+        let sampled = wait_until(begun);
+        kill(child);
+        assert!(sampled, "no samples were written: {:?}", directory.names());
+    };
+    begin_and_kill(&[]);
+    let there = samples("run.h5");
+    // Where there is no room to begin anew all is as it was.
+    let failed = run(directory.command_after("ulimit -f 8", arguments.iter().chain(&["--resume"])));
+    assert_eq!(failed.status, Some(1), "{failed:?}");
+    assert_eq!(directory.names(), ["run.h5", "scene.toml"], "{failed:?}");
+    assert_eq!(samples("run.h5"), there);
+    for _ in 0..3 {
+        begin_and_kill(&["--resume"]);
+        assert!(samples("run.h5.before-resume") >= there, "the samples of before are gone");
+        assert!(!directory.path("run.h5.before-resume-2").exists(), "one of them is enough");
+    }
+    // With room for some samples and no more the message promises no checkpoint.
+    fs::remove_file(directory.path("run.h5")).unwrap();
+    let limit = format!("ulimit -f {}", 1024 * 1024 / block());
+    let full = run(directory.command_after(&limit, arguments));
+    assert_eq!(full.status, Some(1), "{full:?}");
+    assert!(full.stderr.contains("there is no checkpoint yet") && !full.stderr.contains("so is the last"), "{full:?}");
+}
+
+#[test]
 fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
     for (signal, status) in [("INT", 130), ("TERM", 143)] {
         let directory = WorkingDirectory::new();

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use plateau_tests::program::{WorkingDirectory, scene};
+use plateau_tests::program::{WorkingDirectory, quick_scene_with, scene};
 use plateau_tests::run_file::RunFile;
 
 /// Legal scenes that ask for more wear than a number holds.
@@ -32,6 +32,37 @@ fn a_run_without_finite_numbers_has_failed() {
             assert_eq!(again.status, Some(1), "{again:?}");
         }
     }
+}
+
+#[test]
+fn a_series_without_finite_numbers_is_no_result() {
+    let directory = WorkingDirectory::new();
+    let short = quick_scene_with(&[("duration = \"60 s\"", "duration = \"1 s\"")]);
+    let emission = "[emission]\npm10_fraction = 1.0\nnumber_per_mass = \"1e300 1/kg\"\npin_density = \"1e300 kg/m^3\"\n\
+                    disc_density = \"1 kg/m^3\"\n";
+    directory.write("emission.toml", format!("{short}\n{emission}"));
+    directory.write("rough.toml", short);
+    let rough = ["--set", "output.roughness=true", "--set", "pin.surface.resin_recess=1e160 m"];
+    for (scene, sets, name) in [
+        ("emission.toml", &[][..], "number of airborne particles"),
+        ("rough.toml", &rough, "root-mean-square height Sq of the pin"),
+    ] {
+        let failed = directory.plateau(["run", scene, "-o", "run.h5", "--force"].iter().chain(sets));
+        assert_eq!(failed.status, Some(1), "{failed:?}");
+        assert!(failed.stderr.contains(name) && failed.stderr.contains("no number holds"), "{failed:?}");
+        assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "failed", "{scene}");
+    }
+}
+
+#[test]
+fn what_the_model_has_no_number_for_is_no_failure() {
+    let directory = WorkingDirectory::new();
+    // A lifted pin has no displacement.
+    let stops = scene("stops.toml");
+    directory.plateau(["run", &stops, "-o", "run.h5", "--set", "output.roughness=true"]).quiet_success();
+    let run = RunFile::open(directory.path("run.h5"));
+    assert_eq!(run.text("state"), "finished");
+    assert!(run.floats("/series/displacement").iter().any(|value| value.is_nan()));
 }
 
 #[test]

@@ -169,6 +169,16 @@ fn with_few_handles_a_run_still_ends_well() {
 }
 
 #[test]
+fn too_few_handles_are_not_taken_for_damage() {
+    let directory = WorkingDirectory::new();
+    directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"]).quiet_success();
+    let outcome = run(directory.command_after("ulimit -n 4", ["run", &scene("quick.toml"), "-o", "few.h5"]));
+    assert_eq!(outcome.status, Some(1), "{outcome:?}");
+    assert!(outcome.stderr.contains("no file handle is left") && !outcome.stderr.contains("damaged"), "{outcome:?}");
+    directory.plateau(["verify", "few.h5"]).quiet_success();
+}
+
+#[test]
 fn files_have_the_permissions_that_the_user_wants() {
     let directory = WorkingDirectory::new();
     let arguments = ["run", &scene("quick.toml"), "-o", "run.h5"];

@@ -24,11 +24,16 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
     if there.is_dir() || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
         return Err(Failure::input(format_args!("{shown} is no regular file and is not replaced; name another file")));
     }
-    let real = path.canonicalize().ok();
-    if real.is_some() && inputs.iter().any(|input| input.canonicalize().ok() == real) {
+    if is_one_of(path, inputs) {
         return Err(Failure::input(format_args!("{shown} is an input and is not replaced; name another file")));
     }
     if force { Ok(()) } else { Err(exists(path)) }
+}
+
+/// Whether a path leads to one of some files, links and `..` resolved.
+pub fn is_one_of(path: &Path, files: &[PathBuf]) -> bool {
+    let real = path.canonicalize().ok();
+    real.is_some() && files.iter().any(|file| file.canonicalize().ok() == real)
 }
 
 /// Writes a file that appears under its name when it is complete.
@@ -49,9 +54,39 @@ pub fn fill(
     force: bool,
     fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
 ) -> Result<(), Failure> {
-    // The target of a link is replaced, not the link.
+    // The target of a link is replaced, not the link: who names a file may name it by one.
     let target = if force { path.canonicalize().unwrap_or_else(|_| path.to_owned()) } else { path.to_owned() };
-    let (temporary, file) = Temporary::create(&target).map_err(|error| unwritable(path, &error))?;
+    fill_at(path, &target, force, fill)
+}
+
+/// As [`write()`], a file in a folder that was named: a link of its name is not followed but replaced, for it was somebody else who
+/// made it lead elsewhere.
+///
+/// # Errors
+/// Those of [`write()`].
+pub fn write_in_folder(path: &Path, content: &[u8], force: bool) -> Result<(), Failure> {
+    fill_in_folder(path, force, |mut file| Ok(file.write_all(content).and_then(|()| file.flush())?))
+}
+
+/// As [`write_in_folder`], piece by piece.
+///
+/// # Errors
+/// Those of [`fill()`].
+pub fn fill_in_folder(
+    path: &Path,
+    force: bool,
+    fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
+) -> Result<(), Failure> {
+    fill_at(path, path, force, fill)
+}
+
+fn fill_at(
+    path: &Path,
+    target: &Path,
+    force: bool,
+    fill: impl FnOnce(BufWriter<File>) -> Result<(), ExportError>,
+) -> Result<(), Failure> {
+    let (temporary, file) = Temporary::create(target).map_err(|error| unwritable(path, &error))?;
     let written = fill(BufWriter::new(file)).and_then(|()| Ok(temporary.publish(force)?));
     written.map_err(|error| match error {
         ExportError::Write(error) if error.kind() == ErrorKind::AlreadyExists => exists(path),

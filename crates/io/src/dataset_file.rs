@@ -110,9 +110,8 @@ pub fn write_rows<E: From<DatasetFileError>>(
     give: impl FnOnce(&Rows<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
     let failed = |reason: String| DatasetFileError { path: path.into(), reason };
-    // The target of a link is replaced, not the link.
-    let target = if replace { path.canonicalize().unwrap_or_else(|_| path.into()) } else { path.into() };
-    let started = Temporary::create(&target).and_then(|(temporary, mut file)| {
+    // In a folder of results: a link of that name is replaced, not what it leads to.
+    let started = Temporary::create(path).and_then(|(temporary, mut file)| {
         file.write_all(EMPTY_FILE)?;
         Ok(temporary)
     });

@@ -72,6 +72,18 @@ pub fn rounded(number: f64, digits: usize) -> String {
     with_minus(&exponent.map_or_else(|| mantissa.to_owned(), |power| format!("{mantissa}e{power}")))
 }
 
+/// A number with all its digits, with an exponent where there would be a row of zeros.
+pub fn plain(number: f64) -> String {
+    let readable = number == 0.0 || !number.is_finite() || (1e-6..1e16).contains(&number.abs());
+    if readable { format!("{number}") } else { format!("{number:e}") }
+}
+
+/// A level of confidence in per cent. What is below 1 is below 100 %.
+pub fn confidence(level: f64) -> String {
+    let text = rounded(100.0 * level, 4);
+    if text == "100" && level < 1.0 { format!("{} %", 100.0 * level) } else { format!("{text} %") }
+}
+
 /// So many of a thing, of which there may be one.
 pub fn count(number: usize, one: &str) -> String {
     if number == 1 { format!("1 {one}") } else { format!("{number} {one}s") }

@@ -4,6 +4,9 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
+/// Letters of a name that a message shows.
+const SHOWN: usize = 60;
+
 /// Whether a character is shown as itself: no control character (Unicode category Cc), none that turns the direction of what
 /// follows (Unicode Standard Annex 9, section 2), and none that XML 1.0 has no place for.
 pub fn is_plain(letter: char) -> bool {
@@ -20,6 +23,36 @@ pub fn odd_character(text: &str) -> Option<String> {
         '\t' => "a tab".to_owned(),
         odd => format!("the control character U+{:04X}", u32::from(odd)),
     })
+}
+
+/// Letters of a name, a title or a level, at most: so many are read, and fit a table or a figure.
+pub const LONGEST_NAME: usize = 200;
+
+/// Says that a name, a title or a level has more letters than are taken.
+pub fn too_long(text: &str) -> Option<String> {
+    // There are no more letters than bytes, and nobody counts a gigabyte of them.
+    if text.len() <= LONGEST_NAME || text.chars().nth(LONGEST_NAME).is_none() {
+        return None;
+    }
+    let letters = text.chars().count();
+    Some(format!("\"{}\" has {letters} letters, expected at most {LONGEST_NAME}; shorten it", short(text)))
+}
+
+/// As much of a text as a message or a heading has room for.
+pub fn short(text: &str) -> Cow<'_, str> {
+    beginning(text, SHOWN)
+}
+
+/// As much of a title as is shown of one that somebody else may have made as long as he likes.
+pub fn shown_title(text: &str) -> Cow<'_, str> {
+    beginning(text, LONGEST_NAME)
+}
+
+fn beginning(text: &str, most: usize) -> Cow<'_, str> {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
+        None => Cow::Borrowed(text),
+    }
 }
 
 /// A text of one or more lines as it can be shown: other control characters are written as `\u{1b}`.
@@ -51,12 +84,23 @@ fn escaped(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
 }
 
 /// A cell of a table that spreadsheets take as the text that it is: one that would begin a formula there (`=`, `+`, `-`, `@`)
-/// has an apostrophe before it, which spreadsheets take as "this is text". Numbers and quantities stay as they are.
+/// has an apostrophe before it, which spreadsheets take as "this is text". Numbers and quantities stay as they are. What has
+/// such an apostrophe already gets another, so that [`text_of_cell`] gives back what was written.
 pub fn cell(text: &str) -> Cow<'_, str> {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_quantity(text) {
+    if is_formula(text.trim_start_matches('\'')) {
         return Cow::Owned(format!("'{text}"));
     }
     Cow::Borrowed(text)
+}
+
+/// The text of a cell, without the apostrophe that [`cell`] has put before it.
+pub fn text_of_cell(cell: &str) -> &str {
+    let text = cell.strip_prefix('\'').filter(|text| is_formula(text.trim_start_matches('\'')));
+    text.unwrap_or(cell)
+}
+
+fn is_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r']) && !is_quantity(text)
 }
 
 /// Whether a text is a number, or one with a unit behind it such as `-5 mm` or `-2 1/K`.
@@ -82,9 +126,20 @@ mod tests {
     }
 
     #[test]
+    fn long_names_are_told_by_their_beginning() {
+        assert_eq!(too_long(&"ä".repeat(200)), None);
+        let said = too_long(&"ä".repeat(201)).unwrap();
+        assert_eq!(said, format!("\"{}…\" has 201 letters, expected at most 200; shorten it", "ä".repeat(60)));
+        assert_eq!((short("a"), shown_title(&"x".repeat(300)).chars().count()), (Cow::Borrowed("a"), 201));
+    }
+
+    #[test]
     fn only_what_a_spreadsheet_would_compute_is_marked() {
         for formula in ["=1+1", "+1+1", "-2+3+cmd|' /C calc'!A0", "@SUM(A1)", "-x", "=", "-1 a(b)", "\t=1", "-inf(1)"] {
             assert_eq!(cell(formula), format!("'{formula}"));
+        }
+        for text in ["=1+1", "'=1+1", "''-x", "'a", "'", "-5 mm", "'-5 mm", ""] {
+            assert_eq!(text_of_cell(&cell(text)), text);
         }
         for plain in ["-1.5", "+3", "-1e-300", "-inf", "-20 degC", "-5 1/K", "a=b", "", "1-2"] {
             assert_eq!(cell(plain), plain);

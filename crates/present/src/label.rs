@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use plateau_io::run_file::RunFile;
-use plateau_io::text::is_plain;
+use plateau_io::text::{is_plain, shown_title};
 
 /// The title of every run's scene; where titles are equal with the name of the file behind it, where these are, too, with
 /// its path.
@@ -22,7 +22,7 @@ fn told_apart(runs: &[(&str, &Path)]) -> Vec<String> {
 
 /// What a run may be called, from short to long.
 fn candidates(title: &str, path: &Path) -> [String; 3] {
-    let (title, path) = (on_one_line(title.trim()), path.with_extension(""));
+    let (title, path) = (on_one_line(&shown_title(title.trim())), path.with_extension(""));
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     let names = [name, path.to_string_lossy()].map(|name| on_one_line(&name));
     match names {
@@ -56,6 +56,11 @@ mod tests {
         assert_eq!(labels(&[(" ", "one/a.h5"), ("", "b.h5")]), ["a", "b"]);
         // The same run twice has no names that differ.
         assert_eq!(labels(&[("Quick", "a.h5"), ("Quick", "a.h5")]), ["Quick (a)", "Quick (a)"]);
+    }
+
+    #[test]
+    fn long_titles_are_cut() {
+        assert_eq!(labels(&[(&"x".repeat(1 << 20), "a.h5")]), [format!("{}…", "x".repeat(200))]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub fn table(heading: &str, rows: &[(impl AsRef<str>, String)]) -> String {
     for (name, value) in rows {
         let name = name.as_ref();
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {name:width$}  {value}");
+        let _ = writeln!(text, "  {name}{}  {value}", blanks(name, width));
     }
     text
 }
@@ -24,12 +24,17 @@ pub fn columns(heading: &str, names: &[&str], rows: &[Vec<String>]) -> String {
     let widths: Vec<usize> = (0..names.len()).map(|column| width(column).unwrap_or(0)).collect();
     let line = |cells: &Vec<String>| {
         let cells = cells.iter().zip(&widths).enumerate().map(|(column, (cell, width))| match column {
-            0 => format!("{cell:width$}"),
-            _ => format!("{cell:>width$}"),
+            0 => format!("{cell}{}", blanks(cell, *width)),
+            _ => format!("{}{cell}", blanks(cell, *width)),
         });
         format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
     };
     format!("{heading}\n{}", lines().map(line).collect::<String>())
+}
+
+/// What a text lacks to a width: of more than 65 535, which formats take, too.
+fn blanks(text: &str, width: usize) -> String {
+    " ".repeat(width.saturating_sub(text.chars().count()))
 }
 
 /// A heading and lines below it.
@@ -40,7 +45,15 @@ pub fn list(heading: &str, lines: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::columns;
+    use super::{columns, table};
+
+    #[test]
+    fn very_long_cells_are_aligned_too() {
+        let rows = [vec!["x".repeat(70_000), "1".to_owned()], vec!["y".to_owned(), "2".to_owned()]];
+        let text = columns("Sizes", &["name", "size"], &rows);
+        assert!(text.lines().skip(1).all(|line| line.len() == 2 + 70_000 + 2 + 4), "{}", text.len());
+        assert_eq!(table("Sizes", &[("x".repeat(70_000), "1".to_owned())]).len(), 6 + 2 + 70_000 + 4);
+    }
 
     #[test]
     fn columns_are_aligned() {

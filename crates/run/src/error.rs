@@ -79,6 +79,16 @@ pub enum InputError {
         /// What the system says.
         error: io::Error,
     },
+    /// The samples of a run without a checkpoint cannot be kept.
+    #[error(
+        "cannot keep the samples of {} beside it: {error}; move that file away, or write elsewhere with -o FILE", path.display()
+    )]
+    KeptAside {
+        /// The run file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
     /// A run that is to be extended has come further.
     #[error("--extend-to: {} has come to {} s already; give a later time", path.display(), number::short(*time))]
     Passed {

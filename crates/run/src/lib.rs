@@ -21,6 +21,7 @@
 //! | the time loop, and what takes its samples and maps | [`Assembly::run_to_end`], [`Sink`] |
 //! | how many workers, which instruction set | [`execution`] |
 //! | start or continuation, from which checkpoint, and writing those | `start`, `resume`, `checkpointer` |
+//! | what was done before the first checkpoint, kept when a run begins anew | `kept` |
 //! | how exact a scene's runs are for their time | [`accuracy`] |
 //! | the processes that take the steps together | [`job`] |
 //! | what the system tells of this machine | [`machine`] |
@@ -32,6 +33,7 @@ mod error;
 pub mod execution;
 mod header;
 pub mod job;
+mod kept;
 pub mod machine;
 mod observer;
 mod options;

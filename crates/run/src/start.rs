@@ -4,6 +4,7 @@ use std::path::Path;
 
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::Claim;
+use plateau_io::number;
 use plateau_io::process::{Writer, writer_of};
 use plateau_io::run_file::{Damage, Header, ReadError, RunFile, RunWriter, State, keep, verify};
 use plateau_io::temporary::Temporary;
@@ -11,6 +12,7 @@ use plateau_io::temporary::Temporary;
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
 use crate::job::Job;
+use crate::kept::Kept;
 use crate::observer::Observer;
 use crate::options::{RunOptions, StartMode};
 use crate::resume;
@@ -72,7 +74,8 @@ impl Request<'_> {
         if resumes && states.is_empty() {
             observer.note(&"there is no checkpoint yet: begins from the beginning");
         }
-        let (writer, place) = if job.leads() { self.lead(&mut states, observer)? } else { (None, 0) };
+        let samples = there.map_or(0, |there| there.holds[0]);
+        let (writer, place) = if job.leads() { self.lead(&mut states, samples, observer)? } else { (None, 0) };
         // The first rank has seen which of the states holds.
         let (place, _) = job.sum(place, 0)?;
         let state = (!states.is_empty()).then(|| states.swap_remove(place));
@@ -132,9 +135,13 @@ impl Request<'_> {
     }
 
     /// The writer of the run file, and which of the states it goes on from.
+    ///
+    /// Where there are none, `samples` that are there are of a run that was ended before its first checkpoint: they stay, beside the
+    /// file that is begun anew.
     fn lead(
         &self,
         states: &mut [RunState],
+        samples: usize,
         observer: &mut dyn Observer,
     ) -> Result<(Option<RunWriter>, usize), RunError> {
         let Self { path, header, options, .. } = *self;
@@ -144,8 +151,18 @@ impl Request<'_> {
         // What is there is of another run, and stays if the new one cannot begin.
         let others =
             checkpoint::set_aside(path).map_err(|error| InputError::SetAside { path: path.to_owned(), error })?;
+        let kept = match samples {
+            0 => None,
+            samples => {
+                Some(Kept::of(path, samples).map_err(|error| InputError::KeptAside { path: path.to_owned(), error })?)
+            }
+        };
         let writer = RunWriter::create(path, options.replace || options.mode.resumes(), header)?;
         others.discard();
+        if let Some(place) = kept.map(Kept::stay) {
+            let samples = number::count(samples, "sample");
+            observer.note(&format_args!("{samples} of before stay in {}", place.display()));
+        }
         Ok((Some(writer), 0))
     }
 

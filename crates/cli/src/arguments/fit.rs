@@ -22,6 +22,9 @@ pub struct FitArguments {
     /// Folder for tables and figures; "fit" in the study's own unless given
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace files in that folder that are of another study, of another command or of somebody else
+    #[arg(long)]
+    pub force: bool,
     /// Print one JSON document instead of text
     #[arg(long)]
     pub json: bool,

@@ -74,10 +74,10 @@ fn measure_into(
     let document = json(&report, &making);
     let [csv_file, json_file, drawings @ ..] = &places;
     let force = arguments.force;
-    output::write(csv_file, csv(&report.rows).as_bytes(), force)?;
-    output::write(json_file, document.as_bytes(), force)?;
+    output::write_in_folder(csv_file, csv(&report.rows).as_bytes(), force)?;
+    output::write_in_folder(json_file, document.as_bytes(), force)?;
     for (path, format) in drawings.iter().zip(Format::ALL) {
-        output::write(path, &figure.draw(format).map_err(Failure::run)?, force)?;
+        output::write_in_folder(path, &figure.draw(format).map_err(Failure::run)?, force)?;
     }
     if arguments.scene.json {
         print(&document)?;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use plateau_core::surface::Body;
 use plateau_io::export::{csv, maps_of, npz, vtk};
 use plateau_io::run_file::RunFile;
+use plateau_io::text::shown_title;
 
 use crate::arguments::{ExportArguments, ExportFormat};
 use crate::failure::Failure;
@@ -23,7 +24,7 @@ pub fn export(arguments: &ExportArguments) -> Result<(), Failure> {
         ExportFormat::Npz => job.npz(&named(".npz"))?,
         ExportFormat::Vtk => job.vtk(&named("-vtk"))?,
     }
-    let heading = format!("{} ({}, {})", run.title(), arguments.run.display(), run.state().name());
+    let heading = format!("{} ({}, {})", shown_title(run.title()), arguments.run.display(), run.state().name());
     print(&table(&heading, &job.written))
 }
 
@@ -58,11 +59,11 @@ impl Job<'_> {
         output::fill(path, self.force, |file| csv::write_series(self.run, file))?;
         self.note(path, self.series());
         if events > 0 {
-            output::fill(&of_events, self.force, |file| csv::write_events(self.run, file))?;
+            output::fill_in_folder(&of_events, self.force, |file| csv::write_events(self.run, file))?;
             self.note(&of_events, number::count(events, "event"));
         }
         for map in &maps {
-            output::fill(&map.path, self.force, |file| csv::write_maps(self.run, map.body, map.index, file))?;
+            output::fill_in_folder(&map.path, self.force, |file| csv::write_maps(self.run, map.body, map.index, file))?;
             self.note(&map.path, map.content(self.run));
         }
         Ok(())
@@ -96,11 +97,11 @@ impl Job<'_> {
         let paths = maps.iter().map(|map| &map.path).chain(collections.iter().map(|(path, _)| path));
         paths.into_iter().try_for_each(|path| self.check(path))?;
         for map in &maps {
-            output::fill(&map.path, self.force, |file| vtk::write_grid(self.run, map.body, map.index, file))?;
+            output::fill_in_folder(&map.path, self.force, |file| vtk::write_grid(self.run, map.body, map.index, file))?;
             self.note(&map.path, map.content(self.run));
         }
         for (path, moments) in &collections {
-            output::fill(path, self.force, |file| Ok(vtk::write_collection(moments, file)?))?;
+            output::fill_in_folder(path, self.force, |file| Ok(vtk::write_collection(moments, file)?))?;
             self.note(path, format!("{}: open this one", number::count(moments.len(), "time")));
         }
         Ok(())

@@ -38,7 +38,7 @@ fn write(program: &Command, directory: &Path, force: bool) -> Result<(), Failure
     }
     for page in &pages {
         let path = directory.join(&page.file);
-        output::write(&path, page.text.as_bytes(), force)?;
+        output::write_in_folder(&path, page.text.as_bytes(), force)?;
         table::print(&format!("wrote {}\n", path.display()))?;
     }
     Ok(())

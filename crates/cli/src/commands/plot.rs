@@ -29,7 +29,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     figures.figures.iter().try_for_each(|figure| output::check(&place(figure), *force, &inputs))?;
     for figure in &figures.figures {
         let path = place(figure);
-        output::write(&path, &figure.draw(format).map_err(Failure::run)?, *force)?;
+        output::write_in_folder(&path, &figure.draw(format).map_err(Failure::run)?, *force)?;
         print(&format!("wrote {}: {}\n", path.display(), figure.title))?;
     }
     Ok(())

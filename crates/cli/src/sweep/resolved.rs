@@ -14,6 +14,9 @@ use crate::{message, number, version};
 /// Problems that are shown.
 const SHOWN: usize = 10;
 
+/// Identity of a run, with its steps and its duration, s.
+type Known = (String, (u64, f64));
+
 /// What is known of every run before it is made, in the order of the design.
 #[derive(Debug, Clone)]
 pub struct Resolved {
@@ -73,7 +76,7 @@ impl Resolved {
         let problems: Vec<(usize, &String)> =
             (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
-            let (known, files): (Vec<(String, (u64, f64))>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
+            let (known, files): (Vec<Known>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
             let files = files.into_iter().flatten().chain(digests.files()).collect();
             let (identities, lengths): (Vec<String>, Vec<(u64, f64)>) = known.into_iter().unzip();
             let (steps, durations): (Vec<u64>, Vec<f64>) = lengths.into_iter().unzip();

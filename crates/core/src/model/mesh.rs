@@ -26,7 +26,7 @@ pub enum MeshError {
     },
     /// The radii do not span a ring.
     #[error(
-        "inner_radius is {inner} m and outer_radius is {outer} m, expected 0 < inner_radius < outer_radius, both finite"
+        "inner_radius is {inner:?} m and outer_radius is {outer:?} m, expected 0 < inner_radius < outer_radius, both finite"
     )]
     Radii {
         /// Inner radius, m.

@@ -66,7 +66,12 @@ fn height_parameters(mesh: &Mesh, heights: &[f64]) -> [f64; 4] {
     let root_mean_square_height = square.sqrt();
     let mut there = heights.iter().filter(|height| is_there(height));
     let flat = there.next().is_none_or(|first| there.all(|height| height == first));
-    let relative = |moment: f64| if flat { f64::NAN } else { moment };
+    // What is no number though there are heights has become too large on the way.
+    let relative = |moment: f64| match flat || square == 0.0 {
+        true => f64::NAN,
+        false if moment.is_nan() => f64::INFINITY,
+        false => moment,
+    };
     [
         absolute,
         root_mean_square_height,

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dissipation::{EMISSION, FRICTION, HEAT};
+use super::extra::Extra;
 use crate::model::accounts::AccountsReport;
 
 /// The reported quantities at the end of one step, in SI units.
@@ -103,6 +105,15 @@ impl Quantity {
     /// One that not every run has.
     pub const fn extra(name: &'static str, unit: &'static str, long_name: &'static str) -> Self {
         Self { name, unit, long_name, field: None }
+    }
+
+    /// Whether a sample has it, be it as no number.
+    pub fn is_of(&self, sample: &Sample) -> bool {
+        let has = |part: &Extra, there: bool| !there && part.quantities.iter().any(|own| own.name == self.name);
+        let AccountsReport { friction, heat, emission } = &sample.accounts;
+        let missing =
+            has(&FRICTION, friction.is_some()) || has(&HEAT, heat.is_some()) || has(&EMISSION, emission.is_some());
+        !missing && (self.field.is_some() || sample.extras.iter().any(|(name, _)| *name == self.name))
     }
 
     /// The value in a sample; NaN in one without it.

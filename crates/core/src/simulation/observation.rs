@@ -11,7 +11,7 @@ use crate::model::heat::map;
 use crate::model::state::{Disc, Pin};
 use crate::observe::extra::Extra;
 use crate::observe::schedule::Moment;
-use crate::observe::{ABSENT, Map, MapValues, QUANTITIES, Sample, Snapshot};
+use crate::observe::{ABSENT, Map, MapValues, QUANTITIES, Quantity, Sample, Snapshot, dissipation, quantities};
 
 impl Simulation {
     /// The reported quantities after the last step.
@@ -66,7 +66,7 @@ impl Simulation {
     /// step.
     ///
     /// # Errors
-    /// As [`Simulation::sample`].
+    /// As [`Simulation::sample`], of all quantities.
     pub fn sample_at(&mut self, moment: &Moment, extras: &[&Extra]) -> Result<Sample, SimulationError> {
         let mut sample = self.sample()?;
         if let (Some(cycle), Some(pause)) = (self.parameters.cycle.clone(), moment.pause) {
@@ -86,7 +86,27 @@ impl Simulation {
             let fields: Vec<Vec<f64>> = maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
             sample.add(extra.quantities, (request.measure)(&self.parameters, &fields));
         }
+        self.refuse_overflow(&sample, extras)?;
         Ok(sample)
+    }
+
+    /// Refuses a sample in which something is infinite, or an amount is no number that the model always has. A ratio may have
+    /// nothing to be a ratio of; where nothing touches there is no displacement, no temperature of the contact.
+    fn refuse_overflow(&self, sample: &Sample, extras: &[&Extra]) -> Result<(), SimulationError> {
+        let of_accounts = [&dissipation::FRICTION, &dissipation::HEAT, &dissipation::EMISSION];
+        let quantities = quantities(extras).chain(of_accounts.into_iter().flat_map(|extra| extra.quantities));
+        let wrong = |quantity: &&Quantity| {
+            let value = quantity.value(sample);
+            let is_amount = ["m", "kg"].contains(&quantity.unit) || quantity.name == "particle_number";
+            value.is_infinite()
+                || (value.is_nan() && is_amount && quantity.name != "displacement" && quantity.is_of(sample))
+        };
+        let error = |quantity: &Quantity| SimulationError::NotFinite {
+            step: self.steps_done(),
+            what: format!("the {}", quantity.long_name),
+            found: quantity.value(sample),
+        };
+        quantities.into_iter().find(wrong).map_or(Ok(()), |quantity| Err(error(quantity)))
     }
 
     /// Friction, heat and emission at a moment; none of them where the scene asks for none.

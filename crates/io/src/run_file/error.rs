@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::checkpoint;
+
 /// Why a run file cannot be made or written.
 ///
 /// The errors of [`RunWriter::create`](super::RunWriter::create) but for [`RunFileError::SetUp`] and
@@ -88,11 +90,7 @@ pub enum RunFileError {
         reason: String,
     },
     /// Writing failed; what was written before can be read.
-    #[error(
-        "writing {} failed: {reason}; its complete samples and maps are safe, and so is the last checkpoint: \
-         free space and go on with --resume, or close the file with `plateau repair`",
-        path.display()
-    )]
+    #[error("writing {} failed: {reason}; its complete samples and maps are safe{}", path.display(), what_else_is_safe(path))]
     Write {
         /// The run file.
         path: PathBuf,
@@ -117,6 +115,15 @@ impl RunFileError {
     }
 }
 
+/// What else is left of a run that could not write its file, and what to do. Before the first checkpoint there is none.
+fn what_else_is_safe(path: &Path) -> &'static str {
+    if checkpoint::paths(path).iter().any(|checkpoint| checkpoint.is_file()) {
+        ", and so is the last checkpoint: free space and go on with --resume, or close the file with `plateau repair`"
+    } else {
+        ", there is no checkpoint yet: close the file with `plateau repair`; free space and begin again, --resume keeps these samples aside"
+    }
+}
+
 /// Makes an HDF5 error one of this run file.
 pub(super) fn failed(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
     move |error| RunFileError::Write { path: path.into(), reason: hdf5_reason(&error) }
@@ -125,6 +132,21 @@ pub(super) fn failed(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
 /// Makes an HDF5 error one of a file that was to take the place of this one.
 pub(super) fn not_anew(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
     move |error| RunFileError::Anew { path: path.into(), reason: hdf5_reason(&error) }
+}
+
+impl ReadError {
+    /// Of a file of which the library says this: damaged, unless the system has no handle left for it.
+    pub(super) fn of_library(path: &Path, reason: impl Into<String>) -> Self {
+        let (path, reason) = (path.to_owned(), reason.into());
+        // Too many open files of this process, or of all: 24 and 23 on Linux.
+        let lacks = |number: u8| {
+            reason.contains(&format!("errno = {number},")) || reason.contains(&format!("(os error {number})"))
+        };
+        match [23, 24].into_iter().find(|number| lacks(*number)) {
+            Some(number) => Self::Handles { path, reason: format!("os error {number}") },
+            None => Self::Damaged { path, reason },
+        }
+    }
 }
 
 /// The part of an HDF5 message that a user can act on: what the system said, where it is in there.
@@ -177,6 +199,17 @@ pub enum ReadError {
         /// The file.
         path: PathBuf,
         /// What is where.
+        reason: String,
+    },
+    /// The system gives no more file handles.
+    #[error(
+        "cannot read {}: no file handle is left ({reason}); close files of this process, or allow more of them, as with ulimit -n 64",
+        path.display()
+    )]
+    Handles {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
         reason: String,
     },
     /// A part of it is missing, cut off or changed.

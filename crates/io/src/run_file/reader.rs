@@ -82,7 +82,7 @@ impl RunFile {
         if !is_hdf5 {
             return Err(ReadError::NotHdf5 { path: path.into() });
         }
-        let damaged = |error: hdf5::Error| ReadError::Damaged { path: path.into(), reason: reason(&error) };
+        let damaged = |error: hdf5::Error| ReadError::of_library(path, reason(&error));
         hdf5_file::guarded(0, || {
             let file = hdf5_file::open(path).map_err(|error| match error {
                 OpenError::Hdf5(error) => damaged(error),
@@ -379,7 +379,7 @@ impl Opening<'_> {
     }
 
     fn damaged(&self, reason: impl Into<String>) -> ReadError {
-        ReadError::Damaged { path: self.path.into(), reason: reason.into() }
+        ReadError::of_library(self.path, reason)
     }
 }
 

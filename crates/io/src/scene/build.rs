@@ -271,7 +271,7 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
     // The time of a step is rounded; what is nearer to the end than this is the end.
     let (kept, beyond): (Vec<_>, Vec<_>) = times.into_iter().partition(|time| *time <= end * (1.0 + 1e-9));
     if !beyond.is_empty() {
-        let beyond: Vec<_> = beyond.iter().map(|time| format!("{time} s")).collect();
+        let beyond: Vec<_> = beyond.iter().map(|time| format!("{} s", number::plain(*time))).collect();
         warnings.push(Warning {
             place: origin.clone(),
             key: key.to_owned(),

@@ -11,7 +11,7 @@ use super::error::{Origin, Problem};
 use super::quantity::{at, in_range, quantity};
 use super::rows;
 use super::schema::{self, Kind, Range};
-use crate::text::odd_character;
+use crate::text::{odd_character, too_long};
 use crate::units::Dimension;
 
 /// A checked value.
@@ -41,6 +41,10 @@ pub(super) fn interpret(path: &str, kind: Kind, entry: &Entry, scene: &Path) -> 
         (Kind::Factor, Value::Array(list)) if !list.is_empty() => rows::factor(list).map(Setting::Factor),
         (Kind::InputFile, Value::Text(text)) => {
             one_line(text).map(|text| Setting::Text(input_file(text, &entry.origin, scene))).map_err(at(entry))
+        }
+        // Other texts are paths, which may be as long as the system takes.
+        (Kind::Text, Value::Text(text)) if path == "title" && too_long(text).is_some() => {
+            Err(at(entry)(too_long(text).unwrap_or_default()))
         }
         (_, value) => plain(kind, value).map_err(at(entry)),
     }

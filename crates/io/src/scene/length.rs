@@ -6,6 +6,7 @@ use super::contents::OperationCycle;
 use super::error::Problem;
 use super::schema::ACCELERATION;
 use super::settings::Settings;
+use crate::number;
 
 /// More steps than this cannot be counted one by one in a double (2^53), and the time of a step would be wrong.
 const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
@@ -50,7 +51,7 @@ pub(super) fn length(
             // One that never changes is operation as ever, whose last step ends at the end or goes beyond it.
             let steps = parameters.steps_of(duration);
             if steps == 0 {
-                let (turned, step) = (cycle.angle_at(duration), angle);
+                let [duration, turned, step] = [duration, cycle.angle_at(duration), angle].map(number::plain);
                 return Err(problem(format!(
                     "until {duration} s the cycle turns the disc by {turned} rad, less than a step of {step} rad, so nothing would \
                      happen; a longer duration, faster speeds or a smaller numerics.time_acceleration help"

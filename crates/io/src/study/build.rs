@@ -13,7 +13,7 @@ use super::response::Response;
 use super::response_keys::{responses, series_name};
 use super::{DesignSource, Order, Study, measured, points_of_file, replicates};
 use crate::scene::{Origin, Problem, schema};
-use crate::text::odd_character;
+use crate::text::{odd_character, too_long};
 use crate::units;
 
 /// The newest version of the study format that this program reads.
@@ -215,6 +215,11 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
             let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));
             if let Some((at, found)) = odd {
                 return refuse(at, format!("{} has {found}; take it out", list[at].text.escape_debug()));
+            }
+            if let Some((at, long)) =
+                list.iter().enumerate().find_map(|(at, level)| Some((at, too_long(&level.label)?)))
+            {
+                return refuse(at, long);
             }
             Ok(Values::Levels(list))
         }

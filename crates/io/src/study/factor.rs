@@ -207,7 +207,12 @@ impl Factor {
 
     /// Whether a name means this factor: its own, or one of its keys.
     pub fn is_called(&self, name: &str) -> bool {
-        name == self.name || self.keys.iter().any(|key| key == name)
+        self.names().any(|own| own == name)
+    }
+
+    /// What it may be called: its own name, and its keys.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(&self.name).chain(&self.keys).map(String::as_str)
     }
 
     /// SI unit of its numbers, or that in which those of a factor without a key are stated; empty for words, `1` for plain numbers.

@@ -1,18 +1,23 @@
 //! Responses that come from elsewhere: which run each line of a table is of, and where its values are kept.
 //!
 //! They are kept in one table, `imported.csv` in the folder of the results, a line for each run that has any: factors in SI
-//! units, the replicate, and the responses. It is replaced as a whole, and the new one is on the disk before it has the name of
-//! the old one. Lines belong to points, not to numbers of runs: levels that are added later move no value.
+//! units, the replicate, and the responses. It is replaced as a whole by who has claimed it, one process at a time, and the new one is
+//! on the disk before it has the name of the old one. Lines belong to points, not to numbers of runs: levels that are added later move no value.
 
-use std::collections::HashMap;
-use std::io::{self, Write as _};
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use super::Study;
 use super::factor::{Factor, Level};
 use super::plan::Plan;
 use super::value_table::{Row, ValueTable};
+use crate::claim::{Claim, ClaimError};
 use crate::temporary::Temporary;
+use crate::text::{cell, short};
 use crate::units::parse_as;
 
 /// Numbers of a table and of the design are the same if they differ by less than this part of the factor's largest one: tables
@@ -22,6 +27,9 @@ const ROUNDED: f64 = 1e-6;
 const REPLICATE: &str = "replicate";
 /// Column of the number of a run, which is passed over.
 const RUN: &str = "run";
+/// How long is waited for other processes that take in values, and how long between two looks.
+const PATIENCE: Duration = Duration::from_secs(30);
+const PAUSE: Duration = Duration::from_millis(20);
 
 /// The values of imported responses, by run (in the order of the design) and response of the study; NaN where there is none.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -55,7 +63,8 @@ impl Imported {
         let responses = plan.study().responses.len();
         let mut imported = Self { values: vec![vec![f64::NAN; responses]; plan.runs()], strange: 0 };
         let path = file(plan.study());
-        if !path.exists() {
+        // A link that leads nowhere is no table that is not there yet.
+        if fs::symlink_metadata(&path).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
             return Ok(imported);
         }
         let table = ValueTable::read(&path)?;
@@ -83,15 +92,36 @@ impl Imported {
     /// values cannot be kept.
     pub fn take_in(plan: &Plan, path: &Path, replace: bool) -> Result<Taken, String> {
         let study = plan.study();
-        let mut imported = Self::read(plan)?;
         let table = ValueTable::read(path)?;
         let columns = Columns::of(&table, study, false)?;
+        if !study.directory.exists() {
+            // A table with a mistake in it leaves no folder.
+            Self::with(plan, &table, &columns, replace)?;
+            let made = fs::create_dir_all(&study.directory);
+            made.map_err(|error| format!("cannot make the folder {}: {error}", study.directory.display()))?;
+        }
+        // What another process takes in meanwhile is read before anything is added to it.
+        let _claim = claim(&file(study))?;
+        let (imported, new, changed) = Self::with(plan, &table, &columns, replace)?;
+        imported.write(plan).map_err(|error| format!("cannot write {}: {error}", file(study).display()))?;
+        let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
+        let is_complete = |values: &&Vec<f64>| wanted.iter().all(|at| !values[*at].is_nan());
+        let complete = imported.values.iter().filter(is_complete).count();
+        let responses =
+            columns.responses.iter().map(|(_, response, _)| study.responses[*response].name.clone()).collect();
+        Ok(Taken { lines: table.rows().len(), responses, new, changed, complete })
+    }
+
+    /// What is there with the values of a table; how many of these are new, and how many have changed.
+    fn with(plan: &Plan, table: &ValueTable, columns: &Columns, replace: bool) -> Result<(Self, usize, usize), String> {
+        let study = plan.study();
+        let mut imported = Self::read(plan)?;
         let mut places = Places::new(plan);
         let (mut new, mut changed) = (0, 0);
         for row in table.rows() {
             let place = table.place(row);
-            let key = columns.key(&table, row, study, &places)?;
-            let key = key.ok_or_else(|| format!("{place}: {}", columns.misfit(&table, row, study, &places)))?;
+            let key = columns.key(table, row, study, &places)?;
+            let key = key.ok_or_else(|| format!("{place}: {}", columns.misfit(table, row, study, &places)))?;
             let run = places.take(&key).ok_or_else(|| {
                 format!(
                     "{place}: the design has this point {}, and lines before have it as often",
@@ -99,7 +129,7 @@ impl Imported {
                 )
             })?;
             let mut values = imported.values[run].clone();
-            columns.put(&table, row, &mut values)?;
+            columns.put(table, row, &mut values)?;
             for (before, now) in imported.values[run].iter().zip(&values) {
                 // NaN is not there, so it differs from whatever comes.
                 if before.is_nan() && !now.is_nan() {
@@ -115,45 +145,54 @@ impl Imported {
             }
             imported.values[run] = values;
         }
-        imported.write(plan).map_err(|error| format!("cannot write {}: {error}", file(study).display()))?;
-        let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
-        let is_complete = |values: &&Vec<f64>| wanted.iter().all(|at| !values[*at].is_nan());
-        let complete = imported.values.iter().filter(is_complete).count();
-        let responses =
-            columns.responses.iter().map(|(_, response, _)| study.responses[*response].name.clone()).collect();
-        Ok(Taken { lines: table.rows().len(), responses, new, changed, complete })
+        Ok((imported, new, changed))
     }
 
-    /// Keeps all values.
+    /// Keeps all values; where the table is a link, in what that leads to.
     fn write(&self, plan: &Plan) -> io::Result<()> {
         let study = plan.study();
-        std::fs::create_dir_all(&study.directory)?;
-        let (temporary, mut file) = Temporary::create(&file(study))?;
+        let path = file(study);
+        let target = if path.is_symlink() { path.canonicalize()? } else { path };
+        Temporary::remove_abandoned(&target);
+        let (temporary, mut file) = Temporary::create(&target)?;
         let mut writer = csv::Writer::from_writer(Vec::new());
         let wanted: Vec<usize> = (0..study.responses.len()).filter(|at| study.responses[*at].is_imported()).collect();
         let mut head: Vec<String> = study.factors.iter().map(|factor| with_unit(&factor.name, factor.unit())).collect();
         head.push(REPLICATE.to_owned());
         head.extend(wanted.iter().map(|at| with_unit(&study.responses[*at].name, study.responses[*at].unit(""))));
-        writer.write_record(&head)?;
+        writer.write_record(head.iter().map(|text| cell(text).into_owned()))?;
         for (place, values) in self.values.iter().enumerate() {
             if wanted.iter().all(|at| values[*at].is_nan()) {
                 continue;
             }
             let run = plan.run(place + 1);
-            let cell = |(factor, level): (&Factor, &Level)| {
+            let level = |(factor, level): (&Factor, &Level)| {
                 let number = level.number.filter(|_| !["", "1"].contains(&factor.unit()));
                 number.map_or_else(|| level.label.clone(), |number| format!("{number:?}"))
             };
-            let mut cells: Vec<String> = study.factors.iter().zip(&run.levels).map(cell).collect();
+            let mut cells: Vec<String> = study.factors.iter().zip(&run.levels).map(level).collect();
             cells.push((run.replicate + 1).to_string());
             cells.extend(
                 wanted.iter().map(|at| if values[*at].is_nan() { String::new() } else { format!("{:?}", values[*at]) }),
             );
-            writer.write_record(&cells)?;
+            writer.write_record(cells.iter().map(|text| cell(text).into_owned()))?;
         }
         file.write_all(&writer.into_inner().map_err(|error| io::Error::other(error.to_string()))?)?;
         file.sync_all()?;
         temporary.publish_durably()
+    }
+}
+
+/// The right to write the table, for which is waited while others have it: they take a moment.
+fn claim(path: &Path) -> Result<Claim, String> {
+    let start = Instant::now();
+    loop {
+        match Claim::of(path) {
+            Err(ClaimError::Here { .. } | ClaimError::Elsewhere { .. }) if start.elapsed() < PATIENCE => {
+                thread::sleep(PAUSE);
+            }
+            claim => return claim.map_err(|error| error.to_string()),
+        }
     }
 }
 
@@ -240,7 +279,7 @@ impl Columns {
     /// Those of a table; one that is `kept` by the study may have columns of responses that it had before.
     fn of(table: &ValueTable, study: &Study, kept: bool) -> Result<Self, String> {
         let at = |what: String| format!("{}: {what}", table.path().display());
-        let heads = || table.heads().join(", ");
+        let heads = || table.heads_in_words();
         let factors = table.factor_columns(&study.factors)?;
         let missing = study.factors.iter().zip(&factors).find(|(_, column)| column.is_none());
         if let Some((factor, _)) = missing {
@@ -248,17 +287,18 @@ impl Columns {
         }
         let factors: Vec<usize> = factors.into_iter().flatten().collect();
         let mut columns = Self { factors, replicate: None, responses: Vec::new() };
-        for column in (0..table.heads().len()).filter(|column| !columns.factors.contains(column)) {
+        let of_responses: HashMap<&str, usize> =
+            study.responses.iter().enumerate().rev().map(|(at, response)| (response.name.as_str(), at)).collect();
+        let of_factors: HashSet<usize> = columns.factors.iter().copied().collect();
+        for column in (0..table.heads().len()).filter(|column| !of_factors.contains(column)) {
             let (name, unit) = table.named(column);
             if name == REPLICATE && unit.is_empty() {
                 columns.replicate = Some(column);
                 continue;
             }
             let head = &table.heads()[column];
-            let own = |response: &super::response::Response| response.name == name || response.name == *head;
-            let Some(response) =
-                study.responses.iter().position(own).filter(|at| kept || study.responses[*at].is_imported())
-            else {
+            let known = [name, head.as_str()].into_iter().filter_map(|name| of_responses.get(name)).min().copied();
+            let Some(response) = known.filter(|at| kept || study.responses[*at].is_imported()) else {
                 // The number of a run, as `plateau sweep plan --csv` writes it.
                 if kept || name == RUN {
                     continue;
@@ -267,7 +307,8 @@ impl Columns {
                     study.responses.iter().filter(|own| own.is_imported()).map(|own| own.name.as_str()).collect();
                 let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
                 return Err(at(format!(
-                    "column \"{head}\" is no factor and no response with imported = true; of these the study has {known}"
+                    "column \"{}\" is no factor and no response with imported = true; of these the study has {known}",
+                    short(head)
                 )));
             };
             let wanted: &'static str = study.responses[response].unit("");

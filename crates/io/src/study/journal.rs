@@ -5,7 +5,7 @@
 //! torn or damaged is passed over, and its run is made again. `name.open` is being written, `name.journal` is complete.
 //!
 //! Shards that nobody writes any more are merged, so that their number stays bounded however often a study is taken up
-//! again: [`merge`].
+//! again: [`merge`]. Only those of which every line was understood are: what else has such a name may be somebody's notes.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -121,12 +121,35 @@ fn parse(line: &[u8]) -> Option<Record> {
     serde_json::from_slice(json).ok().filter(|_| intact)
 }
 
+/// Whether a line without end may be the beginning of a record: as much of a checksum, a blank and a brace as is there.
+fn is_torn(line: &[u8]) -> bool {
+    line.iter().take(10).enumerate().all(|(at, byte)| match at {
+        0..8 => byte.is_ascii_hexdigit(),
+        8 => *byte == b' ',
+        _ => *byte == b'{',
+    })
+}
+
+/// Whether a file has the name that [`create_file`] gives.
+fn is_named_as_shard(path: &Path) -> bool {
+    let stem = path.file_stem().map_or_else(Default::default, |stem| stem.to_string_lossy());
+    let mut parts = stem.rsplitn(3, '_');
+    let since = parts.next().and_then(|since| since.split_once('-'));
+    let process = parts.next().unwrap_or_default();
+    let is = |text: &str, digit: fn(&u8) -> bool| !text.is_empty() && text.as_bytes().iter().all(digit);
+    since.is_some_and(|(since, count)| is(since, u8::is_ascii_hexdigit) && is(count, u8::is_ascii_digit))
+        && is(process, u8::is_ascii_digit)
+        && parts.next().is_some_and(|host| !host.is_empty())
+}
+
 /// Where the records of a study are: one for each run, one that finished rather than one that failed.
 #[derive(Debug, Clone, Default)]
 pub struct Journal {
     entries: BTreeMap<String, Entry>,
     /// Lines that were torn or damaged.
     pub damaged: usize,
+    /// Files with lines that are no records, but for a torn last one: damaged, or of somebody else. They stay as they are.
+    pub strange: Vec<PathBuf>,
 }
 
 /// Where a record is, and how its run ended.
@@ -173,31 +196,50 @@ impl Journal {
         self.entries.is_empty()
     }
 
+    /// Adds what a shard has.
     fn add(&mut self, shard: &Path) -> io::Result<()> {
+        let found = Self::of(shard)?;
+        self.damaged += found.damaged;
+        self.strange.extend(found.strange);
+        found.entries.into_iter().for_each(|(identity, entry)| self.keep(identity, entry));
+        Ok(())
+    }
+
+    /// What one shard has.
+    fn of(shard: &Path) -> io::Result<Self> {
+        let mut journal = Self::default();
         let mut reader = BufReader::with_capacity(1 << 20, regular::open(shard)?);
-        let (mut line, mut start) = (Vec::new(), 0);
+        let (mut line, mut start, mut is_strange, mut records) = (Vec::new(), 0, false, 0);
         loop {
             let length = next_line(&mut reader, &mut line, limits::RECORD)?;
             if length == 0 {
-                return Ok(());
+                break;
             }
-            match parse(&line) {
-                Some(record) => self.keep(record, shard, start),
-                None => self.damaged += 1,
+            if let Some(record) = parse(&line) {
+                let failure = match record.outcome {
+                    Outcome::Finished { .. } => None,
+                    Outcome::Failed { error } => Some(error),
+                };
+                let entry = Entry { failure, wall_time: record.wall_time, shard: shard.to_owned(), start };
+                journal.keep(record.identity, entry);
+                records += 1;
+            } else {
+                journal.damaged += 1;
+                // Only the last line of a shard has no end.
+                is_strange |= line.ends_with(b"\n") || !is_torn(&line);
             }
             start += length as u64;
         }
+        if is_strange || (records == 0 && !is_named_as_shard(shard)) {
+            journal.strange.push(shard.to_owned());
+        }
+        Ok(journal)
     }
 
-    fn keep(&mut self, record: Record, shard: &Path, start: u64) {
-        let failure = match record.outcome {
-            Outcome::Finished { .. } => None,
-            Outcome::Failed { error } => Some(error),
-        };
-        let entry = Entry { failure, wall_time: record.wall_time, shard: shard.to_owned(), start };
-        let known = self.entries.get(&record.identity);
+    fn keep(&mut self, identity: String, entry: Entry) {
+        let known = self.entries.get(&identity);
         if known.is_none_or(|known| known.failure.is_some() && entry.failure.is_none()) {
-            self.entries.insert(record.identity, entry);
+            self.entries.insert(identity, entry);
         }
     }
 }
@@ -276,11 +318,21 @@ pub fn merge(folder: &Path, host: &str) -> io::Result<()> {
     let mut journal = Journal::default();
     let mut read = Vec::new();
     for shard in idle {
-        match journal.add(&shard) {
+        match Journal::of(&shard) {
             // Another process merges, too.
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
-            added => added.map(|()| read.push(shard))?,
+            found => {
+                let found = found?;
+                if found.strange.is_empty() {
+                    found.entries.into_iter().for_each(|(identity, entry)| journal.keep(identity, entry));
+                    read.push(shard);
+                }
+            }
         }
+    }
+    // Those that stay do not make the others one file anew each time.
+    if read.len() <= FEW {
+        return Ok(());
     }
     let (file, path) = create_file(folder, host)?;
     let mut writer = BufWriter::new(file);

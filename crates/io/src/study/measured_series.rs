@@ -118,7 +118,7 @@ fn column(table: &ValueTable, names: &[&str]) -> Result<Option<usize>, String> {
 }
 
 fn missing(table: &ValueTable, name: &str) -> String {
-    format!("{}:1: no column \"{name}\"; it has {}", table.path().display(), table.heads().join(", "))
+    format!("{}:1: no column \"{name}\"; it has {}", table.path().display(), table.heads_in_words())
 }
 
 /// A number of a line in an SI unit; that of a head without a unit is SI.

@@ -122,6 +122,20 @@ impl Study {
         !self.responses.is_empty() && self.responses.iter().all(Response::is_imported)
     }
 
+    /// All that is read of a study but its scenes and what those read: the study file, the tables that it names, its base scene, and
+    /// what is kept of its results.
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let kept =
+            ["journal", "under-way", "confirm/journal", "confirm/under-way"].map(|name| self.directory.join(name));
+        let files =
+            |folder: PathBuf| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let mut inputs = self.files.clone();
+        inputs.extend(self.base.clone());
+        inputs.push(imported::file(self));
+        inputs.extend(kept.into_iter().flat_map(files));
+        inputs
+    }
+
     /// Reads the study at `path`. Whether the scenes of its runs can be built is seen when they are planned.
     ///
     /// # Errors

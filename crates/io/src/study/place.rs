@@ -6,7 +6,7 @@ use std::sync::Arc;
 use toml::Spanned;
 
 use crate::scene::{Origin, Problem};
-use crate::text::odd_character;
+use crate::text::{odd_character, too_long};
 
 /// Problems that are looked for: nobody reads more.
 pub(super) const MOST_PROBLEMS: usize = 100;
@@ -31,11 +31,13 @@ impl Place<'_> {
         Problem::new(&self.at(found.span().start), key, message)
     }
 
-    /// Refuses a name that cannot be shown on one line, in messages, tables and figures.
+    /// Refuses a name that cannot be shown on one line or is too long for it, in messages, tables and figures.
     pub fn check_name(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
         if let Some(found) = odd_character(name) {
             let message = format!("\"{}\" has {found}, expected one line of letters; take it out", name.escape_debug());
             problems.push(Problem::new(&at(), key, message));
+        } else if let Some(long) = too_long(name) {
+            problems.push(Problem::new(&at(), key, long));
         }
     }
 }

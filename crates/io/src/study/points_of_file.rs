@@ -1,10 +1,11 @@
 //! A design of one's own: a table of points in a CSV file.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use super::factor::{Factor, Level, Values};
 use super::value_table::{Row, ValueTable};
+use crate::text::short;
 
 /// Points of a study, each with one level for every factor.
 pub type Points = Vec<Vec<Level>>;
@@ -19,12 +20,14 @@ pub fn read(path: &Path, factors: &[Factor], others: &[&str]) -> Result<Points, 
     let shown = path.display();
     let columns = table.factor_columns(factors)?;
     let column = |(factor, column): (&Factor, &Option<usize>)| {
-        column.ok_or_else(|| format!("{shown}: no column \"{}\"; it has {}", factor.name, table.heads().join(", ")))
+        column.ok_or_else(|| format!("{shown}: no column \"{}\"; it has {}", factor.name, table.heads_in_words()))
     };
     let columns: Vec<usize> = factors.iter().zip(&columns).map(column).collect::<Result<_, _>>()?;
-    let is_other = |at: usize| others.contains(&table.heads()[at].as_str()) || others.contains(&table.named(at).0);
-    if let Some(unknown) = (0..table.heads().len()).find(|at| !columns.contains(at) && !is_other(*at)) {
-        return Err(format!("{shown}: column \"{}\" is no factor of the study", table.heads()[unknown]));
+    let (known, others): (HashSet<usize>, HashSet<&str>) =
+        (columns.iter().copied().collect(), others.iter().copied().collect());
+    let is_other = |at: usize| others.contains(table.heads()[at].as_str()) || others.contains(table.named(at).0);
+    if let Some(unknown) = (0..table.heads().len()).find(|at| !known.contains(at) && !is_other(*at)) {
+        return Err(format!("{shown}: column \"{}\" is no factor of the study", short(&table.heads()[unknown])));
     }
     let mut known: Vec<Spellings> = factors.iter().map(Spellings::of).collect();
     let point = |row: &Row| {

@@ -2,12 +2,16 @@
 //!
 //! Where a spreadsheet writes commas in numbers, it parts columns by semicolons: such a table, and one with tabs, is read too.
 
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::factor::{Factor, Level};
-use crate::text::odd_character;
+use crate::text::{odd_character, short, text_of_cell, too_long};
 use crate::units::parse_as;
 use crate::{limits, regular};
+
+/// Columns that a message names.
+const SHOWN: usize = 12;
 
 /// A table.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,9 +61,11 @@ impl ValueTable {
             }
             _ => format!("{shown}: {error}"),
         };
-        let heads: Vec<String> = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
-        if let Some(twice) = heads.iter().enumerate().find(|(at, head)| heads[..*at].contains(head)) {
-            return Err(format!("{shown}: column \"{}\" is there twice", twice.1));
+        let heads: Vec<String> =
+            reader.headers().map_err(wrong)?.iter().map(|head| text_of_cell(head).to_owned()).collect();
+        let mut known = HashSet::with_capacity(heads.len());
+        if let Some(twice) = heads.iter().find(|head| !known.insert(head.as_str())) {
+            return Err(format!("{shown}: column \"{}\" is there twice", short(twice)));
         }
         let most = most.min(limits::CELLS / heads.len().max(1));
         let mut rows = Vec::new();
@@ -74,7 +80,10 @@ impl ValueTable {
             {
                 return Err(format!("{shown}:{line}: \"{head}\" has {found}; take it out"));
             }
-            let cell = |cell: &str| if delimiter == b',' { cell.to_owned() } else { with_point(cell) };
+            let cell = |cell: &str| {
+                let text = text_of_cell(cell);
+                if delimiter == b',' { text.to_owned() } else { with_point(text) }
+            };
             rows.push(Row { line, cells: record.iter().map(cell).collect() });
         }
         if rows.is_empty() {
@@ -91,6 +100,14 @@ impl ValueTable {
     /// What stands above the columns.
     pub fn heads(&self) -> &[String] {
         &self.heads
+    }
+
+    /// What stands above the columns, in words; of many the first.
+    pub fn heads_in_words(&self) -> String {
+        let more = self.heads.len().saturating_sub(SHOWN);
+        let shown: Vec<_> = self.heads.iter().take(SHOWN).map(|head| short(head)).collect();
+        let more = if more > 0 { format!(", … ({more} more)") } else { String::new() };
+        format!("{}{more}", shown.join(", "))
     }
 
     /// The lines.
@@ -110,9 +127,20 @@ impl ValueTable {
     /// # Errors
     /// A factor that two columns are of.
     pub fn factor_columns(&self, factors: &[Factor]) -> Result<Vec<Option<usize>>, String> {
+        let mut columns: HashMap<&str, Vec<usize>> = HashMap::with_capacity(self.heads.len());
+        for (column, head) in self.heads.iter().enumerate() {
+            for name in [head.as_str(), self.named(column).0] {
+                let known = columns.entry(name).or_default();
+                // Nobody asks for a third.
+                if known.len() < 2 && !known.contains(&column) {
+                    known.push(column);
+                }
+            }
+        }
         let column = |factor: &Factor| {
-            let mut own = (0..self.heads.len())
-                .filter(|column| factor.is_called(&self.heads[*column]) || factor.is_called(self.named(*column).0));
+            let names = factor.names();
+            let own: BTreeSet<usize> = names.filter_map(|name| columns.get(name)).flatten().copied().collect();
+            let mut own = own.into_iter();
             match (own.next(), own.next()) {
                 (Some(one), Some(other)) => Err(format!(
                     "{}: columns \"{}\" and \"{}\" are of one factor",
@@ -135,6 +163,9 @@ impl ValueTable {
         if cell.is_empty() {
             return Err(format!("{}: \"{}\" is empty", self.place(row), factor.name));
         }
+        if let Some(long) = too_long(cell) {
+            return Err(format!("{}: \"{}\": {long}", self.place(row), factor.name));
+        }
         let (_, unit) = self.named(column);
         let text = if unit.is_empty() || cell.contains(' ') { cell.to_owned() } else { format!("{cell} {unit}") };
         Ok(factor.parse(&text))
@@ -151,7 +182,8 @@ impl ValueTable {
         }
         let number = cell.parse().ok().filter(|number: &f64| number.is_finite());
         number.map(Some).ok_or_else(|| {
-            format!("{}: \"{}\" is \"{cell}\", expected a number such as 0.35", self.place(row), self.heads[column])
+            let (head, cell) = (short(&self.heads[column]), short(cell));
+            format!("{}: \"{head}\" is \"{cell}\", expected a number such as 0.35", self.place(row))
         })
     }
 

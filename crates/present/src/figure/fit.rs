@@ -228,7 +228,7 @@ fn axis(key: &FittedKey, values: &[f64]) -> Axis {
 }
 
 fn level(result: &FitResult) -> String {
-    format!("{} %", number::rounded(100.0 * result.confidence, 4))
+    number::confidence(result.confidence)
 }
 
 #[cfg(test)]

@@ -73,7 +73,11 @@ impl AnalysedResponse {
 
     /// A value of the response, SI, in the unit in which it is read, without the unit.
     pub fn shown(&self, value: f64) -> String {
-        number::rounded(self.scale.unit.value(value), DIGITS)
+        match self.scale.unit.value(value) {
+            f64::INFINITY => "∞".to_owned(),
+            f64::NEG_INFINITY => "−∞".to_owned(),
+            value => number::rounded(value, DIGITS),
+        }
     }
 
     /// The same with the unit.
@@ -170,6 +174,6 @@ impl Surrogate for Within<'_> {
 
 /// What the columns of [`AnalysedResponse::cells`] are, at a confidence level.
 pub fn heads(confidence: f64) -> [String; 4] {
-    let level = number::rounded(100.0 * confidence, 4);
-    ["response".to_owned(), "predicted".to_owned(), format!("{level} % of means"), format!("{level} % of runs")]
+    let level = number::confidence(confidence);
+    ["response".to_owned(), "predicted".to_owned(), format!("{level} of means"), format!("{level} of runs")]
 }

@@ -42,18 +42,39 @@ pub fn response(analysis: &Analysis, name: &str) -> Result<usize, String> {
     })
 }
 
+/// The response that a text begins with, and what stands behind it: nothing, or one of these signs and a value. A name may have signs,
+/// too: of several that fit the longest is meant.
+fn named<'a>(
+    analysis: &Analysis,
+    text: &'a str,
+    signs: &[&'static str],
+) -> Option<(usize, Option<(&'static str, &'a str)>)> {
+    let text = text.trim();
+    let fits = |(at, response): (usize, &AnalysedResponse)| {
+        let rest = text.strip_prefix(response.name.trim())?.trim_start();
+        let sign = || signs.iter().find_map(|sign| Some((*sign, rest.strip_prefix(sign)?)));
+        let behind = if rest.is_empty() { None } else { Some(sign()?) };
+        Some((response.name.len(), (at, behind)))
+    };
+    let fitting = analysis.responses.iter().enumerate().filter_map(fits);
+    fitting.max_by_key(|(length, _)| *length).map(|(_, found)| found)
+}
+
 /// A response and what it should be: `NAME`, `NAME=LOW..HIGH`, for targets `NAME=VALUE` or `NAME=LOW..VALUE..HIGH`. Bounds that
 /// are not given are the least and the largest response of the runs.
 ///
 /// # Errors
 /// What was found and what was expected.
 pub fn wish(analysis: &Analysis, aim: Aim, text: &str) -> Result<(usize, Wish), String> {
-    let (name, values) = match text.rsplit_once('=') {
-        Some((name, values)) => (name, values.split(TO).map(str::trim).collect()),
-        None => (text, Vec::new()),
-    };
     let at = |error: String| format!("{} \"{text}\": {error}", aim.option());
-    let number = response(analysis, name).map_err(at)?;
+    let (number, values) = match named(analysis, text, &["="]) {
+        Some((number, behind)) => (number, behind.map(|(_, values)| values)),
+        None => {
+            let (name, values) = text.rsplit_once('=').map_or((text, None), |(name, values)| (name, Some(values)));
+            (response(analysis, name).map_err(at)?, values)
+        }
+    };
+    let values: Vec<&str> = values.map_or_else(Vec::new, |values| values.split(TO).map(str::trim).collect());
     let own = &analysis.responses[number];
     let values =
         values.into_iter().map(|value| self::value(own, value)).collect::<Result<Vec<f64>, _>>().map_err(at)?;
@@ -91,13 +112,18 @@ pub fn wish(analysis: &Analysis, aim: Aim, text: &str) -> Result<(usize, Wish), 
 /// What was found and what was expected.
 pub fn limit(analysis: &Analysis, text: &str, kept: Kept) -> Result<Limit, String> {
     let at = |error: String| format!("--limit \"{text}\": {error}");
-    let (split, is_least) = match (text.split_once("<="), text.split_once(">=")) {
-        (Some(split), None) => (split, false),
-        (None, Some(split)) => (split, true),
-        _ => return Err(at("expected \"NAME<=VALUE\" or \"NAME>=VALUE\"".to_owned())),
+    let (response, bound, is_least) = match named(analysis, text, &["<=", ">="]) {
+        Some((response, Some((sign, bound)))) => (response, bound, sign == ">="),
+        _ => {
+            let (split, is_least) = match (text.split_once("<="), text.split_once(">=")) {
+                (Some(split), None) => (split, false),
+                (None, Some(split)) => (split, true),
+                _ => return Err(at("expected \"NAME<=VALUE\" or \"NAME>=VALUE\"".to_owned())),
+            };
+            (response(analysis, split.0).map_err(at)?, split.1, is_least)
+        }
     };
-    let response = response(analysis, split.0).map_err(at)?;
-    let value = value(&analysis.responses[response], split.1).map_err(at)?;
+    let value = value(&analysis.responses[response], bound).map_err(at)?;
     let [low, high] = observed(analysis, response).ok_or_else(|| at("no run has this response".to_owned()))?;
     let scale = if high > low { high - low } else { 1.0 };
     let (least, most) = if is_least { (Some(value), None) } else { (None, Some(value)) };
@@ -110,8 +136,13 @@ pub fn limit(analysis: &Analysis, text: &str, kept: Kept) -> Result<Limit, Strin
 /// What was found and what was expected.
 pub fn power(analysis: &Analysis, option: &str, text: &str) -> Result<(usize, f64), String> {
     let at = |error: String| format!("{option} \"{text}\": {error}");
-    let (name, power) = text.rsplit_once('=').ok_or_else(|| at("expected NAME=NUMBER".to_owned()))?;
-    let response = response(analysis, name).map_err(at)?;
+    let (response, power) = match named(analysis, text, &["="]) {
+        Some((response, Some((_, power)))) => (response, power),
+        _ => {
+            let (name, power) = text.rsplit_once('=').ok_or_else(|| at("expected NAME=NUMBER".to_owned()))?;
+            (response(analysis, name).map_err(at)?, power)
+        }
+    };
     let power: Option<f64> = power.trim().parse().ok().filter(|power: &f64| (0.01..=100.0).contains(power));
     power.map(|power| (response, power)).ok_or_else(|| at("expected a number between 0.01 and 100".to_owned()))
 }

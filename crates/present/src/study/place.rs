@@ -157,9 +157,12 @@ impl<'a> Space<'a> {
             }
             _ => {
                 let coded = own.coded(level).or_else(|| self.coded(factor, number)).filter(|coded| coded.is_finite());
-                coded
-                    .map(Setting::Coded)
-                    .ok_or_else(|| refused("expected a value above 0, for the range is logarithmic"))
+                coded.map(Setting::Coded).ok_or_else(|| match own.values {
+                    Values::Range { logarithmic: true, .. } if number <= 0.0 => {
+                        refused("expected a value above 0, for the range is logarithmic")
+                    }
+                    _ => refused(&format!("too far from the range, {own}, for numbers to tell how far")),
+                })
             }
         }
     }

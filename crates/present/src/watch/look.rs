@@ -6,6 +6,7 @@ use std::time::{Duration, SystemTime};
 
 use plateau_core::model::mesh::Mesh;
 use plateau_io::run_file::{ReadError, RunFile, State};
+use plateau_io::text::shown_title;
 use plateau_io::units::{self, Dimension};
 
 /// What a run file says at one moment.
@@ -45,7 +46,7 @@ impl Look {
         let wall_time = run.number("wall_time").and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         let since_start = || written.duration_since(run.start_time()?).ok();
         Ok(Self {
-            title: run.title().to_owned(),
+            title: shown_title(run.title()).into_owned(),
             state: run.state(),
             error: run.attribute("error"),
             times: run.time().to_vec(),

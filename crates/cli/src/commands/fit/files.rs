@@ -1,8 +1,9 @@
 //! Tables and figures of a fit.
 
+use plateau_io::study::Study;
 use plateau_io::study::results_table::table as table_of_runs;
 use plateau_present::figure::fit::figures;
-use plateau_present::figure::fit_series::figures as of_series;
+use plateau_present::figure::fit_series::figures as figures_of_series;
 use plateau_present::study::fit::parts;
 
 use super::Told;
@@ -11,24 +12,38 @@ use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::output_folder::{OutputFolder, names_of};
 
-/// Writes all; their paths. What an earlier call wrote is replaced, for a fit goes on where it was.
+/// The tables, of which the third is there where a series was measured.
+const TABLES: [&str; 5] = ["keys.csv", "responses.csv", "series.csv", "profiles.csv", "runs.csv"];
+
+/// The folder of a fit that is to be made. What an earlier fit of the same study wrote there is replaced, for a fit goes on where it
+/// was.
+///
+/// # Errors
+/// [`Failure::Input`] when it has files of somebody else.
+pub fn folder(study: &Study, arguments: &FitArguments) -> Result<OutputFolder, Failure> {
+    let path = arguments.output.clone().unwrap_or_else(|| study.directory.join("fit"));
+    let folder = OutputFolder::of("fit", &study.path, path, arguments.force)?;
+    folder.check(TABLES, &study.inputs())?;
+    Ok(folder)
+}
+
+/// Writes all; their paths.
 ///
 /// # Errors
 /// [`Failure::Run`] when a figure cannot be drawn, and those of [`OutputFolder`].
-pub fn write(told: &Told<'_>, arguments: &FitArguments) -> Result<Vec<String>, Failure> {
-    let study = told.fitted.plan.study();
-    let path = arguments.output.clone().unwrap_or_else(|| study.directory.join("fit"));
-    let mut folder = OutputFolder::new(path, true)?;
+pub fn write(told: &Told<'_>, mut folder: OutputFolder) -> Result<Vec<String>, Failure> {
     let runs = table_of_runs(&told.fitted.plan, &told.fitted.collected);
-    let mut tables = vec![("keys.csv", keys(told)), ("responses.csv", responses(told))];
-    tables.extend((!told.result.series.is_empty()).then(|| ("series.csv", series(told))));
-    tables.extend([("profiles.csv", profiles(told)), ("runs.csv", runs)]);
+    let [of_keys, of_responses, of_series, of_profiles, of_runs] = TABLES;
+    let mut tables = vec![(of_keys, keys(told)), (of_responses, responses(told))];
+    tables.extend((!told.result.series.is_empty()).then(|| (of_series, series(told))));
+    tables.extend([(of_profiles, profiles(told)), (of_runs, runs)]);
     let values = |run: &plateau_io::study::collected::CollectedRun| {
         run.run.levels.iter().map(|level| level.number.unwrap_or(f64::NAN)).collect::<Vec<f64>>()
     };
     let runs: Vec<Vec<f64>> = told.fitted.collected.runs.iter().map(values).collect();
     let figures =
-        [figures(told.result, told.keys, &runs), of_series(told.result, &told.series(), &told.times())].concat();
+        [figures(told.result, told.keys, &runs), figures_of_series(told.result, &told.series(), &told.times())]
+            .concat();
     let names: Vec<String> =
         tables.iter().map(|(name, _)| (*name).to_owned()).chain(names_of(figures.iter())).collect();
     folder.begin(&names, &told.fitted.inputs)?;

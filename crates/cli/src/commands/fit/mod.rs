@@ -31,12 +31,13 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     if arguments.plan {
         return plan::say(&plan, &task, arguments);
     }
+    let folder = files::folder(plan.study(), arguments)?;
     in_job(|job| {
         let Some(fitted) = rounds::fitted(plan, &task, arguments, job)? else { return Ok(()) };
         let result = fitted.fit.result();
         let keys: Vec<FittedKey> = fitted.plan.study().factors.iter().map(FittedKey::of).collect();
         let told = Told { fitted: &fitted, task: &task, result: &result, keys: &keys };
-        let files = files::write(&told, arguments)?;
+        let files = files::write(&told, folder)?;
         if arguments.json { print(&document::text(&told, &files)?) } else { print(&text::text(&told, &files)) }
     })
 }

@@ -14,8 +14,9 @@ use plateau_present::study::place::shortened;
 use plateau_run::Job;
 use plateau_run::job::Agreement;
 use plateau_study::design::Setting;
-use plateau_study::effects::Observation;
+use plateau_study::effects::{EffectsError, Observation};
 use plateau_study::fit::{Fit, FitError, Key, Measurement, ObservedSeries};
+use plateau_study::surrogate::gaussian_process::GaussianProcessError;
 
 use crate::arguments::FitArguments;
 use crate::failure::Failure;
@@ -174,12 +175,55 @@ impl Task {
         let fit = Fit::with_series(&self.keys, &self.measurements, &observations, &series, study.fit.confidence);
         fit.map_err(|error| match &error {
             FitError::Response { index, error } => unfinished(self.responses[*index], error),
+            FitError::Series { index, error: GaussianProcessError::Observations(EffectsError::Response { .. }) } => {
+                let file = study.responses[self.series[*index]].measured_series().map(|file| file.path.display());
+                let file = file.map_or_else(String::new, |file| format!(" in {file}"));
+                Failure::input(format_args!(
+                    "{}: response \"{}\": what was measured and what runs give differ by too many times the uncertainty for a number \
+                     to hold; look at units, uncertainties and correlation time{file}",
+                    study.path.display(),
+                    study.responses[self.series[*index]].name
+                ))
+            }
             FitError::Series { index, error } => unfinished(self.series[*index], error),
             FitError::NoRun(index) => {
                 unfinished(self.series[*index], &"no run has values at all of the measured times")
             }
+            FitError::NoLikelihood => Failure::input(format_args!(
+                "{}: {error}: {}; look at the units and the uncertainties",
+                study.path.display(),
+                self.far_off(study, collected)
+            )),
             error => Failure::input(format_args!("{}: {error}", study.path.display())),
         })
+    }
+
+    /// What was measured beside what the runs gave, of the response of which the two are farthest from each other, or the uncertainty
+    /// is most unlike what the runs differ by.
+    fn far_off(&self, study: &Study, collected: &Collected) -> String {
+        let of = |(at, measured): (&usize, &Measurement)| {
+            let values = collected.runs.iter().map(|run| run.responses[*at]).filter(|value| value.is_finite());
+            let (low, high) =
+                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+            let distance = (low - measured.value).max(measured.value - high).max(0.0);
+            let off = (distance / measured.uncertainty).max((high - low) / measured.uncertainty);
+            let far = off.max(measured.uncertainty / (high - low));
+            let unit = study.responses[*at].unit(plateau_io::study::collected::unit_of(&study.responses[*at].series));
+            let number = |value: f64| with_unit(value, unit);
+            let said = format!(
+                "response \"{}\" was measured as {} ± {}, and runs give {} to {}",
+                study.responses[*at].name,
+                number(measured.value),
+                number(measured.uncertainty),
+                number(low),
+                number(high)
+            );
+            (far, said)
+        };
+        let all = self.responses.iter().zip(&self.measurements).map(of);
+        let series = || self.series.iter().map(|at| format!("response \"{}\"", study.responses[*at].name));
+        let worst = all.max_by(|one, other| one.0.total_cmp(&other.0));
+        worst.map_or_else(|| series().collect::<Vec<_>>().join(", "), |(_, said)| said)
     }
 }
 
@@ -203,6 +247,12 @@ fn not_a_range(factor: &Factor) -> String {
         }
         _ => format!("{said}: give range = [lower, upper] in place of levels"),
     }
+}
+
+/// A number of at most four digits with its unit.
+fn with_unit(value: f64, unit: &str) -> String {
+    let value = number::rounded(value, 4);
+    if ["", "1"].contains(&unit) { value } else { format!("{value} {unit}") }
 }
 
 fn setting(key: &Key, level: &Level) -> Setting {
@@ -247,7 +297,7 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
         let told: Vec<u64> = next.iter().filter(|_| end.is_none()).flatten().map(|coded| coded.to_bits()).collect();
         job.first_says(&told).map_err(Failure::run)?;
         if let Some(end) = end {
-            let inputs = study.files.iter().cloned().chain(scenes).collect();
+            let inputs = study.inputs().into_iter().chain(scenes).collect();
             return Ok(Some(Fitted { plan, collected, fit, rounds: round, first_points, end, inputs }));
         }
         note_to_terminal(format_args!(

@@ -9,9 +9,6 @@ use super::rounds::End;
 use crate::number;
 use crate::table::{columns, list, table};
 
-/// Digits of values.
-const DIGITS: usize = 4;
-
 /// The whole text.
 pub fn text(told: &Told<'_>, files: &[String]) -> String {
     let study = told.fitted.plan.study();
@@ -49,7 +46,7 @@ pub fn text(told: &Told<'_>, files: &[String]) -> String {
 
 /// The level of intervals.
 pub fn level(told: &Told<'_>) -> String {
-    format!("{} %", number::rounded(100.0 * told.result.confidence, DIGITS))
+    number::confidence(told.result.confidence)
 }
 
 fn keys(told: &Told<'_>) -> Vec<Vec<String>> {

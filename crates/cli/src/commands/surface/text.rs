@@ -93,9 +93,10 @@ fn aligned(lines: &[Line]) -> String {
     let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
     let mut text = String::new();
     for line in lines {
-        let mut row = format!("{:name$}  {:unit$}", line.name, line.unit);
+        let blanks = |text: &str, width: usize| " ".repeat(width.saturating_sub(length(text)));
+        let mut row = format!("{}{}  {}{}", line.name, blanks(&line.name, name), line.unit, blanks(line.unit, unit));
         for (cell, width) in line.cells.iter().zip(&widths) {
-            row.push_str(&format!("  {cell:>width$}"));
+            row.push_str(&format!("  {}{cell}", blanks(cell, *width)));
         }
         text.push_str(row.trim_end());
         text.push('\n');

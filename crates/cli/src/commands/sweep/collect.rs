@@ -1,6 +1,6 @@
 //! `plateau sweep collect`: all results of a study in one HDF5 file and a table.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use plateau_io::dataset_file::{Attribute, now};
 use plateau_io::study::collected::{CollectError, Collected, State, is_collected};
@@ -29,10 +29,12 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
     // What was collected before is collected anew, as often as there are more results. What others made stays.
-    output::check(&hdf5, arguments.force || is_collected(&hdf5), &inputs)?;
-    output::check(&csv, arguments.force || is_results_table(&csv), &inputs)?;
+    // Of a link it is not asked what it leads to.
+    let is_own = |path: &Path, is: fn(&Path) -> bool| !path.is_symlink() && is(path);
+    output::check(&hdf5, arguments.force || is_own(&hdf5, is_collected), &inputs)?;
+    output::check(&csv, arguments.force || is_own(&csv, is_results_table), &inputs)?;
     collected.write(&hdf5, true, &plan, attributes(&plan, &collected)?).map_err(failure)?;
-    output::write(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
+    output::write_in_folder(&csv, csv_table(table_of(&plan, &collected)).as_bytes(), true)?;
     let summary = Summary {
         study: plan.study().title.clone(),
         runs: plan.runs(),
@@ -44,7 +46,7 @@ pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     if arguments.json {
         return print(&(serde_json::to_string_pretty(&summary).map_err(Failure::run)? + "\n"));
     }
-    print(&summary.to_text(&collected))
+    print(&summary.to_text(&collected, plan.study().is_imported()))
 }
 
 /// The results of a study, and what they were made of.
@@ -60,7 +62,7 @@ pub struct Found {
 /// # Errors
 /// [`Failure::Input`] when a run's scene cannot be built, [`Failure::Run`] when the journal cannot be read.
 pub fn collected(plan: &Plan) -> Result<Found, Failure> {
-    let mut inputs = plan.study().files.clone();
+    let mut inputs = plan.study().inputs();
     if plan.study().base.is_none() {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
@@ -121,7 +123,7 @@ struct Summary {
 }
 
 impl Summary {
-    fn to_text(&self, collected: &Collected) -> String {
+    fn to_text(&self, collected: &Collected, is_imported: bool) -> String {
         let mut rows = vec![("runs", self.runs.to_string()), ("finished", self.finished.to_string())];
         rows.extend((self.failed > 0).then(|| ("failed", self.failed.to_string())));
         rows.extend((self.missing > 0).then(|| ("missing", self.missing.to_string())));
@@ -144,7 +146,11 @@ impl Summary {
         if !missing.is_empty() {
             let shown = missing[..missing.len().min(2 * LISTED)].join(", ");
             let more = if missing.len() > 2 * LISTED { ", …" } else { "" };
-            text.push_str(&list("Missing", &[format!("runs {shown}{more}: plateau sweep run makes them")]));
+            let remedy = match is_imported {
+                true => "plateau sweep import takes in their responses",
+                false => "plateau sweep run makes them",
+            };
+            text.push_str(&list("Missing", &[format!("runs {shown}{more}: {remedy}")]));
         }
         text
     }

@@ -1,5 +1,7 @@
 //! `plateau sweep plan`: what a study will do and cost.
 
+use std::path::PathBuf;
+
 use plateau_io::study::imported::with_unit;
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
@@ -24,16 +26,17 @@ const RESOLVED: usize = 20_000;
 
 /// Plans a study.
 pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
-    if let Some(csv) = &arguments.csv {
-        output::check(csv, arguments.force, std::slice::from_ref(&arguments.study))?;
-    }
     let plan = sweep::plan(&arguments.study)?;
+    let check =
+        |inputs: &[PathBuf]| arguments.csv.as_ref().map_or(Ok(()), |csv| output::check(csv, arguments.force, inputs));
+    check(&plan.study().inputs())?;
     let has_scene = plan.study().base.is_some();
     let estimate = if has_scene { Estimate::of(&plan)? } else { Estimate::NOTHING };
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
     let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= RESOLVED && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
+        check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
         resolved.warn_of_late_questions(plan.study());
         let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
         let entries: Vec<&Entry> = different.filter_map(|place| journal.get(&resolved.identities[place])).collect();

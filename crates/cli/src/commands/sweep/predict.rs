@@ -1,9 +1,11 @@
 //! `plateau sweep predict`: what responses are expected to be where no run was made.
 
-use std::path::Path;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
 
 use plateau_io::number;
 use plateau_io::study::value_table::{Row, ValueTable};
+use plateau_io::text::short;
 use plateau_present::study::analysis::AnalysedResponse;
 use plateau_present::study::forecasts::heads;
 use plateau_present::study::place::{Place, Space};
@@ -25,10 +27,14 @@ const MOST_PLACES: usize = 1_000_000;
 
 /// Predicts the responses of a study.
 pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
-    if let Some(path) = &arguments.output {
-        output::check(path, arguments.force, std::slice::from_ref(&arguments.study))?;
-    }
-    let analysed = Analysed::of(sweep::plan(&arguments.study)?, arguments.fit.asked())?;
+    let plan = sweep::plan(&arguments.study)?;
+    let inputs: Vec<PathBuf> = plan.study().inputs().into_iter().chain(arguments.points.clone()).collect();
+    let check = |inputs: &[PathBuf]| {
+        arguments.output.as_ref().map_or(Ok(()), |path| output::check(path, arguments.force, inputs))
+    };
+    check(&inputs)?;
+    let analysed = Analysed::of(plan, arguments.fit.asked())?;
+    check(&analysed.inputs)?;
     analysed.warn_of_factors();
     let confidence = arguments.fit.confidence;
     let places = places(&analysed, arguments)?;
@@ -112,8 +118,10 @@ fn points(analysed: &Analysed, space: &Space<'_>, given: &Place, path: &Path) ->
     let factors = &analysed.plan.study().factors;
     let table = ValueTable::read(path).map_err(Failure::input)?;
     let columns = table.factor_columns(factors).map_err(Failure::input)?;
-    if let Some((_, unknown)) = table.heads().iter().enumerate().find(|(at, _)| !columns.contains(&Some(*at))) {
-        return Err(Failure::input(format_args!("{}: column \"{unknown}\" is no factor of the study", path.display())));
+    let known: HashSet<usize> = columns.iter().copied().flatten().collect();
+    if let Some((_, unknown)) = table.heads().iter().enumerate().find(|(at, _)| !known.contains(at)) {
+        let (path, unknown) = (path.display(), short(unknown));
+        return Err(Failure::input(format_args!("{path}: column \"{unknown}\" is no factor of the study")));
     }
     let place = |row: &Row| {
         let each = factors.iter().zip(&columns).zip(&given.levels);

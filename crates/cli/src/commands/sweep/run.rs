@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use plateau_io::study::journal::{Entry, Journal};
 use plateau_io::study::plan::Plan;
+use plateau_io::text::shown_on_one_line;
 use plateau_run::Job;
 use plateau_run::job::Agreement;
 use serde::Serialize;
@@ -19,6 +20,9 @@ use crate::sweep::under_way;
 use crate::sweep::{self, journal, journal_folder};
 use crate::table::{print, table};
 use crate::{message, number};
+
+/// Files that are no part of a journal, of which the names are told.
+const STRANGE: usize = 10;
 
 /// Makes the runs, together with the other processes of the job if there are any.
 pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
@@ -35,6 +39,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
         let lines = number::count(journal.damaged, "damaged line");
         message::warning(format_args!("{}: {lines} passed over", journal_folder(plan.study()).display()));
     }
+    warn_of_strange(&journal);
     let mut before = Before::default();
     let mut pending = Vec::new();
     for (place, number) in plan.order().enumerate().filter(|_| job.leads()) {
@@ -100,6 +105,21 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
             number::count(summary.runs, "run")
         ))),
     }
+}
+
+/// Names files in the journal that are no part of it.
+fn warn_of_strange(journal: &Journal) {
+    if journal.strange.is_empty() {
+        return;
+    }
+    let names = journal.strange.iter().filter_map(|path| path.file_name());
+    let names: Vec<_> =
+        names.take(STRANGE).map(|name| shown_on_one_line(&name.to_string_lossy()).into_owned()).collect();
+    let more = if journal.strange.len() > STRANGE { ", …" } else { "" };
+    message::warning(format_args!(
+        "no journals of this program, or damaged ones: {}{more}; they stay as they are, move them away if nobody needs them",
+        names.join(", ")
+    ));
 }
 
 /// Removes what killed processes left of runs that have ended, and says what is of no use to this study.

@@ -93,7 +93,7 @@ impl Told {
     }
 
     fn level(&self) -> String {
-        format!("{} %", number::rounded(100.0 * self.confidence, 4))
+        number::confidence(self.confidence)
     }
 
     fn figures(&self) -> Vec<Figure> {

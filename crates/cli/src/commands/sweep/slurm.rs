@@ -26,7 +26,7 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let stem = arguments.study.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let script = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.sbatch")));
-    output::check(&script, arguments.force, std::slice::from_ref(&arguments.study))?;
+    output::check(&script, arguments.force, &plan.study().inputs())?;
     let estimate = Estimate::of(&plan)?;
     let cores = arguments.cores as usize;
     let total = estimate.mean_time * plan.runs() as f64 / cores as f64;

@@ -75,6 +75,34 @@ fn merging_keeps_every_record_in_few_files() {
 }
 
 #[test]
+fn what_is_no_record_stays_where_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let good = line(&record("good", true)).unwrap();
+    let notes = ["my notes\n", "my notes", "", "12345678 {"];
+    for (number, text) in notes.iter().enumerate() {
+        fs::write(path(&format!("notes{number}.{COMPLETE}")), text).unwrap();
+    }
+    let damaged = [&good[..20], b"\n", &good].concat();
+    fs::write(path(&format!("h_1_a-0.{COMPLETE}")), &damaged).unwrap();
+    let strange = Journal::read(folder.path()).unwrap().strange;
+    assert_eq!(strange.len(), 5);
+    for number in 0..12 {
+        let mut shard = Shard::create(folder.path(), "h").unwrap();
+        shard.append(&record(&format!("{number:02}"), true)).unwrap();
+        shard.close().unwrap();
+    }
+    // Of processes that were killed before their first record, and in the midst of one.
+    fs::write(path(&format!("h_1_b-0.{COMPLETE}")), "").unwrap();
+    fs::write(path(&format!("h_1_c-0.{COMPLETE}")), &good[..good.len() - 5]).unwrap();
+    merge(folder.path(), "h").unwrap();
+    assert_eq!(shards(folder.path()).unwrap().len(), 1 + 5);
+    assert!(strange.iter().all(|path| path.exists()));
+    assert_eq!(fs::read(path(&format!("h_1_a-0.{COMPLETE}"))).unwrap(), damaged);
+    assert_eq!(identities(folder.path()).len(), 13);
+}
+
+#[test]
 fn a_writer_taken_for_dead_loses_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let mut shard = Shard::create(folder.path(), "h").unwrap();

@@ -117,7 +117,7 @@ impl Subject<'_> {
 
     /// The confidence level in per cent.
     fn confidence(&self) -> String {
-        format!("{} %", number::rounded(100.0 * self.effects.confidence, 4))
+        number::confidence(self.effects.confidence)
     }
 
     /// Adds a figure; `title` is what it shows of the response.

@@ -91,9 +91,9 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
         .map(|(axis, best)| format!("{} {}", axis.plain_name(), axis.name(*best)))
         .collect();
     let meaning = |colour, dashes, text: String| Meaning { colour, style: KeyStyle::Line(dashes), text };
-    let level = number::rounded(100.0 * shown.confidence, 4);
+    let level = number::confidence(shown.confidence);
     let mut meanings = vec![
-        meaning(DATA, SOLID, format!("predicted, {level} % of means")),
+        meaning(DATA, SOLID, format!("predicted, {level} of means")),
         meaning(DERIVED, SOLID, "optimum".to_owned()),
     ];
     meanings.extend((!shown.limits.is_empty()).then(|| meaning(INK, DASHES, "limit".to_owned())));

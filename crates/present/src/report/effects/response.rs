@@ -87,7 +87,7 @@ fn rounded(value: f64) -> String {
 
 fn heads(effects: &Effects, unit: &Unit) -> Vec<String> {
     let squared = if unit.symbol.is_empty() { String::new() } else { format!(", ({})²", unit.symbol) };
-    let interval = format!("{} % interval", number::rounded(100.0 * effects.confidence, DIGITS));
+    let interval = format!("{} interval", number::confidence(effects.confidence));
     let mut heads = vec!["term".to_owned(), unit.label("effect"), unit.label(&interval)];
     heads.extend(["share", "F", "p", "degrees of freedom"].map(str::to_owned));
     heads.extend(["sum of squares", "mean square"].map(|what| format!("{what}{squared}")));

@@ -1,0 +1,99 @@
+//! Names and tables that are longer than anybody needs: refused or cut, and never out of all proportion.
+
+use std::time::{Duration, Instant};
+
+use hdf5::types::VarLenUnicode;
+use plateau_tests::program::{WorkingDirectory, quick_scene_with};
+use plateau_tests::run_file::changed;
+
+/// More than any of these calls takes; before, each took minutes or ended in a panic.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn study(name: &str, level: &str, response: &str, title: &str) -> String {
+    format!(
+        "version = 1\ntitle = \"{title}\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
+         [[factor]]\nname = \"{name}\"\nkey = \"plateaus.debris\"\nlevels = [\"local\", \"{level}\"]\n\
+         [[response]]\nname = \"{response}\"\nimported = true\n"
+    )
+}
+
+#[test]
+fn long_names_and_titles_are_refused_where_they_are_given() {
+    let directory = WorkingDirectory::new();
+    let (fits, long) = ("n".repeat(200), "n".repeat(70_000));
+    let cases = [
+        (study(&long, "track", "y", "t"), "factor.name"),
+        (study("f", &long, "y", "t"), "factor.levels"),
+        (study("f", "track", &long, "t"), "response.name"),
+        (study("f", "track", "y", &long), "title"),
+    ];
+    for (text, key) in cases {
+        directory.write("study.toml", text);
+        let refused = directory.plateau(["sweep", "plan", "study.toml"]);
+        assert_eq!(refused.status, Some(2), "{key}: {refused:?}");
+        let said = format!("{key}: \"{}…\" has 70000 letters, expected at most 200; shorten it", &long[..60]);
+        assert!(refused.stderr.contains(&said), "{key}: {}", refused.stderr);
+    }
+    directory.write("study.toml", study(&fits, "track", &fits[1..], &fits));
+    let planned = directory.plateau(["sweep", "plan", "study.toml"]);
+    assert_eq!(planned.status, Some(0), "{planned:?}");
+    directory.write("scene.toml", quick_scene_with(&[("Quick look", &long)]));
+    let refused = directory.plateau(["check", "scene.toml"]);
+    assert_eq!(refused.status, Some(2), "{refused:?}");
+    assert!(refused.stderr.contains("title: ") && refused.stderr.contains("70000 letters"), "{refused:?}");
+}
+
+#[test]
+fn the_title_of_a_strangers_run_is_cut_where_it_is_shown() {
+    let directory = WorkingDirectory::new();
+    let scene = quick_scene_with(&[("duration = \"60 s\"", "duration = \"1 s\"")]);
+    directory.write("scene.toml", scene);
+    directory.plateau(["run", "scene.toml", "-o", "run.h5"]).quiet_success();
+    let title = "T".repeat(60_000);
+    let file = changed(directory.path("run.h5"));
+    file.delete_attr("title").unwrap();
+    let text: VarLenUnicode = title.parse().unwrap();
+    file.new_attr::<VarLenUnicode>().create("title").unwrap().write_scalar(&text).unwrap();
+    file.close().unwrap();
+    for arguments in [
+        &["report", "run.h5", "-o", "report.html"][..],
+        &["plot", "run.h5", "-o", "figures", "--figure", "contact-area"],
+        &["export", "run.h5", "--to", "csv", "-o", "run.csv"],
+        &["watch", "run.h5", "--once"],
+    ] {
+        let start = Instant::now();
+        let outcome = directory.plateau(arguments);
+        assert_eq!(outcome.status, Some(0), "{arguments:?}: {outcome:?}");
+        assert!(start.elapsed() < PATIENCE, "{arguments:?}: {:?}", start.elapsed());
+        assert!(outcome.stdout.len() < 20_000, "{arguments:?}: {}", outcome.stdout.len());
+    }
+    let report = std::fs::read_to_string(directory.path("report.html")).unwrap();
+    assert!(report.contains(&format!("{}…", &title[..200])) && !report.contains(&title[..201]));
+}
+
+#[test]
+fn tables_of_many_columns_take_no_longer_than_to_read_them() {
+    let directory = WorkingDirectory::new();
+    let columns: String = (0..200_000).map(|column| format!(",c{column}")).collect();
+    let cells = ",1".repeat(200_000);
+    directory.write("wide.csv", format!("f,y{columns}\nlocal,1{cells}\n"));
+    directory.write("twice.csv", format!("f,y{columns},c7\nlocal,1{cells},1\n"));
+    directory.write("study.toml", study("f", "track", "y", "t"));
+    let design = study("f", "track", "y", "t").replace("full-factorial\"", "csv\"\nfile = \"wide.csv\"");
+    directory.write("design.toml", design);
+    let start = Instant::now();
+    for (arguments, said) in [
+        (&["sweep", "import", "study.toml", "wide.csv"][..], "column \"c0\" is no factor and no response"),
+        (&["sweep", "import", "study.toml", "twice.csv"], "column \"c7\" is there twice"),
+        (&["sweep", "plan", "design.toml"], "column \"c0\" is no factor of the study"),
+    ] {
+        let refused = directory.plateau(arguments);
+        assert_eq!(refused.status, Some(2), "{arguments:?}: {refused:?}");
+        assert!(
+            refused.stderr.contains(said) && refused.stderr.len() < 1000,
+            "{arguments:?}: {}",
+            refused.stderr.len()
+        );
+    }
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+}

@@ -1,0 +1,107 @@
+//! What is said where a study asks for what cannot be: numbers without rows of zeros, names with signs, and what to do next.
+
+use plateau_tests::program::{Outcome, WorkingDirectory, scene};
+
+const FACTORS: &str = "[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nrange = [\"5 N\", \"15 N\"]\n\
+                       [[factor]]\nname = \"fibres\"\nkey = \"pin.base.synthetic.fibre_fraction\"\nrange = [0.2, 0.4]\n";
+
+/// A study of imported responses of these names, with values of all.
+fn lab(names: &[&str], more: &str, value: fn(f64, f64) -> f64) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    let responses: String =
+        names.iter().map(|name| format!("[[response]]\nname = \"{name}\"\nimported = true\n{more}")).collect();
+    let head =
+        "version = 1\ntitle = \"Lab\"\ndesign = \"central-composite\"\ncentre_points = 3\ndirectory = \"results\"\n";
+    directory.write("study.toml", format!("{head}{FACTORS}{responses}"));
+    let places = [[5.0, 0.2], [15.0, 0.2], [5.0, 0.4], [15.0, 0.4], [5.0, 0.3], [15.0, 0.3], [10.0, 0.2], [10.0, 0.4]];
+    let mut table = format!("load [N],fibres,{}\n", names.join(","));
+    for (line, [load, fibres]) in places.into_iter().chain([[10.0, 0.3]; 3]).enumerate() {
+        let cells = vec![format!("{:e}", value(load, fibres) * (1.0 + 0.001 * line as f64)); names.len()];
+        table.push_str(&format!("{load},{fibres},{}\n", cells.join(",")));
+    }
+    directory.write("table.csv", table);
+    directory
+}
+
+fn import(directory: &WorkingDirectory) {
+    directory.plateau(["sweep", "import", "study.toml", "table.csv"]).quiet_success();
+}
+
+fn ask(directory: &WorkingDirectory, arguments: &[&str]) -> Outcome {
+    directory.plateau([&["sweep", arguments[0], "study.toml"], &arguments[1..]].concat())
+}
+
+fn said(outcome: &Outcome, status: i32, words: &str) {
+    assert_eq!(outcome.status, Some(status), "{outcome:?}");
+    assert!(outcome.stdout.contains(words) || outcome.stderr.contains(words), "{words}: {outcome:?}");
+}
+
+#[test]
+fn names_with_signs_are_goals_as_others() {
+    let directory = lab(&["a", "a=b", "x<=1", "c>=d"], "", |load, fibres| load * fibres);
+    import(&directory);
+    for goal in [
+        &["--maximize", "a=b"][..],
+        &["--target", "a=b=2"],
+        &["--maximize", "x<=1", "--limit", "x<=1<=4"],
+        &["--minimize", "a", "--limit", "c>=d>=2", "--importance", "a=2"],
+        &["--maximize", "a=b", "--maximize", "a=1..3", "--weight", "a=b=2"],
+    ] {
+        let outcome = ask(&directory, &[&["optimize", "--force"], goal].concat());
+        assert_eq!(outcome.status, Some(0), "{goal:?}: {outcome:?}");
+    }
+    said(&ask(&directory, &["optimize", "--force", "--maximize", "e=1..2"]), 2, "\"e\" is no response of the study");
+}
+
+#[test]
+fn what_to_do_without_results_depends_on_where_they_come_from() {
+    let directory = lab(&["y"], "", |load, fibres| load * fibres);
+    said(&ask(&directory, &["collect"]), 0, "plateau sweep import takes in their responses");
+}
+
+#[test]
+fn numbers_beyond_all_measure_are_told_as_such() {
+    let directory = lab(&["y"], "", |load, fibres| load * fibres);
+    import(&directory);
+    let far = ask(&directory, &["predict", "--at", "load=1e308 N", "--extrapolate"]);
+    said(&far, 2, "too far from the range, 5 N … 15 N");
+    said(&ask(&directory, &["predict", "--confidence", "0.9999999999999999"]), 0, "99.99999999999999 % of means");
+    let directory = lab(&["y"], "transform = \"log\"\n", |load, fibres| 1e300 * 10.0_f64.powf(load / 3.0) * fibres);
+    import(&directory);
+    let beyond = ask(&directory, &["predict", "--at", "load=100 N", "--extrapolate"]);
+    said(&beyond, 0, "∞");
+    assert!(!beyond.stdout.contains("inf"), "{beyond:?}");
+    let quick = scene("quick.toml");
+    for set in ["mesh.inner_radius=1e300 m", "output.maps_at=[\"1e300 s\"]"] {
+        let outcome = directory.plateau(["check", &quick, "--set", set]);
+        assert!(outcome.stderr.contains("1e300") && !outcome.stderr.contains("000000000"), "{outcome:?}");
+    }
+}
+
+#[test]
+fn a_measurement_that_no_number_fits_is_named() {
+    let directory = WorkingDirectory::new();
+    let study = |response: &str| {
+        format!(
+            "version = 1\ntitle = \"A fit\"\nbase = \"{}\"\ndesign = \"sobol\"\npoints = 5\ndirectory = \"results\"\n\
+             set = [\"operation.duration = '1 s'\", \"output.sample_every = '0.1 s'\"]\n{FACTORS}\
+             [[response]]\nname = \"worn\"\ndataset = \"/series/worn_pin\"\n{response}[fit]\nruns = 5\n",
+            scene("quick.toml")
+        )
+    };
+    for measured in
+        ["at = \"end\"\nmeasured = 1e-13\nuncertainty = 1e-300\n", "at = \"end\"\nmeasured = 1e300\nuncertainty = 1\n"]
+    {
+        directory.write("study.toml", study(measured));
+        let refused = directory.plateau(["fit", "study.toml"]);
+        said(&refused, 2, "response \"worn\" was measured as");
+        said(&refused, 2, "look at the units and the uncertainties");
+    }
+    directory.write("worn.csv", "time [s],worn [m3],uncertainty [m3]\n0.5,1e-14,1e-300\n1,2e-14,1e-300\n");
+    directory.write("study.toml", study("measured_file = \"worn.csv\"\n"));
+    said(
+        &directory.plateau(["fit", "study.toml"]),
+        2,
+        "response \"worn\": what was measured and what runs give differ",
+    );
+}
