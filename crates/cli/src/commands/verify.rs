@@ -19,6 +19,8 @@ pub fn verify(arguments: &VerifyArguments) -> Result<(), Failure> {
             Ok(verification) => findings.push(Finding::of(path, &verification)),
             // All that can be said of it.
             Err(error @ ReadError::Damaged { .. }) => findings.push(Finding::unreadable(path, &error)),
+            // Nothing of the file's: the next one would fare no better.
+            Err(error @ ReadError::Handles { .. }) => return Err(Failure::run(error)),
             Err(error) => {
                 message::error(&error);
                 foreign += 1;
