@@ -175,7 +175,10 @@ fn too_few_handles_are_not_taken_for_damage() {
     let outcome = run(directory.command_after("ulimit -n 4", ["run", &scene("quick.toml"), "-o", "few.h5"]));
     assert_eq!(outcome.status, Some(1), "{outcome:?}");
     assert!(outcome.stderr.contains("no file handle is left") && !outcome.stderr.contains("damaged"), "{outcome:?}");
-    directory.plateau(["verify", "few.h5"]).quiet_success();
+    // Either there is no file yet, or it is whole.
+    if directory.path("few.h5").exists() {
+        directory.plateau(["verify", "few.h5"]).quiet_success();
+    }
 }
 
 #[test]

@@ -97,6 +97,17 @@ pub enum RunFileError {
         /// What the HDF5 library or the system said.
         reason: String,
     },
+    /// The system gives no more file handles.
+    #[error(
+        "cannot write {}: no file handle is left ({reason}); close files of this process, or allow more of them, as with ulimit -n 64",
+        path.display()
+    )]
+    NoHandle {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
     /// The writer ended without saying why: a defect of the program.
     #[error("the writer of the run file stopped; this is a defect of the program, please report it")]
     Stopped,

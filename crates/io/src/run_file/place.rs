@@ -97,7 +97,15 @@ pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
     Ok(resolved)
 }
 
+/// How the system says that there are too many open files, in all and of one process.
+const ENFILE: i32 = 23;
+const EMFILE: i32 = 24;
+
 /// An error of the directory in which `path` is.
 fn refused_in(path: &Path) -> impl Fn(io::Error) -> RunFileError + '_ {
-    move |error| RunFileError::Directory { directory: path.parent().unwrap_or(path).into(), reason: error.to_string() }
+    move |error| match error.raw_os_error() {
+        // Of the system, and of this process.
+        Some(ENFILE | EMFILE) => RunFileError::NoHandle { path: path.into(), reason: error.to_string() },
+        _ => RunFileError::Directory { directory: path.parent().unwrap_or(path).into(), reason: error.to_string() },
+    }
 }

@@ -109,7 +109,11 @@ impl Store {
             file.sync_all()?;
             Image::of(&self.path, &self.values, &self.mark)
         });
-        synced.map_err(|error| RunFileError::Write { path: self.path.clone(), reason: error.to_string() })
+        synced.map_err(|error| match self.check_identity() {
+            // It may have gone just now.
+            Err(moved) => moved,
+            Ok(()) => RunFileError::Write { path: self.path.clone(), reason: error.to_string() },
+        })
     }
 
     /// Whether the path still means this file.

@@ -37,16 +37,14 @@ impl GaussianProcess {
 
     /// The same of coordinates.
     pub(crate) fn local_at(&self, point: &[f64]) -> Local {
-        let known = self.correlations(point);
-        let solved = &self.solved.inverse * &known;
-        self.local_of(point, &known, &solved).0
+        self.local_with(&self.solved, point, &self.correlations(point)).0
     }
 
     /// The same with derivatives; those by categories are 0.
     pub(crate) fn slopes_at(&self, point: &[f64]) -> Slopes {
         let known = self.correlations(point);
-        let solved = &self.solved.inverse * &known;
-        let (local, of_trend) = self.local_of(point, &known, &solved);
+        let solved = self.solved.factor.solve(&known);
+        let (local, of_trend) = self.local_with(&self.solved, point, &known);
         // The variance is σ²(1 − rᵀc + hᵀGh) with c = C⁻¹r, h = f − Fᵀc and G = (FᵀC⁻¹F)⁻¹.
         let pull = &self.solved.inverse_trend * &of_trend;
         let (axes, lengths) = (&self.inputs.axes, &self.hyperparameters.lengths);
@@ -68,25 +66,14 @@ impl GaussianProcess {
         Slopes { local, mean, variance }
     }
 
-    /// Mean and variance, and Gh.
-    fn local_of(&self, point: &[f64], known: &DVector<f64>, solved: &DVector<f64>) -> (Local, DVector<f64>) {
-        self.local_with(&self.solved, point, known, solved)
-    }
-
-    /// The same with other equations.
-    fn local_with(
-        &self,
-        with: &Solved,
-        point: &[f64],
-        known: &DVector<f64>,
-        solved: &DVector<f64>,
-    ) -> (Local, DVector<f64>) {
+    /// Mean and variance, and Gh, with these equations.
+    fn local_with(&self, with: &Solved, point: &[f64], known: &DVector<f64>) -> (Local, DVector<f64>) {
         let row = DVector::from_vec(self.trend.row(&self.inputs.axes, point));
         let mean = self.averages.offset + row.dot(&with.coefficients) + known.dot(&with.weights);
         let left = &row - with.inverse_trend.transpose() * known;
         let of_trend = &with.trend_inverse * &left;
         // Rounding may leave less than nothing at a point that was run.
-        let share = (1.0 - known.dot(solved) + left.dot(&of_trend)).max(0.0);
+        let share = (with.left_open(known) + left.dot(&of_trend)).max(0.0);
         (Local { mean, variance: with.variance * share }, of_trend)
     }
 
@@ -101,8 +88,7 @@ impl GaussianProcess {
         let (mut of_mean, mut of_run) = (0.0, 0.0);
         for likely in &self.likely {
             let known = self.correlations_with(&likely.hyperparameters.lengths, point);
-            let solved = &likely.solved.inverse * &known;
-            let (other, _) = self.local_with(&likely.solved, point, &known, &solved);
+            let (other, _) = self.local_with(&likely.solved, point, &known);
             let apart = (other.mean - local.mean).powi(2);
             of_mean += likely.weight * (other.variance * unbiased + apart);
             of_run += likely.weight * likely.hyperparameters.noise * likely.solved.variance * unbiased;

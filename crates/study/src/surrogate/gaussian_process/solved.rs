@@ -5,7 +5,7 @@
 //! on lengths and g alone. Where there are replicates, their sum of squares S with ν degrees of freedom tells the noise g·σ²,
 //! too: the likelihood is that of means and replicates together.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::averages::Averages;
 use super::kernel::{self, Axis};
@@ -17,6 +17,8 @@ const LOG_TWO_PI: f64 = 1.837_877_066_409_345_3;
 /// The equations of a process, solved.
 #[derive(Debug, Clone)]
 pub(super) struct Solved {
+    /// L of C = LLᵀ: what is nearly known loses fewer digits by it than by C⁻¹.
+    pub factor: Cholesky<f64, Dyn>,
     /// C⁻¹.
     pub inverse: DMatrix<f64>,
     /// C⁻¹F.
@@ -58,6 +60,7 @@ impl Solved {
         let log_likelihood = -0.5 * (count * (LOG_TWO_PI + libm::log(variance) + 1.0) + log_determinant + log_noise);
         let solved = Self {
             inverse: factor.inverse(),
+            factor,
             inverse_trend,
             trend_inverse: trend_factor.inverse(),
             coefficients,
@@ -66,6 +69,11 @@ impl Solved {
             log_likelihood,
         };
         log_likelihood.is_finite().then_some(solved)
+    }
+
+    /// 1 − rᵀC⁻¹r for correlations r with the points: what a point leaves open, as a part of the variance.
+    pub fn left_open(&self, known: &DVector<f64>) -> f64 {
+        self.factor.l_dirty().solve_lower_triangular(known).map_or(1.0, |white| 1.0 - white.norm_squared())
     }
 
     /// Derivatives of the likelihood's logarithm by the logarithms of the lengths, and of the noise.
