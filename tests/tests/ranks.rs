@@ -305,7 +305,7 @@ fn a_fit_on_ranks_finds_what_one_process_finds() {
          design = \"sobol\"\npoints = 5\ndirectory = \"results\"\n[fit]\nruns = 20\n\
          [replicates]\nkeys = [\"pin.base.synthetic.seed\"]\nseeds = [1, 2]\n\
          [[factor]]\nname = \"captured\"\nkey = \"plateaus.captured_fraction\"\nrange = [0.01, 1.0]\nscale = \"logarithmic\"\n\
-         [[response]]\nname = \"filled\"\ndataset = \"/series/filled_fraction\"\nat = \"end\"\nmeasured = 0.05\nuncertainty = 0.002\n",
+         [[response]]\nname = \"filled\"\ndataset = \"/series/filled_fraction\"\nat = \"end\"\nmeasured = 0.001\nuncertainty = 0.00002\n",
         scene("quick.toml")
     );
     let [alone, ranks] = [(); 2].map(|()| {
