@@ -12,10 +12,11 @@ use plateau_io::study::record::{Outcome, Record};
 use plateau_run::job::PieceEnd;
 
 use super::journal_folder;
-use super::make::{Stopped, Watcher, make};
+use super::make::make;
 use super::progress::Progress;
 use super::resolved::Resolved;
 use super::under_way::UnderWay;
+use super::watcher::{Stopped, Watcher};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::{machine, message};

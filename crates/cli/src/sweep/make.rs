@@ -4,28 +4,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use plateau_core::observe::event::event_quantities;
 use plateau_core::observe::{Quantity, Sample, quantities};
-use plateau_core::simulation::{Execution, Simulation, SimulationError};
+use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::record::{Outcome, REVOLUTIONS, Series};
-use plateau_run::{Assembly, RunError, Sink};
+use plateau_run::{Assembly, Sink};
 
 use super::surfaces::surfaces;
 use super::under_way::UnderWay;
-
-/// Whether a run goes on, and what others want to know meanwhile.
-pub trait Watcher: Sync {
-    /// Told how many steps were taken since the last time, about ten times a second; the signal that ends the run, if
-    /// there was one.
-    fn steps(&self, count: u64) -> Option<u8>;
-
-    /// Told when a run does not begin at its beginning.
-    fn goes_on(&self, steps: u64);
-}
-
-/// A signal ended the run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Stopped(pub u8);
+use super::watcher::{Ended, Stopped, Watcher};
 
 /// Makes a run.
 ///
@@ -77,26 +64,6 @@ fn finish(
         Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
     });
     Ok(Outcome::Finished { steps, series: recorder.series().pack(), events })
-}
-
-/// Why a run did not finish.
-pub enum Ended {
-    /// A signal came.
-    Stopped(u8),
-    /// What went wrong.
-    Failed(String),
-}
-
-impl From<SimulationError> for Ended {
-    fn from(error: SimulationError) -> Self {
-        Self::Failed(error.to_string())
-    }
-}
-
-impl From<RunError> for Ended {
-    fn from(error: RunError) -> Self {
-        Self::Failed(error.to_string())
-    }
 }
 
 /// Keeps the series that the study wants.

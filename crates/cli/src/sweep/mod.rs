@@ -6,6 +6,7 @@
 //! | what they will cost | [`estimate`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | its surfaces, given up when a signal comes | [`surfaces`] |
+//! | who looks on, and how it may end before its end | [`watcher`] |
 //! | all of them, several at a time | [`plateau_run::Job::share`] |
 //! | what those that are made at a time share | [`floor`] |
 //! | extra runs that confirm a prediction | [`confirmation`] |
@@ -20,6 +21,7 @@ pub mod progress;
 pub mod resolved;
 pub mod surfaces;
 pub mod under_way;
+pub mod watcher;
 
 use std::path::{Path, PathBuf};
 

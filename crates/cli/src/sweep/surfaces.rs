@@ -8,7 +8,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, SurfaceError};
 
-use super::make::{Ended, Watcher};
+use super::watcher::{Ended, Watcher};
 
 /// Time between two looks at signals.
 const LOOK: Duration = Duration::from_millis(50);
