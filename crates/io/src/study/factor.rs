@@ -63,8 +63,11 @@ impl Level {
     pub fn parse(key: &str, text: &str) -> Self {
         let text = &text.replace('\u{2212}', "-");
         let percent = text.strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
-        if let Some(percent) = percent.filter(|_| dimension(key).is_none()) {
-            return Self::new(key, &toml::Value::Float(percent / 100.0));
+        match percent {
+            // Of a factor without a key it is a unit as any other.
+            Some(percent) if key.is_empty() => return Self::new(key, &toml::Value::String(format!("{percent} %"))),
+            Some(percent) if dimension(key).is_none() => return Self::new(key, &toml::Value::Float(percent / 100.0)),
+            _ => {}
         }
         let table: Result<toml::Table, _> = format!("value = {text}").parse();
         let value = table.ok().filter(|table| table.len() == 1).and_then(|mut table| table.remove("value"));
@@ -337,6 +340,11 @@ mod tests {
         assert_eq!(Level::parse("pin.base.synthetic.fibre_fraction", "30 %").number, Some(0.3));
         let rate = Level::parse("materials.pin_primary.specific_wear_rate", "5e\u{2212}14 1/Pa");
         assert_eq!(rate.number, Some(5e-14));
+        // Without a key it is the unit in which the factor is stated.
+        for text in ["30 %", "30%"] {
+            let humidity = Level::parse("", text);
+            assert_eq!((humidity.number, humidity.label.as_str()), (Some(30.0), "30 %"));
+        }
         // Not of quantities: of what?
         assert_eq!(Level::parse("operation.normal_force", "30%").number, None);
     }
