@@ -8,6 +8,7 @@ mod effects_files;
 mod import;
 mod optimize;
 mod optimize_limits;
+mod optimize_search;
 mod plan;
 mod predict;
 mod prediction_table;

@@ -9,7 +9,7 @@ use plateau_study::surrogate::Forecast;
 use serde::Serialize;
 
 use super::analysed::Analysed;
-use super::optimize::search;
+use super::optimize_search::search;
 use crate::failure::Failure;
 
 /// A coded value as near to an end of the range as this is at it.
