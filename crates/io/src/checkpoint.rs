@@ -10,7 +10,7 @@
 //! digest   32 bytes: SHA-256 of the content
 //! ```
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -163,9 +163,9 @@ pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     let temporary = fill(&last, state)?;
     // Who may not read the run file may not read what it is made of.
     temporary.permit_as(if last.exists() { &last } else { run_file });
-    match fs::rename(&last, &before) {
-        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-        _ => {}
+    // A damaged one does not take the place of one that may hold.
+    if matches!(open_whole(&last), Ok(Some(_))) {
+        fs::rename(&last, &before)?;
     }
     temporary.publish_durably()
 }
@@ -195,6 +195,17 @@ fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
 /// # Errors
 /// [`CheckpointError`].
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointError> {
+    let Some((mut file, length)) = open_whole(path)? else { return Ok(None) };
+    // A file with holes takes no room on the disk. Memory for all of it is taken only now, as it is known to be what was written.
+    let mut content = vec![0; length as usize];
+    let there = file.seek(SeekFrom::Start(HEAD)).and_then(|_| file.read_exact(&mut content));
+    there.map_err(|error| CheckpointError::Read { path: path.into(), error })?;
+    let holds_other = |_| CheckpointError::Damaged { path: path.into(), reason: "it holds something else" };
+    postcard::from_bytes(&content).map(Some).map_err(holds_other)
+}
+
+/// Opens the file of a state whose digest holds, and tells how many bytes the state has; none if there is no such file.
+fn open_whole(path: &Path) -> Result<Option<(File, u64)>, CheckpointError> {
     let mut file = match regular::open(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,
@@ -218,16 +229,13 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointErr
     if limits::memory().is_some_and(|memory| length > memory) {
         return Err(damaged("it is larger than the memory of this machine"));
     }
-    // A file with holes takes no room on the disk. Memory for all of it is taken only when it is known to be what was written.
     let mut hasher = Sha256::new();
     io::copy(&mut Read::by_ref(&mut file).take(length), &mut hasher).map_err(failed)?;
     file.read_exact(&mut digest).map_err(failed)?;
     if hasher.finalize().as_slice() != digest {
         return Err(damaged("its digest does not hold"));
     }
-    let mut content = vec![0; length as usize];
-    file.seek(SeekFrom::Start(HEAD)).and_then(|_| file.read_exact(&mut content)).map_err(failed)?;
-    postcard::from_bytes(&content).map(Some).map_err(|_| damaged("it holds something else"))
+    Ok(Some((file, length)))
 }
 
 /// Checkpoints that are out of the way while a new run takes their place; they come back unless they are discarded.

@@ -1,6 +1,7 @@
 //! What the crate promises, from outside. One program, for every one that is linked takes time.
 
 mod bad_scenes;
+mod checkpoints;
 mod description;
 mod fixtures;
 mod fuzz;

@@ -4,52 +4,21 @@
 use std::fs;
 use std::path::Path;
 
-use plateau_core::observe::event::EventProgress;
-use plateau_core::simulation::Simulation;
-use plateau_io::checkpoint::{self, RunState, SimulationState};
-use plateau_io::scene::{self, Scene};
-use plateau_io::surface;
+use plateau_io::checkpoint::{self, RunState};
+use plateau_io::scene::Scene;
 use proptest::prelude::*;
 use sha2::{Digest, Sha256};
 
 use super::bytes::changes;
 use super::harness::Fuzz;
+use crate::checkpoints::{scene, simulation, state_after};
 
 /// Bytes before the content, and of the digest behind it.
 const AROUND: [usize; 2] = [16 + 8, 32];
 
-fn scene() -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/good/minimal.toml");
-    let sets = ["mesh.rows=4", "mesh.disc_columns=40", "mesh.pin_columns=6", "pin.base.uniform=primary"];
-    scene::load(&path, &sets.map(str::to_owned)).unwrap()
-}
-
-fn simulation(scene: &Scene) -> Simulation {
-    Simulation::new(scene.parameters.clone(), surface::load(scene).unwrap().surfaces).unwrap()
-}
-
 /// A checkpoint after ten steps.
 fn good(scene: &Scene, path: &Path) -> Vec<u8> {
-    let mut simulation = simulation(scene);
-    simulation.advance_to(10).unwrap();
-    let state = RunState {
-        program: "plateau".into(),
-        scene: scene.resolved.clone(),
-        inputs: Vec::new(),
-        samples: 1,
-        snapshots: 0,
-        last: Some(simulation.sample().unwrap()),
-        wall_time: 1.0,
-        finished: false,
-        simulation: SimulationState {
-            run: simulation.checkpoint().unwrap(),
-            scout: None,
-            reached: 0.5,
-            events: EventProgress::default(),
-        },
-        images: Vec::new(),
-    };
-    checkpoint::keep(path, &state).unwrap();
+    checkpoint::keep(path, &state_after(scene, 10)).unwrap();
     fs::read(path).unwrap()
 }
 

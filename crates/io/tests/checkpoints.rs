@@ -1,0 +1,70 @@
+//! Checkpoints beside a run file: the newest, and the one before.
+
+use std::fs;
+use std::path::Path;
+
+use plateau_core::observe::event::EventProgress;
+use plateau_core::simulation::Simulation;
+use plateau_io::checkpoint::{self, RunState, SimulationState};
+use plateau_io::scene::{self, Scene};
+use plateau_io::surface;
+
+/// A scene of some cells.
+pub fn scene() -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes/good/minimal.toml");
+    let sets = ["mesh.rows=4", "mesh.disc_columns=40", "mesh.pin_columns=6", "pin.base.uniform=primary"];
+    scene::load(&path, &sets.map(str::to_owned)).unwrap()
+}
+
+/// Its simulation at the beginning.
+pub fn simulation(scene: &Scene) -> Simulation {
+    Simulation::new(scene.parameters.clone(), surface::load(scene).unwrap().surfaces).unwrap()
+}
+
+/// Its state after some steps.
+pub fn state_after(scene: &Scene, steps: u64) -> RunState {
+    let mut simulation = simulation(scene);
+    simulation.advance_to(steps).unwrap();
+    RunState {
+        program: "plateau".into(),
+        scene: scene.resolved.clone(),
+        inputs: Vec::new(),
+        samples: 1,
+        snapshots: 0,
+        last: Some(simulation.sample().unwrap()),
+        wall_time: 1.0,
+        finished: false,
+        simulation: SimulationState {
+            run: simulation.checkpoint().unwrap(),
+            scout: None,
+            reached: 0.5,
+            events: EventProgress::default(),
+        },
+        images: Vec::new(),
+    }
+}
+
+#[test]
+fn a_damaged_checkpoint_does_not_take_the_place_of_one_that_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let run_file = folder.path().join("run.h5");
+    let [last, before] = checkpoint::paths(&run_file);
+    let scene = scene();
+    let steps_of = |path: &Path| {
+        let state = checkpoint::read::<RunState>(path).ok().flatten();
+        state.map(|state| state.simulation.run.steps())
+    };
+    for steps in [1, 2] {
+        checkpoint::write(&run_file, &state_after(&scene, steps)).unwrap();
+    }
+    assert_eq!([steps_of(&last), steps_of(&before)], [Some(2), Some(1)]);
+
+    let mut bytes = fs::read(&last).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&last, &bytes).unwrap();
+    checkpoint::write(&run_file, &state_after(&scene, 3)).unwrap();
+    assert_eq!([steps_of(&last), steps_of(&before)], [Some(3), Some(1)]);
+    checkpoint::write(&run_file, &state_after(&scene, 4)).unwrap();
+    assert_eq!([steps_of(&last), steps_of(&before)], [Some(4), Some(3)]);
+}
