@@ -154,7 +154,7 @@ fn a_prediction_is_confirmed_by_runs_that_are_made_once() {
     let directory = studied();
     let arguments = ["--at", "load=14 N", "--at", "fibres=0.25", "--confirm", "--jobs", "1"];
     let confirmed = ask(&directory, "predict", &arguments);
-    let area = &confirmed["confirmed"][0];
+    let area = &confirmed["places"][0]["confirmed"][0];
     // The same two runs by hand.
     let areas = ["1", "2"].map(|seed| {
         let sets = [
@@ -188,13 +188,47 @@ fn a_prediction_is_confirmed_by_runs_that_are_made_once() {
         shards.flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>()).collect()
     };
     assert_eq!((journal("results/journal").len(), journal("results/confirm/journal").len()), (18, 2));
-    assert_eq!(ask(&directory, "predict", &arguments)["confirmed"], confirmed["confirmed"]);
+    assert_eq!(ask(&directory, "predict", &arguments), confirmed);
     assert_eq!(journal("results/confirm/journal").len(), 2);
     assert_eq!(
-        ask(&directory, "predict", &arguments[..4])["places"],
-        confirmed["places"],
+        ask(&directory, "predict", &arguments[..4])["places"][0]["responses"],
+        confirmed["places"][0]["responses"],
         "the fit is not made of them"
     );
+
+    // A table of places, with this one twice: all of them are confirmed in one call.
+    directory.write("places.csv", "load [N],fibres\n14,0.25\n9,0.4\n14,0.25\n");
+    let table = ["--points", "places.csv", "--confirm", "-o", "out.csv", "--jobs", "1"];
+    let places = &ask(&directory, "predict", &table)["places"];
+    assert_eq!(journal("results/confirm/journal").len(), 4);
+    for same in [0, 2] {
+        assert_eq!(places[same]["confirmed"], confirmed["places"][0]["confirmed"], "place {same}");
+    }
+    let [first, other] = [0, 1].map(|place| places[place]["confirmed"][0]["mean"].as_f64().unwrap());
+    assert!(first != other);
+    let written = fs::read_to_string(directory.path("out.csv")).unwrap();
+    let mut lines = written.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let head = lines.next().unwrap();
+    let column = |name: &str| head.iter().position(|head| *head == name).unwrap_or_else(|| panic!("{name}: {head:?}"));
+    let [mean, runs] = [column("contact area confirmed [m2]"), column("contact area confirmed runs")];
+    let rows: Vec<Vec<&str>> = lines.collect();
+    let means: Vec<f64> = rows.iter().map(|row| row[mean].parse().unwrap()).collect();
+    assert_eq!(means, [first, other, first]);
+    assert!(rows.iter().all(|row| row[runs] == "2"), "{rows:?}");
+    let text = directory.plateau([&["sweep", "predict", "study.toml"], &table[..], &["--force"]].concat());
+    assert!(text.stdout.contains("of 3") && text.stdout.contains("places within the interval of runs"), "{text:?}");
+}
+
+#[test]
+fn names_and_words_may_have_an_equals_sign_in_them() {
+    let directory = studied();
+    let study = fs::read_to_string(directory.path("study.toml")).unwrap();
+    directory.write("study.toml", &study.replace("name = \"load\"", "name = \"F=N\""));
+    let at = |given: &str| ask(&directory, "predict", &["--at", given])["places"][0]["settings"][0].clone();
+    assert_eq!(at("F=N=14 N")["number"].as_f64(), Some(14.0));
+    assert_eq!(at(" F=N = 14 N ")["given"].as_bool(), Some(true));
+    let unknown = directory.plateau(["sweep", "predict", "study.toml", "--at", "F=14 N"]);
+    assert!(unknown.status == Some(2) && unknown.stderr.contains("\"F\" is no factor"), "{unknown:?}");
 }
 
 #[test]

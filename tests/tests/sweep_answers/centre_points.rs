@@ -54,7 +54,7 @@ fn centre_points_of_a_table_tell_a_curve_and_not_whose() {
     assert!((number(&of(0)["curvature"]["f"]) - 0.0633).abs() < 1e-4, "{effects}");
     assert!(number(&of(1)["curvature"]["p"]) < 1e-4, "{effects}");
     // Squares are not advised where they cannot be told.
-    assert!(of(1)["lack_of_fit"]["model_to_try"].is_null(), "{effects}");
+    assert!(of(1)["misfit"]["model_to_try"].is_null(), "{effects}");
     let text = directory.plateau(["sweep", "effects", "study.toml", "--force"]).quiet_success();
     assert!(text.contains("no curve is seen") && text.contains("the response is curved"), "{text}");
     // Leverages add up to the number of coefficients: four of each response.

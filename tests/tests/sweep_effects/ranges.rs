@@ -69,7 +69,7 @@ fn a_space_filling_design_is_fitted_with_squares_or_says_why_not() {
         report["responses"][0].clone()
     };
     let quadratic = of(&["--json"]);
-    assert_eq!((quadratic["model"].as_str(), quadratic["lack_of_fit"].is_null()), (Some("quadratic"), true));
+    assert_eq!((quadratic["model"].as_str(), quadratic["misfit"].is_null()), (Some("quadratic"), true));
     // The mean is that of the runs, not what the model says in the middle, though that is near.
     let mean = mean(&directory, &[]) * 1e-6;
     assert!((quadratic["mean"].as_f64().unwrap() / mean - 1.0).abs() < 1e-12);
@@ -77,8 +77,8 @@ fn a_space_filling_design_is_fitted_with_squares_or_says_why_not() {
 
     // Interactions alone miss the curve, and the first lines say which model does not.
     let straight = of(&["--json", "--model", "interactions"]);
-    assert_eq!(straight["lack_of_fit"]["model_to_try"].as_str(), Some("quadratic"));
-    assert_eq!(straight["lack_of_fit"]["r_squared"], quadratic["r_squared"]);
+    assert_eq!(straight["misfit"]["model_to_try"].as_str(), Some("quadratic"));
+    assert_eq!(straight["misfit"]["r_squared"], quadratic["r_squared"]);
     let text = effects(&directory, &["--model", "interactions"]).stdout;
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[1], "  model: main effects and interactions of two factors; as asked for");

@@ -16,13 +16,13 @@ pub struct PredictArguments {
     /// Set a factor (its name or its key), such as load="7 N"; may be repeated. Factors that are not given are in the middle of
     /// their range, or at their first level
     #[arg(long, value_name = "FACTOR=VALUE", value_parser = assignment)]
-    pub at: Vec<(String, String)>,
+    pub at: Vec<String>,
     /// Predict at so many values of each range and at all levels, but for factors of --at
     #[arg(long, value_name = "N", allow_hyphen_values = true, requires = "output", conflicts_with_all = ["points", "confirm"],
           value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub grid: Option<u32>,
     /// Predict at the points of a table in CSV: a column for each factor, with units in brackets as in results.csv
-    #[arg(long, value_name = "FILE", requires = "output", conflicts_with = "confirm")]
+    #[arg(long, value_name = "FILE", requires = "output")]
     pub points: Option<PathBuf>,
     /// Write the predictions as a table in CSV
     #[arg(short, long, value_name = "FILE")]
@@ -33,7 +33,7 @@ pub struct PredictArguments {
     /// Predict beyond the runs of the study, too
     #[arg(long)]
     pub extrapolate: bool,
-    /// Make runs at the point, with all seeds of the study, and compare
+    /// Make runs at the point, or at all points of the table, with all seeds of the study, and compare
     #[arg(long)]
     pub confirm: bool,
     #[command(flatten)]
@@ -70,7 +70,7 @@ pub struct OptimizeArguments {
     pub limit_on: LimitOn,
     /// Hold a factor at a value, such as load="8 N"
     #[arg(long, value_name = "FACTOR=VALUE", value_parser = assignment)]
-    pub hold: Vec<(String, String)>,
+    pub hold: Vec<String>,
     /// How much a goal counts in the mean of all, such as "contact area=2"; 1 unless given
     #[arg(long, value_name = "RESPONSE=NUMBER")]
     pub importance: Vec<String>,
@@ -124,12 +124,11 @@ pub struct ImportArguments {
     pub json: bool,
 }
 
-/// A name and a value with `=` between them.
-fn assignment(text: &str) -> Result<(String, String), &'static str> {
-    let expected = "expected a factor and its value, such as load=\"7 N\"";
-    let (name, value) = text.split_once('=').ok_or(expected)?;
-    match [name, value].map(str::trim) {
-        ["", _] | [_, ""] => Err(expected),
-        [name, value] => Ok((name.to_owned(), value.to_owned())),
+/// A name and a value with `=` between them. Which `=` parts them is known when names are: one may have `=` in it.
+fn assignment(text: &str) -> Result<String, &'static str> {
+    let is_whole = |(name, value): (&str, &str)| !name.trim().is_empty() && !value.trim().is_empty();
+    match text.split_once('=').is_some_and(is_whole) {
+        true => Ok(text.to_owned()),
+        false => Err("expected a factor and its value, such as load=\"7 N\""),
     }
 }

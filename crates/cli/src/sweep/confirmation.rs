@@ -1,10 +1,12 @@
-//! Extra runs at a place where the responses were foretold, with all seeds of the study.
+//! Extra runs at places where the responses were foretold, with all seeds of the study.
 //!
 //! They have a journal of their own, `confirm` in the folder of the results: the fit is never made of them, so they judge it,
 //! and asking again makes none twice.
 
+use std::collections::BTreeSet;
+
 use plateau_io::number;
-use plateau_io::study::collected::Collected;
+use plateau_io::study::collected::{Collected, CollectedRun};
 use plateau_io::study::factor::Level;
 use plateau_io::study::journal::Entry;
 use plateau_io::study::plan::Plan;
@@ -36,18 +38,20 @@ pub struct Confirmed {
     pub within_run_interval: Option<bool>,
 }
 
-/// Makes the runs that are not there yet, and looks at each response of the study beside what was expected of it.
+/// A place, and what is expected of each response there.
+pub type Expected<'a> = (&'a [Level], &'a [Option<Forecast>]);
+
+/// Makes the runs that are not there yet, and looks at each response of the study beside what was expected of it, at each place.
 ///
 /// # Errors
 /// [`Failure::Input`] when a scene cannot be built there, [`Failure::Run`] when no run ends well, [`Failure::Stopped`].
 pub fn confirm(
     plan: &Plan,
-    levels: &[Level],
-    expected: &[Option<Forecast>],
+    places: &[Expected<'_>],
     cores: &CoresArguments,
-) -> Result<Vec<Option<Confirmed>>, Failure> {
+) -> Result<Vec<Vec<Option<Confirmed>>>, Failure> {
     let study = Study {
-        source: DesignSource::File(vec![levels.to_vec()]),
+        source: DesignSource::File(places.iter().map(|(levels, _)| levels.to_vec()).collect()),
         directory: plan.study().directory.join("confirm"),
         order: Order::Standard,
         ..plan.study().clone()
@@ -58,9 +62,15 @@ pub fn confirm(
     let journal = journal(extra.study())?;
     let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
     if collected.count("finished") == 0 {
-        return Err(Failure::run("no run at this place ended well, so nothing is confirmed"));
+        let place = if places.len() > 1 { "any of these places" } else { "this place" };
+        return Err(Failure::run(format_args!("no run at {place} ended well, so nothing is confirmed")));
     }
-    Ok(expected.iter().enumerate().map(|(response, expected)| Confirmed::of(&collected, response, *expected)).collect())
+    let of_place = |(point, (_, expected)): (usize, &Expected<'_>)| {
+        let runs: Vec<&CollectedRun> = collected.runs.iter().filter(|run| run.run.point == point).collect();
+        let each = expected.iter().enumerate();
+        each.map(|(response, expected)| Confirmed::of(&runs, response, *expected)).collect()
+    };
+    Ok(places.iter().enumerate().map(of_place).collect())
 }
 
 fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job) -> Result<(), Failure> {
@@ -94,9 +104,11 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
 }
 
 impl Confirmed {
-    fn of(collected: &Collected, response: usize, expected: Option<Forecast>) -> Option<Self> {
-        let different = collected.runs.iter().enumerate().filter(|(place, run)| run.first == *place);
-        let values = different.filter_map(|(_, run)| run.responses.get(response).copied());
+    /// What the runs of a place say, each of the different ones once.
+    fn of(runs: &[&CollectedRun], response: usize, expected: Option<Forecast>) -> Option<Self> {
+        let mut counted = BTreeSet::new();
+        let different = runs.iter().filter(|run| counted.insert(run.first));
+        let values = different.filter_map(|run| run.responses.get(response).copied());
         let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
         if values.is_empty() {
             return None;

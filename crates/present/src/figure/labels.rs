@@ -1,6 +1,6 @@
 //! Labels beside points: as many as there is room for, none upon another or upon a point.
 
-use super::axes::{Axes, Frame};
+use super::axes::Frame;
 use super::canvas::{Anchor, Place, TEXT};
 use super::font::text_width;
 use super::page::{Content, LINE_OF_TEXT, Page};
@@ -217,8 +217,9 @@ enum Order {
     FromLeft,
 }
 
-/// Writes names beside points of the first panel of a page, with lines that lead to those that have no room there.
-pub fn write_labels(page: &mut Page, axes: &Axes, labels: &Labels, named: Vec<(String, Place)>) {
+/// Writes names beside points of a panel of a page, with lines that lead to those that have no room there.
+pub fn write_labels(page: &mut Page, panel: usize, labels: &Labels, named: Vec<(String, Place)>) {
+    let Some(axes) = page.panels.get(panel).map(|panel| panel.axes.clone()) else { return };
     let groups = gathered(named);
     let placed = labels.all(&groups);
     for ((names, _), placed) in groups.into_iter().zip(placed) {
@@ -226,7 +227,7 @@ pub fn write_labels(page: &mut Page, axes: &Axes, labels: &Labels, named: Vec<(S
         for (line, name) in names.into_iter().enumerate() {
             page.write(name, (begin.0, begin.1 + LINE_OF_TEXT * line as f64), Anchor::Right, TEXT);
         }
-        if let (Some(leader), Some(panel)) = (leader, page.panels.first_mut()) {
+        if let (Some(leader), Some(panel)) = (leader, page.panels.get_mut(panel)) {
             let points = leader.map(|place| axes.values(place)).to_vec();
             panel.contents.push(Content::Line { points, stroke: Stroke::solid(FAINT, 2) });
         }

@@ -99,7 +99,7 @@ pub fn effects(response: &str, file: &str, factors: &[&str], effects: &[Elementa
         let named = effects.iter().zip(factors).filter(|(effect, _)| place(effect).iter().all(|x| x.is_finite()));
         labels.avoid([axes.place(0.0, 0.0), axes.place(end, end)]);
         let named = named.map(|(effect, name)| ((*name).to_owned(), spot(&place(effect)))).collect();
-        write_labels(&mut page, &axes, &labels, named);
+        write_labels(&mut page, 0, &labels, named);
     }
     Figure {
         name: format!("{file}-effects"),

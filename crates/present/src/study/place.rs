@@ -77,20 +77,30 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// The place where factors have these values, given by name and text.
+    /// The place where factors have these values, given as texts such as `load=7 N`.
     ///
     /// # Errors
     /// A name that no factor has or that is given twice, or a value that its factor cannot have.
-    pub fn named(&self, given: &[(String, String)]) -> Result<Place, String> {
+    pub fn named(&self, given: &[String]) -> Result<Place, String> {
         let mut levels: Vec<Option<Level>> = vec![None; self.study.factors.len()];
-        for (name, text) in given {
-            let factor = self.factor(name)?;
-            let level = self.study.factors[factor].parse(text.trim());
+        for text in given {
+            let (factor, value) = self.assignment(text)?;
+            let level = self.study.factors[factor].parse(value);
             if levels[factor].replace(level).is_some() {
                 return Err(format!("{} is given twice", self.study.factors[factor].name));
             }
         }
         self.at(levels)
+    }
+
+    /// A factor and the text of its value. Both may have `=` in them: it is the first one with a name before it that parts them.
+    fn assignment<'t>(&self, text: &'t str) -> Result<(usize, &'t str), String> {
+        let parts = |(at, _): (usize, &str)| (text[..at].trim(), text[at + 1..].trim());
+        let found = text.match_indices('=').map(parts).find_map(|(name, value)| Some((self.factor(name).ok()?, value)));
+        found.map_or_else(
+            || self.factor(text.split('=').next().unwrap_or_default().trim()).map(|factor| (factor, "")),
+            Ok,
+        )
     }
 
     /// The place where factors have these levels; those that have none are in the middle.

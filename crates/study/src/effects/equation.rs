@@ -6,6 +6,8 @@ use super::factor::FactorKind;
 use super::regressors::Coding;
 use super::result::Effects;
 
+/// A sum that is smaller than this part of the sizes of what was added up is rounding.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Most terms of an equation: longer ones nobody reads, and full models of many factors have millions.
 const MOST_TERMS: usize = 4096;
 
@@ -43,7 +45,27 @@ pub enum Variable {
 }
 
 /// Terms while they are added up.
-type Terms = BTreeMap<(usize, Vec<Variable>), f64>;
+type Terms = BTreeMap<(usize, Vec<Variable>), Sum>;
+
+/// A coefficient while it is added up.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    value: f64,
+    /// Sum of the sizes of what was added.
+    size: f64,
+}
+
+impl Sum {
+    fn add(&mut self, value: f64) {
+        self.value += value;
+        self.size += value.abs();
+    }
+
+    /// The sum; 0 where that is all but rounding.
+    fn coefficient(self) -> f64 {
+        if self.value.abs() <= ROUNDING * self.size { 0.0 } else { self.value }
+    }
+}
 
 impl Effects {
     /// The equation of the fit, averaged over blocks: in coded units, or where numeric factors have values between these ends,
@@ -51,12 +73,18 @@ impl Effects {
     pub fn equation(&self, ends: Option<&[[f64; 2]]>) -> Option<Equation> {
         let inner = &self.inner;
         let regressors = &inner.regressors;
-        let mut terms = Terms::from([((0, Vec::new()), inner.offset + inner.fit.coefficient(0))]);
+        // What is smaller than the rounding of residuals is no coefficient.
+        let fitted = |column: usize| {
+            let coefficient = inner.fit.coefficient(column);
+            if coefficient.abs() <= inner.rounding { 0.0 } else { coefficient }
+        };
+        let mut terms = Terms::new();
+        terms.entry((0, Vec::new())).or_default().add(inner.offset + inner.fit.coefficient(0));
         let widths = regressors.widths();
         let before = widths.len() - regressors.terms.len();
         let mut column: usize = widths[..before].iter().sum();
         for (parts, width) in regressors.terms.iter().zip(&widths[before..]) {
-            let coefficients: Vec<f64> = (column..column + width).map(|column| inner.fit.coefficient(column)).collect();
+            let coefficients: Vec<f64> = (column..column + width).map(fitted).collect();
             column += width;
             let numbers: Vec<usize> = parts.iter().copied().filter(|factor| self.is_number(*factor)).collect();
             let classes: Vec<usize> = parts.iter().copied().filter(|factor| !self.is_number(*factor)).collect();
@@ -67,7 +95,8 @@ impl Effects {
                 }
             }
         }
-        let terms = terms.into_iter().filter(|((count, _), coefficient)| *coefficient != 0.0 || *count == 0);
+        let terms = terms.into_iter().map(|(key, sum)| (key, sum.coefficient()));
+        let terms = terms.filter(|((count, _), coefficient)| *coefficient != 0.0 || *count == 0);
         let terms = terms.map(|((_, variables), coefficient)| EquationTerm { coefficient, variables });
         Some(Equation { terms: terms.collect() })
     }
@@ -126,6 +155,6 @@ fn add(terms: &mut Terms, levels: Vec<Variable>, numbers: &[usize], coefficient:
     }
     for (mut variables, coefficient) in products {
         variables.sort_unstable();
-        *terms.entry((variables.len(), variables)).or_insert(0.0) += coefficient;
+        terms.entry((variables.len(), variables)).or_default().add(coefficient);
     }
 }

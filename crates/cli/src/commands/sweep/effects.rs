@@ -8,7 +8,7 @@ use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysi
 use plateau_present::study::equation::paragraphs;
 use plateau_present::study::model::lack_of_fit;
 use plateau_present::study::words::{box_cox, curvature, fit, quality, repeats_in_words, selected};
-use plateau_study::effects::{self, Effects, Term};
+use plateau_study::effects::{self, Effects, Squares, Term};
 
 use super::analysed::Analysed;
 use super::effects_document::Document;
@@ -115,13 +115,20 @@ fn rows(analysis: &Analysis) -> String {
                 term.aliased_with.join("; "),
             ]);
         }
-        for (name, squares) in [("residual", effects.residual.squares), ("total", effects.total)] {
+        let mut others = vec![("residual", effects.residual.squares, None)];
+        if let Some(parts) = effects.residual.parts {
+            others.extend([("lack of fit", parts.lack_of_fit, parts.test), ("pure error", parts.pure_error, None)]);
+        }
+        others.push(("total", effects.total, None));
+        for (name, squares, test) in others {
             let mut cells = vec![
                 response.name.clone(),
                 name.to_owned(),
                 squares.freedom.to_string(),
                 shown(Some(squares.sum)),
                 shown(squares.mean()),
+                shown(test.map(|test| test.f)),
+                shown(test.map(|test| test.p)),
             ];
             cells.resize(header.len(), String::new());
             lines.push(cells);
@@ -200,11 +207,11 @@ fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
     ];
     let heading =
         notes.into_iter().flatten().fold(response.name.clone(), |heading, note| format!("{heading}\n  {note}"));
-    let names = ["term", &unit.label("effect"), "interval", "share", "F", "p"];
+    let names = ["term", &unit.label("effect"), "interval", "share", "df", "F", "p"];
     let mut rows: Vec<&Term> = effects.rows().collect();
     rows.sort_by(|a, b| b.share.total_cmp(&a.share));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|term| cells(term, &unit)).collect();
-    let mut text = columns(&heading, &names, &rows);
+    let mut text = columns(&heading, &names, &[rows, left(effects)].concat());
     for term in effects.rows().filter(|term| !term.aliased_with.is_empty()) {
         text.push_str(&format!("  {} cannot be told from {}\n", term.label, term.aliased_with.join(", ")));
     }
@@ -229,8 +236,36 @@ fn cells(term: &Term, unit: &Unit) -> Vec<String> {
         term.label.clone(),
         effect,
         interval,
-        format!("{:.1} %", 100.0 * term.share),
+        percent(term.share),
+        term.freedom.to_string(),
         test(|test| test.f),
         test(|test| test.p),
     ]
+}
+
+/// Lines of what the model leaves, and of its parts where points are repeated.
+fn left(effects: &Effects) -> Vec<Vec<String>> {
+    let residual = effects.residual;
+    let line = |name: &str, squares: Squares, test: Option<effects::Test>| {
+        let of = |value: fn(effects::Test) -> f64| test.map_or_else(String::new, |test| number::short(value(test)));
+        vec![
+            name.to_owned(),
+            String::new(),
+            String::new(),
+            percent(squares.sum / effects.total.sum),
+            squares.freedom.to_string(),
+            of(|test| test.f),
+            of(|test| test.p),
+        ]
+    };
+    let mut lines = vec![line("residual", residual.squares, None)];
+    if let Some(parts) = residual.parts.filter(|parts| parts.lack_of_fit.freedom > 0) {
+        lines.push(line("  lack of fit", parts.lack_of_fit, parts.test));
+        lines.push(line("  pure error", parts.pure_error, None));
+    }
+    lines
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
 }

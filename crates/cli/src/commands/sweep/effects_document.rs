@@ -3,7 +3,7 @@
 use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis};
 use plateau_present::study::equation::{equations, product};
 use plateau_present::study::model::name;
-use plateau_study::effects::{Effects, Equation, EquationTerm, Term, Transform};
+use plateau_study::effects::{Effects, Equation, EquationTerm, Squares, Term, Test, Transform};
 use serde::Serialize;
 
 /// The whole document.
@@ -50,7 +50,13 @@ struct Report {
     predicted_r_squared: Option<f64>,
     residual_standard_deviation: Option<f64>,
     error_from: String,
-    lack_of_fit: Option<MisfitReport>,
+    /// What the model leaves.
+    residual: Option<SquaresReport>,
+    /// The part of it that replicates do not show; absent without replicates.
+    lack_of_fit: Option<SquaresReport>,
+    /// The part of it that replicates show.
+    pure_error: Option<SquaresReport>,
+    misfit: Option<MisfitReport>,
     curvature: Option<CurvatureReport>,
     box_cox: Option<BoxCoxReport>,
     terms_left_out: Option<Vec<String>>,
@@ -61,7 +67,16 @@ struct Report {
     terms: Vec<TermReport>,
 }
 
-/// A lack of fit that is significant.
+/// A sum of squares, and its test if there is one.
+#[derive(Debug, Serialize)]
+struct SquaresReport {
+    degrees_of_freedom: usize,
+    sum_of_squares: f64,
+    f: Option<f64>,
+    p: Option<f64>,
+}
+
+/// What the model misses, where that is significant.
 #[derive(Debug, Serialize)]
 struct MisfitReport {
     /// Absent where the other model leaves nothing.
@@ -133,6 +148,7 @@ impl Report {
         let effects = response.effects.as_ref().ok();
         let number = |value: fn(&Effects) -> f64| effects.map_or(f64::NAN, value);
         let optional = |value: fn(&Effects) -> Option<f64>| effects.and_then(value);
+        let parts = effects.and_then(|effects| effects.residual.parts);
         Self {
             name: response.name.clone(),
             unit: response.unit,
@@ -150,7 +166,10 @@ impl Report {
             predicted_r_squared: optional(|effects| effects.predicted_r_squared),
             residual_standard_deviation: optional(|effects| effects.residual_standard_deviation),
             error_from: effects.map_or_else(String::new, |effects| effects.error.to_string()),
-            lack_of_fit: response.misfit.map(|misfit| MisfitReport {
+            residual: effects.map(|effects| SquaresReport::new(effects.residual.squares, None)),
+            lack_of_fit: parts.map(|parts| SquaresReport::new(parts.lack_of_fit, parts.test)),
+            pure_error: parts.map(|parts| SquaresReport::new(parts.pure_error, None)),
+            misfit: response.misfit.map(|misfit| MisfitReport {
                 f: Some(misfit.test.f).filter(|f| f.is_finite()),
                 p: misfit.test.p,
                 by_replicates: misfit.by_replicates,
@@ -173,6 +192,17 @@ impl Report {
                 simultaneous_margin_of_error: lenth.simultaneous_margin,
             }),
             terms: effects.map_or_else(Vec::new, |effects| effects.rows().map(TermReport::new).collect()),
+        }
+    }
+}
+
+impl SquaresReport {
+    fn new(squares: Squares, test: Option<Test>) -> Self {
+        Self {
+            degrees_of_freedom: squares.freedom,
+            sum_of_squares: squares.sum,
+            f: test.map(|test| test.f),
+            p: test.map(|test| test.p),
         }
     }
 }

@@ -42,20 +42,20 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
     let surrogates: Vec<_> = analysed.analysis.responses.iter().map(AnalysedResponse::surrogate).collect();
     let forecasts = places.iter().map(|place| forecasts_at(&analysed, &surrogates, place, confidence));
     let forecasts = forecasts.collect::<Result<Vec<_>, Failure>>()?;
+    let expected: Vec<_> = places.iter().zip(&forecasts).map(|(place, own)| (&place.levels[..], &own[..])).collect();
+    let confirmed = if arguments.confirm { confirm(&analysed.plan, &expected, &arguments.cores)? } else { Vec::new() };
     if let Some(path) = &arguments.output {
-        let table = prediction_table::table(&analysed, &places, &forecasts);
+        let table = prediction_table::table(&analysed, &places, &forecasts, &confirmed);
         output::write(path, table.as_bytes(), arguments.force)?;
     }
-    let confirmed = match (arguments.confirm, &places[..]) {
-        (true, [place]) => Some(confirm(&analysed.plan, &place.levels, &forecasts[0], &arguments.cores)?),
-        _ => None,
-    };
     let study = analysed.plan.study();
     if arguments.json {
-        let reports =
-            places.iter().zip(&forecasts).map(|(place, forecasts)| PlaceReport::new(&analysed, place, forecasts));
+        let report = |(at, (place, forecasts)): (usize, (&Place, &Vec<Option<Forecast>>))| {
+            PlaceReport::new(&analysed, place, forecasts, confirmed.get(at).cloned())
+        };
+        let reports = places.iter().zip(&forecasts).enumerate().map(report);
         let models = surrogates.iter().map(|surrogate| surrogate.as_ref().map(|surrogate| surrogate.name())).collect();
-        let document = Document { study: &study.title, confidence, models, places: reports.collect(), confirmed };
+        let document = Document { study: &study.title, confidence, models, places: reports.collect() };
         return print(&(serde_json::to_string_pretty(&document).map_err(Failure::run)? + "\n"));
     }
     let mut text = match &arguments.output {
@@ -68,7 +68,11 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
             each.map(|(place, forecasts)| text_of(&analysed, place, forecasts, confidence)).collect()
         }
     };
-    text.extend(confirmed.iter().map(|confirmed| confirmed_text(&analysed, confirmed)));
+    match &confirmed[..] {
+        [] => {}
+        [confirmed] => text.push_str(&confirmed_text(&analysed, confirmed)),
+        all => text.push_str(&confirmed_places_text(&analysed, &forecasts, all)),
+    }
     print(&text)
 }
 
@@ -218,6 +222,28 @@ pub(super) fn confirmed_text(analysed: &Analysed, confirmed: &[Option<Confirmed>
     columns("Confirmed by extra runs, mean ± standard error", &["response", "mean", "runs", ""], &rows)
 }
 
+/// What the extra runs gave at many places: how many are within the interval, and how far off the forecast is.
+fn confirmed_places_text(
+    analysed: &Analysed,
+    forecasts: &[Vec<Option<Forecast>>],
+    confirmed: &[Vec<Option<Confirmed>>],
+) -> String {
+    let line = |(at, response): (usize, &AnalysedResponse)| {
+        let each = forecasts.iter().zip(confirmed);
+        let pairs: Vec<(Forecast, Confirmed)> = each.filter_map(|(own, made)| Some((own[at]?, made[at]?))).collect();
+        let squares: f64 = pairs.iter().map(|(forecast, made)| (made.mean - forecast.value).powi(2)).sum();
+        let off = (squares / pairs.len() as f64).sqrt();
+        let within = pairs.iter().filter(|(_, made)| made.within_run_interval == Some(true)).count();
+        (!pairs.is_empty()).then(|| {
+            let off = number::short(response.scale.unit.difference(off));
+            vec![response.head(), off, format!("{within} of {}", pairs.len())]
+        })
+    };
+    let rows: Vec<Vec<String>> = analysed.analysis.responses.iter().enumerate().filter_map(line).collect();
+    let heading = "Confirmed by extra runs: root mean square of (mean of a place's runs − predicted)";
+    columns(heading, &["response", "apart", "places within the interval of runs"], &rows)
+}
+
 /// What `plateau sweep predict --json` prints. All numbers are in SI units.
 #[derive(Debug, Serialize)]
 struct Document<'a> {
@@ -225,7 +251,6 @@ struct Document<'a> {
     confidence: f64,
     models: Vec<Option<String>>,
     places: Vec<PlaceReport>,
-    confirmed: Option<Vec<Option<Confirmed>>>,
 }
 
 /// A place in it.
@@ -234,6 +259,8 @@ struct PlaceReport {
     settings: Vec<SettingReport>,
     beyond: Vec<String>,
     responses: Vec<ForecastReport>,
+    /// What extra runs gave, for each response.
+    confirmed: Option<Vec<Option<Confirmed>>>,
 }
 
 /// A factor's value.
@@ -284,11 +311,17 @@ pub(super) fn forecasts_of(analysed: &Analysed, forecasts: &[Option<Forecast>]) 
 }
 
 impl PlaceReport {
-    fn new(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>]) -> Self {
+    fn new(
+        analysed: &Analysed,
+        place: &Place,
+        forecasts: &[Option<Forecast>],
+        confirmed: Option<Vec<Option<Confirmed>>>,
+    ) -> Self {
         Self {
             settings: settings_of(analysed, place),
             beyond: place.beyond.clone(),
             responses: forecasts_of(analysed, forecasts),
+            confirmed,
         }
     }
 }

@@ -94,7 +94,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
             .into_iter()
             .map(|effect| (shortened(&effects.terms[effect.term].label, TEXT, LABEL), place(effect)))
             .collect();
-        write_labels(&mut page, &axes, &labels, named);
+        write_labels(&mut page, 0, &labels, named);
     }
     let caption = format!(
         "Sizes of effects against half-normal quantiles: those that are nothing but error lie along a line through the \

@@ -101,8 +101,8 @@ fn rows(effects: &Effects, unit: &Unit) -> Vec<Vec<String>> {
     let residual = &effects.residual;
     let mut others = vec![("residual", residual.squares, None)];
     if let Some(parts) = residual.parts.filter(|parts| parts.lack_of_fit.freedom > 0) {
-        others.push(("of it: lack of fit", parts.lack_of_fit, parts.test));
-        others.push(("of it: replicates", parts.pure_error, None));
+        others.push(("lack of fit", parts.lack_of_fit, parts.test));
+        others.push(("pure error", parts.pure_error, None));
     }
     others.push(("total", effects.total, None));
     rows.extend(others.into_iter().map(|(name, squares, test)| {
