@@ -2,6 +2,7 @@
 
 mod centre_points;
 mod import;
+mod limits;
 
 use std::fs;
 

@@ -3,11 +3,12 @@
 use std::time::Duration;
 
 use plateau_core::simulation::{Execution, Simulation};
-use plateau_io::scene::memory_estimate;
+use plateau_io::scene::{Scene, memory_estimate};
 use plateau_io::study::plan::Plan;
 use plateau_io::surface;
 use plateau_run::execution::time_per_step;
 
+use super::resolved::run_in_words;
 use crate::failure::Failure;
 
 /// Runs whose steps are counted.
@@ -40,7 +41,7 @@ impl Estimate {
         super::refuse_without_scene(plan)?;
         let mut per_cell = 0.0_f64;
         for number in spread(plan.runs(), TIMED) {
-            let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
+            let scene = scene(plan, number)?;
             let start = std::time::Instant::now();
             let surfaces = surface::load(&scene).map_err(Failure::input)?.surfaces;
             let making = start.elapsed().as_secs_f64();
@@ -54,13 +55,19 @@ impl Estimate {
         }
         let (mut memory, mut times) = (0, Vec::new());
         for number in spread(plan.runs(), COUNTED) {
-            let scene = plan.scene(&plan.run(number)).map_err(Failure::input)?;
+            let scene = scene(plan, number)?;
             memory = memory.max(memory_estimate(&scene));
             times.push(scene.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
         }
         let mean_time = times.iter().sum::<f64>() / times.len().max(1) as f64;
         Ok(Self { memory, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max) })
     }
+}
+
+/// The scene of a run.
+fn scene(plan: &Plan, number: usize) -> Result<Scene, Failure> {
+    let failed = |error| Failure::input(format_args!("{}:\n{error}", run_in_words(plan, number)));
+    plan.scene(&plan.run(number)).map_err(failed)
 }
 
 /// Some of so many numbers from 1 on, evenly spread, with the first and the last.

@@ -90,15 +90,19 @@ impl Resolved {
         for (number, problem) in &problems {
             if !said.contains(problem) && said.len() < SHOWN {
                 said.push(problem);
-                let levels = plan.run(*number).levels;
-                let settings = plan.study().factors.iter().zip(&levels);
-                let settings: Vec<String> =
-                    settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label)).collect();
-                lines.push(format!("run {number} ({}):\n{problem}", settings.join(", ")));
+                lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
             }
         }
         Err(Failure::input(lines.join("\n")))
     }
+}
+
+/// A run with its settings: `run 2 (debris = contact)`.
+pub fn run_in_words(plan: &Plan, number: usize) -> String {
+    let levels = plan.run(number).levels;
+    let settings = plan.study().factors.iter().zip(&levels);
+    let settings: Vec<String> = settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label)).collect();
+    format!("run {number} ({})", settings.join(", "))
 }
 
 /// A time in words.

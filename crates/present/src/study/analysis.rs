@@ -23,6 +23,8 @@ const MOST_LEVELS: usize = 10;
 
 /// How much smaller the leave-one-out error has to be for a transform to be advised.
 const LOWERED: f64 = 0.95;
+/// Predicted R² above which no transform is advised, unless the model misses something: what it would gain nobody would see.
+const NOTHING_TO_GAIN: f64 = 0.999;
 
 /// What stands before the name of a factor whose logarithm is analysed.
 pub const LOGARITHM: &str = "log₁₀ ";
@@ -255,6 +257,9 @@ fn analyse_one(
     let box_cox = effects.as_ref().ok().and_then(|effects| effects.box_cox(response.transform));
     let advice = box_cox.zip(effects.as_ref().ok()).and_then(|(found, effects)| {
         let advice = found.advice(response.transform)?;
+        if effects.predicted_r_squared.is_some_and(|share| share > NOTHING_TO_GAIN) && misfit.is_none() {
+            return None;
+        }
         let transform = match advice {
             Advice::Try(transform) => Some(transform),
             Advice::NoTransform => None,

@@ -194,6 +194,21 @@ fn plain(unit: &str) -> String {
     unit.chars().filter_map(letter).collect()
 }
 
+/// A limit in words: `≤ 0.25 mm³`.
+pub fn limit_words(response: &AnalysedResponse, limit: &Limit) -> String {
+    let of = match limit.kept {
+        Kept::Value => "",
+        Kept::Means => " for the interval of means",
+        Kept::Runs => " for the interval of runs",
+    };
+    let sides = [("≥", limit.least), ("≤", limit.most)];
+    let sides: Vec<String> = sides
+        .into_iter()
+        .filter_map(|(sign, value)| Some(format!("{sign} {}", response.shown_with_unit(value?))))
+        .collect();
+    sides.join(" and ") + of
+}
+
 #[cfg(test)]
 mod tests {
     use super::plain;

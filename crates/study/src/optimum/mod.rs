@@ -191,7 +191,7 @@ impl Problem<'_> {
         let mut missed = 0.0;
         for limit in self.limits {
             missed += match limit.kept {
-                Kept::Value => limit.missed(values[limit.response]),
+                Kept::Value => limit.missed_by(&Forecast::of_value(values[limit.response])),
                 _ => limit.missed_by(&self.surrogates[limit.response].forecast(&settings, self.confidence)?),
             };
         }
@@ -226,9 +226,15 @@ impl Problem<'_> {
 impl Limit {
     /// How far what has to keep the limit is beyond it, in differences that count. Without an interval that is what is expected.
     pub fn missed_by(&self, forecast: &Forecast) -> f64 {
+        (-self.margin(forecast)).max(0.0)
+    }
+
+    /// How far what has to keep the limit is from it, in differences that count: negative beyond it, 0 on it.
+    pub fn margin(&self, forecast: &Forecast) -> f64 {
         let [low, high] = self.kept_by(forecast);
-        let missed = [(self.least, low), (self.most, high)].map(|(limit, end)| limit.map_or(0.0, |_| self.missed(end)));
-        missed[0].max(missed[1])
+        let above = self.least.map_or(f64::INFINITY, |least| low - least);
+        let below = self.most.map_or(f64::INFINITY, |most| most - high);
+        above.min(below) / self.scale
     }
 
     /// Whether the limit holds an optimum back: what has to keep it lies on it.
@@ -247,13 +253,6 @@ impl Limit {
             Kept::Runs => forecast.run_interval,
         };
         interval.unwrap_or([forecast.value; 2])
-    }
-
-    /// How far a value is beyond the limit, in differences that count.
-    fn missed(&self, value: f64) -> f64 {
-        let below = self.least.map_or(0.0, |least| (least - value).max(0.0));
-        let above = self.most.map_or(0.0, |most| (value - most).max(0.0));
-        (below + above) / self.scale
     }
 }
 

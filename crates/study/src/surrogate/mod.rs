@@ -27,6 +27,13 @@ pub struct Forecast {
     pub run_interval: Option<[f64; 2]>,
 }
 
+impl Forecast {
+    /// A value alone, without intervals.
+    pub fn of_value(value: f64) -> Self {
+        Self { value, mean_interval: None, run_interval: None }
+    }
+}
+
 /// Something that was fitted to the responses of a study.
 pub trait Surrogate {
     /// What it is, for people: such as `quadratic in log(contact area)` or `Gaussian process`.

@@ -6,7 +6,7 @@ use plateau_io::number;
 use plateau_present::figure::Figure;
 use plateau_present::figure::optimum::{Shown, figures};
 use plateau_present::study::forecasts::heads;
-use plateau_present::study::goals::{self, Aim};
+use plateau_present::study::goals::{self, Aim, limit_words};
 use plateau_present::study::place::{Place, Space};
 use plateau_study::design::Setting;
 use plateau_study::optimum::{Axis, Goal, Kept, Limit, Optimum, Wish};
@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::analysed::Analysed;
 use super::effects_files::draw_all;
-use super::optimize_limits::{LimitReport, Limited, limit_words};
+use super::optimize_limits::{LimitReport, Limited};
 use super::optimize_search::{beyond_runs, search};
 use super::predict::{
     ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, notes_of_place, reasons, settings_of,
@@ -31,7 +31,6 @@ use crate::{message, sweep};
 pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.join("optimum"));
-    let mut folder = OutputFolder::new(folder, arguments.force)?;
     let analysed = Analysed::of(plan, arguments.fit.asked())?;
     analysed.warn_of_factors();
     let analysis = &analysed.analysis;
@@ -39,6 +38,8 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let space = Space::new(analysed.plan.study(), analysis);
     let axes = axes(&analysed, &space, arguments)?;
     let contour = arguments.contour.as_deref().map(|names| pair(&space, names, &axes)).transpose()?;
+    // What is asked wrongly is said first: with --force alone one would ask wrongly again.
+    let mut folder = OutputFolder::new(folder, arguments.force)?;
     let goals = beyond_runs(&analysed, &goals, &axes, arguments.fit.confidence)?;
     let (best, forecasts) = search(&analysed, &goals, &limits, &axes, arguments.fit.confidence)?;
     if best.overall <= 0.0 && best.keeps_limits {

@@ -1,7 +1,6 @@
 //! What is said of the limits of an optimum: which of them hold it back, and which cannot be kept.
 
-use plateau_present::study::analysis::AnalysedResponse;
-use plateau_present::study::goals::observed;
+use plateau_present::study::goals::{limit_words, observed};
 use plateau_present::study::place::Space;
 use plateau_study::design::Setting;
 use plateau_study::optimum::{Axis, Goal, Kept, Limit, Optimum, Wish};
@@ -109,21 +108,6 @@ impl Limited<'_> {
         };
         self.limits.iter().map(report).collect()
     }
-}
-
-/// A limit in words: `≤ 0.25 mm³`.
-pub fn limit_words(response: &AnalysedResponse, limit: &Limit) -> String {
-    let of = match limit.kept {
-        Kept::Value => "",
-        Kept::Means => " for the interval of means",
-        Kept::Runs => " for the interval of runs",
-    };
-    let sides = [("≥", limit.least), ("≤", limit.most)];
-    let sides: Vec<String> = sides
-        .into_iter()
-        .filter_map(|(sign, value)| Some(format!("{sign} {}", response.shown_with_unit(value?))))
-        .collect();
-    sides.join(" and ") + of
 }
 
 /// A limit. Numbers are in SI units.

@@ -5,15 +5,15 @@ use std::ops::RangeInclusive;
 use plateau_study::design::Setting;
 
 use super::FactorAxis;
+use super::line_numbers::{NumberedLine, all_numbered, length_of, numbers};
 use crate::colour::{APART, COLOURS, GROUND, INK, colour_index, colour_map};
 use crate::figure::axes::{Axes, Axis, Frame, most_ticks_upward};
-use crate::figure::canvas::{Anchor, LINE, Place};
+use crate::figure::canvas::{LINE, Place};
 use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend, note};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::contour::Field;
-use crate::figure::font::text_width;
 use crate::figure::hull::{hull, is_within};
-use crate::figure::page::{Content, Key, KeyStyle, Mark, Page, Panel};
+use crate::figure::page::{Content, KeyStyle, Mark, Page, Panel};
 use crate::figure::picture::Picture;
 use crate::figure::stroke::Stroke;
 use crate::study::analysis::Analysis;
@@ -33,11 +33,8 @@ const BAR: f64 = 40.0;
 const BESIDE: f64 = 36.0;
 /// Room for the points at the ends of the bar.
 const POINTED: f64 = 34.0;
-/// Height of the numbers on lines, and least length of a line that has one, pixels.
-const NUMBER: u32 = 26;
-const SHORTEST: f64 = 70.0;
-/// How far numbers are from the rim of the map if that can be, pixels.
-const OFF_RIM: f64 = 14.0;
+/// Dashes and gaps of borders, pixels.
+const BORDER: [f64; 2] = [14.0, 8.0];
 /// Open lines that are shorter are not drawn, pixels: beside places without a value they are pieces of lines.
 const PIECE: f64 = 70.0;
 
@@ -197,24 +194,26 @@ impl<'a> FactorMap<'a> {
         Picture { columns: points, rows: points, indices: indices.collect(), palette }
     }
 
-    /// Lines through the values at which the colour bar has numbers, with what these say.
-    fn contours(&self, scale: &Axis, length: f64) -> Vec<(Vec<[f64; 2]>, String)> {
-        let field = Field { values: &self.values, rows: self.points() };
-        let point = |place: [f64; 2]| self.natural(self.coded(place));
-        let levels = scale.ticks(most_ticks_upward(length));
-        let lines = levels
-            .into_iter()
-            .flat_map(|(level, text)| field.contours(level).into_iter().map(move |places| (places, text.clone())));
-        let lines = lines.filter(|(places, _)| places.len() > 1);
-        lines.map(|(places, text)| (places.into_iter().map(point).collect(), text)).collect()
+    /// Lines through values at which so many ticks are, with what these say.
+    fn contours(&self, scale: &Axis, ticks: usize) -> Vec<NumberedLine> {
+        scale.ticks(ticks).into_iter().flat_map(|(level, text)| self.lines_at(level, &text)).collect()
     }
 
-    /// The page: `scale` makes an axis of the values, `none` says where there is none, `runs` are where runs are, and `mark` is a
-    /// place in coded values with what it is; notes stand below.
+    /// Lines along which the map has a value, with a text.
+    pub fn lines_at(&self, level: f64, text: &str) -> Vec<NumberedLine> {
+        let field = Field { values: &self.values, rows: self.points() };
+        let point = |place: [f64; 2]| self.natural(self.coded(place));
+        let lines = field.contours(level).into_iter().filter(|places| places.len() > 1);
+        lines.map(|places| (places.into_iter().map(point).collect(), text.to_owned())).collect()
+    }
+
+    /// The page: `scale` makes an axis of the values, `none` says where there is none, `borders` are lines that are named, `runs` are
+    /// where runs are, and `mark` is a place in coded values with what it is; notes stand below.
     pub fn page(
         &self,
         scale: impl Fn(RangeInclusive<f64>, f64) -> Axis,
         none: &str,
+        borders: &[NumberedLine],
         runs: &MapRuns,
         mark: Option<([f64; 2], String)>,
         notes: &[String],
@@ -240,20 +239,6 @@ impl<'a> FactorMap<'a> {
         let x = self.axes[0].between(range(0), frame.width());
         let below = x.room_below();
         let axes = Axes { frame, x, y };
-        let mut lines = self.contours(&scale, HEIGHT - 2.0 * POINTED);
-        lines.retain(|(points, _)| points.first() == points.last() || length_of(&axes, points) >= PIECE);
-        let mut contents = vec![Content::Map(self.picture())];
-        let line = |(points, _): &(Vec<[f64; 2]>, String)| Content::Line {
-            points: points.clone(),
-            stroke: Stroke::solid(GROUND, LINE - 1),
-        };
-        contents.extend(lines.iter().map(line));
-        let outline = self.outline();
-        contents.extend(
-            (outline.len() > 1).then(|| Content::Line { points: outline, stroke: Stroke::solid(GROUND, LINE + 3) }),
-        );
-        contents.push(Content::Marks { points: runs.elsewhere.clone(), colour: INK, mark: Mark::Hollow });
-        contents.push(Content::Marks { points: runs.within.clone(), colour: INK, mark: Mark::Rimmed });
         let marked: Vec<[f64; 2]> = mark.iter().map(|(coded, _)| self.natural(*coded)).collect();
         let is_valued = |place: Place| {
             let [x, y] = axes.values(place);
@@ -264,7 +249,30 @@ impl<'a> FactorMap<'a> {
             let (column, row) = (part(0, x).min(self.points() - 1), part(1, y).min(self.points() - 1));
             !self.values[column * self.points() + row].is_nan()
         };
-        write_numbers(&mut page, &axes, &lines, &[runs.all(), marked.clone()].concat(), is_valued);
+        let marks = [runs.all(), marked.clone()].concat();
+        let numbered = |ticks: usize| {
+            let mut lines = self.contours(&scale, ticks);
+            lines.retain(|(points, _)| points.first() == points.last() || length_of(&axes, points) >= PIECE);
+            // What is named first has the most room.
+            let lines = [borders, &lines[..]].concat();
+            let numbers = numbers(&axes, &lines, &marks, is_valued);
+            (lines, numbers)
+        };
+        let (lines, numbers) = all_numbered(most_ticks_upward(HEIGHT - 2.0 * POINTED), numbered);
+        let mut contents = vec![Content::Map(self.picture())];
+        let line = |(at, (points, _)): (usize, &NumberedLine)| {
+            let dashed = Stroke { colour: INK, width: LINE, dashes: &BORDER };
+            let stroke = if at < borders.len() { dashed } else { Stroke::solid(GROUND, LINE - 1) };
+            Content::Line { points: points.clone(), stroke }
+        };
+        contents.extend(lines.iter().enumerate().map(line));
+        let outline = self.outline();
+        contents.extend(
+            (outline.len() > 1).then(|| Content::Line { points: outline, stroke: Stroke::solid(GROUND, LINE + 3) }),
+        );
+        contents.push(Content::Marks { points: runs.elsewhere.clone(), colour: INK, mark: Mark::Hollow });
+        contents.push(Content::Marks { points: runs.within.clone(), colour: INK, mark: Mark::Rimmed });
+        numbers.into_iter().for_each(|number| number.write(&mut page));
         if !marked.is_empty() {
             contents.push(Content::Marks { points: marked, colour: INK, mark: Mark::Cross });
         }
@@ -280,72 +288,5 @@ impl<'a> FactorMap<'a> {
     /// The rim of the runs, where it is no rectangle.
     fn outline(&self) -> Vec<[f64; 2]> {
         self.rim.iter().chain(self.rim.first()).map(|coded| self.natural(*coded)).collect()
-    }
-}
-
-/// Length of a line on the page, pixels.
-fn length_of(axes: &Axes, points: &[[f64; 2]]) -> f64 {
-    let places: Vec<Place> = points.iter().map(|[x, y]| axes.place(*x, *y)).collect();
-    places.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum()
-}
-
-/// Writes on each line what it is the line of: away from marks and other numbers, as far from other lines as there is room, and
-/// where there are values if that can be.
-fn write_numbers(
-    page: &mut Page,
-    axes: &Axes,
-    lines: &[(Vec<[f64; 2]>, String)],
-    marks: &[[f64; 2]],
-    is_valued: impl Fn(Place) -> bool,
-) {
-    let place = |point: &[f64; 2]| axes.place(point[0], point[1]);
-    let mut taken: Vec<Place> = marks.iter().map(place).collect();
-    let all: Vec<Vec<Place>> = lines.iter().map(|(points, _)| points.iter().map(place).collect()).collect();
-    let mut written: Vec<&str> = Vec::new();
-    // First where no other line is covered; then, of values that stand nowhere yet, where there is room at all.
-    for covering in [false, true] {
-        for (at, ((points, text), places)) in lines.iter().zip(&all).enumerate() {
-            if length_of(axes, points) < SHORTEST || (covering && written.contains(&text.as_str())) {
-                continue;
-            }
-            let half = [0.5 * text_width(text, NUMBER) + 6.0, 0.5 * f64::from(NUMBER) + 2.0];
-            let others = || all.iter().enumerate().filter(|(other, _)| *other != at).flat_map(|(_, places)| places);
-            let is_free = |(x, y): &Place| {
-                let [left, right] = axes.frame.x;
-                let [top, bottom] = axes.frame.y;
-                let inside = x - half[0] > left && x + half[0] < right && y - half[1] > top && y + half[1] < bottom;
-                let is_within = |(other_x, other_y): &Place, room: [f64; 2]| {
-                    (other_x - x).abs() < room[0] && (other_y - y).abs() < room[1]
-                };
-                let own = [2.0 * half[0] + 6.0, 2.0 * half[1] + 6.0];
-                let covers = || others().any(|other| is_within(other, [half[0] + 4.0, half[1] + 4.0]));
-                inside && !taken.iter().any(|other| is_within(other, own)) && (covering || !covers())
-            };
-            let to_others = |(x, y): &Place| {
-                others().map(|(other_x, other_y)| (other_x - x).hypot(other_y - y)).fold(f64::INFINITY, f64::min)
-            };
-            // How many corners of the number are off the rim, then how far it is from other lines.
-            let on_map = |(x, y): &Place| {
-                let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-                let valued = |room: f64| {
-                    let at = |(right, down): &(f64, f64)| (x + right * (half[0] + room), y + down * (half[1] + room));
-                    corners.iter().filter(|corner| is_valued(at(corner))).count()
-                };
-                valued(0.0) + valued(OFF_RIM)
-            };
-            let places = places.windows(2).flat_map(|pair| {
-                let middle = (0.5 * (pair[0].0 + pair[1].0), 0.5 * (pair[0].1 + pair[1].1));
-                [pair[0], middle]
-            });
-            let free = places.filter(is_free).map(|place| (on_map(&place), to_others(&place), place));
-            let best = free.max_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
-            let Some((_, _, found)) = best else { continue };
-            let (x, y) = found;
-            let frame = Frame { x: [x - half[0], x + half[0]], y: [y - half[1], y + half[1]] };
-            page.keys.push(Key { frame, colour: GROUND, style: KeyStyle::Area });
-            page.write(text.clone(), (x - half[0] + 6.0, y), Anchor::Right, NUMBER);
-            taken.push(found);
-            written.push(text);
-        }
     }
 }

@@ -28,6 +28,7 @@ mod factor_axis;
 pub(super) mod factor_map;
 mod half_normal;
 mod interactions;
+mod line_numbers;
 mod main_effects;
 mod pareto;
 mod residuals;

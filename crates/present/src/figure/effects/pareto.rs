@@ -80,7 +80,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let several = effects.terms.iter().any(|term| term.freedom > 1);
     let x_label = match measure {
         Measure::RootOfF if several => "√F (|t| where a term has one degree of freedom)".to_owned(),
-        Measure::RootOfF => "|t|: effect by its standard error".to_owned(),
+        Measure::RootOfF => "standardised effect |t| = |effect| / standard error".to_owned(),
         Measure::Size => subject.unit.label("|effect|"),
         Measure::Share => "share of the sum of squares, %".to_owned(),
     };

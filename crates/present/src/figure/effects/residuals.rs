@@ -60,7 +60,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     };
     let caption = format!(
         "Residuals: against what the model fits (a funnel asks for a transform, a bend for squares), in the order in which \
-         the runs are made (a drift), and by their standard deviations against normal quantiles (along the line if errors \
+         the runs are made (a drift), and standardised (divided by their standard deviations) against normal quantiles (along the line if errors \
          are normal; what lies far off is an outlier).{whose}"
     );
     subject.add(figures, "residuals", "Residuals of", caption, page);
@@ -112,7 +112,7 @@ fn normal(places: &[[f64; 2]]) -> Chart {
     Chart {
         title: String::new(),
         x: Axis::linear(range.clone(), "normal quantile"),
-        y: Axis::linear(range, "residual by its standard deviation"),
+        y: Axis::linear(range, "standardised residual"),
         contents: vec![
             Content::Line { points: ends.map(|end| [end, end]).to_vec(), stroke: Stroke::solid(FAINT, LINE) },
             Content::Marks { points, colour: DATA, mark: Mark::Point },

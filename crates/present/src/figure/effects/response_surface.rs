@@ -31,7 +31,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         subject.axes.iter().map(|axis| axis.factor.factor.is_numeric().then_some(Setting::Coded(0.0))).collect();
     let runs = map.runs(subject.analysis, &held);
     let notes = [subject.held(&factors, "held"), runs.note(), said_of_impossible(subject, &map)];
-    let page = map.page(scale, "no prediction", &runs, mark, &notes);
+    let page = map.page(scale, "no prediction", &[], &runs, mark, &notes);
     let caption = caption(subject, &map, stationary);
     subject.add(figures, "surface", "Response surface of", caption, page);
 }

@@ -1,6 +1,7 @@
 //! The mean desirability over two factors, with the others at the optimum.
 
 use plateau_study::design::Setting;
+use plateau_study::optimum::Limit;
 
 use super::Shown;
 use crate::figure::axes::Axis;
@@ -9,6 +10,10 @@ use crate::figure::effects::axes;
 use crate::figure::effects::factor_map::FactorMap;
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
+use crate::study::goals::limit_words;
+
+/// Longest name of a limit, pixels.
+const LABEL: f64 = 420.0;
 
 /// The figure; none where the desirability is the same all over.
 pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
@@ -22,6 +27,16 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
     if !map.varies() {
         return None;
     }
+    let border = |limit: &Limit| {
+        let margin = |coded: [f64; 2]| {
+            let changed = [0, 1].map(|at| (factors[at], Setting::Coded(coded[at])));
+            shown.margin(&surrogates, limit, &shown.with(&changed))
+        };
+        let response = &shown.analysis.responses[limit.response];
+        let text = shortened(&format!("{} {}", response.name, limit_words(response, limit)), TEXT, LABEL);
+        FactorMap::new(shown.analysis, factors, factors.map(|factor| &axes[factor]), margin).lines_at(0.0, &text)
+    };
+    let borders: Vec<_> = shown.limits.iter().flat_map(border).collect();
     let best = factors.map(|factor| match shown.best[factor] {
         Setting::Coded(coded) => Some(coded),
         level @ Setting::Level(_) => axes[factor].factor.factor.coded(level),
@@ -39,13 +54,13 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
     };
     let runs = map.runs(shown.analysis, &shown.best.iter().copied().map(Some).collect::<Vec<_>>());
     let scale = |range, length| Axis::linear(range, shortened("desirability", TEXT, length));
-    let page = map.page(scale, "desirability 0", &runs, mark, &[note, runs.note()]);
+    let page = map.page(scale, "desirability 0", &borders, &runs, mark, &[note, runs.note()]);
     Some(Figure {
         name: "contour".to_owned(),
         title: "Desirability over two factors".to_owned(),
         caption: format!(
             "How much all goals are met over two factors, as far as there are runs, with lines of equal desirability; grey where \
-             it is 0: a limit is missed, or a goal altogether.{held}"
+             it is 0: a limit is missed, or a goal altogether. Dashed lines: limits.{held}"
         ),
         page,
     })

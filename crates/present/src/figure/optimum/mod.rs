@@ -58,16 +58,27 @@ impl<'a> Shown<'a> {
     fn desirability(&self, surrogates: &[Option<Box<dyn Surrogate + 'a>>], settings: &[Setting]) -> Option<f64> {
         let value = |response: usize| surrogates.get(response)?.as_ref()?.value(settings).ok();
         for limit in self.limits {
-            let forecast = match limit.kept {
-                Kept::Value => Forecast { value: value(limit.response)?, mean_interval: None, run_interval: None },
-                _ => surrogates.get(limit.response)?.as_ref()?.forecast(settings, self.confidence).ok()?,
-            };
-            if limit.missed_by(&forecast) > 0.0 {
+            if self.margin(surrogates, limit, settings)? < 0.0 {
                 return Some(0.0);
             }
         }
         let worth = self.goals.iter().map(|goal| Some(goal.desirability(value(goal.response)?)));
         Some(overall(self.goals, &worth.collect::<Option<Vec<_>>>()?))
+    }
+
+    /// How far settings are from a limit: negative where it is missed.
+    fn margin(
+        &self,
+        surrogates: &[Option<Box<dyn Surrogate + 'a>>],
+        limit: &Limit,
+        settings: &[Setting],
+    ) -> Option<f64> {
+        let surrogate = surrogates.get(limit.response)?.as_ref()?;
+        let forecast = match limit.kept {
+            Kept::Value => Forecast { value: surrogate.value(settings).ok()?, mean_interval: None, run_interval: None },
+            _ => surrogate.forecast(settings, self.confidence).ok()?,
+        };
+        Some(limit.margin(&forecast))
     }
 
     /// The two ranges along which the desirability changes most about the optimum.
