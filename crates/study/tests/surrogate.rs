@@ -1,4 +1,5 @@
-//! Gaussian processes and sensitivities beside those of other programs: `surrogate/expected.json`, which `make.py` there made.
+//! Gaussian processes and sensitivities beside those of other programs: `surrogate/expected.json`, which `make.py` there made,
+//! and `surrogate/two_optima.json`, which `two_optima.py` made.
 
 use plateau_study::design::Setting;
 use plateau_study::effects::{Factor, FactorKind, Observation};
@@ -36,6 +37,20 @@ struct Process {
     /// Forecast and variance of each point by the others.
     left_out: Vec<[f64; 2]>,
     /// The largest likelihood that was found.
+    most_likely: f64,
+}
+
+/// Sets whose likelihood has two hills.
+#[derive(Deserialize)]
+struct TwoOptima {
+    sets: Vec<TwoHills>,
+}
+
+#[derive(Deserialize)]
+struct TwoHills {
+    name: String,
+    points: Vec<Vec<f64>>,
+    responses: Vec<f64>,
     most_likely: f64,
 }
 
@@ -149,14 +164,27 @@ fn processes_with_given_lengths_agree_with_scikit_learn_and_dicekriging() {
 fn no_likelier_lengths_are_found_by_forty_searches_of_scipy() {
     for case in expected().processes {
         let trend = if case.linear { Trend::Linear } else { Trend::Constant };
-        let responses: Vec<Vec<f64>> = case.responses.iter().map(|response| vec![*response]).collect();
-        let runs = observations(&case.points, &responses);
-        let options = Options { trend, ..Options::default() };
-        let process = GaussianProcess::fit(&factors(case.lengths.len()), &runs, &options).unwrap();
-        // Both end where steps bring less than 1e-5 or so.
-        let found = process.log_likelihood();
-        assert!(found >= case.most_likely - 1e-4, "{}: {found} is less than {}", case.name, case.most_likely);
+        is_as_likely(&case.name, &case.points, &case.responses, trend, case.most_likely);
     }
+}
+
+#[test]
+fn the_higher_of_two_hills_is_found() {
+    let sets: TwoOptima = serde_json::from_str(include_str!("surrogate/two_optima.json")).unwrap();
+    for case in sets.sets {
+        is_as_likely(&case.name, &case.points, &case.responses, Trend::Constant, case.most_likely);
+    }
+}
+
+/// The most likely lengths are as likely as these.
+fn is_as_likely(name: &str, points: &[Vec<f64>], responses: &[f64], trend: Trend, most_likely: f64) {
+    let responses: Vec<Vec<f64>> = responses.iter().map(|response| vec![*response]).collect();
+    let runs = observations(points, &responses);
+    let options = Options { trend, ..Options::default() };
+    let process = GaussianProcess::fit(&factors(points[0].len()), &runs, &options).unwrap();
+    // Both end where steps bring less than 1e-5 or so.
+    let found = process.log_likelihood();
+    assert!(found >= most_likely - 1e-4, "{name}: {found} is less than {most_likely}");
 }
 
 #[test]

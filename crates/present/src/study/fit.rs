@@ -123,7 +123,7 @@ pub fn unit(si: &str, response: &FittedResponse) -> Unit {
 
 /// What is determined where single keys are not; none where there is nothing to say.
 pub fn determined(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
-    let combinations = result.combinations.as_ref()?;
+    let Some(combinations) = &result.combinations else { return better_known(result, keys) };
     if combinations.is_empty() {
         return Some("Near the most likely values these data determine none of the keys.".to_owned());
     }
@@ -131,19 +131,30 @@ pub fn determined(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
     if combinations.iter().all(|combination| combination.powers.len() < 2) {
         return None;
     }
-    let told = |combination: &Combination| {
-        let power = |(key, exponent): &(usize, f64)| libm::pow(keys[*key].value(result.best[*key]), *exponent);
-        let value: f64 = combination.powers.iter().map(power).product();
-        let [value, low, high] =
-            [value, value / combination.factor, value * combination.factor].map(|value| number::rounded(value, DIGITS));
-        let units = combination.powers.iter().map(|(key, _)| keys[*key].unit()).filter(|unit| !unit.is_empty());
-        let units: Vec<&str> = units.collect();
-        let units = if units.is_empty() { String::new() } else { format!(", with {}", units.join(" and ")) };
-        format!("{} = {value} ({low} … {high}{units})", product(combination, keys))
-    };
-    let words: Vec<String> = combinations.iter().map(told).collect();
+    let words: Vec<String> = combinations.iter().map(|combination| told(combination, result, keys)).collect();
     let verb = if words.len() == 1 { "is" } else { "are" };
     Some(format!("Only {} {verb} determined by these data, near the most likely values.", words.join(" and ")))
+}
+
+/// What is known better than the keys where these are determined, too.
+fn better_known(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
+    let words: Vec<String> = result.better_known.iter().map(|combination| told(combination, result, keys)).collect();
+    let verb = if words.len() == 1 { "is" } else { "are" };
+    let said =
+        format!("{} {verb} known far better than the keys in it, near the most likely values.", words.join(" and "));
+    (!words.is_empty()).then_some(said)
+}
+
+/// A product with its value, interval and unit.
+fn told(combination: &Combination, result: &FitResult, keys: &[FittedKey]) -> String {
+    let power = |(key, exponent): &(usize, f64)| libm::pow(keys[*key].value(result.best[*key]), *exponent);
+    let value: f64 = combination.powers.iter().map(power).product();
+    let [value, low, high] =
+        [value, value / combination.factor, value * combination.factor].map(|value| number::rounded(value, DIGITS));
+    let units = combination.powers.iter().map(|(key, _)| keys[*key].unit()).filter(|unit| !unit.is_empty());
+    let units: Vec<&str> = units.collect();
+    let units = if units.is_empty() { String::new() } else { format!(", with {}", units.join(" and ")) };
+    format!("{} = {value} ({low} … {high}{units})", product(combination, keys))
 }
 
 /// A product of powers.
@@ -158,8 +169,9 @@ fn product(combination: &Combination, keys: &[FittedKey]) -> String {
     combination.powers.iter().map(power).collect::<Vec<_>>().join(" × ")
 }
 
-/// What is to be known before the intervals are trusted: misfit, scatter between seeds, want of runs.
-pub fn notes(result: &FitResult, names: &[&str]) -> Vec<String> {
+/// What is to be known before the intervals are trusted: misfit, scatter between seeds, want of runs, and where further runs
+/// would have changed little, why.
+pub fn notes(result: &FitResult, names: &[&str], of_series: &[&str], has_no_gain: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some(p) = result.p.filter(|p| *p < SIGNIFICANT) {
         notes.push(format!(
@@ -193,12 +205,20 @@ pub fn notes(result: &FitResult, names: &[&str]) -> Vec<String> {
             ));
         }
     }
-    if !result.settled {
+    let share = number::percent(result.surrogate_share);
+    let known = format!(
+        "Where the measurements are likely, the forecasts' own variance is up to {share} of that of a measurement"
+    );
+    if let Some(worst) = result.worst.filter(|_| has_no_gain) {
+        let name = if worst.is_series { of_series[worst.number] } else { names[worst.number] };
         notes.push(format!(
-            "Where the measurements are likely, the forecasts' own variance is up to {} of that of a measurement: more runs in \
-             [fit] make the intervals shorter.",
-            number::percent(result.surrogate_share)
+            "{known}, and all runs that [fit] allows besides would hardly lessen it: runs miss what the others forecast of {name} by {} \
+             times the uncertainty of the measurement, as they do where they scatter from one surface, or one place, to the next. \
+             More sets of seeds in [replicates] lessen that; if a single specimen was measured, its scatter belongs into the uncertainty.",
+            number::rounded(worst.missed, 2)
         ));
+    } else if !result.settled {
+        notes.push(format!("{known}: more runs in [fit] make the intervals shorter."));
     }
     notes
 }

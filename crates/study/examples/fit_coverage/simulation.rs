@@ -127,13 +127,15 @@ pub fn coverage(trials: usize) -> Result<Coverage, FitError> {
             let coded = |setting: &Setting| if let Setting::Coded(coded) = setting { *coded } else { 0.0 };
             runs.make(first.point(point).iter().map(coded).collect());
         }
+        let mut shares = Vec::new();
         let fit = loop {
             let fit = Fit::new(&keys, &measurements, &runs.observations, 0.95)?;
             let affordable = MOST_RUNS / SEEDS - runs.points.len();
             let next = fit.next_points(AT_A_TIME.min(affordable), SEEDS);
-            if fit.is_settled() || next.is_empty() {
+            if fit.is_settled() || next.is_empty() || !fit.is_worth_more(&shares, affordable, SEEDS) {
                 break fit;
             }
+            shares.push(fit.surrogate_share());
             next.into_iter().for_each(|place| runs.make(place));
         };
         let result = fit.result();

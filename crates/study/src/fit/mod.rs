@@ -16,6 +16,7 @@
 //! | the likelihood of the measurements | `likelihood` |
 //! | places in the ranges that are looked at | `places` |
 //! | where the next runs teach most | `next` |
+//! | whether they are worth making | `worth` |
 //! | intervals of keys, regions of pairs | `profile` |
 //! | which products of keys are determined | `combination` |
 //! | all of it | `result` |
@@ -29,6 +30,7 @@ mod next;
 mod places;
 mod profile;
 mod result;
+mod worth;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 use thiserror::Error;
@@ -44,6 +46,7 @@ pub use measured_series::{MeasuredSeries, SeriesError};
 use places::Places;
 pub use profile::{Pair, Piece, Profile};
 pub use result::{FitResult, FittedResponse, FittedSeries};
+pub use worth::Worst;
 
 /// Something that was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,7 +9,9 @@ const PARTS: f64 = 512.0;
 /// A run is made at the most likely place itself where none is nearer than this, in coded units.
 const NEAR: f64 = 0.1;
 /// Part of a measurement's variance below which that of a process no longer counts.
-const SETTLED: f64 = 0.1;
+pub(super) const SETTLED: f64 = 0.1;
+/// Further points that are looked ahead one by one.
+const LOOKED_AHEAD: usize = 24;
 /// How far −2 ln of the likelihood rises in the region that has to be known so well.
 const REGION: f64 = 6.0;
 
@@ -22,9 +24,23 @@ impl Fit {
 
     /// The largest variance of a process over that of its measurement, where the measurements are not unlikely.
     pub fn surrogate_share(&self) -> f64 {
+        self.share_of(&self.likelihood.terms)
+    }
+
+    /// The same if so many more points, each of so many runs, are made where they teach most, as the processes themselves
+    /// expect it: what they take for scatter between runs goes on as they take it.
+    pub fn expected_share(&self, count: usize, runs: usize) -> f64 {
+        // Many points are few, each of more runs.
+        let each = count.div_ceil(LOOKED_AHEAD).max(1);
+        let (_, terms) = self.with_next(count.div_ceil(each), runs * each);
+        self.share_of(&terms)
+    }
+
+    /// The same of some terms.
+    pub(super) fn share_of(&self, terms: &[Term]) -> f64 {
         let likely = self.places.all.iter().filter(|(_, value)| value - self.least <= REGION);
         let share = |term: &Term, place: &[f64]| term.variance_at(place) / term.fixed_variance();
-        let shares = likely.flat_map(|(place, _)| self.likelihood.terms.iter().map(move |term| share(term, place)));
+        let shares = likely.flat_map(|(place, _)| terms.iter().map(move |term| share(term, place)));
         shares.fold(0.0, f64::max)
     }
 
@@ -33,6 +49,11 @@ impl Fit {
     ///
     /// Each place is chosen as if the runs at the ones before it had been made.
     pub fn next_points(&self, count: usize, runs: usize) -> Vec<Vec<f64>> {
+        self.with_next(count, runs).0
+    }
+
+    /// These places, and the terms of the likelihood when they will have been run.
+    fn with_next(&self, count: usize, runs: usize) -> (Vec<Vec<f64>>, Vec<Term>) {
         let mut terms = self.likelihood.terms.clone();
         let mut known: Vec<Vec<f64>> = terms.iter().flat_map(|term| term.process.known_points().to_vec()).collect();
         let mut candidates: Vec<(Vec<f64>, f64)> = self
@@ -58,7 +79,7 @@ impl Fit {
             known.push(place.clone());
             next.push(place);
         }
-        next
+        (next, terms)
     }
 
     /// How likely the measurements are at a place if the unknown is on their side: the weight of the place.

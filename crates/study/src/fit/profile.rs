@@ -9,6 +9,12 @@ const PLACES: usize = 41;
 const ADDED: usize = 20;
 /// How far these reach beyond it, as a part of it.
 const BEYOND: f64 = 0.5;
+/// Turns in which places are added where a profile bends, each halving the steps there.
+const TURNS: usize = 2;
+/// Bend that is not followed further: how far a place lies from the line through its neighbours, as a part of the threshold.
+const STRAIGHT: f64 = 0.01;
+/// Up to which multiple of the threshold bends are followed, which is somewhat more than figures show.
+const SHOWN: f64 = 3.0;
 /// Places of a region along each of its two keys: where there are no other keys, and where each place is a search.
 const SIDES: [usize; 2] = [61, 31];
 /// Up to which multiple of the threshold profiles are within the part of the ranges in which a region is told.
@@ -83,15 +89,13 @@ impl Fit {
         for [low, high] in &pieces {
             let reach = BEYOND * (high - low);
             let (from, to) = ((low - reach).max(-1.0), (high + reach).min(1.0));
-            for value in (0..=ADDED).map(|step| from + (to - from) * step as f64 / ADDED as f64) {
-                let near = scan.iter().min_by(|one, other| (one.0 - value).abs().total_cmp(&(other.0 - value).abs()));
-                let near = near.map_or_else(|| self.best.clone(), |(_, place, _)| place.clone());
-                let (place, least) = self.best_with(&[(key, value)], &[&near]);
-                scan.push((value, place, least));
-            }
+            let values = (0..=ADDED).map(|step| from + (to - from) * step as f64 / ADDED as f64);
+            self.add(key, &mut scan, &values.collect::<Vec<_>>());
         }
-        scan.sort_by(|one, other| one.0.total_cmp(&other.0));
-        scan.dedup_by(|one, other| one.0 == other.0);
+        for _ in 0..TURNS {
+            let values = bends(&scan, self.least, threshold);
+            self.add(key, &mut scan, &values);
+        }
         let of = &self.keys[key];
         let piece =
             |[low, high]: [f64; 2]| Piece { ends: [of.value(low), of.value(high)], open: [low <= -1.0, high >= 1.0] };
@@ -101,6 +105,22 @@ impl Fit {
             threshold,
             pieces: pieces.into_iter().map(piece).collect(),
         }
+    }
+
+    /// Adds places to a scan, each searched from where its neighbour is.
+    fn add(&self, key: usize, scan: &mut Vec<(f64, Vec<f64>, f64)>, values: &[f64]) {
+        let found: Vec<_> = values
+            .iter()
+            .map(|value| {
+                let near = scan.iter().min_by(|one, other| (one.0 - value).abs().total_cmp(&(other.0 - value).abs()));
+                let near = near.map_or_else(|| self.best.clone(), |(_, place, _)| place.clone());
+                let (place, least) = self.best_with(&[(key, *value)], &[&near]);
+                (*value, place, least)
+            })
+            .collect();
+        scan.extend(found);
+        scan.sort_by(|one, other| one.0.total_cmp(&other.0));
+        scan.dedup_by(|one, other| one.0 == other.0);
     }
 
     /// The pieces of a range in which a profile stays below a threshold, in coded units.
@@ -186,19 +206,58 @@ impl Fit {
 
     /// The most likely place where some keys are held, from these places and the most likely known one nearby.
     fn best_with(&self, held: &[(usize, f64)], from: &[&Vec<f64>]) -> (Vec<f64>, f64) {
+        let is_near = |place: &[f64]| held.iter().all(|(key, value)| (place[*key] - value).abs() <= NEAR);
+        let nearby = self.places.all.iter().filter(|(place, _)| is_near(place));
+        let nearby = nearby.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(place, _)| place);
+        let starts = from.iter().copied().chain(nearby.filter(|_| held.len() < self.keys.len()));
+        let found = starts.map(|start| self.search(held, start));
+        found.min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or_else(|| (self.best.clone(), f64::INFINITY))
+    }
+
+    /// The same from one place alone.
+    fn search(&self, held: &[(usize, f64)], from: &[f64]) -> (Vec<f64>, f64) {
         let (mut low, mut high) = (vec![-1.0; self.keys.len()], vec![1.0; self.keys.len()]);
         held.iter().for_each(|(key, value)| (low[*key], high[*key]) = (*value, *value));
         if held.len() == self.keys.len() {
             let value = self.likelihood.value(&low);
             return (low, value);
         }
-        let is_near = |place: &[f64]| held.iter().all(|(key, value)| (place[*key] - value).abs() <= NEAR);
-        let nearby = self.places.all.iter().filter(|(place, _)| is_near(place));
-        let nearby = nearby.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(place, _)| place);
-        let starts = from.iter().copied().chain(nearby);
-        let found =
-            starts.filter_map(|start| minimise(|place| self.likelihood.slope(place), start, &low, &high, TOLERANCE));
-        let best = found.min_by(|one, other| one.value.total_cmp(&other.value));
-        best.map_or_else(|| (low.clone(), f64::INFINITY), |best| (best.place, best.value))
+        let found = minimise(|place| self.likelihood.slope(place), from, &low, &high, TOLERANCE);
+        found.map_or_else(|| (low, f64::INFINITY), |found| (found.place, found.value))
+    }
+}
+
+/// Middles of the steps beside places at which a profile bends, where it is not far above the threshold.
+fn bends(scan: &[(f64, Vec<f64>, f64)], least: f64, threshold: f64) -> Vec<f64> {
+    let mut middles = Vec::new();
+    for three in scan.windows(3) {
+        let [before, at, after] = [&three[0], &three[1], &three[2]].map(|(value, _, rise)| (*value, rise - least));
+        let share = (at.0 - before.0) / (after.0 - before.0);
+        let bend = (before.1 + share * (after.1 - before.1) - at.1).abs();
+        let lowest = before.1.min(at.1).min(after.1);
+        if bend > STRAIGHT * threshold && lowest < SHOWN * threshold {
+            middles.extend([0.5 * (before.0 + at.0), 0.5 * (at.0 + after.0)]);
+        }
+    }
+    middles.dedup();
+    middles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_added_where_a_profile_bends() {
+        // |x| bends at 0 alone; 100 + |x| is not shown.
+        let scan = |lift: f64| -> Vec<(f64, Vec<f64>, f64)> {
+            (-4..=4).map(|at| (f64::from(at), Vec::new(), lift + f64::from(at).abs())).collect()
+        };
+        assert_eq!(bends(&scan(0.0), 0.0, 4.0), [-0.5, 0.5]);
+        assert_eq!(bends(&scan(100.0), 0.0, 4.0), Vec::<f64>::new());
+        // x² is 1 off the line through its neighbours everywhere.
+        let parabola: Vec<_> = scan(0.0).into_iter().map(|(x, place, _)| (x, place, x * x)).collect();
+        assert_eq!(bends(&parabola, 0.0, 120.0).len(), 0);
+        assert_eq!(bends(&parabola, 0.0, 10.0).len(), 8);
     }
 }

@@ -4,7 +4,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::components::Components;
 use super::likelihood::Term;
-use super::{Combination, Fit, MeasuredSeries, Measurement, Pair, Profile};
+use super::{Combination, Fit, MeasuredSeries, Measurement, Pair, Profile, Worst};
 
 /// What is known of keys and responses.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +21,8 @@ pub struct FitResult {
     pub pairs: Vec<Pair>,
     /// What is determined where there is a ridge; see [`Combination`]. None where there is no ridge.
     pub combinations: Option<Vec<Combination>>,
+    /// What is known several times as well as the keys where all keys are determined; see [`Combination`].
+    pub better_known: Vec<Combination>,
     /// Σ (forecast − measured)²/variance at the most likely values.
     pub misfit: f64,
     /// Measurements, each point of a series one of them, less keys.
@@ -31,6 +33,8 @@ pub struct FitResult {
     pub confidence: f64,
     /// The largest variance of a process over that of its measurement, where the measurements are not unlikely.
     pub surrogate_share: f64,
+    /// The response that has it.
+    pub worst: Option<Worst>,
     /// Whether more runs would change little.
     pub settled: bool,
 }
@@ -109,11 +113,13 @@ impl Fit {
             profiles: (0..keys).map(|key| self.profile(key)).collect(),
             pairs: pairs.map(|keys| self.pair(keys)).collect(),
             combinations: self.combinations(),
+            better_known: self.better_known(),
             misfit,
             freedom,
             p: if freedom > 0 { tail(freedom) } else { None },
             confidence: self.confidence,
             surrogate_share: self.surrogate_share(),
+            worst: self.worst(),
             settled: self.is_settled(),
         }
     }

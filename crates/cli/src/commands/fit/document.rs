@@ -28,7 +28,7 @@ struct Document<'a> {
     runs: usize,
     runs_at_most: usize,
     rounds: usize,
-    /// Why no more runs were made: settled, budget or nowhere else.
+    /// Why no more runs were made: settled, budget, nowhere else or no gain.
     ended: &'static str,
     /// The largest variance of a forecast over that of its measurement, where the measurements are likely.
     surrogate_share: f64,
@@ -40,7 +40,8 @@ struct KeyReport<'a> {
     name: &'a str,
     keys: &'a [String],
     unit: &'a str,
-    most_likely: f64,
+    /// None where it may be anywhere.
+    most_likely: Option<f64>,
     /// Pieces of the interval.
     interval: Vec<PieceReport>,
     /// Whether the interval is the whole range.
@@ -95,7 +96,7 @@ pub fn text(told: &Told<'_>, files: &[String]) -> Result<String, Failure> {
         name: &factor.name,
         keys: &factor.keys,
         unit: factor.unit(),
-        most_likely: *best,
+        most_likely: (!profile.is_undetermined()).then_some(*best),
         interval: parts(profile)
             .iter()
             .map(|piece| PieceReport {
@@ -141,7 +142,8 @@ pub fn text(told: &Told<'_>, files: &[String]) -> Result<String, Failure> {
         degrees_of_freedom: told.result.freedom,
         p: told.result.p,
         determined: determined(told.result, told.keys),
-        notes: [notes(told.result, &told.names()), notes_of_series(told.result, &names)].concat(),
+        notes: [notes(told.result, &told.names(), &names, told.has_no_gain()), notes_of_series(told.result, &names)]
+            .concat(),
         runs: told.fitted.plan.runs(),
         runs_at_most: study.fit.runs,
         rounds: told.fitted.rounds,
@@ -149,6 +151,7 @@ pub fn text(told: &Told<'_>, files: &[String]) -> Result<String, Failure> {
             End::Settled => "settled",
             End::Budget => "budget",
             End::NowhereElse => "nowhere else",
+            End::NoGain => "no gain",
         },
         surrogate_share: told.result.surrogate_share,
         files,

@@ -71,7 +71,9 @@ fn keys(told: &Told<'_>) -> Vec<Vec<String>> {
         for piece in parts(profile) {
             let [low, high] = piece.ends.map(exactly);
             let [below, above] = piece.open.map(|open| open.to_string());
-            lines.push(vec![factor.name.clone(), factor.unit().to_owned(), exactly(*best), low, high, below, above]);
+            // What may be anywhere has no value that is likelier than others.
+            let likely = if profile.is_undetermined() { String::new() } else { exactly(*best) };
+            lines.push(vec![factor.name.clone(), factor.unit().to_owned(), likely, low, high, below, above]);
         }
     }
     lines

@@ -43,6 +43,11 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Failure> {
 }
 
 impl Told<'_> {
+    /// Whether the fit ended because further runs would have changed little, though not enough is known.
+    fn has_no_gain(&self) -> bool {
+        self.fitted.end == rounds::End::NoGain
+    }
+
     /// Names of the responses that were measured.
     fn names(&self) -> Vec<&str> {
         let responses = &self.fitted.plan.study().responses;

@@ -69,6 +69,8 @@ pub enum End {
     Budget,
     /// Every place that counts was run.
     NowhereElse,
+    /// All that the study allows besides would hardly make the forecasts better.
+    NoGain,
 }
 
 impl Task {
@@ -272,6 +274,7 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
     let mut points: Vec<Vec<Level>> = (0..plan.points()).map(|point| plan.run(1 + point * seeds).levels).collect();
     let first_points = points.len();
     let mut tried = BTreeSet::new();
+    let mut shares = Vec::new();
     for round in 1.. {
         let source = DesignSource::File(points.clone());
         let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::input)?;
@@ -292,8 +295,9 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
             (true, ..) => Some(End::Settled),
             (_, 0, _) => Some(End::Budget),
             (.., true) => Some(End::NowhereElse),
-            _ => None,
+            _ => (!fit.is_worth_more(&shares, affordable, seeds)).then_some(End::NoGain),
         };
+        shares.push(fit.surrogate_share());
         let told: Vec<u64> = next.iter().filter(|_| end.is_none()).flatten().map(|coded| coded.to_bits()).collect();
         job.first_says(&told).map_err(Failure::run)?;
         if let Some(end) = end {

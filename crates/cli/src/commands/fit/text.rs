@@ -28,8 +28,9 @@ pub fn text(told: &Told<'_>, files: &[String]) -> String {
         ));
     }
     let mut said: Vec<String> = determined(told.result, told.keys).into_iter().collect();
-    said.extend(notes(told.result, &told.names()));
-    said.extend(notes_of_series(told.result, &told.series().iter().map(|(name, _)| *name).collect::<Vec<_>>()));
+    let of_series: Vec<&str> = told.series().iter().map(|(name, _)| *name).collect();
+    said.extend(notes(told.result, &told.names(), &of_series, told.has_no_gain()));
+    said.extend(notes_of_series(told.result, &of_series));
     if !said.is_empty() {
         text.push_str(&list("\nTo be known", &said));
     }
@@ -104,6 +105,7 @@ fn runs(told: &Told<'_>) -> String {
         End::Settled => "more would change little",
         End::Budget => "as many as [fit] allows",
         End::NowhereElse => "every place that counts was run",
+        End::NoGain => "more would hardly help, for runs scatter too much",
     };
     let (points, first, seeds) = (told.fitted.plan.points(), told.fitted.first_points, told.fitted.plan.replicates());
     let seeds = if seeds > 1 { format!(", {seeds} seeds each") } else { String::new() };
