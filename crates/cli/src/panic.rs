@@ -1,4 +1,4 @@
-//! A panic, told in one line: the system gives no thread, or the program is wrong.
+//! A panic, told in one line: the system gives no thread or no memory, or the program is wrong.
 
 use std::any::Any;
 use std::env;
@@ -9,6 +9,9 @@ use crate::message;
 
 /// How libraries say that there is no thread to be had: the standard library, rayon.
 const NO_THREAD: [&str; 2] = ["failed to spawn thread", "ThreadPoolBuildError"];
+
+/// How libraries say that there is no memory to be had: those that deflate.
+const NO_MEMORY: [&str; 3] = ["MemError", "InsufficientMemory", "memory allocation of"];
 
 /// Does `work`; a panic in it, or in a thread, is told in one line, and makes the exit status 1. With `RUST_BACKTRACE` it is told as
 /// usual.
@@ -28,6 +31,9 @@ fn in_words(text: &str, place: &str) -> String {
     if NO_THREAD.iter().any(|known| text.contains(known)) {
         return format!("the system gives no more threads: allow more of them, or more memory ({text})");
     }
+    if NO_MEMORY.iter().any(|known| text.contains(known)) {
+        return format!("the system gives no more memory: allow more of it ({text})");
+    }
     format!("the program panicked{place}: {text}: this is a mistake of the program, please report it with the command")
 }
 
@@ -44,6 +50,8 @@ mod tests {
     fn what_is_lacking_is_told_from_what_is_wrong() {
         let lacking = in_words("failed to spawn thread: Os { code: 11,\n kind: WouldBlock }", " at a.rs:1");
         assert!(lacking.starts_with("the system gives no more threads") && !lacking.contains('\n'), "{lacking}");
+        let lacking = in_words("called `Result::unwrap()` on an `Err` value: MemError", " at a.rs:1");
+        assert!(lacking.starts_with("the system gives no more memory") && !lacking.contains("mistake"), "{lacking}");
         assert!(in_words("index out of bounds", " at a.rs:1").starts_with("the program panicked at a.rs:1: index"));
     }
 }

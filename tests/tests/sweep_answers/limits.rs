@@ -11,8 +11,7 @@ const LIMIT: f64 = 4e-12;
 fn what_is_asked_to_keep_a_limit_lies_on_it() {
     let directory = studied();
     for (on, kept) in [("mean", "value"), ("means", "mean_interval"), ("runs", "run_interval")] {
-        let asked =
-            ["--maximize", "contact area", "--limit", "worn<=4e-3 mm^3", "--limit-on", on, "--force", "--jobs", "1"];
+        let asked = ["--maximize", "contact area", "--limit", "worn<=4e-3 mm^3", "--limit-on", on];
         let best = ask(&directory, "optimize", &asked);
         let worn = &best["responses"][1][kept];
         let upper = if on == "mean" { worn.as_f64() } else { worn[1].as_f64() }.unwrap();

@@ -74,8 +74,8 @@ impl FittedKey {
         let number = |si: f64| number::rounded(self.value(si), DIGITS);
         let piece = |Piece { ends: [low, high], open }: &Piece| match open {
             [false, false] => format!("{} … {}", number(*low), self.words(*high)),
-            [true, false] => format!("up to {}, not determined below", self.words(*high)),
-            [false, true] => format!("from {} on, not determined above", self.words(*low)),
+            [true, false] => format!("up to {}; the data set no lower limit", self.words(*high)),
+            [false, true] => format!("from {} on; the data set no upper limit", self.words(*low)),
             [true, true] => {
                 format!("not determined by these data: anywhere from {} to {}", number(*low), self.words(*high))
             }
@@ -195,7 +195,7 @@ pub fn notes(result: &FitResult, names: &[&str], of_series: &[&str], has_no_gain
         if response.scatter.is_some_and(|scatter| scatter > response.measurement.uncertainty) {
             notes.push(format!(
                 "Runs with other seeds scatter in {name} by more than the uncertainty of the measurement. Specimens may do the \
-                 same: unless it is a mean of many of them, that scatter belongs into the uncertainty."
+                 same: unless the measurement is a mean of many specimens, add that scatter to its uncertainty."
             ));
         }
         if response.seeds_deviation > 0.5 * response.measurement.uncertainty {
@@ -207,14 +207,14 @@ pub fn notes(result: &FitResult, names: &[&str], of_series: &[&str], has_no_gain
     }
     let share = number::percent(result.surrogate_share);
     let known = format!(
-        "Where the measurements are likely, the forecasts' own variance is up to {share} of that of a measurement"
+        "The forecasts are not exact: near the most likely values their variance is up to {share} of that of a measurement"
     );
     if let Some(worst) = result.worst.filter(|_| has_no_gain) {
         let name = if worst.is_series { of_series[worst.number] } else { names[worst.number] };
         notes.push(format!(
             "{known}, and all runs that [fit] allows besides would hardly lessen it: runs miss what the others forecast of {name} by {} \
              times the uncertainty of the measurement, as they do where they scatter from one surface, or one place, to the next. \
-             More sets of seeds in [replicates] lessen that; if a single specimen was measured, its scatter belongs into the uncertainty.",
+             More sets of seeds in [replicates] lessen that; if a single specimen was measured, add its scatter to the uncertainty.",
             number::rounded(worst.missed, 2)
         ));
     } else if !result.settled {
@@ -251,8 +251,8 @@ mod tests {
         };
         let words = |ends, open| load.interval(&profile(ends, open));
         assert_eq!(words([1200.0, 1500.0], [false, false]), "1.2 … 1.5 kN");
-        assert_eq!(words([1000.0, 1500.0], [true, false]), "up to 1.5 kN, not determined below");
-        assert_eq!(words([1200.0, 2000.0], [false, true]), "from 1.2 kN on, not determined above");
+        assert_eq!(words([1000.0, 1500.0], [true, false]), "up to 1.5 kN; the data set no lower limit");
+        assert_eq!(words([1200.0, 2000.0], [false, true]), "from 1.2 kN on; the data set no upper limit");
         assert_eq!(words([1000.0, 2000.0], [true, true]), "not determined by these data: anywhere from 1 to 2 kN");
     }
 

@@ -16,7 +16,7 @@ pub fn notes(result: &FitResult, names: &[&str]) -> Vec<String> {
         if series.scatter.is_some_and(|scatter| scatter > 1.0) {
             notes.push(format!(
                 "Runs with other seeds scatter in {name} by more than the uncertainties of the measurement. Specimens may do the \
-                 same: unless it is a mean of many of them, that scatter belongs into the uncertainties."
+                 same: unless the measurement is a mean of many specimens, add that scatter to the uncertainties."
             ));
         }
         if series.seeds_deviation > MANY_SEEDS {

@@ -93,7 +93,7 @@ fn series(told: &Told<'_>) -> Vec<Vec<String>> {
             points.to_string(),
             format!("{} independent", number::rounded(series.measured.independent_points(), 3)),
             series.components.to_string(),
-            format!("{} deviations in the mean", number::rounded(series.apart, 2)),
+            format!("{} uncertainties apart (root mean square)", number::rounded(series.apart, 2)),
         ]
     };
     told.series().into_iter().zip(&told.result.series).map(row).collect()
@@ -103,7 +103,7 @@ fn runs(told: &Told<'_>) -> String {
     let (runs, study) = (told.fitted.plan.runs(), told.fitted.plan.study());
     let why = match told.fitted.end {
         End::Settled => "more would change little",
-        End::Budget => "as many as [fit] allows",
+        End::Budget => "the limit of runs in [fit] is reached",
         End::NowhereElse => "every place that counts was run",
         End::NoGain => "more would hardly help, for runs scatter too much",
     };
@@ -126,6 +126,6 @@ fn misfit(told: &Told<'_>) -> String {
                 number::significant(p, 2)
             )
         }
-        None => format!("{chi}; no more measurements than keys, so nothing is left to test"),
+        None => format!("{chi}; there are no more measurements than keys, so the misfit cannot be tested"),
     }
 }
