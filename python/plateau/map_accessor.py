@@ -81,12 +81,13 @@ class MapAccessor:
         return self._cells == values[0]
 
     def area_fraction(self, name: str) -> xarray.DataArray:
-        """Area of the cells that have a status over that of all cells.
+        """Area of the cells that have a status over that of all cells of the body.
 
         Parameters
         ----------
         name : str
-            As of `has_status`.
+            ``"none"``, ``"primary"`` or ``"secondary"``: what the cells of a round pin are, which add up to 1. ``"absent"`` is refused,
+            for such cells are no part of the pin.
 
         Returns
         -------
@@ -101,6 +102,8 @@ class MapAccessor:
         >>> bool(abs(counted - run["series/disc_secondary"][-1]) < 1e-9)
         True
         """
+        if name == self.status_names.get(ABSENT):
+            raise ValueError(f"{name} cells are no part of the pin's area: ask for none, primary or secondary, or has_status({name!r})")
         area, over = self._cells["radius"], [self._angle, "radius"]
         there = (self._cells != ABSENT) * area
         return (self.has_status(name) * area).sum(over) / there.sum(over)

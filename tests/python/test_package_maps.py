@@ -66,12 +66,19 @@ class MadeUpMaps(unittest.TestCase):
 
     def test_fractions_of_statuses(self):
         flags = {"flag_values": [0, 1, 2], "flag_meanings": "none primary secondary"}
+        outlined = {"flag_values": [0, 1, 2, 3], "flag_meanings": "none primary secondary absent"}
         status = made_up([[2, 1], [2, 0]], np.uint8).assign_attrs(flags)
         self.assertAlmostEqual(status.plateau.area_fraction("secondary").item(), 2 / 8)
         self.assertEqual(status.plateau.has_status("primary").values.tolist(), [[False, True], [False, False]])
         # Beyond a round pin: 1 / (1 + 1 + 3).
         absent = made_up([[2, 3], [1, 0]], np.uint8).assign_attrs(flags)
         self.assertAlmostEqual(absent.plateau.area_fraction("secondary").item(), 1 / 5)
+        absent = absent.assign_attrs(outlined)
+        parts = [absent.plateau.area_fraction(name).item() for name in ("none", "primary", "secondary")]
+        self.assertAlmostEqual(sum(parts), 1)
+        with self.assertRaisesRegex(ValueError, "absent cells are no part of the pin's area"):
+            absent.plateau.area_fraction("absent")
+        self.assertEqual(int(absent.plateau.has_status("absent").sum()), 1)
         with self.assertRaisesRegex(ValueError, "'half', there are: none, primary, secondary"):
             status.plateau.area_fraction("half")
         with self.assertRaisesRegex(ValueError, "this is no map of statuses"):

@@ -99,13 +99,14 @@ fn heights_are_those_that_parts_of_the_cells_reach() {
     let disc = run.last_map("/disc/height");
     let pin = run.last_map("/pin/height");
     let mean = pin.iter().sum::<f64>() / pin.len() as f64;
-    let pin: Vec<f64> = pin.iter().map(|height| height - mean).collect();
+    // The pin's z grows away from the disc, and what reaches toward it is high.
+    let pin: Vec<f64> = pin.iter().map(|height| mean - height).collect();
     // Only the first box of a row has numbers on the left: the second one has the same axis.
     let boxes = figure.boxes();
     assert_eq!(boxes.len(), 4);
-    // From the peaks on, which point down on the pin.
-    for (row, mut heights, peak) in [(0, disc, 1.0), (1, pin, -1.0)] {
-        heights.sort_by(|one, other| (peak * other).total_cmp(&(peak * one)));
+    // From the peaks on.
+    for (row, mut heights) in [(0, disc), (1, pin)] {
+        heights.sort_by(|one, other| other.total_cmp(one));
         let (left, frame) = (figure.panel(boxes[2 * row]), boxes[2 * row + 1]);
         let curve = figure.line(FIRST_RUN, frame);
         for per_cent in [5, 25, 50, 75, 95] {

@@ -64,9 +64,11 @@ fn topography_shows_the_heights_of_every_cell() {
     for moment in [0, 1] {
         let heights = run.map("/pin/height", moment);
         let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-        expect_colours(&figure, bars[1], &windows(&mut images, 40), |cell| Some((heights[cell] - mean) * 1e6));
+        // The pin's z grows away from the disc, and what reaches toward it is high.
+        expect_colours(&figure, bars[1], &windows(&mut images, 40), |cell| Some((mean - heights[cell]) * 1e6));
     }
     assert!(images.next().is_none());
+    assert!(figure.texts.iter().any(|text| text.text == "height toward the disc, µm"), "{:?}", figure.texts);
 }
 
 #[test]

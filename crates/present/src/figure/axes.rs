@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use plotters::prelude::DrawingBackend;
 
-use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
+use super::brush::Place;
+use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
 use super::font::text_width;
 use super::ticks::{logarithmic_ticks, minor_ticks, ticks};
 use crate::colour::INK;

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::canvas::Place;
+/// A place on the page, pixels.
+pub type Place = (f64, f64);
 
 /// Longer pieces of a line are divided, pixels: only the pixels about each piece are looked at.
 const PIECE: f64 = 24.0;

@@ -8,7 +8,7 @@ use plotters::prelude::{DrawingArea, DrawingBackend, IntoDrawingArea as _, IntoF
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontTransform, RGBColor, ShapeStyle, WHITE};
 
-use super::brush::covered;
+use super::brush::{Place, covered};
 use super::font::{self, FONT_NAME};
 use crate::colour::INK;
 use crate::label::on_one_line;
@@ -34,9 +34,6 @@ impl fmt::Display for FigureError {
 pub fn failed(error: impl fmt::Display) -> FigureError {
     FigureError(error.to_string())
 }
-
-/// A place on the page, pixels.
-pub type Place = (f64, f64);
 
 /// Where a text stands about its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,6 +9,7 @@ use super::canvas::{Anchor, TEXT};
 use super::font::{shortened, text_width};
 use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
 use super::stroke::Stroke;
+use crate::colour::INK;
 
 /// Width of a figure of one column and of two columns of a journal, pixels: 88 mm and 180 mm.
 pub const COLUMN: f64 = 1056.0;
@@ -48,6 +49,11 @@ impl Meaning {
     /// That of a run's lines.
     pub fn of_run(number: usize, label: &str) -> Self {
         Self::of_line(Stroke::of(number, 1), label)
+    }
+
+    /// What is said of all lines, without a sample: none of them looks like it.
+    pub fn in_words(text: &str) -> Self {
+        Self { colour: INK, style: KeyStyle::Words, text: text.to_owned() }
     }
 
     /// That of a line.
@@ -122,16 +128,22 @@ pub fn legend(page: &mut Page, meanings: &[Meaning], top: f64) -> f64 {
     let most = page.size[0] - 2.0 * MARGIN;
     let (mut x, mut y) = (MARGIN, top);
     for Meaning { colour, style, text } in meanings {
-        let key = if matches!(style, KeyStyle::Line(_)) { KEY } else { 0.6 * KEY };
-        let text = shortened(text, TEXT, most - key - 16.0);
-        let width = key + 16.0 + text_width(&text, TEXT);
+        let key = match style {
+            KeyStyle::Line(_) => KEY + 16.0,
+            KeyStyle::Area | KeyStyle::Mark(_) => 0.6 * KEY + 16.0,
+            KeyStyle::Words => 0.0,
+        };
+        let text = shortened(text, TEXT, most - key);
+        let width = key + text_width(&text, TEXT);
         if x > MARGIN && x + width > page.size[0] - MARGIN {
             (x, y) = (MARGIN, y + LINE_OF_TEXT);
         }
         let middle = y + 0.5 * LINE_OF_TEXT;
-        let frame = Frame { x: [x, x + key], y: [middle - 13.0, middle + 13.0] };
-        page.keys.push(Key { frame, colour: *colour, style: *style });
-        page.write(text, (x + key + 16.0, middle), Anchor::Right, TEXT);
+        if *style != KeyStyle::Words {
+            let frame = Frame { x: [x, x + key - 16.0], y: [middle - 13.0, middle + 13.0] };
+            page.keys.push(Key { frame, colour: *colour, style: *style });
+        }
+        page.write(text, (x + key, middle), Anchor::Right, TEXT);
         x += width + 48.0;
     }
     if meanings.is_empty() { y } else { y + LINE_OF_TEXT + 16.0 }

@@ -1,7 +1,8 @@
 //! Labels beside points: as many as there is room for, none upon another or upon a point.
 
 use super::axes::Frame;
-use super::canvas::{Anchor, Place, TEXT};
+use super::brush::Place;
+use super::canvas::{Anchor, TEXT};
 use super::font::text_width;
 use super::page::{Content, LINE_OF_TEXT, Page};
 use super::stroke::Stroke;

@@ -6,7 +6,8 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::RGBColor;
 
 use super::axes::{Axes, Frame};
-use super::canvas::{Anchor, Canvas, FigureError, LINE, Place, TEXT};
+use super::brush::Place;
+use super::canvas::{Anchor, Canvas, FigureError, LINE, TEXT};
 use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
@@ -64,6 +65,8 @@ pub enum KeyStyle {
     Area,
     /// A mark.
     Mark(Mark),
+    /// Nothing: the text says it.
+    Words,
 }
 
 /// A mark at a point.
@@ -177,6 +180,7 @@ impl Key {
                 stroke.draw(canvas, &self.frame.x.map(|x| (x, middle)))
             }
             KeyStyle::Area => canvas.area(&self.frame.corners(), self.colour),
+            KeyStyle::Words => Ok(()),
             KeyStyle::Mark(mark) => mark.draw(canvas, (0.5 * (self.frame.x[0] + self.frame.x[1]), middle), self.colour),
         }
     }

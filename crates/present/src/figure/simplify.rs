@@ -1,6 +1,6 @@
 //! Curves with no more places than there is to see: rounded to pixels, places close to each other would make them ragged.
 
-use super::canvas::Place;
+use super::brush::Place;
 
 /// How far the simplified curve may be from a place that is left out, pixels.
 const TOLERANCE: f64 = 0.25;

@@ -3,7 +3,8 @@
 use plotters::prelude::DrawingBackend;
 use plotters::style::RGBColor;
 
-use super::canvas::{Canvas, FigureError, LINE, Place};
+use super::brush::Place;
+use super::canvas::{Canvas, FigureError, LINE};
 use crate::colour::{RUNS, paler};
 
 /// Lengths of dashes and gaps by turns, pixels; none is a line without gaps.

@@ -12,7 +12,7 @@ use super::format::Figure;
 use super::histogram::Histogram;
 use super::page::{Content, Key, KeyStyle, Page, Panel};
 use super::raster::Raster;
-use super::stroke::Stroke;
+use super::stroke::{SOLID, Stroke};
 use crate::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT, MISSING};
 use crate::quantity::Unit;
 use plateau_io::number::{significant, with_minus};
@@ -32,6 +32,10 @@ const CHART: f64 = 430.0;
 const HEAD: f64 = 100.0;
 const REMARKS: f64 = 50.0;
 const FOOT: f64 = 120.0;
+/// Room below the charts for what is drawn about the curve, in two lines.
+const LEGEND: f64 = 2.0 * SPACING + 20.0;
+/// Width of the sample of a colour, pixels.
+const KEY: f64 = 60.0;
 /// Room for the lines of text above a chart, and their distance.
 const CAPTION: f64 = 3.0 * SPACING + 10.0;
 const SPACING: f64 = 1.25 * TEXT as f64;
@@ -91,7 +95,7 @@ pub fn figure(surfaces: &[DescribedSurface]) -> Figure {
     let remarks = if surfaces.iter().any(DescribedSurface::has_remarks) { REMARKS } else { 0.0 };
     let largest = surfaces.iter().map(|surface| surface.map_size()[1]).fold(0.0, f64::max);
     let room = Room { head: HEAD + remarks, map: largest };
-    let height = room.head + room.map + FOOT + CAPTION + CHART + FOOT;
+    let height = room.head + room.map + FOOT + CAPTION + CHART + FOOT + LEGEND;
     let size = [WIDTH * across as f64, (height * down as f64).floor()];
     let mut page = Page { size, ..Page::default() };
     for (index, surface) in surfaces.iter().enumerate() {
@@ -119,6 +123,9 @@ impl DescribedSurface<'_> {
         let range = scaled(&self.drawn.histogram.range, &unit);
         self.add_histogram(page, chart(HISTOGRAM), &range, &unit);
         self.add_curve(page, chart(CURVE), &range, &unit);
+        if self.description.core.peak_ratio.is_finite() {
+            write_legend(page, [x + LEFT, top + CHART + FOOT]);
+        }
     }
 
     /// The name, and what is to know of the map.
@@ -265,6 +272,24 @@ fn write_above(page: &mut Page, frame: &Frame, lines: Vec<String>) {
     for (line, text) in lines.into_iter().enumerate() {
         let place = (frame.x[0], frame.y[0] - 10.0 - (count - line) as f64 * SPACING);
         page.write(text, place, Anchor::BelowRight, TEXT);
+    }
+}
+
+/// Writes what is drawn about the curve, from the upper left corner on.
+fn write_legend(page: &mut Page, [x, y]: [f64; 2]) {
+    let line = KeyStyle::Line(SOLID);
+    let meanings = [
+        (DERIVED, line, "line along the flattest 40 % of the curve", 0),
+        (FAINT, line, "its ends, Sk apart", 0),
+        (DERIVED_AREA, KeyStyle::Area, "triangles as large as peaks and dales, Spk and Svk high", 1),
+    ];
+    let mut begins = [x; 2];
+    for (colour, style, text, row) in meanings {
+        let (begin, middle) = (&mut begins[row], y + (row as f64 + 0.5) * SPACING);
+        let frame = Frame { x: [*begin, *begin + KEY], y: [middle - 13.0, middle + 13.0] };
+        page.keys.push(Key { frame, colour, style });
+        page.write(text, (frame.x[1] + 12.0, middle), Anchor::Right, TEXT);
+        *begin = frame.x[1] + 12.0 + text_width(text, TEXT) + 36.0;
     }
 }
 

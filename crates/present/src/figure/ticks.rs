@@ -15,7 +15,10 @@ pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
     let count = |step: f64| ((high / step + 1e-9).floor() - (low / step - 1e-9).ceil() + 1.0) as usize;
     let steps = [(1.0, power), (2.0, power), (5.0, power), (1.0, power + 1), (2.0, power + 1)];
     let mut steps = steps.into_iter().map(|(digit, power)| (digit * 10_f64.powi(power), power));
-    let Some((step, power)) = steps.find(|(step, _)| count(*step) <= most) else { return Vec::new() };
+    let Some((step, power)) = steps.clone().find(|(step, _)| count(*step) <= most) else { return Vec::new() };
+    // A single number is no scale: there are the first and the last of more instead.
+    let finer = if most > 1 && count(step) < 2 { steps.rfind(|(step, _)| count(*step) > 1) } else { None };
+    let (step, power) = finer.unwrap_or((step, power));
     let decimals = (-power).max(0) as usize;
     let first = (low / step - 1e-9).ceil();
     let tick = |index: usize| {
@@ -23,7 +26,8 @@ pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
         let value = (first + index as f64) * step + 0.0;
         (value, number::with_minus(&format!("{value:.decimals$}")))
     };
-    (0..count(step)).map(tick).collect()
+    let shown = if finer.is_some() { vec![0, count(step) - 1] } else { (0..count(step)).collect() };
+    shown.into_iter().map(tick).collect()
 }
 
 /// Places of ticks in a positive range of an axis of equal ratios, and what they say: powers of ten, with 2 and 5 times
@@ -107,6 +111,9 @@ mod tests {
             (0.0..=1.0, 6, vec!["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]),
             (-0.35..=0.2, 4, vec!["\u{2212}0.2", "0.0", "0.2"]),
             (0.0..=129.6, 4, vec!["0", "50", "100"]),
+            // Multiples of 5 have one number here, those of 2 five: there is room for the first and the last.
+            (36.0..=44.0, 2, vec!["36", "44"]),
+            (19.95..=24.05, 2, vec!["20", "24"]),
             (990.0..=1010.0, 5, vec!["990", "995", "1000", "1005", "1010"]),
             (3.0..=3.0, 5, vec![]),
         ] {

@@ -1,8 +1,8 @@
 //! What is shown, each described once: its title, unit, sign and colours. Figures, pages and the terminal ask here.
 //!
-//! Heights are the model's z wherever a run is shown: the disc's grow toward the pin, the pin's away from the disc, so that
-//! its peaks point down. As the pin wears by far more than it is rough, its heights are counted from their mean. (`plateau
-//! surface` describes a surface by itself: there peaks are positive on both bodies, as in ISO 25178-2.)
+//! Heights are positive toward the other body wherever they are shown, so peaks are high on both bodies, as in ISO 25178-2 and as
+//! `plateau surface` has them. The disc's are the model's z; the z of the pin grows away from the disc, so it is turned, and as the
+//! pin wears by far more than it is rough, it is counted from its mean.
 
 mod printed;
 mod range;
@@ -34,7 +34,7 @@ pub struct SeriesLook {
 static SERIES: [SeriesLook; 35] = [
     series("sliding_distance", "sliding distance", Unit::METRE),
     series("contact_area", "contact area", Unit::MM2),
-    series("contact_area_mean", "contact area, mean of the last revolution", Unit::MM2),
+    series("contact_area_mean", "contact area, mean of the last simulated revolution", Unit::MM2),
     series("contact_ratio", "contact area over the area of the pin", Unit::PERCENT),
     series("mean_pressure", "mean contact pressure", Unit::MEGAPASCAL),
     series("max_pressure", "largest contact pressure", Unit::MEGAPASCAL),
@@ -54,7 +54,7 @@ static SERIES: [SeriesLook; 35] = [
     series("rotational_speed", "rotational speed", Unit::RPM),
     series("road_distance", "distance of the vehicle", Unit::METRE),
     series("friction_coefficient", "coefficient of friction", Unit::NUMBER),
-    series("friction_coefficient_mean", "coefficient of friction, mean of the last revolution", Unit::NUMBER),
+    series("friction_coefficient_mean", "coefficient of friction, mean of the last simulated revolution", Unit::NUMBER),
     series("friction_work", "work of friction", Unit::KILOJOULE),
     series("contact_temperature", "temperature of the contact", Unit::CELSIUS),
     series("contact_temperature_heated", "temperature of the cells in contact, mean", Unit::CELSIUS),
@@ -106,7 +106,7 @@ pub struct MapLook {
     pub map: Map,
     /// What it is, with the body and the sign.
     pub title: &'static str,
-    /// What its values are, in a word.
+    /// What its values are, in a few words.
     pub what: &'static str,
     /// The unit in which they are given.
     pub unit: Unit,
@@ -133,8 +133,8 @@ static MAPS: [MapLook; 8] = [
     height(Map::DiscHeight, "Disc: height, positive toward the pin", None),
     height(Map::DiscSubstrate, "Disc: height below the debris", Some(Map::DiscHeight)),
     status(Map::DiscStatus, "Disc: status"),
-    height(Map::PinHeight, "Pin: height, positive away from the disc", None),
-    height(Map::PinSubstrate, "Pin: height below the debris, positive away from the disc", Some(Map::PinHeight)),
+    height(Map::PinHeight, "Pin: height, positive toward the disc", None),
+    height(Map::PinSubstrate, "Pin: height below the debris, positive toward the disc", Some(Map::PinHeight)),
     status(Map::PinStatus, "Pin: status"),
     MapLook {
         map: Map::Pressure,
@@ -158,7 +158,8 @@ static MAPS: [MapLook; 8] = [
 
 const fn height(map: Map, title: &'static str, above: Option<Map>) -> MapLook {
     let about_mean = matches!(map, Map::PinHeight | Map::PinSubstrate);
-    MapLook { map, title, what: "height", unit: Unit::MICROMETRE, colours: Colours::Span, about_mean, above }
+    let what = if about_mean { "height toward the disc" } else { "height" };
+    MapLook { map, title, what, unit: Unit::MICROMETRE, colours: Colours::Span, about_mean, above }
 }
 
 const fn status(map: Map, title: &'static str) -> MapLook {
@@ -185,9 +186,9 @@ impl MapLook {
         if self.map.on_disc() { "disc" } else { "pin" }
     }
 
-    /// The sign of a peak: material is below the disc's surface and above the pin's.
-    pub fn peaks(&self) -> f64 {
-        if self.map.on_disc() { 1.0 } else { -1.0 }
+    /// The sign with which values are shown: the pin's z grows away from the disc, and its peaks are to be high.
+    pub fn sign(&self) -> f64 {
+        if matches!(self.map, Map::PinHeight | Map::PinSubstrate) { -1.0 } else { 1.0 }
     }
 
     /// What the values of a moment are counted from.

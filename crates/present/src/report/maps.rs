@@ -31,7 +31,7 @@ pub struct PageMap {
     pub shape: [usize; 2],
     /// Cells of a block along columns and rows.
     pub block: [usize; 2],
-    /// Per time, what its values are told from, SI ([`MapLook::zero`]).
+    /// Per time, what its values are told from, SI ([`MapLook::zero`]), with the sign that they are shown with.
     pub reference: Vec<f64>,
     /// Lowest and highest value less the reference, SI.
     pub range: [f64; 2],
@@ -84,9 +84,9 @@ pub fn maps(run: &RunFile, reduction: Reduction) -> Result<Vec<PageMap>, ReadErr
 struct Recorded {
     map: Map,
     blocks: Blocks,
-    /// See [`PageMap::reference`].
+    /// What values are told from, as they were recorded.
     reference: Vec<f64>,
-    /// Heights and pressures less the reference, SI, time by time.
+    /// Heights, with the sign that they are shown with, and pressures less the reference, SI, time by time.
     values: Vec<f64>,
     /// Statuses, time by time.
     statuses: Vec<u8>,
@@ -104,7 +104,8 @@ impl Recorded {
                 Some(Coarse::Float(values)) => {
                     let own = || MapLook::of(map).zero(&values);
                     let reference = height.map_or_else(own, |height| height.reference[at]);
-                    recorded.values.extend(values.iter().map(|value| value - reference));
+                    let sign = MapLook::of(map).sign();
+                    recorded.values.extend(values.iter().map(|value| sign * (value - reference)));
                     recorded.reference.push(reference);
                 }
                 Some(Coarse::Status(codes)) => recorded.statuses.extend(codes),
@@ -140,7 +141,7 @@ impl Recorded {
             times: times.to_vec(),
             shape: self.blocks.shape(),
             block: self.blocks.size,
-            reference: self.reference.clone(),
+            reference: self.reference.iter().map(|reference| look.sign() * reference).collect(),
             range: quantised.range,
             steps: quantised.fineness.steps(),
             colours: colours(look, &self.values),

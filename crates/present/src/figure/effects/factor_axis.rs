@@ -1,17 +1,16 @@
-//! The axis of a factor: its levels beside each other, or the values of its range.
+//! The axis of a factor: the values of its range, or its levels, those that are numbers at their values.
 
 use std::ops::RangeInclusive;
 
 use plateau_study::design::Setting;
 use plateau_study::effects::FactorKind;
 
+use super::levels::{least_distance, named, places_of};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::TEXT;
 use crate::figure::font::{shortened, text_width};
 use crate::quantity::{power_of_axis, printed_number, printed_unit, with_power};
 use crate::study::analysis::{AnalysedFactor, LOGARITHM};
-use crate::study::reading::split;
-use plateau_io::number::{self, raised};
 
 /// Room beside the first and the last level, in distances of levels.
 const BESIDE: f64 = 0.45;
@@ -35,8 +34,8 @@ pub struct FactorAxis<'a> {
     pub unit: String,
     /// Power of ten that stands before the unit of a range, so that numbers on the axis are short.
     power: i32,
-    /// Where levels stand, in the order of the factor.
-    ranks: Vec<usize>,
+    /// Where levels stand, in the order of the factor, from 0 to one less than there are levels.
+    places: Vec<f64>,
     /// Coded values of the least and the largest setting that was observed.
     ends: [f64; 2],
     /// How many different coded values were observed, at least as far as three tell more than two.
@@ -47,20 +46,16 @@ impl<'a> FactorAxis<'a> {
     /// A factor with the settings that it had.
     pub fn new(factor: &'a AnalysedFactor, observed: impl Iterator<Item = Setting>) -> Self {
         let (names, unit) = named(&factor.labels);
-        let ranks = match &factor.factor.kind {
-            // As numbers ascend.
-            FactorKind::Levels(values) => {
-                let below = |value: &f64| values.iter().filter(|other| other.total_cmp(value).is_lt()).count();
-                values.iter().map(below).collect()
-            }
-            _ => (0..factor.labels.len()).collect(),
+        let places = match &factor.factor.kind {
+            FactorKind::Levels(values) => places_of(values),
+            _ => (0..factor.labels.len()).map(|level| level as f64).collect(),
         };
         let mut coded: Vec<f64> = observed.filter_map(|setting| factor.factor.coded(setting)).collect();
         coded.sort_unstable_by(f64::total_cmp);
         coded.dedup_by(|one, other| (*one - *other).abs() < 1e-9);
         let ends = [coded.first().map_or(-1.0, |low| low.min(-1.0)), coded.last().map_or(1.0, |high| high.max(1.0))];
         let unit = printed_unit(if names.is_empty() { &factor.reading.unit } else { &unit });
-        let axis = Self { factor, names, unit, power: 0, ranks, ends, values: coded.len() };
+        let axis = Self { factor, names, unit, power: 0, places, ends, values: coded.len() };
         Self { power: axis.power_of_range(), ..axis }
     }
 
@@ -136,7 +131,7 @@ impl<'a> FactorAxis<'a> {
     /// Where a setting lies on the axis.
     pub fn place(&self, setting: Setting) -> f64 {
         match setting {
-            Setting::Level(level) => self.ranks.get(level).map_or(0.0, |rank| *rank as f64),
+            Setting::Level(level) => self.places.get(level).copied().unwrap_or(0.0),
             Setting::Coded(coded) => self.on_axis(coded),
         }
     }
@@ -170,7 +165,7 @@ impl<'a> FactorAxis<'a> {
             return (0..values).map(|at| Setting::Coded(low + (high - low) * at as f64 / last)).collect();
         }
         let mut levels: Vec<usize> = (0..self.names.len()).collect();
-        levels.sort_by_key(|level| self.ranks[*level]);
+        levels.sort_by(|one, other| self.places[*one].total_cmp(&self.places[*other]));
         levels.into_iter().map(Setting::Level).collect()
     }
 
@@ -197,40 +192,13 @@ impl<'a> FactorAxis<'a> {
         }
         let label = shortened(&self.label(), TEXT, length);
         let room = length / self.distances() - 0.5 * BETWEEN;
-        let mark = |(name, rank): (&String, &usize)| (*rank as f64, shortened(name, TEXT, room));
-        Axis::marked(self.range(), label, self.names.iter().zip(&self.ranks).map(mark).collect())
+        let mark = |(name, place): (&String, &f64)| (*place, shortened(name, TEXT, room));
+        Axis::marked(self.range(), label, self.names.iter().zip(&self.places).map(mark).collect())
     }
 
-    /// Length of the axis in distances of levels.
+    /// Length of the axis in the least distance of two levels.
     fn distances(&self) -> f64 {
-        (self.names.len() as f64 - 1.0 + 2.0 * BESIDE).max(1.0)
-    }
-}
-
-/// Names of levels on an axis, and their unit: one that all numbers have stands in the label of the axis.
-fn named(labels: &[String]) -> (Vec<String>, String) {
-    let parts: Vec<(Option<f64>, &str)> = labels.iter().map(|label| split(label)).collect();
-    let unit = parts.first().map_or("", |(_, unit)| *unit);
-    if !parts.iter().all(|(number, other)| number.is_some() && *other == unit) {
-        let printed = |label: &String| match split(label) {
-            (Some(_), unit) if !unit.is_empty() => {
-                let number = label.split_whitespace().next().unwrap_or_default();
-                format!("{} {}", plain(number), printed_unit(unit))
-            }
-            _ => label.clone(),
-        };
-        return (labels.iter().map(printed).collect(), String::new());
-    }
-    (labels.iter().map(|label| plain(label.split_whitespace().next().unwrap_or_default())).collect(), unit.to_owned())
-}
-
-/// A number as it is printed: `2.5e-14` becomes 2.5·10⁻¹⁴.
-fn plain(number: &str) -> String {
-    let power = |(digits, power): (&str, &str)| Some((digits.to_owned(), power.parse::<i32>().ok()?));
-    match number.split_once(['e', 'E']).and_then(power) {
-        Some((digits, power)) if digits == "1" => format!("10{}", raised(power)),
-        Some((digits, power)) => number::with_minus(&format!("{digits}\u{b7}10{}", raised(power))),
-        None => number::with_minus(number),
+        (self.names.len() as f64 - 1.0 + 2.0 * BESIDE).max(1.0) / least_distance(&self.places).min(1.0)
     }
 }
 
@@ -247,12 +215,13 @@ mod tests {
     }
 
     #[test]
-    fn levels_stand_in_ascending_order_with_their_unit_beside() {
+    fn levels_stand_at_their_values_with_their_unit_beside() {
         let load = factor("load", FactorKind::Levels(vec![20.0, 5.0, 10.0]), &["20 N", "5 N", "10 N"]);
         let axis = FactorAxis::new(&load, (0..3).map(Setting::Level));
         assert_eq!(axis.label(), "load, N");
         let marks = axis.axis(600.0).marks.unwrap();
-        assert_eq!(marks, [(2.0, "20".to_owned()), (0.0, "5".to_owned()), (1.0, "10".to_owned())]);
+        // By hand: 10 N are a third of the way from 5 N to 20 N.
+        assert_eq!(marks, [(2.0, "20".to_owned()), (0.0, "5".to_owned()), (2.0 / 3.0, "10".to_owned())]);
         assert_eq!(axis.settings(9), [1, 2, 0].map(Setting::Level));
         assert_eq!(axis.name(Setting::Level(0)), "20 N");
     }
@@ -265,19 +234,6 @@ mod tests {
         let places: Vec<f64> = axis.settings(3).into_iter().map(|setting| axis.place(setting)).collect();
         assert_eq!(places, [1.0, 3.5, 6.0]);
         assert!(axis.axis(600.0).marks.is_none());
-    }
-
-    #[test]
-    fn words_and_mixed_units_stand_as_they_are() {
-        let words = ["contact".to_owned(), "track".to_owned()];
-        assert_eq!(named(&words), (words.to_vec(), String::new()));
-        let mixed = ["50 um".to_owned(), "1 mm".to_owned()];
-        assert_eq!(named(&mixed), (vec!["50 µm".to_owned(), "1 mm".to_owned()], String::new()));
-        assert_eq!(named(&["0.2".to_owned(), "-0.4".to_owned()]).0, ["0.2", "\u{2212}0.4"]);
-        assert_eq!(
-            ["2.5e-14", "1e6", "-3E2"].map(plain),
-            ["2.5\u{b7}10\u{207b}\u{b9}\u{2074}", "10\u{2076}", "\u{2212}3\u{b7}10\u{b2}"]
-        );
     }
 
     #[test]

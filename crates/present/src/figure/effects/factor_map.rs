@@ -8,7 +8,8 @@ use super::FactorAxis;
 use super::line_numbers::{NumberedLine, all_numbered, length_of, numbers};
 use crate::colour::{APART, COLOURS, GROUND, INK, colour_index, colour_map};
 use crate::figure::axes::{Axes, Axis, Frame, most_ticks_upward};
-use crate::figure::canvas::{LINE, Place};
+use crate::figure::brush::Place;
+use crate::figure::canvas::LINE;
 use crate::figure::chart::{COLUMN, MARGIN, Meaning, legend, note};
 use crate::figure::colour_bar::ColourBar;
 use crate::figure::contour::Field;
@@ -23,6 +24,8 @@ const STEPS: usize = 160;
 const FINE: usize = 320;
 /// One step beyond the runs for so many of the map: marks at its ends are not on the frame.
 const ROOM: usize = 16;
+/// Part of the map that a dot hides.
+const HIDDEN: f64 = 1e-3;
 /// How far settings may differ that are the same, in coded units.
 const SAME: f64 = 1e-6;
 /// Height of the box, pixels.
@@ -130,6 +133,12 @@ impl<'a> FactorMap<'a> {
         self.values[at].is_nan() && self.is_within(self.coded([(at / points) as f64, (at % points) as f64]))
     }
 
+    /// Whether there are places without a value that are more than a run's dot hides.
+    fn has_visible_gaps(&self) -> bool {
+        let gaps = (0..self.values.len()).filter(|at| self.is_gap(*at)).count();
+        gaps as f64 > HIDDEN * self.values.len() as f64
+    }
+
     /// Whether there are values that are not all the same.
     pub fn varies(&self) -> bool {
         let [low, high] = self.range();
@@ -224,7 +233,7 @@ impl<'a> FactorMap<'a> {
         let marks = marks.into_iter().filter(|(_, places, _)| !places.is_empty());
         let mut meanings: Vec<Meaning> = marks.map(|(mark, _, text)| meaning(mark, text.to_owned())).collect();
         meanings.extend(mark.as_ref().map(|(_, text)| meaning(Mark::Cross, text.clone())));
-        if (0..self.values.len()).any(|at| self.is_gap(at)) {
+        if self.has_visible_gaps() {
             meanings.push(Meaning { colour: APART, style: KeyStyle::Area, text: none.to_owned() });
         }
         let top = legend(&mut page, &meanings, MARGIN) + 12.0;

@@ -16,7 +16,9 @@ use crate::figure::stroke::{SOLID, Stroke};
 const HEIGHT: f64 = 860.0;
 /// Fewest effects of which the smaller ones show an error.
 const FEWEST: usize = 3;
-/// Effects that are labelled although they are not significant, where nothing tells which are.
+/// As many effects have a label each.
+const FEW: usize = 8;
+/// Effects of more that are labelled although they are not significant, where nothing tells which are.
 const LABELLED: usize = 5;
 /// Longest label, pixels.
 const LABEL: f64 = 520.0;
@@ -85,10 +87,8 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
             let end = axes.x.range.end().min(axes.y.range.end() / slope);
             labels.avoid([axes.place(0.0, 0.0), axes.place(end, slope * end)]);
         }
-        let labelled: Vec<&HalfNormal> =
-            if is_told { significant } else { others.iter().rev().take(LABELLED).copied().collect() };
         // The largest first: it is the one that must not be missed.
-        let mut labelled = labelled;
+        let mut labelled = labelled(is_told, significant, &others);
         labelled.sort_by(|one, other| other.size.total_cmp(&one.size));
         let named = labelled
             .into_iter()
@@ -104,10 +104,41 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     subject.add(figures, "half-normal", "Half-normal plot of the effects on", caption, page);
 }
 
+/// The effects that have labels: all where they are few, else the significant ones, or the largest where nothing tells which are.
+fn labelled<'a>(is_told: bool, significant: Vec<&'a HalfNormal>, others: &[&'a HalfNormal]) -> Vec<&'a HalfNormal> {
+    if significant.len() + others.len() <= FEW {
+        [&significant, others].concat()
+    } else if is_told {
+        significant
+    } else {
+        others.iter().rev().take(LABELLED).copied().collect()
+    }
+}
+
 /// The standard error of an effect: the median of all, which are equal in balanced designs, or that of Lenth's method.
 fn standard_error(effects: &Effects) -> Option<f64> {
     let errors = effects.terms.iter().filter_map(|term| Some(term.estimate?.uncertainty?.standard_error));
     let mut errors: Vec<f64> = errors.filter(|error| *error > 0.0).collect();
     errors.sort_unstable_by(f64::total_cmp);
     errors.get(errors.len() / 2).copied().or(effects.lenth.map(|lenth| lenth.pseudo_standard_error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_effects_have_a_label_each() {
+        let effects: Vec<HalfNormal> =
+            (0..10).map(|term| HalfNormal { term, quantile: 0.1 * term as f64, size: term as f64 }).collect();
+        let terms = |labelled: Vec<&HalfNormal>| labelled.into_iter().map(|effect| effect.term).collect::<Vec<_>>();
+        let of = |count: usize, first: usize, is_told: bool| {
+            let (others, significant): (Vec<_>, Vec<_>) =
+                effects[..count].iter().partition(|effect| effect.term < first);
+            terms(labelled(is_told, significant, &others))
+        };
+        assert_eq!(of(5, 2, true), [2, 3, 4, 0, 1]);
+        assert_eq!(of(10, 8, true), [8, 9]);
+        assert_eq!(of(10, 10, false), [9, 8, 7, 6, 5]);
+    }
 }

@@ -2,7 +2,8 @@
 
 use crate::colour::GROUND;
 use crate::figure::axes::{Axes, Frame};
-use crate::figure::canvas::{Anchor, Place};
+use crate::figure::brush::Place;
+use crate::figure::canvas::Anchor;
 use crate::figure::font::text_width;
 use crate::figure::page::{Key, KeyStyle, Page};
 

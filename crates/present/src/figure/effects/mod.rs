@@ -9,7 +9,7 @@
 //! | the response over two factors | [`response_surface`] |
 //! | what the model leaves | [`residuals`] |
 //!
-//! What they have in common: a factor as an axis in [`factor_axis`], a response as one in [`value_axis`], a map over two factors in
+//! What they have in common: a factor as an axis in [`factor_axis`], its levels in [`levels`], a response as one in [`value_axis`], a map over two factors in
 //! [`factor_map`].
 
 use std::ops::RangeInclusive;
@@ -28,6 +28,7 @@ mod factor_axis;
 pub(super) mod factor_map;
 mod half_normal;
 mod interactions;
+mod levels;
 mod line_numbers;
 mod main_effects;
 mod pareto;

@@ -124,12 +124,6 @@ fn bar(subject: &Subject, term: &Term, measure: Measure) -> Option<Bar> {
 fn contents(bars: &[Bar], simultaneous: Option<f64>) -> Vec<Content> {
     let count = bars.len() as f64;
     let mut contents = Vec::new();
-    for (at, bar) in bars.iter().enumerate() {
-        let middle = count - 0.5 - at as f64;
-        let ends = [middle - 0.5 * PART, middle + 0.5 * PART];
-        let spans = [0.0, bar.length].map(|x| [x, ends[0], ends[1]]).to_vec();
-        contents.push(Content::Band { spans, colour: colour(bar), opacity: 1.0 });
-    }
     // One line through all bars, with a step where a term has other degrees of freedom than the one above it.
     let mut points: Vec<[f64; 2]> = Vec::new();
     for (at, limit) in bars.iter().enumerate().filter_map(|(at, bar)| Some((at, bar.limit?))) {
@@ -146,6 +140,13 @@ fn contents(bars: &[Bar], simultaneous: Option<f64>) -> Vec<Content> {
         points: vec![[margin, 0.0], [margin, count]],
         stroke: Stroke::solid(INK, LINE + 1),
     }));
+    // Bars lie on the lines: one that is beyond a limit covers it, one that is not ends before it.
+    for (at, bar) in bars.iter().enumerate() {
+        let middle = count - 0.5 - at as f64;
+        let ends = [middle - 0.5 * PART, middle + 0.5 * PART];
+        let spans = [0.0, bar.length].map(|x| [x, ends[0], ends[1]]).to_vec();
+        contents.push(Content::Band { spans, colour: colour(bar), opacity: 1.0 });
+    }
     contents
 }
 
@@ -214,4 +215,17 @@ fn caption(subject: &Subject, measure: Measure, all: usize) -> String {
         caption.push_str(" Terms with * cannot be told from others, which the table names.");
     }
     caption
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_lie_on_the_limits() {
+        let bar = |length| Bar { name: String::new(), length, limit: Some(2.0) };
+        let contents = contents(&[bar(2.1), bar(1.9)], Some(3.0));
+        let is_line = |content: &Content| matches!(content, Content::Line { .. });
+        assert_eq!(contents.iter().map(is_line).collect::<Vec<_>>(), [true, true, false, false]);
+    }
 }

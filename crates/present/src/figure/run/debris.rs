@@ -20,6 +20,8 @@ const PARTS: [&str; 4] = ["deposited_disc", "deposited_pin", "emitted", "pool"];
 const STAYED: [usize; 3] = [0, 1, 3];
 /// What debris comes from.
 const SOURCES: [&str; 4] = ["worn_pin", "worn_resin", "worn_disc", "returned"];
+/// What the line of all of them is.
+const SUPPLY: &str = "worn off, or back from plateaus that broke away";
 /// Points along time, at most.
 const MOST_POINTS: usize = 400;
 /// Runs beside each other, at most.
@@ -73,7 +75,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         |part: &usize| balances.iter().any(|(_, balance)| balance.parts[*part].iter().any(|volume| *volume > 0.0));
     let stacked = (0..PARTS.len()).rev().filter(is_there).map(|part| (DEBRIS[part], title(PARTS[part])));
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
-    meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: "worn + returned".to_owned() });
+    meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: SUPPLY.to_owned() });
     let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
     figures.add(
         NAME,

@@ -3,14 +3,13 @@
 use plateau_io::run_file::ReadError;
 
 use super::rates::{Rate, per_metre, rates, steps};
-use super::{Figures, Subject, operation};
-use crate::colour::INK;
+use super::{Figures, Subject, only_stroke, operation, with_names};
 use crate::figure::axes::Axis;
-use crate::figure::canvas::LINE;
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
 use crate::figure::stroke::Stroke;
 use crate::quantity::Unit;
+use plateau_io::number;
 
 const NAME: &str = "emission";
 const SERIES: [&str; 3] = ["pm10_mass", "pm25_mass", "particle_number"];
@@ -49,10 +48,14 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     if let [subject] = subjects {
         operation::shade_events(subject.run, &time, &mut charts)?;
     }
-    let runs = having.iter().map(|(number, subject)| Meaning::of_run(*number, &subject.label));
-    let sizes = [(Stroke::solid(INK, LINE), "PM10, particles"), (Stroke::solid(INK, LINE).paler(), "PM2.5")];
-    let sizes = sizes.map(|(stroke, text)| Meaning::of_line(stroke, text));
-    let meanings: Vec<Meaning> = runs.chain(sizes).collect();
+    let mut own = match only_stroke(subjects, having.iter().map(|(number, _)| *number)) {
+        Some(stroke) => {
+            vec![Meaning::of_line(stroke, "PM10, particles"), Meaning::of_line(stroke.paler(), "PM2.5")]
+        }
+        None => vec![Meaning::in_words("lines: PM10, particles; paler: PM2.5")],
+    };
+    own.push(Meaning::in_words(&of_pins(&having)));
+    let meanings = with_names(subjects, |shown| having.iter().any(|(number, _)| *number == shown), own);
     let of_road = if on_road.is_empty() {
         ""
     } else {
@@ -65,11 +68,23 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "Airborne emission",
         format!(
             "Airborne mass (PM10 and, paler, PM2.5) and number of particles that are added in a time, in windows with equally \
-             many samples.{of_road} Events of a single run with a cycle that has ended are shaded."
+             many samples, of this pin alone.{of_road} Events of a single run with a cycle that has ended are shaded."
         ),
         page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
+}
+
+/// What a reader must not take for the emission of a brake: the area that it is of.
+fn of_pins(runs: &[(usize, &Subject)]) -> String {
+    let area =
+        |subject: &Subject| Unit::MM2.with_symbol(&number::rounded(Unit::MM2.value(subject.run.mesh().pin_area()), 3));
+    let mut areas: Vec<String> = runs.iter().map(|(_, subject)| area(subject)).collect();
+    areas.dedup();
+    match &areas[..] {
+        [one] => format!("of this pin, {one}, not of a brake"),
+        several => format!("of these pins, {}, not of brakes", several.join(", ")),
+    }
 }
 
 /// Curves of the masses and of the numbers of runs, made of times, values and ways.
@@ -165,6 +180,8 @@ mod tests {
         close(&[last(mass_of_way, Stroke::of(0, 1).paler().colour)], &[[10.0, 0.0375]]);
         close(&[last(number_of_way, RUNS[0])], &[[10.0, 150.0]]);
         assert!(lines_of(mass_of_way, RUNS[1]).is_empty());
+        // By hand: 5 of 60 columns of a ring between 20 mm and 24 mm, π (24² − 20²)/12 mm².
+        assert!(figure.page.texts.iter().any(|words| words.text.contains("of this pin, 46.1 mm²")));
         assert_eq!(notes(&figures, NAME), ["no series road_distance"]);
     }
 

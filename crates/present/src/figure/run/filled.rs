@@ -3,9 +3,9 @@
 use plateau_io::run_file::ReadError;
 
 use super::spans::{band, means_between_ends};
-use super::{Figures, Subject, spans};
+use super::{Figures, Subject, only_stroke, spans, with_names};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
+use crate::figure::chart::{Chart, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
 use crate::figure::stroke::Stroke;
 use crate::quantity::{Unit, title};
@@ -48,13 +48,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     if charts.is_empty() {
         return Ok(());
     }
-    let meanings: Vec<Meaning> = subjects
-        .iter()
-        .enumerate()
-        .filter(|(number, _)| shown[*number])
-        .map(|(number, subject)| Meaning::of_run(number, &subject.label))
-        .chain(spans::meanings(has_bands, "mean of a span of time", "least to greatest"))
-        .collect();
+    let only = only_stroke(subjects, (0..subjects.len()).filter(|number| shown[*number]));
+    let own = spans::meanings(has_bands, only, "mean of a span of time", "least to greatest");
+    let meanings = with_names(subjects, |number| shown[number], own);
     let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,

@@ -21,7 +21,7 @@ const MOST_LINEAR: f64 = 20.0;
 struct Course<'a> {
     number: usize,
     subject: &'a Subject<'a>,
-    /// Means over a revolution, of every sample.
+    /// Means over a simulated revolution, of every sample; no number where nothing rubs.
     means: Vec<f64>,
     /// Pressure and coefficient of single steps.
     steps: Vec<[f64; 2]>,
@@ -32,8 +32,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let mut courses = Vec::new();
     for (number, subject) in figures.with_part(NAME, subjects, &SERIES) {
         let values = |name| Ok(subject.run.values(name)?.unwrap_or_default());
-        let means = operation::while_pressed(subject.run, values(SERIES[0])?)?;
-        let steps = steps(&values(SERIES[2])?, &values(SERIES[1])?);
+        let means = operation::while_rubbing(subject.run, values(SERIES[0])?)?;
+        let coefficients = operation::while_rubbing(subject.run, values(SERIES[1])?)?;
+        let steps = steps(&values(SERIES[2])?, &coefficients);
         courses.push(Course { number, subject, means, steps });
     }
     if courses.is_empty() {
@@ -57,7 +58,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let mut charts = [
         Chart {
-            title: "mean of the last revolution".to_owned(),
+            title: "mean of the last simulated revolution".to_owned(),
             x: Axis::linear(0.0..=time.value(end), time.label("time")),
             y: y.clone(),
             contents: lines,
@@ -74,8 +75,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         NAME,
         "Coefficient of friction",
         format!(
-            "Coefficient of friction, left the mean of the last revolution, weighted by load, against time, right that of single \
-             steps against their mean contact pressure; of a run at most {MOST_MARKS} samples, evenly chosen. Events of a \
+            "Coefficient of friction, left the mean of the last simulated revolution, weighted by load, against time, right that \
+             of single steps against their mean contact pressure; of a run at most {MOST_MARKS} samples, evenly chosen. Events of a \
              single run with a cycle that has ended are shaded."
         ),
         page(width, 640.0, 2, charts.into(), &meanings),
@@ -83,7 +84,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     Ok(())
 }
 
-/// Pressure and coefficient of the samples in which the pin touches, evenly chosen.
+/// Pressure and coefficient of the samples in which the pin rubs, evenly chosen.
 fn steps(pressures: &[f64], coefficients: &[f64]) -> Vec<[f64; 2]> {
     let both = pressures.iter().zip(coefficients).map(|(pressure, coefficient)| [*pressure, *coefficient]);
     let touching: Vec<[f64; 2]> =

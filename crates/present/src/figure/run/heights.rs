@@ -8,9 +8,9 @@ use plateau_io::run_file::ReadError;
 
 use super::map_page::having;
 use super::moments::{heights, shown_moments};
-use super::{Figures, Subject, moments};
+use super::{Figures, Subject, moments, only_stroke, with_names};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page};
+use crate::figure::chart::{Chart, TWO_COLUMNS, page};
 use crate::figure::histogram::Histogram;
 use crate::figure::page::Content;
 use crate::figure::stroke::Stroke;
@@ -55,20 +55,15 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     if charts.is_empty() {
         return Ok(());
     }
-    let runs = subjects
-        .iter()
-        .enumerate()
-        .filter(|(run, _)| shown[*run])
-        .map(|(run, subject)| Meaning::of_run(run, &subject.label));
     let has_first = subjects.iter().any(|subject| shown_moments(subject).len() > 1);
-    let meanings: Vec<Meaning> = runs.chain(moments::meanings(subjects, has_first)).collect();
+    let only = only_stroke(subjects, (0..subjects.len()).filter(|run| shown[*run]));
+    let meanings = with_names(subjects, |run| shown[run], moments::meanings(subjects, only, has_first));
     let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Height distributions",
         "Left the distribution of the heights, right the Abbott-Firestone curve, at the last recorded moment and, paler, at \
-         the first. Heights are the model's z; the pin's are counted from their mean and positive away from the disc, so that \
-         its peaks are below. Every cell counts alike.",
+         the first. Heights are positive toward the other body; the pin's are counted from their mean. Every cell counts alike.",
         page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
@@ -95,16 +90,14 @@ fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Resu
     for (run, subject) in runs {
         let moments = shown_moments(subject);
         for (place, index) in moments.iter().enumerate() {
-            let mut heights = scaled(subject, look, *index)?;
+            let heights = scaled(subject, look, *index)?;
             let histogram = Histogram::of(&heights, 0.0, range.clone(), CLASSES);
-            // The material ratio counts from the peaks.
-            heights.iter_mut().for_each(|height| *height *= look.peaks());
             let curve = MaterialCurve::of(&heights, 0.0);
             distributions.push(Distribution {
                 run: *run,
                 first: place + 1 < moments.len(),
                 histogram,
-                curve: (0..=CURVE).map(|part| look.peaks() * curve.height(part as f64 / CURVE as f64)).collect(),
+                curve: (0..=CURVE).map(|part| curve.height(part as f64 / CURVE as f64)).collect(),
             });
         }
     }

@@ -4,8 +4,6 @@ use plateau_core::observe::{Map, MapValues};
 use plateau_io::run_file::{ReadError, RunFile};
 
 use super::Subject;
-use crate::colour::INK;
-use crate::figure::canvas::LINE;
 use crate::figure::chart::Meaning;
 use crate::figure::stroke::Stroke;
 use crate::quantity::{MapLook, Unit};
@@ -22,7 +20,7 @@ pub fn shown_moments(subject: &Subject) -> Vec<usize> {
 }
 
 /// Indices of the moments after the start.
-pub fn after_the_start(run: &RunFile) -> impl DoubleEndedIterator<Item = usize> + Clone + '_ {
+fn after_the_start(run: &RunFile) -> impl DoubleEndedIterator<Item = usize> + Clone + '_ {
     let times = run.map_time();
     (0..times.len()).filter(|index| times[*index] > 0.0)
 }
@@ -49,15 +47,15 @@ pub fn chosen_for(subject: &Subject, shown: &[&Subject], chosen: &[Vec<usize>]) 
     place.map_or_else(Vec::new, |place| chosen[place].clone())
 }
 
-/// What the lines of the moments of all runs are; nothing where there are only those of the last.
-pub fn meanings(subjects: &[Subject], has_first: bool) -> Vec<Meaning> {
-    if !has_first {
-        return Vec::new();
-    }
+/// What the lines of the moments are, in the colour of the only run, else in words; nothing where there are only those of the last.
+pub fn meanings(subjects: &[Subject], only: Option<Stroke>, has_first: bool) -> Vec<Meaning> {
     let is_chosen = subjects.iter().any(|subject| !subject.chosen.is_empty());
-    let words = if is_chosen { ["last map shown", "earlier maps"] } else { ["last map", "first map"] };
-    let last = Stroke::solid(INK, LINE);
-    vec![Meaning::of_line(last, words[0]), Meaning::of_line(last.paler(), words[1])]
+    let [last, first] = if is_chosen { ["last map shown", "earlier maps"] } else { ["last map", "first map"] };
+    match only {
+        _ if !has_first => Vec::new(),
+        Some(stroke) => vec![Meaning::of_line(stroke, last), Meaning::of_line(stroke.paler(), first)],
+        None => vec![Meaning::in_words(&format!("{last}, paler: {first}"))],
+    }
 }
 
 /// Indices of the maps that were recorded nearest to some times (s), in their order, each once.
@@ -102,10 +100,31 @@ pub fn statuses(run: &RunFile, map: Map, index: usize) -> Result<Vec<u8>, ReadEr
     }
 }
 
-/// Heights of a map as they are shown, and what they are counted from, m.
+/// Heights of a map as they are shown, positive toward the other body, and the z that they are counted from, m.
 pub fn heights(run: &RunFile, map: Map, index: usize) -> Result<(Vec<f64>, f64), ReadError> {
     let mut heights = floats(run, map, index)?;
-    let zero = MapLook::of(map).zero(&heights);
-    heights.iter_mut().for_each(|height| *height -= zero);
+    let look = MapLook::of(map);
+    let zero = look.zero(&heights);
+    heights.iter_mut().for_each(|height| *height = look.sign() * (*height - zero));
     Ok((heights, zero))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::run::written::{CELLS, Written};
+
+    #[test]
+    fn what_reaches_toward_the_other_body_is_high() {
+        // The z of the pin grows away from the disc: the cell of the least z is its peak.
+        let z = |cell: usize| 1e-6 * (cell as f64 + 10.0);
+        for (map, expected) in [(Map::PinHeight, [9.5e-6, -9.5e-6]), (Map::DiscHeight, [10e-6, 249e-6])] {
+            let cells = if map.on_disc() { 240 } else { CELLS };
+            let values = std::iter::once(MapValues::Float((0..cells).map(z).collect()));
+            let run = Written::new("one", &[], |_, time| time).with_maps(map, values);
+            let (shown, _) = run.opened(|run| heights(run, map, 0).unwrap());
+            let ends = [shown[0], shown[cells - 1]];
+            assert!(ends.iter().zip(expected).all(|(end, expected)| (end - expected).abs() < 1e-15), "{ends:?}");
+        }
+    }
 }

@@ -44,12 +44,15 @@ pub fn charts(subjects: &[Subject], time: &Unit, end: f64) -> Result<Vec<Chart>,
     Ok(charts)
 }
 
-/// Means over a revolution without those of moments in which the pin is lifted: these are still of the revolution before.
-pub fn while_pressed(run: &RunFile, mut means: Vec<f64>) -> Result<Vec<f64>, ReadError> {
-    if let Some(forces) = run.values("normal_force")? {
-        means.iter_mut().zip(forces).filter(|(_, force)| *force == 0.0).for_each(|(mean, _)| *mean = f64::NAN);
+/// Values of a contact without those of moments in which nothing rubs: the pin is lifted then, or the disc stands still, and these are
+/// of the last step before.
+pub fn while_rubbing(run: &RunFile, mut values: Vec<f64>) -> Result<Vec<f64>, ReadError> {
+    for name in ["normal_force", "rotational_speed"] {
+        if let Some(operation) = run.values(name)? {
+            values.iter_mut().zip(operation).filter(|(_, rate)| *rate == 0.0).for_each(|(value, _)| *value = f64::NAN);
+        }
     }
-    Ok(means)
+    Ok(values)
 }
 
 /// Shades the events of a run in charts against time, below all that is in them.

@@ -7,9 +7,9 @@ use plateau_io::run_file::ReadError;
 
 use super::map_page::{any_of, having};
 use super::moments::{floats, shown_moments, statuses};
-use super::{Figures, Subject, moments};
+use super::{Figures, Subject, moments, only_stroke, with_names};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page};
+use crate::figure::chart::{COLUMN, Chart, TWO_COLUMNS, page};
 use crate::figure::page::Content;
 use crate::figure::stroke::Stroke;
 use crate::quantity::Unit;
@@ -82,13 +82,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let charts: Vec<Chart> = kinds.iter().enumerate().map(chart).collect();
     let across = charts.len();
     let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
-    let runs = subjects
-        .iter()
-        .enumerate()
-        .filter(|(run, _)| all().any(|sizes| sizes.run == *run))
-        .map(|(run, subject)| Meaning::of_run(run, &subject.label));
-    let meanings: Vec<Meaning> =
-        runs.chain(moments::meanings(subjects, all().any(|sizes| sizes.first && !sizes.areas.is_empty()))).collect();
+    let has_first = all().any(|sizes| sizes.first && !sizes.areas.is_empty());
+    let only = only_stroke(subjects, all().map(|sizes| sizes.run));
+    let own = moments::meanings(subjects, only, has_first);
+    let meanings = with_names(subjects, |run| all().any(|sizes| sizes.run == run), own);
     figures.add(
         NAME,
         "Sizes of contact spots and plateaus",

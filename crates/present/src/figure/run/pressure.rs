@@ -4,7 +4,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
-use super::moments::{after_the_start, chosen_for, ends_with_contact, floats, leave_blank, moment};
+use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -29,7 +29,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         // Before the first step nothing is pressed.
         let moments = moments(subject)?;
         if moments.is_empty() {
-            figures.leave_out(NAME, subject, "no map pressure after the start");
+            figures.leave_out(NAME, subject, "no map pressure with a contact after the start");
         } else {
             shown.push(subject);
             chosen.push(moments);
@@ -74,20 +74,21 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     Ok(())
 }
 
-/// The moments after the start that are asked for, else the first one and the last one in which the pin is not lifted; the first and the last
-/// one where it always is.
+/// The moments after the start that are asked for, else the first one and the last one in which the pin is not lifted; none where it is in
+/// all of them.
 fn moments(subject: &Subject) -> Result<Vec<usize>, ReadError> {
+    let is_pressed = |pressure: f64| pressure > 0.0;
+    if subject.chosen.is_empty() {
+        return ends_with_contact(subject, Map::Pressure, is_pressed);
+    }
     let times = subject.run.map_time();
-    if !subject.chosen.is_empty() {
-        return Ok(subject.chosen.iter().copied().filter(|index| times[*index] > 0.0).collect());
+    let chosen: Vec<usize> = subject.chosen.iter().copied().filter(|index| times[*index] > 0.0).collect();
+    for index in &chosen {
+        if floats(subject.run, Map::Pressure, *index)?.into_iter().any(is_pressed) {
+            return Ok(chosen);
+        }
     }
-    let mut moments = ends_with_contact(subject, Map::Pressure, |pressure| pressure > 0.0)?;
-    if moments.is_empty() {
-        let after = after_the_start(subject.run);
-        moments = after.clone().next().into_iter().chain(after.last()).collect();
-        moments.dedup();
-    }
-    Ok(moments)
+    Ok(Vec::new())
 }
 
 /// The scale that all maps share, and the unit that it is in.
@@ -111,4 +112,33 @@ fn scale(subjects: &[&Subject], moments: &[Vec<usize>]) -> Result<(Axis, Unit), 
         Scale::Linear => 0.0..=unit.value(high),
     };
     Ok((Axis { scale, ..Axis::linear(range, label) }, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use plateau_core::observe::MapValues;
+
+    use super::*;
+    use crate::figure::run::written::{CELLS, Written, notes};
+
+    #[test]
+    fn without_a_contact_there_is_no_figure() {
+        let run = |title, pressures: [f64; 3]| {
+            let maps = pressures.into_iter().map(|pressure| MapValues::Float(vec![pressure; CELLS]));
+            Written::new(title, &[], |_, time| time).with_maps(Map::Pressure, maps)
+        };
+        let titles = |runs: &[Written]| {
+            let figures = Written::figures(runs);
+            let figure = figures.figures.iter().find(|figure| figure.name == NAME);
+            let notes: Vec<String> = notes(&figures, NAME).into_iter().map(str::to_owned).collect();
+            let texts =
+                figure.map(|figure| figure.page.texts.iter().map(|words| words.text.clone()).collect::<Vec<_>>());
+            (texts.map(|texts| texts.into_iter().filter(|text| text.starts_with("pin")).collect::<Vec<_>>()), notes)
+        };
+        let none = "no map pressure with a contact after the start";
+        assert_eq!(titles(&[run("lifted", [5.0, 0.0, 0.0])]), (None, vec![none.to_owned()]));
+        // Beside one that touches a lifted pin is left out alone; the last map with a contact is shown.
+        let (shown, notes) = titles(&[run("lifted", [0.0; 3]), run("pressed", [0.0, 5.0, 0.0])]);
+        assert_eq!((shown, notes), (Some(vec!["pin, 1 s".to_owned()]), vec![none.to_owned()]));
+    }
 }

@@ -90,6 +90,8 @@ fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>,
     if cells.is_empty() {
         return Ok(None);
     }
+    // Cells beyond the outline have no part in the area.
+    leave_blank(subject.run, map, &mut cells, NO_CELL);
     let [none, primary, secondary, _] = area_fractions(subject.run.mesh(), &cells).map(percent);
     let mut title = format!("{}, {}", MapLook::of(map).body(), moment(subject.run, index));
     let remark = format!("none {none}, primary {primary}, secondary {secondary} %");
@@ -101,7 +103,6 @@ fn painted(subject: &Subject, map: Map, index: usize) -> Result<Option<Painted>,
         let thick = percent(area_fractions(subject.run.mesh(), &cells)[Status::Secondary as usize]);
         title = format!("{title}, thick build-up {thick} %");
     }
-    leave_blank(subject.run, map, &mut cells, NO_CELL);
     Ok(Some(Painted { title, remark, cells }))
 }
 
@@ -125,7 +126,23 @@ fn percent(fraction: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use plateau_core::observe::{ABSENT, MapValues};
+
     use super::*;
+    use crate::figure::run::written::{CELLS, Written};
+
+    #[test]
+    fn parts_are_of_what_is_there_of_a_round_pin() {
+        // By hand: of 5 columns the middle one is there, with rows at 20.5 mm to 23.5 mm, together 88.
+        let mut cells = vec![ABSENT; CELLS];
+        cells[8..12].copy_from_slice(&[0, 1, 2, 2]);
+        let run = Written::new("round", &[], |_, time| time).round();
+        let run = run.with_maps(Map::PinStatus, std::iter::once(MapValues::Status(cells)));
+        let figures = Written::figures(&[run]);
+        let figure = figures.figures.iter().find(|figure| figure.name == NAME).unwrap();
+        let text = figure.page.texts.iter().find(|words| words.text.starts_with("none ")).unwrap();
+        assert_eq!(text.text, "none 23.3, primary 24.4, secondary 52.3 %");
+    }
 
     #[test]
     fn fractions_are_of_the_area() {

@@ -16,7 +16,7 @@ pub const BODIES: [Body; 2] = [[Map::DiscHeight, Map::DiscSubstrate], [Map::PinH
 /// Thickness on every cell, m, column by column; nothing if there are no maps.
 pub fn thickness(run: &RunFile, [height, substrate]: Body, index: usize) -> Result<Vec<f64>, ReadError> {
     let (heights, substrates) = (floats(run, height, index)?, floats(run, substrate, index)?);
-    let toward = MapLook::of(height).peaks();
+    let toward = MapLook::of(height).sign();
     Ok(heights.iter().zip(&substrates).map(|(height, substrate)| toward * (height - substrate)).collect())
 }
 

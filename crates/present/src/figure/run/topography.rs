@@ -46,8 +46,8 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     figures.add(
         NAME,
         "Topography of disc and pin",
-        "Heights of disc and pin, the model's z, at the first and the last recorded moment. The pin's are counted from their \
-         mean and positive away from the disc: its peaks have the lowest. The colours span 99 % of all heights of the body.",
+        "Heights of disc and pin at the first and the last recorded moment, positive toward the other body: peaks have the highest. The \
+         pin's are counted from their mean. The colours span 99 % of all heights of the body.",
         page(width, &[], &blocks),
     );
     Ok(())
@@ -75,7 +75,7 @@ fn painted(subject: &Subject, map: Map, index: usize, scale: &Axis) -> Result<Op
     let zero = look.unit.with_symbol(&number::rounded(look.unit.value(zero), 4));
     Ok((!heights.is_empty()).then(|| Painted {
         title: format!("{}, {}", look.body(), moment(subject.run, index)),
-        remark: if look.about_mean { format!("about its mean, z = {zero}") } else { String::new() },
+        remark: if look.about_mean { format!("from its mean, z = {zero}") } else { String::new() },
         cells,
     }))
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use plateau_core::model::mesh::Mesh;
+use plateau_core::model::outline::Outline;
 use plateau_core::model::state::Base;
 use plateau_core::observe::extra::Extra;
 use plateau_core::observe::{EXTRAS, Map, MapValues, Quantity, Sample, Snapshot, quantities};
@@ -26,19 +27,31 @@ pub struct Written {
     /// Names of its series besides those of every run.
     series: Vec<&'static str>,
     value: Box<Value>,
-    /// Maps of the temperature, K.
-    temperatures: Vec<Vec<f64>>,
+    /// A map, and its values a second from each other.
+    maps: Option<(Map, Vec<MapValues>)>,
+    /// Whether the pin is a circle of 4 mm.
+    is_round: bool,
 }
 
 impl Written {
     /// A run without maps.
     pub fn new(title: &'static str, series: &[&'static str], value: impl Fn(&str, f64) -> f64 + 'static) -> Self {
-        Self { title, series: series.to_vec(), value: Box::new(value), temperatures: Vec::new() }
+        Self { title, series: series.to_vec(), value: Box::new(value), maps: None, is_round: false }
     }
 
-    /// The same with maps of the temperature (K), a second from each other, from 0 s on.
+    /// The same with a map, a second from each other, from 0 s on.
+    pub fn with_maps(self, map: Map, values: impl Iterator<Item = MapValues>) -> Self {
+        Self { maps: Some((map, values.collect())), ..self }
+    }
+
+    /// The same with maps of the temperature, K.
     pub fn with_temperatures(self, maps: impl Iterator<Item = Vec<f64>>) -> Self {
-        Self { temperatures: maps.collect(), ..self }
+        self.with_maps(Map::Temperature, maps.map(MapValues::Float))
+    }
+
+    /// The same with a round pin of 4 mm: of its 5 columns the one in the middle is there.
+    pub fn round(self) -> Self {
+        Self { is_round: true, ..self }
     }
 
     /// The figures of runs.
@@ -49,9 +62,20 @@ impl Written {
         figures(&runs, &Options::default()).unwrap()
     }
 
+    /// What is made of the run file.
+    pub fn opened<T>(&self, read: impl Fn(&RunFile) -> T) -> T {
+        let folder = tempfile::tempdir().unwrap();
+        read(&self.write(&folder.path().join("run.h5")))
+    }
+
     /// Writes the run file and opens it.
     fn write(&self, path: &Path) -> RunFile {
         let mesh = Mesh::new(4, 60, 5, 20e-3, 24e-3).unwrap();
+        let (outline, shape) = match self.is_round {
+            true => (Outline::Disc { radius: 2e-3 }, "shape = \"disc\"\npin_diameter = \"4 mm\"\n"),
+            false => (Outline::Rectangle, ""),
+        };
+        let mesh = mesh.with_outline(outline).unwrap();
         let quantity = |name: &&'static str| {
             let known = quantities(EXTRAS).find(|quantity| quantity.name == *name).expect("a series of run files");
             Quantity::extra(name, known.unit, known.long_name)
@@ -63,12 +87,13 @@ impl Written {
             title: self.title.into(),
             pin_base: vec![Base::Primary; mesh.pin_cells()],
             mesh,
-            maps: if self.temperatures.is_empty() { Vec::new() } else { vec![Map::Temperature] },
+            maps: self.maps.iter().filter(|(_, moments)| !moments.is_empty()).map(|(map, _)| *map).collect(),
             extras: vec![extra],
             expected_samples: u64::from(END),
-            scene: "version = 1\n[mesh]\ninner_radius = \"20 mm\"\nouter_radius = \"24 mm\"\nrows = 4\n\
-                    disc_columns = 60\npin_columns = 5\n"
-                .into(),
+            scene: format!(
+                "version = 1\n[mesh]\ninner_radius = \"20 mm\"\nouter_radius = \"24 mm\"\nrows = 4\n\
+                 disc_columns = 60\npin_columns = 5\n{shape}"
+            ),
             program: "plateau".into(),
             source_revision: String::new(),
             host: "bench".into(),
@@ -79,9 +104,10 @@ impl Written {
             surfaces: Vec::new(),
         };
         let mut writer = RunWriter::create(path, false, &header).unwrap();
-        for (second, temperatures) in self.temperatures.iter().enumerate() {
-            let maps = vec![(Map::Temperature, MapValues::Float(temperatures.clone()))];
-            writer.snapshot(Snapshot { time: second as f64, maps }).unwrap();
+        if let Some((map, moments)) = &self.maps {
+            for (second, values) in moments.iter().enumerate() {
+                writer.snapshot(Snapshot { time: second as f64, maps: vec![(*map, values.clone())] }).unwrap();
+            }
         }
         for second in 1..=END {
             let time = f64::from(second);
