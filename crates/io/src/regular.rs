@@ -7,22 +7,43 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::limits;
+use crate::scene::schema::nearest;
 
 /// Opens a regular file for reading.
 ///
 /// # Errors
 /// What the system says, and a message where something else has the name.
 pub fn open(path: &Path) -> io::Result<File> {
-    let there = fs::metadata(path)?;
+    let there = fs::metadata(path).map_err(|error| not_there(path, error))?;
     if there.is_dir() {
-        // To open it succeeds; to read from it does not.
-        File::open(path)?.read_exact(&mut [0])?;
+        return Err(io::Error::new(ErrorKind::IsADirectory, "it is a folder, expected a file"));
     }
     if !there.is_file() {
         let message = "it is a pipe, a device or the like, expected a regular file";
         return Err(io::Error::new(ErrorKind::InvalidInput, message));
     }
     File::open(path)
+}
+
+/// Names in a folder that are looked at for one that may be meant.
+const LOOKED_AT: usize = 10_000;
+
+/// The error of a file that is not there, with the name beside it that is most like its own.
+pub(crate) fn not_there(path: &Path, error: io::Error) -> io::Error {
+    if error.kind() != ErrorKind::NotFound {
+        return error;
+    }
+    let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return error };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().take(LOOKED_AT);
+    let names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    match nearest(name, names.iter().map(String::as_str)) {
+        Some(like) => io::Error::new(
+            ErrorKind::NotFound,
+            format!("{error}; did you mean {}?", path.with_file_name(like).display()),
+        ),
+        None => error,
+    }
 }
 
 /// All of a regular file of at most so many bytes.
@@ -78,6 +99,20 @@ pub(crate) fn sha256(path: &Path) -> io::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_that_is_mistyped_is_told_with_the_one_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("quick.toml"), "").unwrap();
+        let said = |name: &str| open(&folder.path().join(name)).unwrap_err().to_string();
+        let meant = folder.path().join("quick.toml");
+        assert_eq!(
+            said("quik.toml"),
+            format!("No such file or directory (os error 2); did you mean {}?", meant.display())
+        );
+        assert_eq!(said("else"), "No such file or directory (os error 2)");
+        assert_eq!(said("."), "it is a folder, expected a file");
+    }
 
     #[test]
     fn what_is_larger_than_expected_is_not_read() {
