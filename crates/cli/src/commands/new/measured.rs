@@ -117,7 +117,7 @@ fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
     let read_as = Length(columns.max(rows) as f64 * CELL * 1e-6);
     let note = format!(
         "it is {} wide, less than {cells} of {CELL} um, and is read as {read_as} wide (pixel = \"{CELL} um\") with the heights as \
-         they are: a much smoother disc than the measured one. To compute with it as it is measure a larger area",
+         they are: a much smoother disc than the measured one. At its own size it needs smaller cells, or a larger area",
         Length(least)
     );
     Some((lines, note))
