@@ -36,14 +36,27 @@ pub(crate) fn not_there(path: &Path, error: io::Error) -> io::Error {
     let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return error };
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let entries = fs::read_dir(folder).into_iter().flatten().flatten().take(LOOKED_AT);
-    let names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
-    match nearest(name, names.iter().map(String::as_str)) {
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok()).filter(|other| is_like(name, other));
+    let names: Vec<String> = names.collect();
+    match nearest(name, names.iter().map(String::as_str)).or(names.first().map(String::as_str)) {
         Some(like) => io::Error::new(
             ErrorKind::NotFound,
             format!("{error}; did you mean {}?", path.with_file_name(like).display()),
         ),
         None => error,
     }
+}
+
+/// Whether two names are alike before their ending, and have like endings; an ending may have been left out.
+fn is_like(name: &str, other: &str) -> bool {
+    let parts = |name: &str| {
+        let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+        (part(Path::new(name).file_stem()), part(Path::new(name).extension()))
+    };
+    let ((stem, ending), (other_stem, other_ending)) = (parts(name), parts(other));
+    let are_like = |one: &str, other: &str| one == other || nearest(one, [other]).is_some();
+    let ended = are_like(&ending, &other_ending) || ending.is_empty() && stem == other_stem;
+    name != other && are_like(&stem, &other_stem) && ended
 }
 
 /// All of a regular file of at most so many bytes.
@@ -110,7 +123,12 @@ mod tests {
             said("quik.toml"),
             format!("No such file or directory (os error 2); did you mean {}?", meant.display())
         );
-        assert_eq!(said("else"), "No such file or directory (os error 2)");
+        for like in ["quick", "quick.tml", "qiuck.toml"] {
+            assert!(said(like).ends_with("quick.toml?"), "{}", said(like));
+        }
+        // Neither what has only its beginning nor what has only its ending.
+        assert_eq!(said("quick.h5"), "No such file or directory (os error 2)");
+        assert_eq!(said("else.toml"), "No such file or directory (os error 2)");
         assert_eq!(said("."), "it is a folder, expected a file");
     }
 
