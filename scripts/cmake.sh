@@ -33,7 +33,7 @@ cmake_suffices() {
 
 install_build_tools() {
     ! build_tools_installed || return 0
-    say "getting $build_tools for building HDF5, into $build_venv"
+    say "getting $build_tools, which the build asks for even where HDF5 is built, into $build_venv"
     make_venv "$build_venv"
     run_quietly "$build_venv/bin/python" -m pip install --quiet -r "$root/scripts/build-requirements.txt" ||
         die "pip could not install $build_tools: install cmake 3.26 or newer and make, or set CMAKE"

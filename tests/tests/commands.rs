@@ -53,7 +53,17 @@ fn the_mean_contact_area_is_that_of_the_last_tenth() {
     let deviation = (areas.iter().map(|area| (area - mean).powi(2)).sum::<f64>() / areas.len() as f64).sqrt();
     let error = window["standard_error"].as_f64().unwrap();
     assert!(deviation / (areas.len() as f64).sqrt() < error && error < deviation, "{error} {deviation}");
+    // From the half to three quarters, and from there to the end.
+    let at = |part: f64| {
+        let after = time.iter().position(|time| *time >= 60.0 * part).unwrap();
+        let share = (60.0 * part - time[after - 1]) / (time[after] - time[after - 1]);
+        integral[after - 1] + share * (integral[after] - integral[after - 1])
+    };
+    let (third, fourth) = (at(0.75) - at(0.5), integral[last] - at(0.75));
+    let change = summary["contact_area_drift"]["change"].as_f64().unwrap();
+    assert!((change - (fourth / third - 1.0)).abs() < 1e-3, "{change}");
     let text = directory.plateau(["run", &scene, "-o", "again.h5"]).quiet_success();
+    assert!(text.contains("  running in               ") && text.contains(" s to 45 … 60 s\n"), "{text}");
     assert!(text.contains(" mm² (mean of the last 14.") && text.contains("± standard error"), "{text}");
     let text = directory.plateau(["run", &scene, "-o", "short.h5", "--set", "operation.steps=6900"]).quiet_success();
     // 6900 steps are ten revolutions.

@@ -66,7 +66,7 @@ fn the_first_run_works_as_it_is_told() {
 
 #[test]
 fn the_tutorial_about_a_surface_leads_to_its_ring() {
-    expect_tutorial("tutorial-surface.md", &["disc.png", "ring.png", "my-disc.h5", "finer.h5", "extended-3.h5"]);
+    expect_tutorial("tutorial-surface.md", &["disc.png", "ring.png", "measured.h5", "finer.h5", "extended-3.h5"]);
 }
 
 #[test]

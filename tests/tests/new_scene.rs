@@ -90,3 +90,29 @@ fn a_profile_becomes_a_disc_when_its_lay_is_said() {
         assert_eq!(outcome.status, Some(0), "{lay}: {}", outcome.stderr);
     }
 }
+
+#[test]
+fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
+    let directory = WorkingDirectory::new();
+    // 60 x 60 points of 50 um, a wave of 1 um with four spikes of 60 um.
+    let height = |i: u32, j: u32| if i % 30 == 7 && j % 30 == 3 { 60.0 } else { (f64::from(i + 2 * j) / 5.0).sin() };
+    let row = |j: u32| (0..60).map(|i| format!("{:.4}", height(i, j))).collect::<Vec<_>>().join(",") + "\n";
+    directory.write("spikes.csv", format!("unit: um\npitch: 50 um\n{}", (0..60).map(row).collect::<String>()));
+    let new = ["new", "mine.toml", "--disc", "spikes.csv", "--speed", "3 m/s", "--duration", "1 s"];
+    let said = directory.plateau(new).quiet_success();
+    assert!(said.contains("note: spikes.csv: 4 of 3600 points are spikes") && said.contains("outliers = 6"), "{said}");
+    let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+    for line in
+        ["outliers = 6 ", "fill = \"interpolate\"", "sliding_speed = \"3 m/s\"", "maps_at = [\"0 s\"]", "# rotate = "]
+    {
+        assert!(text.contains(line), "{line} in\n{text}");
+    }
+    let outcome = directory.plateau(["run", "mine.toml"]);
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("outliers: 4 of 3600 points"), "{}", outcome.stdout);
+    // 3 m/s at 22 mm.
+    assert!(RunFile::open(directory.path("mine.h5")).text("scene").contains("sliding_speed"), "{}", outcome.stdout);
+    fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("afm.sdf")).unwrap();
+    let said = directory.plateau(["new", "afm.toml", "--disc", "afm.sdf"]).quiet_success();
+    assert!(said.contains("is read as 12.8 mm wide"), "{said}");
+}

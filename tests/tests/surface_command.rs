@@ -236,7 +236,7 @@ fn what_is_no_surface_is_refused() {
     directory.write("not.sdf", "\u{1}\u{2}\u{3}");
     for (file, reason) in [
         ("absent.sdf", "cannot be read"),
-        (".", "not a regular file"),
+        (".", "this is a folder"),
         ("not.sdf", "no surface file that is known"),
         ("all-missing.sdf", "none of its 12 points has a height"),
     ] {

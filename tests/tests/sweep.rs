@@ -66,6 +66,23 @@ fn json(outcome: &Outcome) -> Value {
     serde_json::from_str(&outcome.stdout).unwrap_or_else(|error| panic!("{error}: {outcome:?}"))
 }
 
+/// The runs of `study` have few simulated revolutions: the mean over the last tenth is one over more, which is said once, and nothing
+/// else. Of runs with m = 1 there is nothing to say.
+fn says_what_the_mean_is_over(outcome: &Outcome, acceleration: f64) {
+    assert_eq!(outcome.status, Some(0), "{outcome:?}");
+    if acceleration == 1.0 {
+        assert_eq!(outcome.stderr, "");
+        return;
+    }
+    assert!(outcome.stderr.contains("\"mean contact area\": a tenth of a run has fewer than 10"), "{}", outcome.stderr);
+    assert!(
+        outcome.stderr.contains("over all of the 3 s") || outcome.stderr.contains(" of 24 s;"),
+        "{}",
+        outcome.stderr
+    );
+    assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+}
+
 /// `plateau sweep run study.toml --json`, and what it says.
 fn sweep(directory: &WorkingDirectory, arguments: &[&str]) -> Value {
     let outcome = directory.plateau(["sweep", "run", "study.toml", "--json"].iter().chain(arguments));
@@ -75,7 +92,9 @@ fn sweep(directory: &WorkingDirectory, arguments: &[&str]) -> Value {
 
 /// Collects and gives the table without wall times, which it does not have, and the series.
 fn results(directory: &WorkingDirectory) -> (String, Vec<Vec<u64>>) {
-    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    let is_plain = fs::read_to_string(directory.path("study.toml")).unwrap().contains("time_acceleration = 1\"");
+    let acceleration = if is_plain { 1.0 } else { 20.0 };
+    says_what_the_mean_is_over(&directory.plateau(["sweep", "collect", "study.toml"]), acceleration);
     let file = RunFile::open(directory.path("results/results.h5"));
     let bits = |name: &str| file.floats(name).iter().map(|value| value.to_bits()).collect();
     let series = ["/time", "/contact_area", "/pool", "/worn_pin", "/load", "/mean_filling"].map(bits);
@@ -160,7 +179,7 @@ fn a_mean_of_the_last_tenth_is_that_of_the_summary() {
     let one = longer.replace("\"10 N\", \"20 N\"", "\"10 N\"").replace("0.2, 0.3, 0.4", "0.2, 0.4");
     directory.write("study.toml", one);
     sweep(&directory, &["--jobs", "2"]);
-    directory.plateau(["sweep", "collect", "study.toml"]).quiet_success();
+    says_what_the_mean_is_over(&directory.plateau(["sweep", "collect", "study.toml"]), 20.0);
     let file = RunFile::open(directory.path("results/results.h5"));
     // Run 4: 10 N, 0.4.
     let scene = scene("quick.toml");
@@ -358,4 +377,25 @@ fn a_batch_script_asks_for_what_the_estimate_says() {
         .unwrap();
     assert!(shell.status.success(), "{shell:?}");
     assert_eq!(records(&directory).len(), 7);
+}
+
+#[test]
+fn what_the_scenes_can_hardly_mean_is_said_once_with_its_runs() {
+    let directory = WorkingDirectory::new();
+    // Cells are 50 um wide; a cutoff of 1 mm cuts nothing.
+    let more = "output.sample_every = '0.5 s'\", \"disc.prepare.cutoff = '1 mm'";
+    let study = study().replace("output.sample_every = '0.5 s'", more);
+    let study = study.replace("operation.normal_force", "disc.surface.synthetic.correlation_length");
+    directory.write("study.toml", study.replace(r#"["5 N", "10 N", "20 N"]"#, r#"["60 um", "80 um", "500 um"]"#));
+    for command in ["plan", "run"] {
+        let outcome = directory.plateau(["sweep", command, "study.toml"]);
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        let lines = |words: &str| -> Vec<_> { outcome.stderr.lines().filter(|line| line.contains(words)).collect() };
+        let length = lines("correlation_length: ");
+        assert!(length.len() == 1 && length[0].ends_with("(so in 18 of 27 runs)"), "{}", outcome.stderr);
+        let cutoff = lines("no peak is so high");
+        assert!(cutoff.len() == 1 && cutoff[0].contains("(so in "), "{}", outcome.stderr);
+        assert!(command == "plan" || cutoff[0].contains("27 of 27 runs that were made now"), "{}", outcome.stderr);
+    }
+    assert_eq!(directory.plateau(["sweep", "plan", "study.toml", "-q"]).stderr, "");
 }

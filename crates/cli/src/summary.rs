@@ -1,5 +1,6 @@
 //! What a finished run tells its user.
 
+use plateau_core::observe::drift::Drift;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_run::{PartsSummary, RunSummary};
 
@@ -43,6 +44,9 @@ pub fn text(summary: &RunSummary) -> String {
         ),
         ("waited for the run file", number::duration(summary.writer_wait)),
         ("contact area", contact_area),
+    ];
+    rows.extend(summary.contact_area_drift.as_ref().map(|found| ("running in", drift(found))));
+    rows.extend([
         (
             "contact pressure",
             format!("mean {}, largest {}", megapascal(summary.mean_pressure), megapascal(summary.max_pressure)),
@@ -56,7 +60,7 @@ pub fn text(summary: &RunSummary) -> String {
             "worn volume",
             format!("{}, of which emitted {}", cubic_millimetres(summary.worn), cubic_millimetres(summary.emitted)),
         ),
-    ];
+    ]);
     rows.extend(parts(&summary.parts));
     rows.push((
         "residuals",
@@ -109,4 +113,46 @@ fn contact_area(window: &WindowMean) -> String {
     };
     let error = if window.standard_error.is_some() { ", ± standard error" } else { ", too few samples for an error" };
     format!("{mean} mm² ({over}{error})")
+}
+
+/// Whether the mean contact area still changes, in words.
+fn drift(drift: &Drift) -> String {
+    let Drift { third_quarter, last_quarter, change, standard_error } = drift;
+    let percent = number::with_error(100.0 * change, Some(100.0 * standard_error));
+    let sign = if *change > 0.0 { "+" } else { "" };
+    let [start, middle, end] =
+        [third_quarter.from, last_quarter.from, last_quarter.to].map(|time| number::rounded(time, 4));
+    let found = match (drift.is_beyond_chance(), *change > 0.0) {
+        (true, true) => "contact area still rises",
+        (true, false) => "contact area still falls",
+        (false, _) => "no change beyond chance",
+    };
+    format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_change_in_the_second_half_is_told_with_its_error() {
+        let quarter = |from: f64, to: f64, mean: f64| WindowMean {
+            from,
+            to,
+            revolutions: None,
+            mean,
+            standard_error: Some(0.02e-6),
+        };
+        let of = |change: f64| {
+            drift(&Drift {
+                third_quarter: quarter(30.0, 45.0, 1e-6),
+                last_quarter: quarter(45.0, 60.0, (1.0 + change) * 1e-6),
+                change,
+                standard_error: 0.03,
+            })
+        };
+        assert_eq!(of(0.12), "contact area still rises: +12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(of(-0.12), "contact area still falls: -12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(of(0.05), "no change beyond chance: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+    }
 }

@@ -7,22 +7,56 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::limits;
+use crate::scene::schema::nearest;
 
 /// Opens a regular file for reading.
 ///
 /// # Errors
 /// What the system says, and a message where something else has the name.
 pub fn open(path: &Path) -> io::Result<File> {
-    let there = fs::metadata(path)?;
+    let there = fs::metadata(path).map_err(|error| not_there(path, error))?;
     if there.is_dir() {
-        // To open it succeeds; to read from it does not.
-        File::open(path)?.read_exact(&mut [0])?;
+        return Err(io::Error::new(ErrorKind::IsADirectory, "it is a folder, expected a file"));
     }
     if !there.is_file() {
         let message = "it is a pipe, a device or the like, expected a regular file";
         return Err(io::Error::new(ErrorKind::InvalidInput, message));
     }
     File::open(path)
+}
+
+/// Names in a folder that are looked at for one that may be meant.
+const LOOKED_AT: usize = 10_000;
+
+/// The error of a file that is not there, with the name beside it that is most like its own.
+pub(crate) fn not_there(path: &Path, error: io::Error) -> io::Error {
+    if error.kind() != ErrorKind::NotFound {
+        return error;
+    }
+    let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return error };
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().take(LOOKED_AT);
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok()).filter(|other| is_like(name, other));
+    let names: Vec<String> = names.collect();
+    match nearest(name, names.iter().map(String::as_str)).or(names.first().map(String::as_str)) {
+        Some(like) => io::Error::new(
+            ErrorKind::NotFound,
+            format!("{error}; did you mean {}?", path.with_file_name(like).display()),
+        ),
+        None => error,
+    }
+}
+
+/// Whether two names are alike before their ending, and have like endings; an ending may have been left out.
+fn is_like(name: &str, other: &str) -> bool {
+    let parts = |name: &str| {
+        let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+        (part(Path::new(name).file_stem()), part(Path::new(name).extension()))
+    };
+    let ((stem, ending), (other_stem, other_ending)) = (parts(name), parts(other));
+    let are_like = |one: &str, other: &str| one == other || nearest(one, [other]).is_some();
+    let ended = are_like(&ending, &other_ending) || ending.is_empty() && stem == other_stem;
+    name != other && are_like(&stem, &other_stem) && ended
 }
 
 /// All of a regular file of at most so many bytes.
@@ -78,6 +112,25 @@ pub(crate) fn sha256(path: &Path) -> io::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_that_is_mistyped_is_told_with_the_one_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("quick.toml"), "").unwrap();
+        let said = |name: &str| open(&folder.path().join(name)).unwrap_err().to_string();
+        let meant = folder.path().join("quick.toml");
+        assert_eq!(
+            said("quik.toml"),
+            format!("No such file or directory (os error 2); did you mean {}?", meant.display())
+        );
+        for like in ["quick", "quick.tml", "qiuck.toml"] {
+            assert!(said(like).ends_with("quick.toml?"), "{}", said(like));
+        }
+        // Neither what has only its beginning nor what has only its ending.
+        assert_eq!(said("quick.h5"), "No such file or directory (os error 2)");
+        assert_eq!(said("else.toml"), "No such file or directory (os error 2)");
+        assert_eq!(said("."), "it is a folder, expected a file");
+    }
 
     #[test]
     fn what_is_larger_than_expected_is_not_read() {

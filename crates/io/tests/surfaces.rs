@@ -348,7 +348,7 @@ fn files_that_are_not_read_are_named() {
     let advice = "convert it to SDF, X3P or HDF5";
     for (path, expected) in [
         (folder.path().join("absent.sdf"), "cannot be read: No such file or directory".to_owned()),
-        (folder.path().to_owned(), "this is not a regular file".to_owned()),
+        (folder.path().to_owned(), "this is a folder, expected a surface file: name one in it".to_owned()),
         (PathBuf::from("/dev/null"), "this is not a regular file".to_owned()),
         (write("empty.sdf", b""), format!("this is no surface file that is known (it is empty); {advice}")),
         (

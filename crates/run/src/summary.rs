@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use plateau_core::model::accounts::AccountsReport;
 use plateau_core::observe::Sample;
+use plateau_core::observe::drift::Drift;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
 use plateau_io::run_file::WriterReport;
@@ -44,6 +45,8 @@ pub struct RunSummary {
     pub contact_area_mean: f64,
     /// Its mean over the last tenth of the run, where there are enough samples.
     pub contact_area_last_tenth: Option<WindowMean>,
+    /// What its mean changed by in the second half of the run, where that can be told.
+    pub contact_area_drift: Option<Drift>,
     /// Contact area as a part of the pin's.
     pub contact_ratio: f64,
     /// Mean pressure in contact, Pa.
@@ -130,7 +133,7 @@ impl RunSummary {
         surfaces: Vec<String>,
         file: PathBuf,
         last: &Sample,
-        contact_area_last_tenth: Option<WindowMean>,
+        (contact_area_last_tenth, contact_area_drift): (Option<WindowMean>, Option<Drift>),
         course: Course,
         report: WriterReport,
         wall_time: f64,
@@ -150,6 +153,7 @@ impl RunSummary {
             contact_area: last.contact_area,
             contact_area_mean: last.contact_area_mean,
             contact_area_last_tenth,
+            contact_area_drift,
             contact_ratio: last.contact_ratio,
             mean_pressure: last.mean_pressure,
             max_pressure: last.max_pressure,

@@ -33,7 +33,7 @@ pub struct NewArguments {
     /// Force on the pin
     #[arg(long, value_name = "FORCE", allow_hyphen_values = true, default_value = "47 N", value_parser = force)]
     pub load: String,
-    /// Rotational speed of the disc
+    /// Rotational speed of the disc, or the sliding speed ("3 m/s") at --radius
     #[arg(long, value_name = "SPEED", allow_hyphen_values = true, default_value = "850 rpm", value_parser = speed)]
     pub speed: String,
     /// Time to simulate
@@ -42,6 +42,13 @@ pub struct NewArguments {
     /// Replace the scene file if it exists
     #[arg(long)]
     pub force: bool,
+}
+
+impl NewArguments {
+    /// The key of the scene that the speed is given by.
+    pub fn speed_key(&self) -> &'static str {
+        if is_sliding_speed(&self.speed) { "sliding_speed" } else { "rotational_speed" }
+    }
 }
 
 fn length(text: &str) -> Result<String, String> {
@@ -53,7 +60,12 @@ fn force(text: &str) -> Result<String, String> {
 }
 
 fn speed(text: &str) -> Result<String, String> {
-    of(text, Dimension::RotationalSpeed)
+    of(text, if is_sliding_speed(text) { Dimension::Speed } else { Dimension::RotationalSpeed })
+}
+
+/// Whether a speed is a length over a time.
+fn is_sliding_speed(text: &str) -> bool {
+    units::parse(text, Dimension::Speed).is_ok()
 }
 
 fn time(text: &str) -> Result<String, String> {
@@ -64,4 +76,18 @@ fn time(text: &str) -> Result<String, String> {
 fn of(text: &str, dimension: Dimension) -> Result<String, String> {
     let value = units::parse(text, dimension).map_err(|error| error.to_string())?;
     if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_speed_is_of_turns_or_of_sliding() {
+        assert_eq!(speed("3 m/s").as_deref(), Ok("3 m/s"));
+        assert_eq!(speed("850 rpm").as_deref(), Ok("850 rpm"));
+        assert!(speed("3 mm").unwrap_err().contains("is a length, expected a rotational speed"));
+        assert!(speed("-3 m/s").unwrap_err().contains("more than 0"));
+        assert!(is_sliding_speed("10 km/h") && !is_sliding_speed("2 rad/s"));
+    }
 }

@@ -1,5 +1,7 @@
 //! `plateau run`: simulate a scene and write its run file.
 
+use std::path::Path;
+
 use plateau_io::process::report_file_size_limit;
 use plateau_run::{Job, RunOptions, StartMode};
 
@@ -8,7 +10,7 @@ use crate::arguments::{RunArguments, SceneArguments};
 use crate::failure::{Failure, in_job};
 use crate::table::print;
 use crate::terminal::Terminal;
-use crate::{message, summary, version};
+use crate::{called, message, summary, version};
 
 /// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -23,6 +25,7 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
     // Of several processes, too, each ends by itself: nothing is written yet.
     terminal.end_while_preparing();
+    arguments.output.as_deref().map_or(Ok(()), refuse_other_format)?;
     let scene = load_scene(&lengthened(arguments))?;
     let mode = match (arguments.resume, &arguments.extend_to) {
         (_, Some(_)) => StartMode::Extend,
@@ -51,4 +54,44 @@ fn lengthened(arguments: &RunArguments) -> SceneArguments {
     let mut scene = arguments.scene.clone();
     scene.sets.extend(arguments.extend_to.iter().map(|time| format!("operation.duration={time}")));
     scene
+}
+
+/// Endings of what `export`, `plot` and `report` make of a run file, with the call that does so.
+const MADE_OF_RUNS: [(&str, &str); 8] = [
+    ("csv", "export RUN.h5 --to csv"),
+    ("npz", "export RUN.h5 --to npz"),
+    ("pvd", "export RUN.h5 --to vtk"),
+    ("vtk", "export RUN.h5 --to vtk"),
+    ("png", "plot RUN.h5"),
+    ("svg", "plot RUN.h5"),
+    ("pdf", "plot RUN.h5"),
+    ("html", "report RUN.h5"),
+];
+
+/// Refuses a name that says that a run file is what it is not.
+fn refuse_other_format(output: &Path) -> Result<(), Failure> {
+    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+    match MADE_OF_RUNS.iter().find(|(other, _)| *other == ending) {
+        None => Ok(()),
+        Some((_, call)) => Err(Failure::input(format_args!(
+            "-o {}: a run file is HDF5, expected a name such as {}; afterwards `{} {call}` makes .{ending} of it",
+            output.display(),
+            output.with_extension("h5").display(),
+            called::program()
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_file_is_not_named_as_what_is_made_of_one() {
+        for name in ["run.h5", "run", "run.nc", "disc.1"] {
+            assert!(refuse_other_format(Path::new(name)).is_ok(), "{name}");
+        }
+        let Err(Failure::Input(message)) = refuse_other_format(Path::new("out/a.CSV")) else { panic!("accepted") };
+        assert!(message.contains("such as out/a.h5") && message.contains("export RUN.h5 --to csv"), "{message}");
+    }
 }

@@ -9,6 +9,7 @@ use plateau_io::surface;
 use plateau_run::execution::time_per_step;
 
 use super::resolved::run_in_words;
+use super::scene_warnings::{SceneWarnings, of_surfaces};
 use crate::failure::Failure;
 
 /// Runs whose steps are counted.
@@ -19,7 +20,7 @@ const TIMED: usize = 3;
 const TRIAL: Duration = Duration::from_millis(150);
 
 /// What one run costs.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Estimate {
     /// Memory of the largest run, bytes.
     pub memory: u64,
@@ -27,24 +28,25 @@ pub struct Estimate {
     pub mean_time: f64,
     /// Wall time of the longest, s.
     pub longest_time: f64,
+    /// What the surfaces of the runs that were tried can hardly be meant to be.
+    pub warnings: SceneWarnings,
 }
 
 impl Estimate {
-    /// Where nothing is run.
-    pub const NOTHING: Self = Self { memory: 0, mean_time: 0.0, longest_time: 0.0 };
-
     /// Looks at some of the runs.
     ///
     /// # Errors
     /// [`Failure::Input`] when their scenes or surfaces cannot be built.
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
         super::refuse_without_scene(plan)?;
-        let mut per_cell = 0.0_f64;
+        let (mut per_cell, mut warnings) = (0.0_f64, SceneWarnings::default());
         for number in spread(plan.runs(), TIMED) {
             let scene = scene(plan, number)?;
             let start = std::time::Instant::now();
-            let surfaces = surface::load(&scene).map_err(Failure::input)?.surfaces;
+            let loaded = surface::load(&scene).map_err(Failure::input)?;
             let making = start.elapsed().as_secs_f64();
+            warnings.add(of_surfaces(&scene, &loaded));
+            let surfaces = loaded.surfaces;
             let execution = Execution { workers: 1, ..Execution::default() };
             let mut simulation =
                 Simulation::with_execution(scene.parameters.clone(), surfaces, execution).map_err(Failure::input)?;
@@ -60,7 +62,7 @@ impl Estimate {
             times.push(scene.steps as f64 * scene.parameters.mesh.pin_cells() as f64 * per_cell);
         }
         let mean_time = times.iter().sum::<f64>() / times.len().max(1) as f64;
-        Ok(Self { memory, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max) })
+        Ok(Self { memory, mean_time, longest_time: times.iter().copied().fold(0.0, f64::max), warnings })
     }
 }
 

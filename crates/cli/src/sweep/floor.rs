@@ -6,15 +6,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use plateau_io::dataset_file::now;
+use plateau_io::scene::Scene;
 use plateau_io::study::journal::Shard;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Outcome, Record};
+use plateau_io::surface::Loaded;
 use plateau_run::job::PieceEnd;
 
 use super::journal_folder;
 use super::make::make;
 use super::progress::Progress;
 use super::resolved::Resolved;
+use super::scene_warnings::{SceneWarnings, of_surfaces};
 use super::under_way::UnderWay;
 use super::watcher::{Stopped, Watcher};
 use crate::failure::Failure;
@@ -32,6 +35,8 @@ pub struct Floor<'a> {
     shard: Mutex<Option<Shard>>,
     finished: AtomicUsize,
     failed: AtomicUsize,
+    /// What the surfaces of the runs can hardly be meant to be.
+    warnings: Mutex<SceneWarnings>,
     /// Why no result can be kept any more.
     broken: Mutex<Option<Failure>>,
 }
@@ -47,6 +52,10 @@ impl Watcher for Floor<'_> {
     fn steps(&self, count: u64) -> Option<u8> {
         self.progress.steps(count);
         self.interrupt.signal()
+    }
+
+    fn surfaces(&self, scene: &Scene, loaded: &Loaded) {
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).add(of_surfaces(scene, loaded));
     }
 
     fn goes_on(&self, steps: u64) {
@@ -73,6 +82,7 @@ impl<'a> Floor<'a> {
             shard: Mutex::new(None),
             finished: AtomicUsize::new(0),
             failed: AtomicUsize::new(0),
+            warnings: Mutex::default(),
             broken: Mutex::new(None),
         }
     }
@@ -80,6 +90,11 @@ impl<'a> Floor<'a> {
     /// The signal that ended the runs, if there was one.
     pub fn signal(&self) -> Option<u8> {
         self.interrupt.signal()
+    }
+
+    /// Says what the surfaces of the runs that were made can hardly be meant to be.
+    pub fn warn_of_surfaces(&self) {
+        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).say("runs that were made now");
     }
 
     /// Completes the journal and counts what was made.

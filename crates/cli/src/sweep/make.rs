@@ -42,7 +42,9 @@ fn finish(
     watcher: &dyn Watcher,
     under_way: &mut UnderWay,
 ) -> Result<Outcome, Ended> {
-    let surfaces = surfaces(scene, watcher)?;
+    let loaded = surfaces(scene, watcher)?;
+    watcher.surfaces(scene, &loaded);
+    let surfaces = loaded.surfaces;
     // A study keeps no maps.
     let mut scene = scene.clone();
     scene.output.maps.clear();

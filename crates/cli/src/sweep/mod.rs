@@ -3,6 +3,8 @@
 //! | what | where |
 //! |---|---|
 //! | the scenes of all runs, resolved | [`resolved`] |
+//! | what these scenes can hardly mean | [`scene_warnings`] |
+//! | what `mean = "last tenth"` is a mean over | [`short_tenth`] |
 //! | what they will cost | [`estimate`] |
 //! | one run, from its scene to its record | [`make`] |
 //! | its surfaces, given up when a signal comes | [`surfaces`] |
@@ -19,6 +21,8 @@ pub mod floor;
 pub mod make;
 pub mod progress;
 pub mod resolved;
+pub mod scene_warnings;
+pub mod short_tenth;
 pub mod surfaces;
 pub mod under_way;
 pub mod watcher;

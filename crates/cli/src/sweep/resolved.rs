@@ -8,14 +8,16 @@ use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
 use rayon::prelude::*;
 
+use super::scene_warnings::{Found, SceneWarnings, of_scene};
+use super::short_tenth::RunLength;
 use crate::failure::Failure;
 use crate::{message, number, version};
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
 
-/// Identity of a run, with its steps and its duration, s.
-type Known = (String, (u64, f64));
+/// Identity of a run, with its steps, how long it is, and its warnings.
+type Known = (String, (u64, RunLength, Vec<Found>));
 
 /// What is known of every run before it is made, in the order of the design.
 #[derive(Debug, Clone)]
@@ -26,8 +28,10 @@ pub struct Resolved {
     pub firsts: Vec<usize>,
     /// Its steps.
     pub steps: Vec<u64>,
-    /// The shortest duration of a run, s.
-    pub shortest: f64,
+    /// How long each is.
+    pub lengths: Vec<RunLength>,
+    /// What the scenes can hardly mean.
+    pub warnings: SceneWarnings,
     /// The files of the scenes, and those that they read.
     pub files: BTreeSet<PathBuf>,
 }
@@ -46,13 +50,14 @@ impl Resolved {
     /// Warns of responses that ask for a time after the end of some run, which then gives none.
     pub fn warn_of_late_questions(&self, study: &Study) {
         for response in &study.responses {
-            if let Some(time) = response.latest_time().filter(|time| *time > self.shortest * (1.0 + 1e-9)) {
+            let shortest = self.lengths.iter().map(|length| length.duration).fold(f64::INFINITY, f64::min);
+            if let Some(time) = response.latest_time().filter(|time| *time > shortest * (1.0 + 1e-9)) {
                 message::warning(format_args!(
                     "{}: response \"{}\" asks for {}, and the shortest run ends at {}: runs that end before have no value of it",
                     study.path.display(),
                     response.name,
                     seconds(time),
-                    seconds(self.shortest)
+                    seconds(shortest)
                 ));
             }
         }
@@ -70,7 +75,8 @@ impl Resolved {
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;
             let identity = identity(&scene, &digests, &program)
                 .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
-            Ok(((identity, (scene.steps, scene.duration)), scene.files))
+            let length = RunLength::of(&scene);
+            Ok(((identity, (scene.steps, length, of_scene(&scene))), scene.files))
         };
         let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
         let problems: Vec<(usize, &String)> =
@@ -78,10 +84,15 @@ impl Resolved {
         if problems.is_empty() {
             let (known, files): (Vec<Known>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
             let files = files.into_iter().flatten().chain(digests.files()).collect();
-            let (identities, lengths): (Vec<String>, Vec<(u64, f64)>) = known.into_iter().unzip();
-            let (steps, durations): (Vec<u64>, Vec<f64>) = lengths.into_iter().unzip();
-            let shortest = durations.into_iter().fold(f64::INFINITY, f64::min);
-            return Ok(Self { firsts: firsts(&identities), identities, steps, shortest, files });
+            let (mut identities, mut steps, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
+            let mut warnings = SceneWarnings::default();
+            for (identity, (count, length, found)) in known {
+                identities.push(identity);
+                steps.push(count);
+                lengths.push(length);
+                warnings.add(found);
+            }
+            return Ok(Self { firsts: firsts(&identities), identities, steps, lengths, warnings, files });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();
@@ -106,6 +117,6 @@ pub fn run_in_words(plan: &Plan, number: usize) -> String {
 }
 
 /// A time in words.
-fn seconds(time: f64) -> String {
+pub fn seconds(time: f64) -> String {
     format!("{} s", number::rounded(time, 6))
 }

@@ -4,9 +4,8 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use plateau_core::model::state::InitialSurfaces;
 use plateau_io::scene::Scene;
-use plateau_io::surface::{self, SurfaceError};
+use plateau_io::surface::{self, Loaded, SurfaceError};
 
 use super::watcher::{Ended, Watcher};
 
@@ -18,7 +17,7 @@ const LOOK: Duration = Duration::from_millis(50);
 ///
 /// # Errors
 /// [`Ended`], with the signal or with what is wrong.
-pub fn surfaces(scene: &Scene, watcher: &dyn Watcher) -> Result<InitialSurfaces, Ended> {
+pub fn surfaces(scene: &Scene, watcher: &dyn Watcher) -> Result<Loaded, Ended> {
     let (give, take) = channel();
     let its_own = scene.clone();
     let load = move || drop(give.send(surface::load(&its_own)));
@@ -36,5 +35,5 @@ pub fn surfaces(scene: &Scene, watcher: &dyn Watcher) -> Result<InitialSurfaces,
         // No thread is to be had: a signal is heard with the first step.
         surface::load(scene)
     };
-    loaded.map(|loaded| loaded.surfaces).map_err(|error: SurfaceError| Ended::Failed(error.to_string()))
+    loaded.map_err(|error: SurfaceError| Ended::Failed(error.to_string()))
 }

@@ -10,9 +10,10 @@
 //! | `event.rs` | what is reported of each event of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
-//! | `window_mean.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
+//! | `window_mean.rs`, `drift.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
 
 pub mod dissipation;
+pub mod drift;
 pub mod event;
 pub mod extra;
 pub mod map;

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// Part of a run, at its end, of which the mean is taken.
 const LAST_PART: f64 = 0.1;
 /// Simulated revolutions in that part, at least, where the run has as many.
-const LEAST_REVOLUTIONS: f64 = 10.0;
+pub const LEAST_REVOLUTIONS: f64 = 10.0;
 /// Parts of a window from which a standard error is told, at least: that of n independent values is itself off by a part of
 /// 1/√(2(n−1)), a third here.
 const LEAST_PARTS: usize = 5;

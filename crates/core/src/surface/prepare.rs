@@ -15,7 +15,7 @@ use super::rotate::Turn;
 use super::slope_outliers::remove_slope_outliers;
 use super::straighten::straighten;
 use super::unroll::Unroll;
-use super::warnings::{flat, warnings};
+use super::warnings::{flat, rougher_by_filling, warnings};
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
@@ -308,6 +308,7 @@ impl Preparation {
         };
         report
             .push(format!("{missing} of {points} points were missing and {what}: {}", change(before, &patch.heights)));
+        report.extend(rougher_by_filling(before, rms(&patch.heights), self.outliers.is_some()));
         Ok(missing)
     }
 

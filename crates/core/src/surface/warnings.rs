@@ -13,6 +13,9 @@ const FEW: usize = 100;
 /// Heights that differ by less than this part of the largest differ by rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// How many times the rms height before the filling it may be afterwards: a membrane is smooth, so gaps that it fills take rms away.
+const MOST_BY_FILLING: f64 = 1.2;
+
 /// What a patch that is to become heights of `body` is warned of; `missing` of its points had no height before they were filled.
 pub(super) fn warnings(patch: &Patch, missing: usize, body: Body, mesh: &Mesh) -> Vec<String> {
     let few = few_points(patch, missing);
@@ -66,6 +69,23 @@ fn few_points(patch: &Patch, missing: usize) -> Option<String> {
     (points < FEW).then(|| {
         format!(
             "the patch has {measured}, which tell its rms height to no better than {error:.0} %: expected {FEW} or more"
+        )
+    })
+}
+
+/// Warns of points that were filled from spikes: the rms height is then larger than that of what was measured.
+pub(super) fn rougher_by_filling(before: f64, after: f64, without_outliers: bool) -> Option<String> {
+    let advice = if without_outliers {
+        "take out more of them: a smaller outliers, or outlier_slope"
+    } else {
+        "take those out first: outliers = 6"
+    };
+    (after > MOST_BY_FILLING * before).then(|| {
+        format!(
+            "warning: filling makes the surface rougher, rms {} -> {}: the missing points lie beside spikes, whose heights they \
+             get; {advice}",
+            Length(before),
+            Length(after)
         )
     })
 }
@@ -142,6 +162,14 @@ mod tests {
             assert_eq!(warnings.len(), count, "{warnings:?}");
             assert!(warnings.iter().all(|text| text.contains("an rms of 2 m about their mean, expected at most 1 mm")));
         }
+    }
+
+    #[test]
+    fn gaps_that_are_filled_from_spikes_are_warned_of() {
+        assert_eq!(rougher_by_filling(1e-6, 1.1e-6, false), None);
+        let warning = rougher_by_filling(8.7e-6, 24.5e-6, false).unwrap();
+        assert!(warning.contains("rms 8.7 um -> 24.5 um") && warning.ends_with("outliers = 6"), "{warning}");
+        assert!(rougher_by_filling(1e-6, 2e-6, true).unwrap().contains("a smaller outliers"));
     }
 
     #[test]

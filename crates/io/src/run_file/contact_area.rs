@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use plateau_core::observe::drift::Drift;
 use plateau_core::observe::window_mean::{Cumulative, WindowMean};
 
 use super::{ReadError, RunFile};
@@ -13,9 +14,21 @@ impl RunFile {
     /// # Errors
     /// [`ReadError::Damaged`] when a series cannot be read.
     pub fn last_contact_area(&self) -> Result<Option<WindowMean>, ReadError> {
+        self.of_contact_area(|samples| samples.mean_of_last_tenth())
+    }
+
+    /// What the mean contact area changed by in the second half of the run: see [`Drift`]. None where that cannot be told.
+    ///
+    /// # Errors
+    /// [`ReadError::Damaged`] when a series cannot be read.
+    pub fn drift_of_contact_area(&self) -> Result<Option<Drift>, ReadError> {
+        self.of_contact_area(|samples| Drift::of(samples))
+    }
+
+    fn of_contact_area<T>(&self, look: impl FnOnce(&Cumulative<'_>) -> Option<T>) -> Result<Option<T>, ReadError> {
         let Some(integral) = self.values("contact_area_integral")? else { return Ok(None) };
         let revolutions = self.revolutions()?.unwrap_or_default();
-        Ok(Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions }.mean_of_last_tenth())
+        Ok(look(&Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions }))
     }
 
     /// Simulated revolutions from t = 0 to every sample, where the sliding distance is recorded: a simulated revolution stands

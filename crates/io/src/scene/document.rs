@@ -124,13 +124,31 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
         let twice = error.span().filter(|_| message == "duplicate key").and_then(|span| text.get(span));
         let message = match twice {
             Some(key) => format!("{key} is there already in this table, further up: keep one of them"),
-            None => format!("this is not TOML: {message}"),
+            None => match error.span().and_then(|span| with_comma(text, span.start)) {
+                Some(found) => format!("{found} has a comma, write {}", found.replacen(',', ".", 1)),
+                None => format!("this is not TOML: {message}"),
+            },
         };
         Problem::without_key(&origin, message)
     })?;
+    if ["design", "factor"].iter().all(|key| document.get_ref().contains_key(*key)) {
+        let message = "this is a study, expected a scene; `plateau sweep plan` and `plateau sweep run` take studies";
+        return Err(Problem::without_key(&Origin::File(file.clone()), message));
+    }
     let mut flattening = Flattening { locate: |span| locator.origin(span), entries: Entries::new(), problems };
     flattening.table(document.get_ref(), "");
     Ok(flattening.entries)
+}
+
+/// The number with a decimal comma that the parser stopped in, at its comma or behind it.
+fn with_comma(text: &str, at: usize) -> Option<&str> {
+    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b',' | b'-' | b'+');
+    let bytes = text.as_bytes();
+    let before = bytes.get(..at)?.iter().rev().take_while(|byte| is_part(byte)).count();
+    let behind = bytes[at..].iter().take_while(|byte| is_part(byte)).count();
+    let found = text.get(at - before..at + behind)?;
+    let number = found.replacen(',', ".", 1);
+    (found.matches(',').count() == 1 && !found.ends_with(',') && number.parse::<f64>().is_ok()).then_some(found)
 }
 
 /// Reads `key.path=value`; a value that is not TOML is a string.

@@ -101,7 +101,7 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>,
             Some(origin) => Problem::new(origin, "extends", format!("cannot read {}: {error}", path.display())),
             None => Problem::without_key(&Origin::File(file.clone()), format!("cannot read the scene: {error}")),
         };
-        let identity = path.canonicalize().map_err(unreadable)?;
+        let identity = path.canonicalize().map_err(|error| unreadable(regular::not_there(&path, error)))?;
         files.push(path.clone());
         if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
             let chain: Vec<_> = files[first..].iter().map(|file| file.display().to_string()).collect();

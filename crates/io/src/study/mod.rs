@@ -145,11 +145,42 @@ impl Study {
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
         let text = regular::read_to_string(path, limits::STUDY)
             .map_err(|error| at(Origin::File(file.clone()), format!("cannot read the study: {error}")))?;
+        if is_scene(&text) {
+            let message = "this is a scene, expected a study; `plateau run` and `plateau check` take scenes";
+            return Err(at(Origin::File(file), message.to_owned()));
+        }
         let place = Place { file: file.clone(), text: &text };
         let document: Document = toml::from_str(&text).map_err(|error| {
             let origin = error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start));
             at(origin, error.message().to_owned())
         })?;
         build::build(document, path, &place).map_err(StudyError)
+    }
+}
+
+/// Whether a text is that of a scene: it has a table that only scenes have, and nothing that every study has.
+fn is_scene(text: &str) -> bool {
+    let has = |table: &toml::Table, keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+    let tables = ["mesh", "operation", "contact", "materials", "plateaus", "disc", "pin", "extends"];
+    text.parse::<toml::Table>().is_ok_and(|table| has(&table, &tables) && !has(&table, &["design", "factor", "base"]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_is_told_from_a_study() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        let said = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            Study::load(&path).unwrap_err().to_string()
+        };
+        let scene = format!("{}: this is a scene, expected a study; `plateau run` and", path.display());
+        for text in ["version = 1\n[mesh]\nrows = 8\n", "extends = \"quick.toml\"\n"] {
+            assert!(said(text).starts_with(&scene), "{}", said(text));
+        }
+        assert!(!said("version = 1\ndesign = \"sobol\"\n[mesh]\n").contains("this is a scene"));
     }
 }

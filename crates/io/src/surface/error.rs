@@ -65,7 +65,10 @@ pub enum FileError {
     /// The operating system refused.
     #[error("cannot be read: {0}")]
     System(#[from] io::Error),
-    /// A folder, a device or the like.
+    /// A folder.
+    #[error("this is a folder, expected a surface file: name one in it")]
+    Folder,
+    /// A device or the like.
     #[error("this is not a regular file")]
     NotAFile,
     /// Nobody knows what it is.

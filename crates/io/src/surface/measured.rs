@@ -227,8 +227,9 @@ const HEAD: u64 = 4096;
 /// [`FileError`] when it cannot be read, is no regular file or is none of the known formats.
 pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     // Asked before opening: opening a named pipe would wait for its writer.
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(FileError::NotAFile);
+    let there = std::fs::metadata(path).map_err(|error| regular::not_there(path, error))?;
+    if !there.is_file() {
+        return Err(if there.is_dir() { FileError::Folder } else { FileError::NotAFile });
     }
     let mut file = BufReader::new(File::open(path)?);
     let mut head = Vec::new();

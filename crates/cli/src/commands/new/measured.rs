@@ -3,16 +3,17 @@
 use std::fmt;
 use std::path::Path;
 
-use plateau_core::surface::{Extension, Length};
+use plateau_core::surface::{Extension, Length, Patch, Spikes};
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 
 use super::{CELL, line};
 use crate::arguments::{ReadArguments, as_options};
 use crate::failure::Failure;
+use crate::number;
 
-/// The tables of the disc: the file read as it is, levelled, filled where points are missing, and extended by its statistics; of
-/// the profile of a surface with grooves, tiled.
-pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<String, Failure> {
+/// The tables of the disc: the file read as it is, levelled, without spikes, filled where points are missing, and extended by its
+/// statistics; of the profile of a surface with grooves, tiled. Besides, what should be known of them.
+pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(String, Vec<String>), Failure> {
     let named = |reason: &dyn fmt::Display| Failure::input(format_args!("{}: {reason}", disc.display()));
     let measured = read(disc, reading).map_err(|reason| named(&reason))?;
     let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| named(&reason))?, "<-")];
@@ -20,11 +21,24 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<String
     if measured.pitch.is_none() {
         lines.push(line("pitch", "1 um", "<- the file does not say how far its points are apart"));
     }
+    let mut notes = Vec::new();
     lines.extend([String::new(), "[disc.prepare]".to_owned()]);
+    if measured.profile_lay.is_none() {
+        let rotate = "# rotate = \"90 deg\"";
+        lines.push(format!("{rotate:40}# x of the file is along sliding: turn it where the lay would be across"));
+    }
     lines.push(line("level", "plane", "form that is taken out: mean, plane, quadratic"));
-    lines.extend(smaller_than_cells(&measured));
-    if measured.heights.iter().any(|height| height.is_nan()) {
-        lines.push(line("fill", "interpolate", "points are missing"));
+    let spikes = spikes(&measured);
+    if let Some(spikes) = &spikes {
+        lines.push(line("outliers", Spikes::LIMIT as i64, &format!("<- {}", told(spikes))));
+        notes.push(format!("{}: {}: outliers = {} takes them out", disc.display(), told(spikes), Spikes::LIMIT));
+    }
+    if let Some((pixel, note)) = smaller_than_cells(&measured) {
+        lines.extend(pixel);
+        notes.push(format!("{}: {note}", disc.display()));
+    }
+    if spikes.is_some() || measured.heights.iter().any(|height| height.is_nan()) {
+        lines.push(line("fill", "interpolate", "points that are missing get heights between those around them"));
     }
     match measured.profile_lay {
         Some(Lay::Along | Lay::Across) => {
@@ -40,7 +54,21 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<String
         }
     }
     lines.push(format!("{:40}# peaks are cut at this height above the mean, as in the paper", "# cutoff = \"3 um\""));
-    Ok(lines.join("\n"))
+    Ok((lines.join("\n"), notes))
+}
+
+/// The spikes of a patch; of a profile they are not looked for.
+fn spikes(measured: &Measured) -> Option<Spikes> {
+    let Measured { columns, rows, ref heights, profile_lay: None, .. } = *measured else { return None };
+    // To tell spikes the pitch does not matter.
+    Spikes::of(&Patch { columns, rows, column_pitch: 1.0, row_pitch: 1.0, heights: heights.clone() })
+}
+
+/// What there is of spikes, in words.
+fn told(spikes: &Spikes) -> String {
+    let Spikes { count, points, kurtosis, rms } = *spikes;
+    let (kurtosis, [before, after]) = (number::rounded(kurtosis, 3), rms.map(Length));
+    format!("{count} of {points} points are spikes: kurtosis {kurtosis}, rms {before}, without them {after}")
 }
 
 /// Reads the file; a profile whose lay is not said is asked for it.
@@ -68,19 +96,29 @@ fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
     path.to_str().map(str::to_owned).ok_or_else(|| "its path is not UTF-8, as a scene is: rename it".to_owned())
 }
 
-/// Lines of the scene that read a patch as larger that is smaller than the fewest cells that are needed of it.
-fn smaller_than_cells(measured: &Measured) -> Vec<String> {
+/// Lines of the scene that read a patch as larger that is smaller than the fewest cells that are needed of it, and what that means.
+fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
     let Measured { columns, rows, pitch, profile_lay, .. } = *measured;
-    let Some([x, y]) = pitch else { return Vec::new() };
+    let [x, y] = pitch?;
     let (least, fewest) = match profile_lay {
         Some(Lay::Along | Lay::Across) => (columns as f64 * x, 1),
         Some(Lay::Isotropic) => (columns as f64 * x, Extension::FEWEST_CELLS),
         None => ((columns as f64 * x).min(rows as f64 * y), Extension::FEWEST_CELLS),
     };
     if least >= fewest as f64 * CELL * 1e-6 {
-        return Vec::new();
+        return None;
     }
     let cells = if fewest == 1 { "a cell".to_owned() } else { format!("{fewest} cells") };
     let remark = format!("<- the patch is {} wide, less than {cells}: read it as larger,", Length(least));
-    vec![line("pixel", format!("{CELL} um"), &remark), format!("{:40}# or leave this out and take smaller cells", "")]
+    let lines = vec![
+        line("pixel", format!("{CELL} um"), &remark),
+        format!("{:40}# or leave this out and take smaller cells", ""),
+    ];
+    let read_as = Length(columns.max(rows) as f64 * CELL * 1e-6);
+    let note = format!(
+        "it is {} wide, less than {cells} of {CELL} um, and is read as {read_as} wide (pixel = \"{CELL} um\") with the heights as \
+         they are: a much smoother disc than the measured one. At its own size it needs smaller cells, or a larger area",
+        Length(least)
+    );
+    Some((lines, note))
 }

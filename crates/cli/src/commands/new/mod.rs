@@ -29,20 +29,27 @@ pub fn new(arguments: &NewArguments) -> Result<(), Failure> {
     let path = &arguments.scene;
     let inputs: Vec<_> = arguments.disc.iter().cloned().collect();
     output::check(path, arguments.force, &inputs)?;
-    let text = text(arguments)?;
+    let Written { text, notes } = text(arguments)?;
     let scene = scene::of_text(path, &text).map_err(|error| refusal::of(arguments, &error))?;
     output::write(path, text.as_bytes(), arguments.force)?;
     scene.warnings.iter().for_each(message::warning);
     let (program, name) = (called::program(), called::argument(&path.to_string_lossy()));
+    let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
     print(&format!(
-        "wrote {}: change what is yours, then\n  {program} check {name}\n  {program} surface --prepare {name}\n  \
+        "{notes}wrote {}: change what is yours, then\n  {program} check {name}\n  {program} surface --prepare {name}\n  \
          {program} run {name}\n",
         path.display()
     ))
 }
 
+/// A scene, and what of it should be known before it is run.
+struct Written {
+    text: String,
+    notes: Vec<String>,
+}
+
 /// The scene with the values of the command line in their places.
-fn text(arguments: &NewArguments) -> Result<String, Failure> {
+fn text(arguments: &NewArguments) -> Result<Written, Failure> {
     let NewArguments { scene, disc, pin_width, pin_length, diameter, radius, load, speed, duration, reading, .. } =
         arguments;
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
@@ -55,8 +62,13 @@ fn text(arguments: &NewArguments) -> Result<String, Failure> {
     };
     let radius = [("mean_radius", radius.as_str(), "<- where the middle of the pin slides")];
     let mesh: Vec<String> = mesh.iter().chain(&radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
+    let mut notes = Vec::new();
     let disc = match disc {
-        Some(disc) => measured::disc(scene, disc, reading)?,
+        Some(disc) => {
+            let (lines, said) = measured::disc(scene, disc, reading)?;
+            notes = said;
+            lines
+        }
         None if reading.keys().is_empty() => SYNTHETIC.to_owned(),
         None => {
             let named: Vec<String> =
@@ -65,9 +77,14 @@ fn text(arguments: &NewArguments) -> Result<String, Failure> {
             return Err(Failure::input(format_args!("{} {message}", named.join(", "))));
         }
     };
+    let speed_key = arguments.speed_key();
+    let other_speed = match speed_key {
+        "sliding_speed" => "<- at the mean radius; or rotational_speed = \"850 rpm\"",
+        _ => "<- or sliding_speed = \"2 m/s\", at the mean radius",
+    };
     let operation = [
         line("normal_force", load.as_str(), "<- on the whole pin"),
-        line("rotational_speed", speed.as_str(), "<- or sliding_speed = \"2 m/s\", at the mean radius"),
+        line(speed_key, speed.as_str(), other_speed),
         line("duration", duration.as_str(), "<-"),
     ];
     let name = scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -85,7 +102,8 @@ fn text(arguments: &NewArguments) -> Result<String, Failure> {
         ("{name}", name),
         ("{run}", run),
     ];
-    Ok(places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value)))
+    let text = places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value));
+    Ok(Written { text, notes })
 }
 
 /// A key with a value and a remark, as the others stand in the scene.

@@ -35,7 +35,7 @@ fn options(arguments: &NewArguments) -> [(&'static str, &'static str, &str); 6] 
         ("pin_length", "--pin-length", pin_length),
         ("mean_radius", "--radius", radius),
         ("normal_force", "--load", load),
-        ("rotational_speed", "--speed", speed),
+        (arguments.speed_key(), "--speed", speed),
         ("duration", "--duration", duration),
     ]
 }
@@ -59,7 +59,7 @@ mod tests {
         ] {
             let line = [&["plateau", "new", "nothing/mine.toml"][..], options].concat();
             let Command::New(arguments) = Arguments::try_parse_from(line).unwrap().command else { panic!("new") };
-            let text = super::super::text(&arguments).unwrap();
+            let text = super::super::text(&arguments).unwrap().text;
             let error = scene::of_text(Path::new("nothing/mine.toml"), &text).unwrap_err();
             let Failure::Input(message) = of(&arguments, &error) else { panic!("input") };
             assert!(message.contains(expected) && message.contains("nothing is written"), "{message}");

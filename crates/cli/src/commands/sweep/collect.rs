@@ -14,7 +14,7 @@ use crate::arguments::CollectArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal};
+use crate::sweep::{self, journal, short_tenth};
 use crate::table::{list, print, table};
 use crate::{message, number, output, version};
 
@@ -70,6 +70,7 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         return Ok(Found { collected, inputs });
     }
     let resolved = Resolved::of(plan)?;
+    short_tenth::say(plan.study(), &resolved.lengths);
     let journal = journal(plan.study())?;
     let collected = Collected::new(plan, &resolved.identities, &journal).map_err(failure)?;
     let (finished, missing) = (collected.count("finished"), collected.count("missing"));

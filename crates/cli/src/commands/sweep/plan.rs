@@ -15,7 +15,7 @@ use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::estimate::Estimate;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal};
+use crate::sweep::{self, journal, short_tenth};
 use crate::table::{columns, list, print, table};
 use crate::{message, number, output};
 
@@ -31,13 +31,16 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         |inputs: &[PathBuf]| arguments.csv.as_ref().map_or(Ok(()), |csv| output::check(csv, arguments.force, inputs));
     check(&plan.study().inputs())?;
     let has_scene = plan.study().base.is_some();
-    let estimate = if has_scene { Estimate::of(&plan)? } else { Estimate::NOTHING };
+    let estimate = if has_scene { Estimate::of(&plan)? } else { Estimate::default() };
+    estimate.warnings.say("runs whose surfaces were made to try");
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
     let (mut ended, mut repeats) = (None, None);
     if plan.runs() <= RESOLVED && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
         resolved.warn_of_late_questions(plan.study());
+        short_tenth::say(plan.study(), &resolved.lengths);
+        resolved.warnings.say("runs");
         let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
         let entries: Vec<&Entry> = different.filter_map(|place| journal.get(&resolved.identities[place])).collect();
         let failed = entries.iter().filter(|entry| entry.failure.is_some()).count();
@@ -48,7 +51,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         output::write(csv, table_of_runs(&plan).as_bytes(), arguments.force)?;
         message::note(format_args!("wrote {}", csv.display()));
     }
-    let report = Report::new(&plan, estimate, jobs, ended, repeats);
+    let report = Report::new(&plan, &estimate, jobs, ended, repeats);
     if arguments.json {
         print(&(serde_json::to_string_pretty(&report).map_err(Failure::run)? + "\n"))
     } else {
@@ -101,7 +104,7 @@ struct FactorReport {
 }
 
 impl Report {
-    fn new(plan: &Plan, estimate: Estimate, jobs: usize, ended: Option<Ended>, repeats: Option<usize>) -> Self {
+    fn new(plan: &Plan, estimate: &Estimate, jobs: usize, ended: Option<Ended>, repeats: Option<usize>) -> Self {
         let study = plan.study();
         let left = plan.runs() - repeats.unwrap_or(0) - ended.map_or(0, |ended| ended.finished);
         let aliases = plan.aliases();

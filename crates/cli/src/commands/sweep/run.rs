@@ -16,8 +16,7 @@ use crate::interrupt::Interrupt;
 use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::under_way;
-use crate::sweep::{self, journal, journal_folder};
+use crate::sweep::{self, journal, journal_folder, short_tenth, under_way};
 use crate::table::{print, table};
 use crate::{message, number};
 
@@ -33,6 +32,8 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let plan = sweep::plan(&arguments.study)?;
     let resolved = Resolved::of(&plan)?;
     resolved.warn_of_late_questions(plan.study());
+    short_tenth::say(plan.study(), &resolved.lengths);
+    resolved.warnings.say("runs");
     // The first rank decides what is to be done: another one may see the journal a moment later.
     let journal = if job.leads() { journal(plan.study())? } else { Journal::default() };
     if journal.damaged > 0 {
@@ -74,6 +75,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let limit = arguments.max_failures.map(|limit| limit as usize);
     let shared = job.share(&pending, jobs, limit, &|number| floor.make(number));
     let made = floor.end(shared.map_err(Failure::run))?;
+    floor.warn_of_surfaces();
     let (finished, failed) = job.sum(made.finished, made.failed).map_err(Failure::run)?;
     let summary = Summary {
         study: plan.study().title.clone(),

@@ -61,6 +61,24 @@ struct Statistics {
 /// Share of the mean square height below which a plane is not worth a word.
 const SLIGHT: f64 = 1e-6;
 
+/// Share of the mean square height in waves as long as the patch from which on more should be measured.
+const MUCH: f64 = 0.1;
+
+/// Fewest cells of a patch whose heights tell a distribution: with fewer the Abbott-Firestone curve has steps of more than 0.2 %.
+const FEWEST_HEIGHTS: usize = 500;
+
+/// Warns of a patch with few cells: the heights of the body are those of its cells, and no others.
+fn few_heights(cells: &Patch) -> Option<String> {
+    let count = cells.heights.len();
+    (count < FEWEST_HEIGHTS).then(|| {
+        format!(
+            "warning: the distribution of the heights comes from {} by {} = {count} cells, expected {FEWEST_HEIGHTS} or more: its \
+             tails are unknown and its Abbott-Firestone curve has steps; measure a larger area, or take smaller cells",
+            cells.columns, cells.rows
+        )
+    })
+}
+
 /// Random heights of every cell of `body` with the statistics of the patch, on the disc periodic round the ring. What is done,
 /// and what the patch cannot tell, goes into the report. The patch is without a tilt, see [`take_out_plane`].
 pub(super) fn extend(
@@ -104,13 +122,15 @@ fn statistics_of_patch(
     let spectrum = Spectrum::of(&cells, &grid);
     report.push(format!(
         "extend: heights with the statistics of the patch of {} by {}, averaged over {} by {} cells, seed {seed}; \
-         {:.2} % of its mean square height is in waves as long as itself",
+         {:.2} % of its mean square height has wavelengths as long as the patch{}",
         Length(patch.length()),
         Length(patch.height()),
         cells.columns,
         cells.rows,
-        100.0 * spectrum.long_waves
+        100.0 * spectrum.long_waves,
+        if spectrum.long_waves > MUCH { ": measure a larger area" } else { "" }
     ));
+    report.extend(few_heights(&cells));
     let correlation = autocorrelation(spectrum.power, &mut Plane::new(&grid));
     report.extend(Reach::of(&correlation, &grid, &cells).warnings(patch, body, mesh));
     Ok(Some(Statistics { grid, correlation, quantiles }))
@@ -221,4 +241,23 @@ fn gaussian_power(correlation: Vec<f64>, translation: &Translation, plane: &mut 
     }
     plane.forward(&mut values);
     values.into_iter().map(|value| value.re.max(0.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_cells_are_warned_of_for_their_distribution() {
+        let patch = |columns: usize, rows: usize| Patch {
+            columns,
+            rows,
+            column_pitch: 1e-4,
+            row_pitch: 1e-4,
+            heights: vec![0.0; columns * rows],
+        };
+        assert_eq!(few_heights(&patch(25, 20)), None);
+        let warning = few_heights(&patch(12, 9)).unwrap();
+        assert!(warning.starts_with("warning: ") && warning.contains("12 by 9 = 108 cells, expected 500"), "{warning}");
+    }
 }
