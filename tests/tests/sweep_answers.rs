@@ -224,7 +224,7 @@ fn a_prediction_is_confirmed_by_runs_that_are_made_once() {
 fn names_and_words_may_have_an_equals_sign_in_them() {
     let directory = studied();
     let study = fs::read_to_string(directory.path("study.toml")).unwrap();
-    directory.write("study.toml", &study.replace("name = \"load\"", "name = \"F=N\""));
+    directory.write("study.toml", study.replace("name = \"load\"", "name = \"F=N\""));
     let at = |given: &str| ask(&directory, "predict", &["--at", given])["places"][0]["settings"][0].clone();
     assert_eq!(at("F=N=14 N")["number"].as_f64(), Some(14.0));
     assert_eq!(at(" F=N = 14 N ")["given"].as_bool(), Some(true));

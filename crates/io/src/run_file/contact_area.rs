@@ -22,7 +22,7 @@ impl RunFile {
     /// # Errors
     /// [`ReadError::Damaged`] when a series cannot be read.
     pub fn drift_of_contact_area(&self) -> Result<Option<Drift>, ReadError> {
-        self.of_contact_area(|samples| Drift::of(samples))
+        self.of_contact_area(Drift::of)
     }
 
     fn of_contact_area<T>(&self, look: impl FnOnce(&Cumulative<'_>) -> Option<T>) -> Result<Option<T>, ReadError> {
