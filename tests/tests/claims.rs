@@ -55,7 +55,7 @@ fn writes(process: u32, folder: &Path) -> bool {
 /// Lets processes race as often as `PLATEAU_RACES` says, if it does.
 #[test]
 fn of_processes_that_go_on_at_once_one_writes_and_the_others_say_so() {
-    let races = std::env::var("PLATEAU_RACES").map_or(few_or_all(4, 40), |races| races.parse().unwrap());
+    let races = std::env::var("PLATEAU_RACES").map_or(few_or_all(4, 500), |races| races.parse().unwrap());
     let whole = {
         let directory = WorkingDirectory::new();
         assert!(racer(&directory, "run.h5", "--resume").stderr(Stdio::null()).status().unwrap().success());
