@@ -87,7 +87,7 @@ fn a_load_is_found_from_what_it_wore() {
     assert_eq!(json(&fit(&directory, &["--json"])), found);
     assert_eq!(records(&directory), runs);
     let text = fit(&directory, &[]).stdout;
-    assert!(text.contains("load") && text.contains("more would change little"), "{text}");
+    assert!(text.contains("load") && text.contains("further runs are expected to change little"), "{text}");
 
     let table = |name: &str| rows(&fs::read_to_string(directory.path("results/fit").join(name)).unwrap());
     assert_eq!(number(&table("keys.csv")[0], "most_likely"), best);
@@ -160,7 +160,7 @@ fn a_measurement_that_no_value_gives_is_told() {
     let directory = study(6, &[LOAD, &worn(24.0, 0.02), "[fit]\nruns = 12\n"]);
     let found = json(&fit(&directory, &["--json"]));
     let notes = found["notes"].to_string();
-    assert!(notes.contains("No values within these ranges give the measured worn"), "{found}");
+    assert!(notes.contains("no values within these ranges give all that was measured"), "{found}");
     assert_eq!(found["keys"][0]["most_likely"].as_f64(), Some(12.0), "{found}");
 }
 

@@ -66,6 +66,11 @@ fn measured_responses_are_analysed_without_a_scene() {
     let effects = ask(&directory, "effects", &["--model", "quadratic"]);
     assert_eq!(effects["responses"][0]["runs"].as_u64(), Some(20));
     assert!(directory.path("results/effects/abrasion-surface.png").is_file());
+    // They were measured in the order of the table, and lie on a composite design, for which a polynomial is made.
+    let residuals = rows(&fs::read_to_string(directory.path("results/effects/residuals.csv")).unwrap());
+    assert!(residuals.len() == 80 && residuals.iter().all(|row| row["run"] == row["made_as"]), "{residuals:?}");
+    let models = ask(&directory, "predict", &[])["models"].to_string();
+    assert!(!models.contains("Gaussian"), "{models}");
     let best = ask(
         &directory,
         "optimize",
@@ -298,8 +303,9 @@ fn factors_of_a_rig_need_no_key_and_responses_may_be_in_any_unit() {
     let plan = fs::read_to_string(directory.path("plan.csv")).unwrap();
     let mut lines = plan.lines();
     let head = lines.next().unwrap();
-    assert_eq!(head, "run,humidity,supplier,ambient,wear [m3]");
-    let mut filled = head.replace("[m3]", "[mm3]") + "\n";
+    // In the unit that the study gives the response: that is what people fill in.
+    assert_eq!(head, "run,humidity,supplier,ambient,wear [mm3]");
+    let mut filled = head.to_owned() + "\n";
     for line in lines {
         let cells: Vec<&str> = line.split(',').collect();
         let number = |at: usize| cells[at].split(' ').next().unwrap().parse::<f64>().unwrap();
@@ -316,6 +322,7 @@ fn factors_of_a_rig_need_no_key_and_responses_may_be_in_any_unit() {
     let said = directory.plateau(["sweep", "effects", "study.toml", "--model", "main"]);
     assert!(said.stdout.contains("1.25000 + 0.0100000 humidity"), "{}", said.stdout);
     assert!(said.stdout.contains("0.00200000 ambient"), "{}", said.stdout);
+    assert!(said.stdout.contains("humidity in %RH, ambient in degC"), "{}", said.stdout);
     // In another unit it is no humidity of this study.
     let refusal = refused(&directory, "predict", &["--at", "humidity=35 g/kg"]);
     assert!(refusal.contains("humidity = 35 g/kg: expected a quantity such as \"20 %RH\""), "{refusal}");

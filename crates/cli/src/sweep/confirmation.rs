@@ -128,7 +128,7 @@ impl Confirmed {
         let error = self.standard_error.map(|error| own.scale.unit.difference(error));
         let verdict = match self.within_run_interval {
             Some(true) => "within the interval of runs",
-            Some(false) => "outside the interval of runs",
+            Some(false) => "outside the interval of runs: the model does not hold here",
             None => "there is no interval",
         };
         let mean = number::with_error(own.scale.unit.value(self.mean), error);

@@ -74,7 +74,7 @@ mod tests {
     use plateau_core::observe::{EXTRAS, quantities};
 
     fn bounds(series: &str, question: Question) -> Bounds {
-        Response { name: "r".into(), series: series.into(), question, transform: None }.bounds()
+        Response { name: "r".into(), series: series.into(), question, transform: None, stated_unit: None }.bounds()
     }
 
     #[test]

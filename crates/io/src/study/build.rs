@@ -58,6 +58,8 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         }
     }
     let order = match document.order.as_ref().map(|order| (order, order.get_ref().as_str())) {
+        // What was done elsewhere was done in the order of its table, as far as anybody knows.
+        None if document.base.is_none() && document.file.is_some() => Order::Standard,
         None | Some((_, "random")) => Order::Random,
         Some((_, "standard")) => Order::Standard,
         Some((order, found)) => {

@@ -124,7 +124,8 @@ impl Imported {
             let key = key.ok_or_else(|| format!("{place}: {}", columns.misfit(table, row, study, &places)))?;
             let run = places.take(&key).ok_or_else(|| {
                 format!(
-                    "{place}: the design has this point {}, and lines before have it as often",
+                    "{place}: the design has this point {}, and lines before have it as often; several specimens of a point: \
+                     design = \"csv\" with this table as its file",
                     times(places.count(&key))
                 )
             })?;

@@ -97,13 +97,34 @@ pub(super) fn uncertainty(found: &Value, unit: &str) -> Result<f64, String> {
 
 /// A number in SI units, or a quantity with a unit.
 fn number(found: &Value, unit: &str, parse: impl FnOnce(&str, &str) -> Result<f64, String>) -> Result<f64, String> {
-    let expected = if unit == "1" { "a number".to_owned() } else { format!("a number in {unit}, or one with a unit") };
+    let expected = if unit == "1" {
+        "a number, or one with %".to_owned()
+    } else {
+        format!("a number in {unit}, or one with a unit")
+    };
     match found {
         Value::Integer(integer) => Ok(*integer as f64),
         Value::Float(number) if number.is_finite() => Ok(*number),
+        Value::String(text) if unit == "1" && text.trim_end().ends_with('%') => {
+            let percent =
+                text.trim_end().trim_end_matches('%').trim().parse::<f64>().ok().filter(|number| number.is_finite());
+            percent.map(|percent| percent / 100.0).ok_or_else(|| format!("\"{text}\", expected {expected}"))
+        }
         Value::String(text) if unit != "1" => {
             parse(text, unit).map_err(|reason| format!("\"{text}\": {reason}, expected {expected}"))
         }
         other => Err(format!("{other}, expected {expected}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_may_be_measured_in_percent() {
+        let part = |text: &str, unit: &str| number(&Value::String(text.into()), unit, units::parse_as);
+        assert_eq!([part("15 %", "1"), part("2.5%", "1")], [Ok(0.15), Ok(0.025)]);
+        assert!(part("x %", "1").is_err() && part("15 %", "m2").is_err() && part("0.15", "1").is_err());
     }
 }

@@ -22,6 +22,8 @@ pub struct Response {
     pub question: Question,
     /// What is done to the answers before a model is fitted to them, if anything.
     pub transform: Option<Transform>,
+    /// The unit that the study gives an answer from elsewhere, which people fill in; it measures the same as the SI unit.
+    pub stated_unit: Option<String>,
 }
 
 /// What is asked of a series.
@@ -230,7 +232,7 @@ mod tests {
     fn ask(question: Question, values: &[f64]) -> Option<f64> {
         let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
         let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]);
-        Response { name: "r".into(), series: "pool".into(), question, transform: None }.of(&run)
+        Response { name: "r".into(), series: "pool".into(), question, transform: None, stated_unit: None }.of(&run)
     }
 
     #[test]
@@ -270,7 +272,8 @@ mod tests {
         let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
         let ask = |which| {
             let question = Question::Event(which);
-            Response { name: "w".into(), series: "event/worn".into(), question, transform: None }.of(&run)
+            Response { name: "w".into(), series: "event/worn".into(), question, transform: None, stated_unit: None }
+                .of(&run)
         };
         assert_eq!(ask(WhichEvent::Number(1)), Some(3.0));
         assert_eq!([ask(WhichEvent::Number(2)), ask(WhichEvent::Number(4)), ask(WhichEvent::Number(0))], [None; 3]);
@@ -283,7 +286,8 @@ mod tests {
         let run = Series::new(columns, vec![vec![1.0, 2.0], vec![7.0, 7.0], vec![3.0, 8.0]]);
         let mean = |from, to| {
             let question = Question::Mean(from, to);
-            Response { name: "a".into(), series: "contact_area".into(), question, transform: None }.of(&run)
+            Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None }
+                .of(&run)
         };
         assert_eq!([mean(0.0, 2.0), mean(1.0, 2.0)], [Some(4.0), Some(5.0)]);
     }
@@ -302,7 +306,8 @@ mod tests {
                 names.into_iter().zip(columns).filter_map(|(name, column)| Some((name.into(), column?.clone())));
             let (names, columns) = known.unzip();
             let question = Question::MeanOfLastTenth;
-            let response = Response { name: "r".into(), series: series.into(), question, transform: None };
+            let response =
+                Response { name: "r".into(), series: series.into(), question, transform: None, stated_unit: None };
             let run = Series::new(names, columns);
             (response.of(&run), response.error_of(&run).is_some())
         };

@@ -54,7 +54,8 @@ pub(super) fn responses(
             Err(problem) => Err(problem),
         };
         let response = asked.and_then(|(series, question)| {
-            let response = Response { name, series, question, transform: None };
+            let stated_unit = table.unit.as_ref().map(|unit| unit.get_ref().clone());
+            let response = Response { name, series, question, transform: None, stated_unit };
             let transform = transform(table, &response, place)?;
             Ok(Response { transform, ..response })
         });

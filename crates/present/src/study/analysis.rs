@@ -26,6 +26,9 @@ const LOWERED: f64 = 0.95;
 /// Predicted R² above which no transform is advised, unless the model misses something: what it would gain nobody would see.
 const NOTHING_TO_GAIN: f64 = 0.999;
 
+/// Most values that a factor has in a factorial or a composite design.
+const MOST_FACTORIAL_LEVELS: usize = 5;
+
 /// What stands before the name of a factor whose logarithm is analysed.
 pub const LOGARITHM: &str = "log₁₀ ";
 
@@ -310,7 +313,13 @@ fn analyse_one(
 fn fills_ranges(study: &Study) -> bool {
     match &study.source {
         DesignSource::Kind(kind) => matches!(kind, Kind::LatinHypercube { .. } | Kind::Sobol { .. }),
-        DesignSource::File(_) => true,
+        // A table of a few levels is a factorial or a composite design: between its points a polynomial knows more.
+        DesignSource::File(points) => (0..study.factors.len()).all(|factor| {
+            let mut values: Vec<f64> = points.iter().filter_map(|point| point[factor].number).collect();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            values.is_empty() || values.len() > MOST_FACTORIAL_LEVELS
+        }),
     }
 }
 
@@ -333,7 +342,7 @@ fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
         Values::Levels(levels) => levels.iter().chain(found).collect(),
     };
     let logarithmic = matches!(factor.values, Values::Range { logarithmic: true, .. });
-    let reading = Reading::of(stated, logarithmic);
+    let reading = Reading::of_factor(factor, stated, logarithmic);
     let range = |name: String, low: f64, high: f64| AnalysedFactor {
         factor: effects::Factor { name, kind: FactorKind::Range { low, high } },
         labels: Vec::new(),

@@ -51,7 +51,7 @@ fn lines(title: &str, equation: &Equation, unit: &Unit, factors: &[AnalysedFacto
             (_, false) => "+ ",
             (_, true) => "\u{2212} ",
         };
-        let coefficient = number::significant(unit.difference(term.coefficient).abs(), DIGITS);
+        let coefficient = number::with_minus(&number::significant(unit.difference(term.coefficient).abs(), DIGITS));
         let product = product(&term.variables, factors);
         let piece = format!("{sign}{coefficient}{}{product}", if product.is_empty() { "" } else { " " });
         let last = lines.last_mut();

@@ -9,6 +9,8 @@ use crate::quantity::{Unit, power_of_axis, printed_unit, with_power};
 
 /// Probability below which a misfit is said.
 const SIGNIFICANT: f64 = 0.05;
+/// Parts of one that exponents are printed to.
+const EXPONENT: f64 = 1e4;
 /// Deviation of a single response, by its standard deviation, that is said where there are no degrees of freedom.
 const FAR: f64 = 2.0;
 /// Digits of values.
@@ -35,7 +37,7 @@ impl FittedKey {
             Values::Levels(levels) => (levels.iter().collect(), false),
         };
         let numbers: Vec<f64> = stated.iter().filter_map(|level| level.number).collect();
-        let reading = Reading::of(stated, false);
+        let reading = Reading::of_factor(factor, stated, false);
         let ends = [numbers.first(), numbers.last()].map(|end| end.map_or(0.0, |end| reading.value(*end)));
         let power = power_of_axis(ends, logarithmic);
         Self { name: factor.name.clone(), logarithmic, reading, power }
@@ -124,7 +126,12 @@ pub fn unit(si: &str, response: &FittedResponse) -> Unit {
 /// What is determined where single keys are not; none where there is nothing to say.
 pub fn determined(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
     let Some(combinations) = &result.combinations else { return better_known(result, keys) };
+    let is_closed = |profile: &Profile| profile.pieces.iter().all(|piece| piece.open == [false; 2]);
     if combinations.is_empty() {
+        // The curvature at one place and the profiles need not agree: what has an interval is determined.
+        if result.profiles.iter().any(is_closed) {
+            return None;
+        }
         return Some("Near the most likely values these data determine none of the keys.".to_owned());
     }
     // Single keys have their intervals.
@@ -147,7 +154,8 @@ fn better_known(result: &FitResult, keys: &[FittedKey]) -> Option<String> {
 
 /// A product with its value, interval and unit.
 fn told(combination: &Combination, result: &FitResult, keys: &[FittedKey]) -> String {
-    let power = |(key, exponent): &(usize, f64)| libm::pow(keys[*key].value(result.best[*key]), *exponent);
+    // With the exponents as they are printed, so that who multiplies gets this number.
+    let power = |(key, exponent): &(usize, f64)| libm::pow(keys[*key].value(result.best[*key]), printed(*exponent));
     let value: f64 = combination.powers.iter().map(power).product();
     let [value, low, high] =
         [value, value / combination.factor, value * combination.factor].map(|value| number::rounded(value, DIGITS));
@@ -157,13 +165,18 @@ fn told(combination: &Combination, result: &FitResult, keys: &[FittedKey]) -> St
     format!("{} = {value} ({low} … {high}{units})", product(combination, keys))
 }
 
+/// An exponent with as many digits as are printed. A key such as 7·10⁻¹⁴ makes much of a small difference.
+fn printed(exponent: f64) -> f64 {
+    (exponent * EXPONENT).round() / EXPONENT
+}
+
 /// A product of powers.
 fn product(combination: &Combination, keys: &[FittedKey]) -> String {
     let power = |(key, exponent): &(usize, f64)| {
         let name = &keys[*key].name;
-        match number::rounded(*exponent, 2) {
-            one if one == "1" => name.clone(),
-            exponent => format!("{name}^{exponent}"),
+        match printed(*exponent) {
+            1.0 => name.clone(),
+            exponent => format!("{name}^{}", number::with_minus(&exponent.to_string())),
         }
     };
     combination.powers.iter().map(power).collect::<Vec<_>>().join(" × ")
@@ -182,13 +195,21 @@ pub fn notes(result: &FitResult, names: &[&str], of_series: &[&str], has_no_gain
             number::significant(p, 2)
         ));
     }
+    if result.responses.iter().any(|response| response.scatter.is_none()) {
+        notes.push(
+            "Each point was run with one set of surfaces, so what differs from one to the next is not known; a process may take it for \
+             shape, and an interval may be too short. [replicates] with several seeds tells it."
+                .to_owned(),
+        );
+    }
     for (response, name) in result.responses.iter().zip(names) {
         let fixed =
             response.measurement.uncertainty.hypot(response.seeds_deviation).hypot(response.surrogate_deviation);
         let far = (response.forecast - response.measurement.value).abs() / fixed;
         if result.freedom == 0 && far > FAR {
             notes.push(format!(
-                "No values within these ranges give the measured {name}: the nearest forecast is {} standard deviations away.",
+                "At the most likely values runs give a {name} that is {} standard deviations away from what was measured: no values \
+                 within these ranges give all that was measured.",
                 number::rounded(far, 2)
             ));
         }
@@ -205,9 +226,12 @@ pub fn notes(result: &FitResult, names: &[&str], of_series: &[&str], has_no_gain
             ));
         }
     }
-    let share = number::percent(result.surrogate_share);
+    let share = match result.surrogate_share {
+        share if share < 2.0 => number::percent(share) + " of",
+        share => number::rounded(share, 2) + " times",
+    };
     let known = format!(
-        "The forecasts are not exact: near the most likely values their variance is up to {share} of that of a measurement"
+        "The forecasts are not exact: near the most likely values their variance is up to {share} that of a measurement"
     );
     if let Some(worst) = result.worst.filter(|_| has_no_gain) {
         let name = if worst.is_series { of_series[worst.number] } else { names[worst.number] };

@@ -7,6 +7,7 @@ use plateau_study::effects::{EffectsError, Transform};
 use plateau_study::surrogate::{Choice, Forecast, PolynomialSurrogate, ScaledProcess, Surrogate, choose};
 
 use super::analysis::{AnalysedResponse, Observed};
+use super::words::probability;
 
 /// Digits of predictions.
 const DIGITS: usize = 4;
@@ -35,9 +36,30 @@ impl AnalysedResponse {
         let range = self.observed.map(|Observed { low, high, .. }| {
             format!("; the runs have {} to {}", self.shown(low), self.shown_with_unit(high))
         });
+        let error = surrogate.leave_one_out_error();
+        let is_useless = error.zip(self.observed).is_some_and(|(error, observed)| error >= observed.deviation);
+        let useless = if is_useless {
+            "; it foretells a point no better than the mean of the runs does: these runs do not tell the response"
+        } else {
+            ""
+        };
         let is_process = self.effects.is_err() || surrogate.name().starts_with(ScaledProcess::NAME);
         let few = self.note_of_points().filter(|_| is_process);
-        Some(reason + &range.unwrap_or_default() + &few.unwrap_or_default())
+        Some(reason + &range.unwrap_or_default() + useless + &few.unwrap_or_default())
+    }
+
+    /// That the model which forecasts it misses something that the runs show; none where it does not, or a process forecasts.
+    pub fn note_of_misfit(&self) -> Option<String> {
+        let p = self.misfit.as_ref()?.test.p;
+        let is_process = self.surrogate()?.name().starts_with(ScaledProcess::NAME);
+        (!is_process).then(|| {
+            format!(
+                "{}: the model misses something that the runs show (lack of fit p {}), so that intervals may be too short; sweep \
+                 effects says what to try",
+                self.name,
+                probability(p)
+            )
+        })
     }
 
     /// That a process has few points.

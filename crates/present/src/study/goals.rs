@@ -201,12 +201,17 @@ pub fn limit_words(response: &AnalysedResponse, limit: &Limit) -> String {
         Kept::Means => " for the interval of means",
         Kept::Runs => " for the interval of runs",
     };
+    limit_sides(response, limit) + of
+}
+
+/// The same without what has to keep it.
+pub fn limit_sides(response: &AnalysedResponse, limit: &Limit) -> String {
     let sides = [("≥", limit.least), ("≤", limit.most)];
     let sides: Vec<String> = sides
         .into_iter()
         .filter_map(|(sign, value)| Some(format!("{sign} {}", response.shown_with_unit(value?))))
         .collect();
-    sides.join(" and ") + of
+    sides.join(" and ")
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The unit in which a study states a factor, in which people read it, too.
 
-use plateau_io::study::factor::Level;
+use plateau_io::study::factor::{Factor, Level};
 use plateau_io::units;
 
 /// A unit, how many of it there are in the SI unit, and where it begins to count; for ranges of equal ratios of the values'
@@ -25,6 +25,14 @@ impl Reading {
         };
         let (unit, per_si) = levels.into_iter().find_map(stated).unwrap_or((String::new(), 1.0));
         Self { zero: units::zero_of(&unit), unit, per_si, logarithmic }
+    }
+
+    /// That of a factor: values of one without a key are kept in the unit in which they are stated.
+    pub fn of_factor<'a>(factor: &Factor, levels: impl IntoIterator<Item = &'a Level>, logarithmic: bool) -> Self {
+        if factor.keys.is_empty() {
+            return Self { unit: factor.stated_unit.clone(), per_si: 1.0, zero: 0.0, logarithmic };
+        }
+        Self::of(levels, logarithmic)
     }
 
     /// A value of the factor, as the analysis has it, in this unit.

@@ -23,7 +23,8 @@ pub fn fit(effects: &Effects) -> String {
     parts.join(", ")
 }
 
-fn probability(p: f64) -> String {
+/// A probability in words: `= 0.012` or `< 0.0001`.
+pub fn probability(p: f64) -> String {
     if p < LEAST_PROBABILITY { format!("< {LEAST_PROBABILITY}") } else { format!("= {}", number::significant(p, 2)) }
 }
 

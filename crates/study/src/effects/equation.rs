@@ -79,7 +79,8 @@ impl Effects {
             if coefficient.abs() <= inner.rounding { 0.0 } else { coefficient }
         };
         let mut terms = Terms::new();
-        terms.entry((0, Vec::new())).or_default().add(inner.offset + inner.fit.coefficient(0));
+        let constant = inner.offset + inner.fit.coefficient(0);
+        terms.entry((0, Vec::new())).or_default().add(if constant.abs() <= inner.rounding { 0.0 } else { constant });
         let widths = regressors.widths();
         let before = widths.len() - regressors.terms.len();
         let mut column: usize = widths[..before].iter().sum();

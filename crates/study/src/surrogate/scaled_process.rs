@@ -47,7 +47,7 @@ impl Surrogate for ScaledProcess<'_> {
     }
 
     fn leave_one_out_error(&self) -> Option<f64> {
-        let left_out = self.process.left_out();
+        let left_out = self.process.left_out_refitted();
         let missed = |point: &LeftOut| (self.scale.back(point.observed) - self.scale.back(point.forecast)).powi(2);
         let mean = left_out.iter().map(missed).sum::<f64>() / left_out.len() as f64;
         Some(mean.sqrt()).filter(|error| error.is_finite())

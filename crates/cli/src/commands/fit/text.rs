@@ -102,7 +102,7 @@ fn series(told: &Told<'_>) -> Vec<Vec<String>> {
 fn runs(told: &Told<'_>) -> String {
     let (runs, study) = (told.fitted.plan.runs(), told.fitted.plan.study());
     let why = match told.fitted.end {
-        End::Settled => "more would change little",
+        End::Settled => "further runs are expected to change little",
         End::Budget => "the limit of runs in [fit] is reached",
         End::NowhereElse => "every place that counts was run",
         End::NoGain => "more would hardly help, for runs scatter too much",

@@ -207,7 +207,15 @@ fn text_of(response: &AnalysedResponse, factors: &[AnalysedFactor]) -> String {
     ];
     let heading =
         notes.into_iter().flatten().fold(response.name.clone(), |heading, note| format!("{heading}\n  {note}"));
-    let names = ["term", &unit.label("effect"), "interval", "share", "df", "F", "p"];
+    let names = [
+        "term",
+        &unit.label("effect"),
+        &format!("{} interval", number::confidence(effects.confidence)),
+        "share",
+        "df",
+        "F",
+        "p",
+    ];
     let mut rows: Vec<&Term> = effects.rows().collect();
     rows.sort_by(|a, b| b.share.total_cmp(&a.share));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|term| cells(term, &unit)).collect();

@@ -208,12 +208,15 @@ fn cells(plan: &Plan, number: usize, written: impl Fn(&str) -> String) -> Vec<St
 fn table_of_runs(plan: &Plan) -> String {
     let imported: Vec<_> = plan.study().responses.iter().filter(|response| response.is_imported()).collect();
     let names = plan.study().factors.iter().map(|factor| factor.name.clone());
-    let header: Vec<String> = ["run".to_owned()]
-        .into_iter()
-        .chain(names)
-        .chain((plan.replicates() > 1).then(|| "replicate".to_owned()))
-        .chain(imported.iter().map(|response| with_unit(&response.name, response.unit(""))))
-        .collect();
+    let header: Vec<String> =
+        ["run".to_owned()]
+            .into_iter()
+            .chain(names)
+            .chain((plan.replicates() > 1).then(|| "replicate".to_owned()))
+            .chain(imported.iter().map(|response| {
+                with_unit(&response.name, response.stated_unit.as_deref().unwrap_or(response.unit("")))
+            }))
+            .collect();
     let row =
         |number| cells(plan, number, str::to_owned).into_iter().chain(imported.iter().map(|_| String::new())).collect();
     csv_table(std::iter::once(header).chain(plan.order().map(row)))

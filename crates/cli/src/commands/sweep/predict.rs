@@ -206,11 +206,13 @@ pub(super) fn notes_of_bounds(analysed: &Analysed, forecasts: &[Option<Forecast>
         .collect()
 }
 
-/// Why a response is forecast by what it is, a line for each of which there was a choice.
+/// Why a response is forecast by what it is, a line for each of which there was a choice; and of which the model misses something.
 pub(super) fn reasons(analysed: &Analysed) -> String {
     let reason =
         |response: &AnalysedResponse| Some(format!("  {}: {}\n", response.name, response.reason_of_surrogate()?));
-    analysed.analysis.responses.iter().filter_map(reason).collect()
+    let misfit = |response: &AnalysedResponse| Some(format!("  {}\n", response.note_of_misfit()?));
+    let responses = &analysed.analysis.responses;
+    responses.iter().filter_map(reason).chain(responses.iter().filter_map(misfit)).collect()
 }
 
 /// What the extra runs gave.

@@ -1,7 +1,7 @@
 //! The mean desirability over two factors, with the others at the optimum.
 
 use plateau_study::design::Setting;
-use plateau_study::optimum::Limit;
+use plateau_study::optimum::{Kept, Limit};
 
 use super::Shown;
 use crate::figure::axes::Axis;
@@ -10,7 +10,7 @@ use crate::figure::effects::axes;
 use crate::figure::effects::factor_map::FactorMap;
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
-use crate::study::goals::limit_words;
+use crate::study::goals::limit_sides;
 
 /// Longest name of a limit, pixels.
 const LABEL: f64 = 420.0;
@@ -33,7 +33,7 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
             shown.margin(&surrogates, limit, &shown.with(&changed))
         };
         let response = &shown.analysis.responses[limit.response];
-        let text = shortened(&format!("{} {}", response.name, limit_words(response, limit)), TEXT, LABEL);
+        let text = shortened(&format!("{} {}", response.name, limit_sides(response, limit)), TEXT, LABEL);
         FactorMap::new(shown.analysis, factors, factors.map(|factor| &axes[factor]), margin).lines_at(0.0, &text)
     };
     let borders: Vec<_> = shown.limits.iter().flat_map(border).collect();
@@ -54,7 +54,12 @@ pub fn figure(shown: &Shown<'_>, factors: [usize; 2]) -> Option<Figure> {
     };
     let runs = map.runs(shown.analysis, &shown.best.iter().copied().map(Some).collect::<Vec<_>>());
     let scale = |range, length| Axis::linear(range, shortened("desirability", TEXT, length));
-    let page = map.page(scale, "desirability 0", &borders, &runs, mark, &[note, runs.note()]);
+    let kept = match shown.limits.first().map(|limit| limit.kept) {
+        Some(Kept::Means) => "limits are kept by the interval of means",
+        Some(Kept::Runs) => "limits are kept by the interval of runs",
+        Some(Kept::Value) | None => "",
+    };
+    let page = map.page(scale, "desirability 0", &borders, &runs, mark, &[note, runs.note(), kept.to_owned()]);
     Some(Figure {
         name: "contour".to_owned(),
         title: "Desirability over two factors".to_owned(),

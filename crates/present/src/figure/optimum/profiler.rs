@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use plateau_io::number;
 use plateau_study::design::Setting;
-use plateau_study::optimum::Axis as Range;
+use plateau_study::optimum::{Axis as Range, Kept};
+use plateau_study::surrogate::Forecast;
 
 use super::Shown;
 use crate::colour::{DATA, DERIVED, FAINT, INK};
@@ -43,6 +44,9 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     let surrogates = shown.surrogates();
     let across = axes.len();
     let width = (BOX * across as f64 + 300.0).min(TWO_COLUMNS);
+    // The band is what has to keep the limits.
+    let of_runs = shown.limits.iter().any(|limit| limit.kept == Kept::Runs);
+    let band = |forecast: &Forecast| if of_runs { forecast.run_interval } else { forecast.mean_interval };
     let mut charts = Vec::new();
     let mut cut = "";
     for (at, (response, surrogate)) in shown.analysis.responses.iter().zip(&surrogates).enumerate() {
@@ -53,10 +57,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
                 let along = settings(shown, &axes[factor], factor);
                 curve(shown, &axes[factor], factor, along, |settings| {
                     let forecast = surrogate.forecast(settings, shown.confidence).ok()?;
-                    Some((
-                        unit.value(forecast.value),
-                        forecast.mean_interval.map(|ends| ends.map(|end| unit.value(end))),
-                    ))
+                    Some((unit.value(forecast.value), band(&forecast).map(|ends| ends.map(|end| unit.value(end)))))
                 })
             })
             .collect();
@@ -93,7 +94,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
     let meaning = |colour, dashes, text: String| Meaning { colour, style: KeyStyle::Line(dashes), text };
     let level = number::confidence(shown.confidence);
     let mut meanings = vec![
-        meaning(DATA, SOLID, format!("predicted, {level} of means")),
+        meaning(DATA, SOLID, format!("predicted, {level} of {}", if of_runs { "runs" } else { "means" })),
         meaning(DERIVED, SOLID, "optimum".to_owned()),
     ];
     meanings.extend((!shown.limits.is_empty()).then(|| meaning(INK, DASHES, "limit".to_owned())));
@@ -102,7 +103,8 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
         title: "Responses and desirability against each factor".to_owned(),
         caption: format!(
             "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
-             optimum; bands are intervals of the mean of many runs, dashes are limits.{cut}"
+             optimum; bands are intervals of {}, dashes are limits.{cut}",
+            if of_runs { "one more run" } else { "the mean of many runs" }
         ),
         page: {
             let mut page = page(width, HEIGHT, across, charts, &meanings);

@@ -26,7 +26,10 @@ mod leave_one_out;
 mod likelihood;
 mod likely_lengths;
 mod prediction;
+mod refitted;
 mod solved;
+
+use std::sync::OnceLock;
 
 use thiserror::Error;
 
@@ -108,6 +111,8 @@ pub struct GaussianProcess {
     likely: Vec<Likely>,
     /// How many times as large variances are as the process says, for it to be no more certain than its leave-one-out errors.
     calibration: f64,
+    /// What [`GaussianProcess::left_out_refitted`] gives, once it was asked for.
+    refitted: OnceLock<Vec<LeftOut>>,
 }
 
 impl GaussianProcess {
@@ -135,7 +140,16 @@ impl GaussianProcess {
             None => likelihood::most_likely(axes, trend, &averages, options.near.as_ref()),
         };
         let (hyperparameters, solved) = fitted.ok_or(GaussianProcessError::Singular)?;
-        Ok(Self { inputs, trend, averages, hyperparameters, solved, likely: Vec::new(), calibration: 1.0 })
+        Ok(Self {
+            inputs,
+            trend,
+            averages,
+            hyperparameters,
+            solved,
+            likely: Vec::new(),
+            calibration: 1.0,
+            refitted: OnceLock::new(),
+        })
     }
 
     /// The same process with one more point whose mean is as it is forecast, from so many runs: its variance is then what it
@@ -148,7 +162,7 @@ impl GaussianProcess {
         let mut solved = Solved::new(&self.inputs.axes, self.trend, &averages, &self.hyperparameters)?;
         // What was not observed tells nothing of σ².
         solved.variance = self.solved.variance;
-        Some(Self { averages, solved, ..self.clone() })
+        Some(Self { averages, solved, refitted: OnceLock::new(), ..self.clone() })
     }
 
     /// Lengths and noise.
