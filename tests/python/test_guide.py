@@ -41,7 +41,7 @@ class Recipes(unittest.TestCase):
         (self.folder / "data").symlink_to(ROOT / "data")
         text = (ROOT / "docs" / "python.md").read_text()
         # The study of the page, as a file of its own, for its runs are kept beside it.
-        (self.folder / "loads.toml").write_text(re.search(r"^```toml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL).group(1))
+        (self.folder / "study.toml").write_text(re.search(r"^```toml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL).group(1))
         self.run_blocks("python.md")
         for name in ("contact-area.png", "maps.png"):
             self.assertGreater((self.folder / name).stat().st_size, 10000, name)

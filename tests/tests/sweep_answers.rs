@@ -2,6 +2,7 @@
 
 mod centre_points;
 mod import;
+mod import_over_inputs;
 mod limits;
 
 use std::fs;

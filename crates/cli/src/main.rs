@@ -24,6 +24,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use plateau_io::number;
+use plateau_io::process::report_file_size_limit;
 use plateau_present::csv_table;
 use plateau_run::machine;
 
@@ -41,6 +42,8 @@ fn answer() -> ExitCode {
         Ok(arguments) => arguments,
         Err(answer) => return answer::answered(answer),
     };
+    // Where the system takes no handler, what writes beyond the file size limit ends by a signal; no reason not to begin.
+    let _ = report_file_size_limit();
     match commands::perform(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),

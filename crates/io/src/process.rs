@@ -186,7 +186,7 @@ fn is_writing(process: u32, file: &str) -> bool {
 /// Makes a write beyond the file size limit (`ulimit -f`) an error of that write.
 ///
 /// Without this the system ends the process with the signal SIGXFSZ and nobody is told why. A program calls it once,
-/// before it writes run files.
+/// before it writes files.
 ///
 /// # Errors
 /// When the system does not take the handler.

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use plateau_io::process::report_file_size_limit;
 use plateau_run::{Job, RunOptions, StartMode};
 
 use super::load_scene;
@@ -19,8 +18,6 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
 
 /// All processes of the job do the same, but only the leading one writes and prints.
 fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
-    // Where the system takes no handler, a run beyond the file size limit ends by a signal; no reason not to run.
-    let _ = report_file_size_limit();
     // From now on: preparing a large scene takes long enough to be told to stop meanwhile.
     let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
     // Of several processes, too, each ends by itself: nothing is written yet.

@@ -94,6 +94,13 @@ impl Imported {
         let study = plan.study();
         let table = ValueTable::read(path)?;
         let columns = Columns::of(&table, study, false)?;
+        let own = file(study).canonicalize();
+        if own.is_ok_and(|own| study.files.iter().any(|input| input.canonicalize().is_ok_and(|input| input == own))) {
+            return Err(format!(
+                "{}: it is an input of the study, and imported values would be kept in its place; give the study another directory",
+                file(study).display()
+            ));
+        }
         if !study.directory.exists() {
             // A table with a mistake in it leaves no folder.
             Self::with(plan, &table, &columns, replace)?;
@@ -149,11 +156,10 @@ impl Imported {
         Ok((imported, new, changed))
     }
 
-    /// Keeps all values; where the table is a link, in what that leads to.
+    /// Keeps all values in a file of its own: a link of that name is replaced, and what it leads to is not touched.
     fn write(&self, plan: &Plan) -> io::Result<()> {
         let study = plan.study();
-        let path = file(study);
-        let target = if path.is_symlink() { path.canonicalize()? } else { path };
+        let target = file(study);
         Temporary::remove_abandoned(&target);
         let (temporary, mut file) = Temporary::create(&target)?;
         let mut writer = csv::Writer::from_writer(Vec::new());
