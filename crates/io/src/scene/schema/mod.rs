@@ -15,6 +15,7 @@ mod table;
 mod tables;
 mod ways;
 
+use std::collections::HashMap;
 use std::fmt;
 use std::sync::LazyLock;
 
@@ -283,9 +284,13 @@ pub fn keys() -> &'static [Key] {
     &KEYS
 }
 
+/// All keys by their paths: a study asks for some of them in each of its scenes.
+static BY_PATH: LazyLock<HashMap<String, &'static Key>> =
+    LazyLock::new(|| keys().iter().rev().map(|key| (key.path(), key)).collect());
+
 /// The key with this full path.
 pub fn find(path: &str) -> Option<&'static Key> {
-    keys().iter().find(|key| key.path() == path)
+    BY_PATH.get(path).copied()
 }
 
 /// Tables that switch a part of the model on; without the table its keys are not asked for.
@@ -298,7 +303,7 @@ pub(crate) fn optional_table(section: &str) -> Option<&'static str> {
 
 /// Whether keys live below this path.
 pub fn is_table(path: &str) -> bool {
-    path.is_empty() || keys().iter().any(|key| is_below(&key.path(), path))
+    path.is_empty() || BY_PATH.keys().any(|key| is_below(key, path))
 }
 
 /// Every table that directly holds keys, in the order of docs/scenes.md; the first is the top, with an empty name.
