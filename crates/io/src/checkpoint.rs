@@ -206,7 +206,7 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointErr
 
 /// Opens the file of a state whose digest holds, and tells how many bytes the state has; none if there is no such file.
 fn open_whole(path: &Path) -> Result<Option<(File, u64)>, CheckpointError> {
-    let mut file = match regular::open(path) {
+    let mut file = match regular::open_own(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,
     };

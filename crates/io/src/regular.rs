@@ -14,7 +14,15 @@ use crate::scene::schema::nearest;
 /// # Errors
 /// What the system says, and a message where something else has the name.
 pub fn open(path: &Path) -> io::Result<File> {
-    let there = fs::metadata(path).map_err(|error| not_there(path, error))?;
+    open_own(path).map_err(|error| not_there(path, error))
+}
+
+/// The same for a file of the program's own, which nobody has named: it may well not be there, and no other one is meant.
+///
+/// # Errors
+/// Those of [`open`].
+pub(crate) fn open_own(path: &Path) -> io::Result<File> {
+    let there = fs::metadata(path)?;
     if there.is_dir() {
         return Err(io::Error::new(ErrorKind::IsADirectory, "it is a folder, expected a file"));
     }

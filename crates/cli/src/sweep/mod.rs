@@ -4,6 +4,7 @@
 //! |---|---|
 //! | the scenes of all runs, resolved | [`resolved`] |
 //! | what these scenes can hardly mean | [`scene_warnings`] |
+//! | how long runs are | [`run_length`] |
 //! | what `mean = "last tenth"` is a mean over | [`short_tenth`] |
 //! | what they will cost | [`estimate`] |
 //! | one run, from its scene to its record | [`make`] |
@@ -21,6 +22,7 @@ pub mod floor;
 pub mod make;
 pub mod progress;
 pub mod resolved;
+pub mod run_length;
 pub mod scene_warnings;
 pub mod short_tenth;
 pub mod surfaces;

@@ -8,10 +8,10 @@ use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
 use rayon::prelude::*;
 
+use super::run_length::{RunLength, seconds};
 use super::scene_warnings::{Found, SceneWarnings, of_scene};
-use super::short_tenth::RunLength;
 use crate::failure::Failure;
-use crate::{message, number, version};
+use crate::{message, version};
 
 /// Problems that are shown.
 const SHOWN: usize = 10;
@@ -114,9 +114,4 @@ pub fn run_in_words(plan: &Plan, number: usize) -> String {
     let settings = plan.study().factors.iter().zip(&levels);
     let settings: Vec<String> = settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label)).collect();
     format!("run {number} ({})", settings.join(", "))
-}
-
-/// A time in words.
-pub fn seconds(time: f64) -> String {
-    format!("{} s", number::rounded(time, 6))
 }

@@ -1,34 +1,11 @@
 //! What `mean = "last tenth"` is a mean over: more than that where a tenth of the run has fewer than ten simulated revolutions.
 
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
-use plateau_io::scene::Scene;
 use plateau_io::study::Study;
 use plateau_io::study::response::Question;
 
-use super::resolved::seconds;
+use super::run_length::{RunLength, seconds};
 use crate::{message, number};
-
-/// How long a run is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RunLength {
-    /// Its duration, s.
-    pub duration: f64,
-    /// Its simulated revolutions; none where it chooses its time acceleration as it goes.
-    pub revolutions: Option<f64>,
-}
-
-impl RunLength {
-    /// That of a scene: a step takes the pin on by a column of the disc.
-    pub fn of(scene: &Scene) -> Self {
-        let revolutions = scene.steps as f64 / scene.parameters.mesh.disc_columns() as f64;
-        Self { duration: scene.duration, revolutions: scene.adaptive.is_none().then_some(revolutions) }
-    }
-
-    /// Over what part of the run such a mean is taken, at the end of it.
-    fn part(&self) -> f64 {
-        self.revolutions.map_or(0.1, |turns| (LEAST_REVOLUTIONS / turns).clamp(0.1, 1.0))
-    }
-}
 
 /// Says of responses that ask for the last tenth over what they are a mean, where that is more.
 pub fn say(study: &Study, lengths: &[RunLength]) {

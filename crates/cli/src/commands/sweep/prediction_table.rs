@@ -1,6 +1,7 @@
 //! Predictions as a table in CSV: a line for each place, numbers in SI units as in results.csv.
 
 use plateau_io::study::factor::{Factor, Level};
+use plateau_io::study::imported::with_unit;
 use plateau_present::study::place::Place;
 use plateau_study::surrogate::Forecast;
 
@@ -21,17 +22,13 @@ pub fn table(
     confirmed: &[Vec<Option<Confirmed>>],
 ) -> String {
     let (factors, responses) = (&analysed.plan.study().factors, &analysed.analysis.responses);
-    let with_unit = |name: String, unit: &str| match unit {
-        "" | "1" => name,
-        unit => format!("{name} [{unit}]"),
-    };
-    let mut head: Vec<String> = factors.iter().map(|factor| with_unit(factor.name.clone(), factor.unit())).collect();
+    let mut head: Vec<String> = factors.iter().map(|factor| with_unit(&factor.name, factor.unit())).collect();
     for response in responses {
         let named = |column: &&str| format!("{}{column}", response.name);
-        head.extend(COLUMNS.iter().map(|column| with_unit(named(column), response.unit)));
+        head.extend(COLUMNS.iter().map(|column| with_unit(&named(column), response.unit)));
         if !confirmed.is_empty() {
             let [mean, error, runs] = CONFIRMED;
-            head.extend([mean, error].iter().map(|column| with_unit(named(column), response.unit)));
+            head.extend([mean, error].iter().map(|column| with_unit(&named(column), response.unit)));
             head.push(named(&runs));
         }
     }

@@ -1,5 +1,6 @@
 //! Airborne mass and number of particles: what is added in a time, and for each kilometre of road (model section 12).
 
+use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
 use super::rates::{Rate, per_metre, rates, steps};
@@ -9,7 +10,6 @@ use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
 use crate::figure::stroke::Stroke;
 use crate::quantity::Unit;
-use plateau_io::number;
 
 const NAME: &str = "emission";
 const SERIES: [&str; 3] = ["pm10_mass", "pm25_mass", "particle_number"];
