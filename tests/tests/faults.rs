@@ -15,6 +15,7 @@ use plateau_tests::run_file::{Content, RunFile, differences, differences_of_star
 use plateau_tests::scenes::few_or_all;
 
 mod answers;
+mod clock;
 
 /// A short run with many samples, maps of three moments, and as many checkpoints as can be written.
 fn short_run(directory: &WorkingDirectory, more: &[&str]) -> Command {

@@ -72,6 +72,11 @@ fn files_that_are_too_large_are_refused_with_both_numbers() {
         assert_refused(&limited(&directory, &["check", "scene.toml"]), most);
         assert_refused(&limited(&directory, &["surface", name]), most);
     }
+    // Below the limit, and not what its header says: more than the memory here.
+    let header = b"\x93NUMPY\x01\0\x76\0{'descr': '<f8', 'fortran_order': False, 'shape': (10, 10), }";
+    huge(&directory, "holes.npy", &[&header[..], &[b' '; 56], b"\n"].concat(), 3_200_000_000);
+    let said = limited(&directory, &["surface", "holes.npy"]);
+    assert_refused(&said, "3199999872 bytes");
 }
 
 #[test]

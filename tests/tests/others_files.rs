@@ -1,5 +1,7 @@
 //! What others have left where files are written: it stays, also with `--force` where a study reads it.
 
+use std::ffi::OsStr;
+use std::fmt::Debug;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::process::Stdio;
@@ -22,7 +24,7 @@ fn lab() -> WorkingDirectory {
     directory
 }
 
-fn refused(directory: &WorkingDirectory, arguments: &[&str], why: &str) {
+fn refused<A: AsRef<OsStr> + Debug>(directory: &WorkingDirectory, arguments: &[A], why: &str) {
     let outcome = directory.plateau(arguments);
     assert_eq!(outcome.status, Some(2), "{arguments:?}: {outcome:?}");
     assert!(outcome.stderr.contains(why), "{arguments:?}: {outcome:?}");
@@ -190,6 +192,43 @@ fn a_link_in_a_folder_that_is_written_is_not_followed() {
     symlink("victim", directory.path("plan.csv")).unwrap();
     well(&directory.plateau(["sweep", "plan", "study.toml", "--csv", "plan.csv", "--force"]));
     assert!(directory.path("plan.csv").is_symlink() && text(&directory, "victim").starts_with("run,load"));
+}
+
+#[test]
+fn a_link_that_is_named_stays_and_what_it_leads_to_is_replaced() {
+    let directory = WorkingDirectory::new();
+    let quick = scene("quick.toml");
+    well(&directory.plateau(["run", &quick, "-o", "run.h5", "--set", "operation.duration=1 s"]));
+    let short = ["--set", "operation.duration=1 s"];
+    let commands: [&[&str]; 6] = [
+        &["run", &quick, short[0], short[1], "-o"],
+        &["export", "run.h5", "--to", "csv", "-o"],
+        &["export", "run.h5", "--to", "npz", "-o"],
+        &["report", "run.h5", "-o"],
+        &["surface", "--prepare", &quick, "--plot"],
+        &["new"],
+    ];
+    for (number, command) in commands.iter().enumerate() {
+        let ending = if command[0] == "surface" { "png" } else { "out" };
+        let [real, link, lost] = ["real", "link", "lost"].map(|name| format!("{number}/{name}.{ending}"));
+        directory.write(&real, "mine");
+        symlink(format!("real.{ending}"), directory.path(&link)).unwrap();
+        symlink("nothing", directory.path(&lost)).unwrap();
+        let with = |more: &[&'static str], name: &str| {
+            command.iter().chain([&name]).chain(more).map(|argument| (*argument).to_owned()).collect::<Vec<_>>()
+        };
+        refused(&directory, &with(&[], &link), "--force");
+        assert_eq!(text(&directory, &real), "mine", "{command:?}");
+        well(&directory.plateau(with(&["--force"], &link)));
+        assert!(directory.path(&link).is_symlink(), "{command:?}");
+        assert_ne!(fs::read(directory.path(&real)).unwrap(), b"mine", "{command:?}");
+        for more in [&[][..], &["--force"]] {
+            let lost = with(more, &lost);
+            let said = "is a link to nothing, which is not there; remove it";
+            refused(&directory, &lost, said);
+        }
+        assert!(directory.path(&lost).is_symlink() && !directory.path(&format!("{number}/nothing")).exists());
+    }
 }
 
 #[test]

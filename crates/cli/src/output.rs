@@ -9,18 +9,29 @@ use plateau_io::temporary::Temporary;
 
 use crate::failure::Failure;
 
-/// Refuses an output path that is taken, has no directory or is one of the inputs; before any work is done for it.
+/// Refuses an output path that is taken, has no directory, is one of the inputs or a link to nothing; before any work is done for
+/// it.
 ///
 /// # Errors
 /// [`Failure::Input`].
 pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure> {
     let shown = path.display();
+    if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(Failure::input(format_args!("cannot write {shown}: it names a folder; name a file")));
+    }
     let directory = directory(path);
     if !directory.is_dir() {
         let directory = directory.display();
         return Err(Failure::input(format_args!("cannot write {shown}: {directory} is no directory; make it first")));
     }
     let Ok(there) = fs::symlink_metadata(path) else { return Ok(()) };
+    // Whether it is meant to be made there, or the link to be replaced, nobody knows.
+    if there.is_symlink() && fs::metadata(path).is_err() {
+        let to = fs::read_link(path).unwrap_or_default();
+        let to = to.display();
+        let what = format_args!("{shown} is a link to {to}, which is not there; remove it, or name another file");
+        return Err(Failure::input(what));
+    }
     if there.is_dir() || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
         return Err(Failure::input(format_args!("{shown} is no regular file and is not replaced; name another file")));
     }

@@ -19,6 +19,7 @@
 //! | files that appear when they are complete | [`temporary`] |
 //! | processes: told from later ones, or by the file that they write | [`process`] |
 
+mod archive;
 pub mod checkpoint;
 pub mod claim;
 pub mod dataset_file;

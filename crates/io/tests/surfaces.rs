@@ -362,7 +362,7 @@ fn files_that_are_not_read_are_named() {
             write("a.al3d", b"AliconaImaging\0\r\n"),
             "this is an Alicona file (.al3d), which is not read; convert".to_owned(),
         ),
-        (write("b.csv", b"1,2\n3,4\n"), "line 1: \"1,2\" may be one number with a decimal comma or two".to_owned()),
+        (write("b.csv", b"1,2\n3,4\n"), "line 1: commas of \"1,2\" may be decimal or may part numbers".to_owned()),
         (write("a.csv", b"1.5,2\n3,4\n"), "the file does not say the unit of its heights: unit = ".to_owned()),
         (
             write("utf16.txt", b"\xff\xfe1\x00 \x002\x00"),

@@ -11,14 +11,14 @@ use plateau_tests::run_file::{Content, RunFile, differences};
 use super::{few_or_all, strikes};
 
 /// A command, and the file or folder that it makes.
-struct Case {
-    arguments: &'static [&'static str],
+pub(super) struct Case {
+    pub(super) arguments: &'static [&'static str],
     makes: &'static str,
     /// Whether a file of that name stands there before.
     replaces: bool,
 }
 
-const CASES: [Case; 9] = [
+pub(super) const CASES: [Case; 9] = [
     Case { arguments: &["sweep", "run", "study.toml"], makes: "results", replaces: false },
     Case { arguments: &["sweep", "collect", "swept.toml", "--force"], makes: "swept", replaces: false },
     Case { arguments: &["fit", "fit.toml"], makes: "fitted", replaces: false },
@@ -52,7 +52,7 @@ fn study(design: &str, directory: &str, tables: &str) -> String {
 }
 
 /// A directory with all that the commands read.
-fn prepared() -> WorkingDirectory {
+pub(super) fn prepared() -> WorkingDirectory {
     let directory = WorkingDirectory::new();
     let load = |values: &str| format!("[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\n{values}\n");
     let levels = load("levels = [\"5 N\", \"7 N\", \"10 N\"]");
@@ -74,10 +74,10 @@ fn prepared() -> WorkingDirectory {
     directory
 }
 
-type Files = BTreeMap<PathBuf, Option<Vec<u8>>>;
+pub(super) type Files = BTreeMap<PathBuf, Option<Vec<u8>>>;
 
 /// The files of a directory with their content, by their paths in it.
-fn files(directory: &WorkingDirectory) -> Files {
+pub(super) fn files(directory: &WorkingDirectory) -> Files {
     let content = directory.content().into_iter().filter(|(path, _)| path.is_file());
     content.map(|(path, bytes)| (path.strip_prefix(directory.path("")).unwrap().to_owned(), bytes)).collect()
 }
@@ -90,7 +90,7 @@ fn is_of_the_moment(path: &Path) -> bool {
 }
 
 /// Checks that what a case makes is the same in two directories; `all` says that nothing may be missing.
-fn compare(case: &Case, made: &WorkingDirectory, whole: &WorkingDirectory, all: bool, what: &str) {
+pub(super) fn compare(case: &Case, made: &WorkingDirectory, whole: &WorkingDirectory, all: bool, what: &str) {
     let of = |directory| {
         let mut files = files(directory);
         files.retain(|path, _| path.starts_with(case.makes) && !is_of_the_moment(path));
@@ -121,7 +121,7 @@ fn hdf5_content(file: &Path) -> (BTreeMap<String, String>, BTreeMap<String, Cont
     (attributes, file.content())
 }
 
-fn copied(files: &Files) -> WorkingDirectory {
+pub(super) fn copied(files: &Files) -> WorkingDirectory {
     let directory = WorkingDirectory::new();
     for (path, bytes) in files {
         directory.write(&path.to_string_lossy(), bytes.as_deref().unwrap());

@@ -8,6 +8,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::{ExportError, write_floats};
+use crate::archive::{self, Output};
 use crate::run_file::{RunFile, map_unit};
 use crate::surface::npy;
 
@@ -22,7 +23,7 @@ const SHORT: u64 = u32::MAX as u64 / 2;
 /// # Errors
 /// [`ExportError`] when a part of the run file cannot be read or the output takes no more.
 pub fn write(run: &RunFile, out: impl Write + Seek) -> Result<(), ExportError> {
-    let mut archive = Archive { zip: ZipWriter::new(out), units: BTreeMap::new() };
+    let mut archive = Archive { zip: archive::create(out), units: BTreeMap::new() };
     let mesh = run.mesh();
     let angles = |columns: usize| (0..columns).map(|c| (c as f64 + 0.5) * mesh.column_angle()).collect::<Vec<_>>();
     archive.floats("time", "s", run.time())?;
@@ -57,7 +58,7 @@ pub fn write(run: &RunFile, out: impl Write + Seek) -> Result<(), ExportError> {
 
 /// An archive that is written array by array.
 struct Archive<W: Write + Seek> {
-    zip: ZipWriter<W>,
+    zip: ZipWriter<Output<W>>,
     units: BTreeMap<String, String>,
 }
 

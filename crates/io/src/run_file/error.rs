@@ -24,6 +24,14 @@ pub enum RunFileError {
         /// The output path.
         path: PathBuf,
     },
+    /// The output path is a link to nothing: whether that is to be made, or the link to be replaced, nobody knows.
+    #[error("the output {} is a link to {}, which is not there; remove it, or write elsewhere with -o FILE", path.display(), to.display())]
+    LinkToNothing {
+        /// The output path.
+        path: PathBuf,
+        /// What it points to.
+        to: PathBuf,
+    },
     /// The directory of the output file does not exist or is no directory.
     #[error("cannot write {}: {} is no directory; make it, or write elsewhere with -o FILE", path.display(), directory.display())]
     NoDirectory {

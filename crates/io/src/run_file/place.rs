@@ -86,10 +86,13 @@ pub fn resolve(path: &Path, overwrite: bool) -> Result<PathBuf, RunFileError> {
     let refused = |error: io::Error| RunFileError::Directory { directory: parent.into(), reason: error.to_string() };
     let mut resolved = fs::canonicalize(parent).map_err(refused)?.join(name);
     if fs::symlink_metadata(&resolved).is_ok() {
+        resolved = fs::canonicalize(&resolved).map_err(|_| RunFileError::LinkToNothing {
+            path: path.into(),
+            to: fs::read_link(path).unwrap_or_default(),
+        })?;
         if !overwrite {
             return Err(RunFileError::Exists { path: path.into() });
         }
-        resolved = fs::canonicalize(&resolved).map_err(|_| not_a_file())?;
     }
     if resolved.to_str().is_none() {
         return Err(RunFileError::NotUtf8 { path: path.into() });

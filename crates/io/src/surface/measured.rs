@@ -155,7 +155,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             Ok(from_instrument(format, patch, notes, warnings))
         }
         Format::Npy => {
-            Ok(array(format, npy::read(&regular::read(path, limits::SURFACE)?, options.unit.unwrap_or(1.0))?, options))
+            Ok(array(format, npy::read_file(path, options.unit.unwrap_or(1.0))?, options))
         }
         Format::Npz => {
             let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));

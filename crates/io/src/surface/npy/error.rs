@@ -37,7 +37,7 @@ pub enum NpyError {
     #[error("the data have {found} bytes, expected {expected} for shape ({}, {})", shape.0, shape.1)]
     Length {
         /// Bytes of data.
-        found: usize,
+        found: u64,
         /// Bytes that the shape needs.
         expected: usize,
         /// The shape.

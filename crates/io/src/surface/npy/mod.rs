@@ -16,7 +16,9 @@ pub(crate) use header::preamble;
 use header::{HEAD, Header};
 use number::Number;
 
+use super::error::FileError;
 use super::options::inflated;
+use crate::{limits, regular};
 
 /// An array as heights, column by column.
 #[derive(Debug)]
@@ -38,16 +40,9 @@ pub(super) struct Array {
 /// shorter than the header says.
 pub(super) fn read(content: &[u8], unit: f64) -> Result<Array, NpyError> {
     let header = Header::read(content)?;
-    let number = Number::of(&header.descr)?;
-    let (columns, rows, points) = header.grid()?;
-    let data = &content[header.data..];
-    // At most 2^28 points of 8 bytes: this does not overflow.
-    let expected = points * number.size();
-    if data.len() != expected {
-        let shape = (columns as u64, rows as u64);
-        return Err(NpyError::Length { found: data.len(), expected, shape });
-    }
-    let mut heights = number.read(data);
+    let (number, columns, rows) = grid_of(&header, content.len() as u64)?;
+    let points = columns * rows;
+    let mut heights = number.read(&content[header.data..]);
     if header.fortran_order {
         let transposed = (0..columns).flat_map(|column| heights.iter().skip(column).step_by(columns).copied());
         heights = transposed.collect();
@@ -60,6 +55,31 @@ pub(super) fn read(content: &[u8], unit: f64) -> Result<Array, NpyError> {
         return Err(NpyError::Infinite { count, points });
     }
     Ok(Array { columns, rows, heights, integers: number.is_integer(), descr: header.descr })
+}
+
+/// Reads an .npy file. One that is not as long as its header says is not read: it may have gigabytes of holes.
+///
+/// # Errors
+/// What the system says, and [`NpyError`] as for [`read`].
+pub(super) fn read_file(path: &Path, unit: f64) -> Result<Array, FileError> {
+    let file = regular::open_small(path, limits::SURFACE)?;
+    let mut head = Vec::new();
+    (&file).take(HEAD as u64).read_to_end(&mut head)?;
+    grid_of(&Header::read(&head)?, file.metadata()?.len())?;
+    Ok(read(&regular::read(path, limits::SURFACE)?, unit)?)
+}
+
+/// What an .npy file of so many bytes holds: type of its numbers, columns and rows.
+fn grid_of(header: &Header, bytes: u64) -> Result<(Number, usize, usize), NpyError> {
+    let number = Number::of(&header.descr)?;
+    let (columns, rows, points) = header.grid()?;
+    let found = bytes.saturating_sub(header.data as u64);
+    // At most 2^28 points of 8 bytes: this does not overflow.
+    let expected = points * number.size();
+    if found != expected as u64 {
+        return Err(NpyError::Length { found, expected, shape: (columns as u64, rows as u64) });
+    }
+    Ok((number, columns, rows))
 }
 
 /// Reads an array of an archive: the one that is named, or the only one with two dimensions. Gives its name too.

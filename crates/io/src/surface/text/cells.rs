@@ -8,6 +8,8 @@ use crate::surface::decimal::Decimal;
 pub(super) enum Separator {
     /// One of these characters; a cell may be empty.
     Character(char),
+    /// A comma with a blank behind it, where those without one are decimal.
+    CommaAndBlank,
     /// Any number of blanks.
     Blanks,
 }
@@ -21,7 +23,8 @@ impl Separator {
     /// The cells of a line, without blanks and quotation marks around them. A separator between quotation marks parts
     /// nothing. One separator after the last cell is taken off if `terminated`.
     pub(super) fn cells(self, line: &str, terminated: bool) -> impl Iterator<Item = &str> {
-        let (characters, blanks) = match self {
+        let (mut characters, mut pairs, mut blanks) = (None, None, None);
+        match self {
             Self::Character(mark) => {
                 let line = line.trim_matches(|c: char| c.is_whitespace() && c != mark);
                 let line = if terminated { line.strip_suffix(mark).unwrap_or(line) } else { line };
@@ -30,20 +33,30 @@ impl Separator {
                     quoted ^= character == '"';
                     character == mark && !quoted
                 };
-                (Some(line.split(parts)), None)
+                characters = Some(line.split(parts));
             }
-            Self::Blanks => (None, Some(line.split_whitespace())),
-        };
+            Self::CommaAndBlank => {
+                let line = line.trim();
+                let line = if terminated { line.strip_suffix(',').unwrap_or(line) } else { line };
+                pairs = Some(line.split(", "));
+            }
+            Self::Blanks => blanks = Some(line.split_whitespace()),
+        }
         characters
             .into_iter()
             .flatten()
+            .chain(pairs.into_iter().flatten())
             .chain(blanks.into_iter().flatten())
             .map(|cell| cell.trim().trim_matches('"').trim())
     }
 
     /// Whether a line ends with a separator.
     pub(super) fn ends(self, line: &str) -> bool {
-        matches!(self, Self::Character(mark) if line.trim_end_matches(|c: char| c.is_whitespace() && c != mark).ends_with(mark))
+        match self {
+            Self::Character(mark) => line.trim_end_matches(|c: char| c.is_whitespace() && c != mark).ends_with(mark),
+            Self::CommaAndBlank => line.trim_end().ends_with(','),
+            Self::Blanks => false,
+        }
     }
 }
 

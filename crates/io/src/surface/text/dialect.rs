@@ -50,12 +50,18 @@ fn separator<'a>(
     if separator != COMMA || first.contains('"') {
         return Ok(separator);
     }
+    // What parts the numbers if commas are decimal.
+    let other = if lines.clone().any(|(_, line)| has_both_commas(line)) {
+        Separator::CommaAndBlank
+    } else {
+        Separator::Blanks
+    };
     match given {
         Some(Decimal::Point) => return Ok(COMMA),
-        Some(Decimal::Comma) => return Ok(Separator::Blanks),
+        Some(Decimal::Comma) => return Ok(other),
         None => {}
     }
-    if lines.clone().any(|(_, line)| line.contains('.')) || !fits(Separator::Blanks, first) {
+    if lines.clone().any(|(_, line)| line.contains('.')) || !fits(other, first) {
         return Ok(COMMA);
     }
     let all_fit = |separator: Separator| {
@@ -63,16 +69,21 @@ fn separator<'a>(
         lines.clone().all(|(_, line)| fits(separator, line) && separator.cells(line, false).count() == count)
     };
     if !fits(COMMA, first) || !all_fit(COMMA) {
-        return Ok(Separator::Blanks);
+        return Ok(other);
     }
-    if !all_fit(Separator::Blanks) {
+    if !all_fit(other) {
         return Ok(COMMA);
     }
     let named = |separator: &Separator| Some(separator.cells(first, false).count()) == columns;
-    [COMMA, Separator::Blanks]
+    [COMMA, other]
         .into_iter()
         .find(named)
         .ok_or_else(|| TextError::CommaOrColumns { line, found: shown(first.trim()) })
+}
+
+/// Whether a line has commas within numbers and commas between them, as `1,5, 2,5`.
+fn has_both_commas(line: &str) -> bool {
+    line.contains(", ") && line.split(", ").any(|cell| cell.trim_end_matches(',').contains(','))
 }
 
 /// Whether every cell of a line is a number, with a decimal comma unless commas part them.
@@ -146,6 +157,7 @@ mod tests {
         let dialect = Dialect::find(lines(text), given, columns).map_err(|error| error.to_string())?;
         let separator = match dialect.separator {
             Separator::Character(mark) => mark,
+            Separator::CommaAndBlank => '+',
             Separator::Blanks => ' ',
         };
         Ok((separator, if dialect.decimal == Decimal::Comma { ',' } else { '.' }))
@@ -165,6 +177,9 @@ mod tests {
             ("1,5 2,5\n3 4", (' ', ',')),
             ("0 1\n0,5 2", (' ', ',')),
             ("1,5e-3 NaN", (' ', ',')),
+            ("1,5, 2,5\n3, 4,25", ('+', ',')),
+            ("  1,  2, 10\n 10,100,  3", (',', '.')),
+            ("1, 2,-3", (',', '.')),
             ("\"1,5\",\"2\"", (',', ',')),
             ("\"1.5\",\"2\"", (',', '.')),
             ("1.5,2.5", (',', '.')),
@@ -189,10 +204,13 @@ mod tests {
         for text in ["7;1,234\n5;-12,345", "7\t1,234", "7 1,234\n5 1,234", "\"7\",\"1,234\""] {
             assert!(find(text).is_err_and(|error| error.starts_with(group)), "{text:?}");
         }
-        let columns = "line 1: \"1,5\" may be one number with a decimal comma or two numbers: ";
-        for text in ["1,5\n2,7", "1,5", "1,5\n12,345"] {
-            assert!(find(text).is_err_and(|error| error.starts_with(columns)), "{text:?}");
+        for text in ["1,5\n2,7", "1,5", "1,5\n12,345", "1,5, 2,5\n3,5, 4,5"] {
+            let line = text.lines().next().unwrap_or_default();
+            let columns = format!("line 1: commas of \"{line}\" may be decimal or may part numbers: ");
+            assert!(find(text).is_err_and(|error| error.starts_with(&columns)), "{text:?}");
         }
+        assert_eq!(named("1,5, 2,5\n3,5, 4,5", None, Some(4)), Ok((',', '.')));
+        assert_eq!(named("1,5, 2,5\n3,5, 4,5", Some(Decimal::Comma), None), Ok(('+', ',')));
         assert_eq!(named("1,5\n2,7", None, Some(2)), Ok((',', '.')));
         assert_eq!(named("1,5\n2,7", None, Some(1)), Ok((' ', ',')));
         for (given, mark) in [(Decimal::Point, '.'), (Decimal::Comma, ',')] {

@@ -95,7 +95,7 @@ pub enum TextError {
     },
     /// A comma that may be a decimal mark or part columns.
     #[error(
-        "line {line}: \"{found}\" may be one number with a decimal comma or two numbers: decimal = \",\" beside file says \
+        "line {line}: commas of \"{found}\" may be decimal or may part numbers: decimal = \",\" beside file says \
          the first, decimal = \".\" the second"
     )]
     CommaOrColumns {

@@ -172,7 +172,7 @@ fn what_is_wrong_is_told_with_its_line() {
         error("1;1,234")
             .starts_with("line 1, column 2: \"1,234\" may be 1.234 or 1234: decimal = \",\" beside file says")
     );
-    assert!(error("1,2\n3,4").starts_with("line 1: \"1,2\" may be one number with a decimal comma or two numbers: "));
+    assert!(error("1,2\n3,4").starts_with("line 1: commas of \"1,2\" may be decimal or may part numbers: "));
     assert!(error("1;1.234,5").starts_with("line 1, column 2: \"1.234,5\" has digits in groups"));
     assert!(
         error("1,5 2,5\n1,5 x\n").starts_with("line 2, column 2: found \"x\", expected a number, or an empty cell")

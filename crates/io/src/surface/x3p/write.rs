@@ -5,8 +5,9 @@ use std::io::{self, Seek, Write};
 use md5::{Digest, Md5};
 use plateau_core::surface::Patch;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zip::CompressionMethod;
 
+use crate::archive;
 use crate::surface::profiles::for_each_profile;
 
 /// Name of the entry with the heights, and of that with the checksum of `main.xml`.
@@ -22,7 +23,7 @@ pub(in crate::surface) fn write(out: impl Write + Seek, patch: &Patch, date: &st
     })?;
     let main = main_xml(patch, date, &format!("{:X}", digest.finalize()));
 
-    let mut archive = ZipWriter::new(out);
+    let mut archive = archive::create(out);
     // Packed, for some readers take only archives that begin with a packed entry; heights hardly get smaller.
     let packed = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
     let stored = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).large_file(
