@@ -35,6 +35,7 @@ pub mod run_file;
 pub mod scene;
 pub mod study;
 pub mod surface;
+mod syntax;
 pub mod temporary;
 pub mod text;
 mod timestamp;

@@ -22,8 +22,11 @@ fn run_scene(arguments: &RunArguments, job: &mut Job) -> Result<(), Failure> {
     let mut terminal = Terminal::listen_for_save(job.leads()).map_err(Failure::run)?;
     // Of several processes, too, each ends by itself: nothing is written yet.
     terminal.end_while_preparing();
-    arguments.output.as_deref().map_or(Ok(()), refuse_other_format)?;
+    arguments.output.as_deref().map_or(Ok(()), |output| refuse_other_format("-o", output))?;
     let scene = load_scene(&lengthened(arguments))?;
+    if arguments.output.is_none() {
+        refuse_other_format("output.file", &scene.output.file)?;
+    }
     let mode = match (arguments.resume, &arguments.extend_to) {
         (_, Some(_)) => StartMode::Extend,
         (true, None) => StartMode::Resume,
@@ -65,13 +68,13 @@ const MADE_OF_RUNS: [(&str, &str); 8] = [
     ("html", "report RUN.h5"),
 ];
 
-/// Refuses a name that says that a run file is what it is not.
-fn refuse_other_format(output: &Path) -> Result<(), Failure> {
+/// Refuses a name that says that a run file is what it is not; `given` says where it is from.
+fn refuse_other_format(given: &str, output: &Path) -> Result<(), Failure> {
     let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     match MADE_OF_RUNS.iter().find(|(other, _)| *other == ending) {
         None => Ok(()),
         Some((_, call)) => Err(Failure::input(format_args!(
-            "-o {}: a run file is HDF5, expected a name such as {}; afterwards `{} {call}` makes .{ending} of it",
+            "{given} {}: a run file is HDF5, expected a name such as {}; afterwards `{} {call}` makes .{ending} of it",
             output.display(),
             output.with_extension("h5").display(),
             called::program()
@@ -86,9 +89,11 @@ mod tests {
     #[test]
     fn a_run_file_is_not_named_as_what_is_made_of_one() {
         for name in ["run.h5", "run", "run.nc", "disc.1"] {
-            assert!(refuse_other_format(Path::new(name)).is_ok(), "{name}");
+            assert!(refuse_other_format("-o", Path::new(name)).is_ok(), "{name}");
         }
-        let Err(Failure::Input(message)) = refuse_other_format(Path::new("out/a.CSV")) else { panic!("accepted") };
+        let refused = refuse_other_format("output.file", Path::new("out/a.CSV"));
+        let Err(Failure::Input(message)) = refused else { panic!("accepted") };
+        assert!(message.starts_with("output.file out/a.CSV: a run file is HDF5"), "{message}");
         assert!(message.contains("such as out/a.h5") && message.contains("export RUN.h5 --to csv"), "{message}");
     }
 }

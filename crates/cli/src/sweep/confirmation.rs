@@ -58,6 +58,7 @@ pub fn confirm(
     };
     let extra = Plan::new(study).map_err(Failure::input)?;
     let resolved = Resolved::of(&extra)?;
+    resolved.warnings.say("confirming runs");
     in_job(|job| make(&extra, &resolved, cores, job))?;
     let journal = journal(extra.study())?;
     let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
@@ -92,6 +93,7 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
     let progress = Progress::new(pending.len(), steps, job.leads());
     let floor = Floor::new(plan, resolved, cores.workers(), interrupt, progress);
     let shared = job.share(&pending, cores.runs_at_a_time(), None, &|number| floor.make(number));
+    floor.warn_of_surfaces();
     let made = floor.end(shared.map_err(Failure::run))?;
     if let Some(signal) = floor.signal() {
         let message = format!("stopped by signal {signal}; the same command goes on");

@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Origin, Problem};
 use super::schema;
+use crate::syntax;
 
 /// Problems that are looked for; nobody reads more, and in a file that is no scene each word may be one.
 const MOST_PROBLEMS: usize = 100;
@@ -119,16 +120,7 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
     let locator = Locator::new(file.clone(), text);
     let document = DeTable::parse(text).map_err(|error| {
         let origin = error.span().map_or(Origin::File(file.clone()), |span| locator.origin(span));
-        let message = error.message();
-        // The parser points at the second of two equal keys, and does not name it.
-        let twice = error.span().filter(|_| message == "duplicate key").and_then(|span| text.get(span));
-        let message = match twice {
-            Some(key) => format!("{key} is there already in this table, further up: keep one of them"),
-            None => match error.span().and_then(|span| with_comma(text, span.start)) {
-                Some(found) => format!("{found} has a comma, write {}", found.replacen(',', ".", 1)),
-                None => format!("this is not TOML: {message}"),
-            },
-        };
+        let message = syntax::problem(text, &error);
         Problem::without_key(&origin, message)
     })?;
     if ["design", "factor"].iter().all(|key| document.get_ref().contains_key(*key)) {
@@ -138,17 +130,6 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
     let mut flattening = Flattening { locate: |span| locator.origin(span), entries: Entries::new(), problems };
     flattening.table(document.get_ref(), "");
     Ok(flattening.entries)
-}
-
-/// The number with a decimal comma that the parser stopped in, at its comma or behind it.
-fn with_comma(text: &str, at: usize) -> Option<&str> {
-    let is_part = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b',' | b'-' | b'+');
-    let bytes = text.as_bytes();
-    let before = bytes.get(..at)?.iter().rev().take_while(|byte| is_part(byte)).count();
-    let behind = bytes[at..].iter().take_while(|byte| is_part(byte)).count();
-    let found = text.get(at - before..at + behind)?;
-    let number = found.replacen(',', ".", 1);
-    (found.matches(',').count() == 1 && !found.ends_with(',') && number.parse::<f64>().is_ok()).then_some(found)
 }
 
 /// Reads `key.path=value`; a value that is not TOML is a string.

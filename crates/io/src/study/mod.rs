@@ -41,7 +41,7 @@ use plateau_study::design::Kind;
 use thiserror::Error;
 
 use crate::scene::{Origin, Problem};
-use crate::{limits, regular};
+use crate::{limits, regular, syntax};
 use document::Document;
 use factor::Factor;
 use measured::FitSettings;
@@ -152,7 +152,8 @@ impl Study {
         let place = Place { file: file.clone(), text: &text };
         let document: Document = toml::from_str(&text).map_err(|error| {
             let origin = error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start));
-            at(origin, error.message().to_owned())
+            let is_toml = text.parse::<toml::Table>().is_ok();
+            at(origin, if is_toml { error.message().to_owned() } else { syntax::problem(&text, &error) })
         })?;
         build::build(document, path, &place).map_err(StudyError)
     }

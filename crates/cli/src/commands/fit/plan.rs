@@ -10,6 +10,7 @@ use crate::arguments::FitArguments;
 use crate::failure::Failure;
 use crate::number;
 use crate::sweep::estimate::Estimate;
+use crate::sweep::resolved::Resolved;
 use crate::table::{columns, print, table};
 
 /// The document; numbers in SI units.
@@ -33,6 +34,8 @@ struct Document<'a> {
 pub fn say(plan: &Plan, task: &Task, arguments: &FitArguments) -> Result<(), Failure> {
     let study = plan.study();
     let estimate = Estimate::of(plan)?;
+    estimate.warnings.say("runs whose surfaces were made to try");
+    Resolved::of(plan)?.warnings.say("runs to begin with");
     let most = study.fit.runs.max(plan.runs());
     let jobs = arguments.cores.runs_at_a_time();
     let time = estimate.mean_time * most as f64 / jobs as f64;

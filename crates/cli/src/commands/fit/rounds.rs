@@ -278,7 +278,7 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
     for round in 1.. {
         let source = DesignSource::File(points.clone());
         let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::input)?;
-        let Some((collected, scenes)) = made(&plan, arguments, job, &interrupt, &mut tried)? else {
+        let Some((collected, scenes)) = made(&plan, arguments, job, &interrupt, &mut tried, round == 1)? else {
             let next = job.first_says(&[]).map_err(Failure::run)?;
             if next.is_empty() {
                 return Ok(None);
@@ -345,14 +345,20 @@ fn levels(study: &Study, place: &[f64]) -> Result<Vec<Level>, Failure> {
 }
 
 /// Makes the runs that are not there yet, and gives the results of all with the files of their scenes, in the process that leads.
+/// What the scenes can hardly mean is said if they are the first ones: further runs lie between them.
 fn made(
     plan: &Plan,
     arguments: &FitArguments,
     job: &mut Job,
     interrupt: &Interrupt,
     tried: &mut BTreeSet<String>,
+    are_first: bool,
 ) -> Result<Option<(Collected, BTreeSet<PathBuf>)>, Failure> {
     let resolved = Resolved::of(plan)?;
+    let warns = are_first && job.leads();
+    if warns {
+        resolved.warnings.say("runs to begin with");
+    }
     // The first rank decides what is to be done: another one may see the journal a moment later.
     let known = if job.leads() { journal(plan.study())? } else { Journal::default() };
     let is_pending = |number: &usize| match known.get(&resolved.identities[number - 1]) {
@@ -374,6 +380,9 @@ fn made(
         let own = Interrupt::listen().map_err(Failure::run)?;
         let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, job.leads()));
         let shared = job.share(&pending, jobs, None, &|number| floor.make(number));
+        if warns {
+            floor.warn_of_surfaces();
+        }
         floor.end(shared.map_err(Failure::run))?;
         // Every result is on the disk when all have come here.
         let own = Agreement { signal: interrupt.signal(), ..Agreement::default() };

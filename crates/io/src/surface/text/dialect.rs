@@ -51,11 +51,8 @@ fn separator<'a>(
         return Ok(separator);
     }
     // What parts the numbers if commas are decimal.
-    let other = if lines.clone().any(|(_, line)| has_both_commas(line)) {
-        Separator::CommaAndBlank
-    } else {
-        Separator::Blanks
-    };
+    let other =
+        if lines.clone().any(|(_, line)| has_both_commas(line)) { Separator::CommaAndBlank } else { Separator::Blanks };
     match given {
         Some(Decimal::Point) => return Ok(COMMA),
         Some(Decimal::Comma) => return Ok(other),
@@ -75,10 +72,7 @@ fn separator<'a>(
         return Ok(COMMA);
     }
     let named = |separator: &Separator| Some(separator.cells(first, false).count()) == columns;
-    [COMMA, other]
-        .into_iter()
-        .find(named)
-        .ok_or_else(|| TextError::CommaOrColumns { line, found: shown(first.trim()) })
+    [COMMA, other].into_iter().find(named).ok_or_else(|| TextError::CommaOrColumns { line, found: shown(first.trim()) })
 }
 
 /// Whether a line has commas within numbers and commas between them, as `1,5, 2,5`.

@@ -4,8 +4,8 @@ use std::io::{self, Seek, Write};
 
 use md5::{Digest, Md5};
 use plateau_core::surface::Patch;
-use zip::write::SimpleFileOptions;
 use zip::CompressionMethod;
+use zip::write::SimpleFileOptions;
 
 use crate::archive;
 use crate::surface::profiles::for_each_profile;
