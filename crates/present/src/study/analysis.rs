@@ -2,24 +2,21 @@
 
 use plateau_io::study::bounds::Bounds;
 use plateau_io::study::collected::{Collected, unit_of};
-use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::study::factor::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Study};
 use plateau_study::design::{Kind, Setting};
 use plateau_study::effects::{
-    self, Advice, BoxCox, Curvature, Effects, EffectsError, FactorKind, Misfit, Model, Observation, Options, Selection,
-    analyse, select,
+    self, Advice, BoxCox, Curvature, Effects, EffectsError, Misfit, Model, Observation, Options, Selection, analyse,
+    select,
 };
 use plateau_study::surrogate::gaussian_process::{GaussianProcess, Options as ProcessOptions};
 use plateau_study::surrogate::{PolynomialSurrogate, Surrogate};
 
+use super::analysed_factor::AnalysedFactor;
 use super::fit_scale::FitScale;
 use super::model::Choice;
-use super::reading::Reading;
 use crate::quantity::Unit;
-
-/// Values up to which a number of a design has levels; with more it has a range.
-const MOST_LEVELS: usize = 10;
 
 /// How much smaller the leave-one-out error has to be for a transform to be advised.
 const LOWERED: f64 = 0.95;
@@ -28,9 +25,6 @@ const NOTHING_TO_GAIN: f64 = 0.999;
 
 /// Most values that a factor has in a factorial or a composite design.
 const MOST_FACTORIAL_LEVELS: usize = 5;
-
-/// What stands before the name of a factor whose logarithm is analysed.
-pub const LOGARITHM: &str = "log₁₀ ";
 
 /// A study's factors as the analysis sees them, and what became of every response.
 #[derive(Debug)]
@@ -44,17 +38,6 @@ pub struct Analysis {
     pub runs: Vec<(Vec<Setting>, Vec<f64>)>,
     /// Which one, from 1, each of the runs is in the order in which they are made.
     pub order: Vec<usize>,
-}
-
-/// A factor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AnalysedFactor {
-    /// As the analysis has it.
-    pub factor: effects::Factor,
-    /// Labels of its levels; empty for ranges.
-    pub labels: Vec<String>,
-    /// The unit in which the study states it.
-    pub reading: Reading,
 }
 
 /// A response.
@@ -182,15 +165,19 @@ impl Analysis {
 
     /// Analyses every response of a study as it is asked for.
     pub fn of(study: &Study, collected: &Collected, asked: Asked) -> Self {
-        let factors: Vec<AnalysedFactor> =
-            study.factors.iter().enumerate().map(|(at, factor)| analysed(factor, &levels(collected, at))).collect();
+        let factors: Vec<AnalysedFactor> = study
+            .factors
+            .iter()
+            .enumerate()
+            .map(|(at, factor)| AnalysedFactor::of(factor, &levels(collected, at)))
+            .collect();
         let plain: Vec<effects::Factor> = factors.iter().map(|factor| factor.factor.clone()).collect();
         let settings: Vec<Vec<Setting>> = collected
             .runs
             .iter()
             .map(|run| {
                 let levels = study.factors.iter().zip(&factors).zip(&run.run.levels);
-                levels.map(|((factor, analysed), level)| setting(factor, analysed, level)).collect()
+                levels.map(|((factor, analysed), level)| analysed.setting(factor, level)).collect()
             })
             .collect();
         let responses =
@@ -333,69 +320,4 @@ fn levels(collected: &Collected, factor: usize) -> Vec<Level> {
         }
     }
     levels
-}
-
-fn analysed(factor: &Factor, found: &[Level]) -> AnalysedFactor {
-    let stated: Vec<&Level> = match &factor.values {
-        // One end may be zero, which is so in any unit.
-        Values::Range { low, high, .. } => vec![high, low],
-        Values::Levels(levels) => levels.iter().chain(found).collect(),
-    };
-    let logarithmic = matches!(factor.values, Values::Range { logarithmic: true, .. });
-    let reading = Reading::of_factor(factor, stated, logarithmic);
-    let range = |name: String, low: f64, high: f64| AnalysedFactor {
-        factor: effects::Factor { name, kind: FactorKind::Range { low, high } },
-        labels: Vec::new(),
-        reading: reading.clone(),
-    };
-    let numbers = |levels: &[Level]| levels.iter().map(|level| level.number).collect::<Option<Vec<f64>>>();
-    let is_table = matches!(&factor.values, Values::Levels(levels) if levels.is_empty());
-    let listed = match &factor.values {
-        Values::Range { low, high, logarithmic } => {
-            let (low, high) = (low.number.unwrap_or(-1.0), high.number.unwrap_or(1.0));
-            if *logarithmic {
-                return range(format!("{LOGARITHM}{}", factor.name), libm::log10(low), libm::log10(high));
-            }
-            return range(factor.name.clone(), low, high);
-        }
-        // What a table of one's own has.
-        Values::Levels(levels) if levels.is_empty() => found,
-        Values::Levels(levels) => levels,
-    };
-    let kind = match numbers(listed) {
-        // Between two levels there are points of a response surface.
-        Some(numbers) if numbers.len() == 2 && found.len() > 2 => {
-            return range(factor.name.clone(), numbers[0], numbers[1]);
-        }
-        // A table has values where they are, such as the middle at centre points alone: compared one by one, levels could not be
-        // told from those of other factors.
-        Some(numbers) if numbers.len() > MOST_LEVELS || is_table && numbers.len() > 2 => {
-            let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
-            return range(factor.name.clone(), least, numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max));
-        }
-        Some(numbers) => FactorKind::Levels(numbers),
-        None => FactorKind::Categorical(listed.iter().map(|level| level.label.clone()).collect()),
-    };
-    let labels = listed.iter().map(|level| level.label.clone()).collect();
-    AnalysedFactor { factor: effects::Factor { name: factor.name.clone(), kind }, labels, reading }
-}
-
-/// Where a level lies along a factor.
-pub(super) fn setting(factor: &Factor, analysed: &AnalysedFactor, level: &Level) -> Setting {
-    match analysed.factor.kind {
-        FactorKind::Range { low, high } => {
-            let coded = factor.coded(level);
-            let of_table = || level.number.map(|value| (2.0 * value - (low + high)) / (high - low));
-            Setting::Coded(coded.or_else(of_table).unwrap_or(0.0))
-        }
-        FactorKind::Levels(ref values) => {
-            let labelled = analysed.labels.iter().position(|label| *label == level.label);
-            Setting::Level(
-                labelled.or_else(|| values.iter().position(|value| Some(*value) == level.number)).unwrap_or(0),
-            )
-        }
-        FactorKind::Categorical(_) => {
-            Setting::Level(analysed.labels.iter().position(|label| *label == level.label).unwrap_or(0))
-        }
-    }
 }

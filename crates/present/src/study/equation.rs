@@ -3,7 +3,8 @@
 use plateau_io::number;
 use plateau_study::effects::{Effects, Equation, Variable};
 
-use super::analysis::{AnalysedFactor, AnalysedResponse};
+use super::analysed_factor::AnalysedFactor;
+use super::analysis::AnalysedResponse;
 use crate::quantity::Unit;
 
 /// Digits of coefficients: predictions with them have four at least.

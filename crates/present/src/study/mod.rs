@@ -2,7 +2,7 @@
 //!
 //! | what | where |
 //! |---|---|
-//! | what the results tell of the factors | [`analysis`] |
+//! | what the results tell of the factors; a factor as it is analysed | [`analysis`], [`analysed_factor`] |
 //! | the scale on which a model is fitted to a response | [`fit_scale`] |
 //! | the fitted model as an equation, in words | [`equation`] |
 //! | what is expected where no run was made, and how to name such a place | [`forecasts`], [`place`] |
@@ -13,6 +13,7 @@
 //! | which model is fitted, and what it misses | [`model`] |
 //! | how well a model fits, what cannot be told apart, what repeats | [`words`] |
 
+pub mod analysed_factor;
 pub mod analysis;
 pub mod cautions;
 pub mod equation;

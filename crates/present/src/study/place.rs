@@ -6,7 +6,8 @@ use plateau_io::study::factor::{Factor, Level, Values};
 use plateau_study::design::Setting;
 use plateau_study::effects::{FactorKind, Model};
 
-use super::analysis::{AnalysedFactor, Analysis};
+use super::analysed_factor::AnalysedFactor;
+use super::analysis::Analysis;
 
 /// Coded values that differ by less are the same.
 const SAME: f64 = 1e-9;

@@ -4,6 +4,7 @@ mod document;
 mod files;
 mod plan;
 mod rounds;
+mod task;
 mod text;
 
 use plateau_present::study::fit::FittedKey;
@@ -13,7 +14,8 @@ use crate::arguments::FitArguments;
 use crate::failure::{Failure, in_job};
 use crate::sweep;
 use crate::table::print;
-use rounds::{Fitted, Task};
+use rounds::Fitted;
+use task::Task;
 
 /// What all outputs are made of.
 struct Told<'a> {

@@ -5,7 +5,7 @@ use plateau_io::study::plan::Plan;
 use plateau_present::Unit;
 use serde::Serialize;
 
-use super::rounds::Task;
+use super::task::Task;
 use crate::arguments::FitArguments;
 use crate::failure::Failure;
 use crate::number;

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use plateau_present::Unit;
 use plateau_present::figure::Format;
-use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis, Asked, Processes};
+use plateau_present::study::analysed_factor::AnalysedFactor;
+use plateau_present::study::analysis::{AnalysedResponse, Analysis, Asked, Processes};
 use plateau_present::study::equation::paragraphs;
 use plateau_present::study::model::lack_of_fit;
 use plateau_present::study::words::{box_cox, curvature, fit, quality, repeats_in_words, selected};

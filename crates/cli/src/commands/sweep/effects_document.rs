@@ -1,6 +1,7 @@
 //! What `plateau sweep effects --json` prints.
 
-use plateau_present::study::analysis::{AnalysedFactor, AnalysedResponse, Analysis};
+use plateau_present::study::analysed_factor::AnalysedFactor;
+use plateau_present::study::analysis::{AnalysedResponse, Analysis};
 use plateau_present::study::equation::{equations, product};
 use plateau_present::study::model::name;
 use plateau_study::effects::{Effects, Equation, EquationTerm, Squares, Term, Test, Transform};

@@ -10,7 +10,7 @@ use crate::figure::axes::Axis;
 use crate::figure::canvas::TEXT;
 use crate::figure::font::{shortened, text_width};
 use crate::quantity::{power_of_axis, printed_number, printed_unit, with_power};
-use crate::study::analysis::{AnalysedFactor, LOGARITHM};
+use crate::study::analysed_factor::{AnalysedFactor, LOGARITHM};
 
 /// Room beside the first and the last level, in distances of levels.
 const BESIDE: f64 = 0.45;
