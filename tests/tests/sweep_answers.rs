@@ -222,7 +222,7 @@ fn a_prediction_is_confirmed_by_runs_that_are_made_once() {
 }
 
 #[test]
-fn names_and_words_may_have_an_equals_sign_in_them() {
+fn names_and_words_may_have_an_equals_sign_or_a_comma_in_them() {
     let directory = studied();
     let study = fs::read_to_string(directory.path("study.toml")).unwrap();
     directory.write("study.toml", study.replace("name = \"load\"", "name = \"F=N\""));
@@ -231,6 +231,15 @@ fn names_and_words_may_have_an_equals_sign_in_them() {
     assert_eq!(at(" F=N = 14 N ")["given"].as_bool(), Some(true));
     let unknown = directory.plateau(["sweep", "predict", "study.toml", "--at", "F=14 N"]);
     assert!(unknown.status == Some(2) && unknown.stderr.contains("\"F\" is no factor"), "{unknown:?}");
+
+    directory.write("study.toml", study.replace("name = \"load\"", "name = \"load, total\""));
+    for contour in ["fibres,load, total", "load, total, fibres"] {
+        ask(&directory, "optimize", &["--maximize", "contact area", "--contour", contour]);
+        let figure = fs::read_to_string(directory.path("results/optimum/contour.svg")).unwrap();
+        assert!(figure.contains("load, total"), "{contour}");
+    }
+    directory.write("study.toml", study.replace("name = \"load\"", "name = \" \""));
+    assert!(refused(&directory, "plan", &[]).contains("factor.name: the name is empty, expected a word"));
 }
 
 #[test]
@@ -285,6 +294,7 @@ fn an_optimum_keeps_limits_and_what_is_held() {
         (&["--maximize", "worn", "--limit", "worn=1"], "expected \"NAME<=VALUE\" or \"NAME>=VALUE\""),
         (&["--maximize", "worn", "--hold", "load=30 N"], "load is beyond 8 to 20 N"),
         (&["--maximize", "worn", "--contour", "load,load"], "two different factors"),
+        (&["--maximize", "worn", "--contour", "load"], "expected two factors with a comma between"),
         (&["--maximize", "worn", "--weight", "worn=-1"], "expected a number between 0.01 and 100"),
     ] {
         let said = refused(&directory, "optimize", &[arguments, &["--force"]].concat());

@@ -12,8 +12,8 @@ use plateau_study::fit::FitResult;
 
 use crate::arguments::FitArguments;
 use crate::failure::{Failure, in_job};
-use crate::sweep;
 use crate::table::print;
+use crate::{message, number, sweep};
 use rounds::Fitted;
 use task::Task;
 
@@ -30,6 +30,13 @@ pub fn fit(arguments: &FitArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let task = Task::of(plan.study())?;
     task.check_times(&plan)?;
+    if plan.study().fit.runs < plan.runs() {
+        message::warning(format_args!(
+            "fit.runs = {} is fewer than the {} of the design, which are made all the same",
+            plan.study().fit.runs,
+            number::count(plan.runs(), "run")
+        ));
+    }
     if arguments.plan {
         return plan::say(&plan, &task, arguments);
     }

@@ -157,9 +157,11 @@ fn axes(analysed: &Analysed, space: &Space<'_>, arguments: &OptimizeArguments) -
 /// The two factors of a contour.
 fn pair(space: &Space<'_>, names: &str, axes: &[Axis]) -> Result<[usize; 2], Failure> {
     let at = |error: String| Failure::input(format_args!("--contour {names}: {error}"));
-    let (one, other) =
-        names.split_once(',').ok_or_else(|| at("expected two factors with a comma between".to_owned()))?;
-    let pair = [space.factor(one.trim()).map_err(at)?, space.factor(other.trim()).map_err(at)?];
+    // Names may have commas, too.
+    let halves = names.match_indices(',').map(|(comma, _)| (names[..comma].trim(), names[comma + 1..].trim()));
+    let pairs = halves.map(|(one, other)| Ok([space.factor(one)?, space.factor(other)?]));
+    let pair = pairs.reduce(Result::or).unwrap_or_else(|| Err("expected two factors with a comma between".to_owned()));
+    let pair = pair.map_err(at)?;
     match pair.iter().all(|factor| axes[*factor] == Axis::Range) && pair[0] != pair[1] {
         true => Ok(pair),
         false => Err(at("expected two different factors that are numbers and not held".to_owned())),
