@@ -9,53 +9,52 @@ use zip::ZipWriter;
 
 /// An archive that is written into `out`.
 pub(crate) fn create<W: Write + Seek>(out: W) -> ZipWriter<Output<W>> {
-    ZipWriter::new(Output { out, failed: None })
+    ZipWriter::new(Output { out, position: 0, length: 0, failed: false })
 }
 
 /// What an archive is written into. Once it has failed it takes everything and keeps nothing.
 #[derive(Debug)]
 pub(crate) struct Output<W> {
     out: W,
-    /// Since it has failed: position, and how long it would be.
-    failed: Option<(u64, u64)>,
+    /// Where it is written, and how long it is: also what nobody keeps any more.
+    position: u64,
+    length: u64,
+    failed: bool,
 }
 
-impl<W: Seek> Output<W> {
+impl<W> Output<W> {
     fn fail<T>(&mut self, error: io::Error) -> io::Result<T> {
-        self.failed = Some((0, 0));
+        self.failed = true;
         Err(error)
     }
 }
 
-impl<W: Write + Seek> Write for Output<W> {
+impl<W: Write> Write for Output<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if let Some((position, length)) = &mut self.failed {
-            *position += bytes.len() as u64;
-            *length = (*length).max(*position);
-            return Ok(bytes.len());
-        }
-        self.out.write(bytes).or_else(|error| self.fail(error))
+        let written =
+            if self.failed { bytes.len() } else { self.out.write(bytes).or_else(|error| self.fail(error))? };
+        self.position += written as u64;
+        self.length = self.length.max(self.position);
+        Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        if self.failed.is_some() {
-            return Ok(());
-        }
-        self.out.flush().or_else(|error| self.fail(error))
+        if self.failed { Ok(()) } else { self.out.flush().or_else(|error| self.fail(error)) }
     }
 }
 
 impl<W: Seek> Seek for Output<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        if let Some((position, length)) = &mut self.failed {
-            *position = match to {
+        self.position = if self.failed {
+            match to {
                 SeekFrom::Start(position) => position,
-                SeekFrom::End(distance) => length.saturating_add_signed(distance),
-                SeekFrom::Current(distance) => position.saturating_add_signed(distance),
-            };
-            return Ok(*position);
-        }
-        self.out.seek(to).or_else(|error| self.fail(error))
+                SeekFrom::End(distance) => self.length.saturating_add_signed(distance),
+                SeekFrom::Current(distance) => self.position.saturating_add_signed(distance),
+            }
+        } else {
+            self.out.seek(to).or_else(|error| self.fail(error))?
+        };
+        Ok(self.position)
     }
 }
 
