@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use plateau_io::export::ExportError;
+use plateau_io::regular;
 use plateau_io::temporary::Temporary;
 
 use crate::failure::Failure;
@@ -25,26 +26,21 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
         return Err(Failure::input(format_args!("cannot write {shown}: {directory} is no directory; make it first")));
     }
     let Ok(there) = fs::symlink_metadata(path) else { return Ok(()) };
+    let real = fs::metadata(path);
     // Whether it is meant to be made there, or the link to be replaced, nobody knows.
-    if there.is_symlink() && fs::metadata(path).is_err() {
+    if there.is_symlink() && real.is_err() {
         let to = fs::read_link(path).unwrap_or_default();
         let to = to.display();
         let what = format_args!("{shown} is a link to {to}, which is not there; remove it, or name another file");
         return Err(Failure::input(what));
     }
-    if there.is_dir() || fs::metadata(path).is_ok_and(|there| !there.is_file()) {
+    if there.is_dir() || real.is_ok_and(|real| !real.is_file()) {
         return Err(Failure::input(format_args!("{shown} is no regular file and is not replaced; name another file")));
     }
-    if is_one_of(path, inputs) {
+    if regular::is_one_of(path, inputs) {
         return Err(Failure::input(format_args!("{shown} is an input and is not replaced; name another file")));
     }
     if force { Ok(()) } else { Err(exists(path)) }
-}
-
-/// Whether a path leads to one of some files, links and `..` resolved.
-pub fn is_one_of(path: &Path, files: &[PathBuf]) -> bool {
-    let real = path.canonicalize().ok();
-    real.is_some() && files.iter().any(|file| file.canonicalize().ok() == real)
 }
 
 /// Writes a file that appears under its name when it is complete.

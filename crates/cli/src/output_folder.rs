@@ -101,7 +101,7 @@ impl OutputFolder {
         let before = List::read(&self.path).map_or_else(Vec::new, |list| list.names);
         for name in before.iter().filter(|name| !names.contains(name) && self.replaces(name)) {
             let path = self.path.join(name);
-            if path.is_file() && !output::is_one_of(&path, inputs) {
+            if path.is_file() && !regular::is_one_of(&path, inputs) {
                 let removed = fs::remove_file(&path);
                 removed.map_err(|error| Failure::run(format_args!("cannot remove {}: {error}", path.display())))?;
             }

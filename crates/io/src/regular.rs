@@ -2,7 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
@@ -31,6 +31,12 @@ pub(crate) fn open_own(path: &Path) -> io::Result<File> {
         return Err(io::Error::new(ErrorKind::InvalidInput, message));
     }
     File::open(path)
+}
+
+/// Whether a path leads to one of some files, links and `..` resolved.
+pub fn is_one_of(path: &Path, files: &[PathBuf]) -> bool {
+    let real = path.canonicalize().ok();
+    real.is_some() && files.iter().any(|file| file.canonicalize().ok() == real)
 }
 
 /// Names in a folder that are looked at for one that may be meant.

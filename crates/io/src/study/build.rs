@@ -135,7 +135,7 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
         }
         let name = table.name.as_ref().map_or_else(|| keys[0].clone(), |name| name.get_ref().clone());
         let at = table.name.as_ref().map(Spanned::span).or(table.key.as_ref().map(Spanned::span)).unwrap_or_default();
-        place.check_name(&name, || place.at(at.start), "factor.name", problems);
+        place.check_label(&name, || place.at(at.start), "factor.name", problems);
         // What values an unknown key has nobody knows.
         let key = keys.first().map_or("", String::as_str);
         let values = if !key.is_empty() && schema::find(key).is_none() {

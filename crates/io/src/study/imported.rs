@@ -16,6 +16,7 @@ use super::factor::{Factor, Level};
 use super::plan::Plan;
 use super::value_table::{Row, ValueTable};
 use crate::claim::{Claim, ClaimError};
+use crate::regular;
 use crate::temporary::Temporary;
 use crate::text::{cell, short};
 use crate::units::parse_as;
@@ -94,8 +95,7 @@ impl Imported {
         let study = plan.study();
         let table = ValueTable::read(path)?;
         let columns = Columns::of(&table, study, false)?;
-        let own = file(study).canonicalize();
-        if own.is_ok_and(|own| study.files.iter().any(|input| input.canonicalize().is_ok_and(|input| input == own))) {
+        if regular::is_one_of(&file(study), &study.files) {
             return Err(format!(
                 "{}: it is an input of the study, and imported values would be kept in its place; give the study another directory",
                 file(study).display()

@@ -145,25 +145,25 @@ impl Study {
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
         let text = regular::read_to_string(path, limits::STUDY)
             .map_err(|error| at(Origin::File(file.clone()), format!("cannot read the study: {error}")))?;
-        if is_scene(&text) {
-            let message = "this is a scene, expected a study; `plateau run` and `plateau check` take scenes";
-            return Err(at(Origin::File(file), message.to_owned()));
-        }
         let place = Place { file: file.clone(), text: &text };
-        let document: Document = toml::from_str(&text).map_err(|error| {
-            let origin = error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start));
-            let is_toml = text.parse::<toml::Table>().is_ok();
-            at(origin, if is_toml { error.message().to_owned() } else { syntax::problem(&text, &error) })
-        })?;
+        let located = |error: &toml::de::Error, message: String| {
+            at(error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start)), message)
+        };
+        let table: toml::Table = text.parse().map_err(|error| located(&error, syntax::problem(&text, &error)))?;
+        if is_scene(&table) {
+            let message = "this is a scene, expected a study; `plateau run` and `plateau check` take scenes";
+            return Err(at(Origin::File(file.clone()), message.to_owned()));
+        }
+        let document: Document = toml::from_str(&text).map_err(|error| located(&error, error.message().to_owned()))?;
         build::build(document, path, &place).map_err(StudyError)
     }
 }
 
-/// Whether a text is that of a scene: it has a table that only scenes have, and nothing that every study has.
-fn is_scene(text: &str) -> bool {
-    let has = |table: &toml::Table, keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
+/// Whether this is a scene: it has a table that only scenes have, and nothing that every study has.
+fn is_scene(table: &toml::Table) -> bool {
+    let has = |keys: &[&str]| keys.iter().any(|key| table.contains_key(*key));
     let tables = ["mesh", "operation", "contact", "materials", "plateaus", "disc", "pin", "extends"];
-    text.parse::<toml::Table>().is_ok_and(|table| has(&table, &tables) && !has(&table, &["design", "factor", "base"]))
+    has(&tables) && !has(&["design", "factor", "base"])
 }
 
 #[cfg(test)]

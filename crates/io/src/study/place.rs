@@ -31,11 +31,18 @@ impl Place<'_> {
         Problem::new(&self.at(found.span().start), key, message)
     }
 
-    /// Refuses a name that is empty, cannot be shown on one line or is too long for it, in messages, tables and figures.
-    pub fn check_name(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
-        if name.trim().is_empty() && key.ends_with(".name") {
+    /// As [`check_name`](Self::check_name), of what is told by its name alone, so that it may not be empty.
+    pub fn check_label(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
+        if name.trim().is_empty() {
             problems.push(Problem::new(&at(), key, "the name is empty, expected a word: tables and figures show it"));
-        } else if let Some(found) = odd_character(name) {
+        } else {
+            self.check_name(name, at, key, problems);
+        }
+    }
+
+    /// Refuses a name that cannot be shown on one line or is too long for it, in messages, tables and figures.
+    pub fn check_name(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
+        if let Some(found) = odd_character(name) {
             let message = format!("\"{}\" has {found}, expected one line of letters; take it out", name.escape_debug());
             problems.push(Problem::new(&at(), key, message));
         } else if let Some(long) = too_long(name) {

@@ -33,7 +33,7 @@ pub(super) fn responses(
             break;
         }
         let name = table.name.get_ref().clone();
-        place.check_name(&name, || place.at(table.name.span().start), "response.name", problems);
+        place.check_label(&name, || place.at(table.name.span().start), "response.name", problems);
         if !names.insert(name.clone()) {
             problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
         }

@@ -154,7 +154,14 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             let x3p::Surface { patch, notes, warnings } = x3p::read(BufReader::new(regular::open(path)?))?;
             Ok(from_instrument(format, patch, notes, warnings))
         }
-        Format::Npy => Ok(array(format, npy::read_file(path, options.unit.unwrap_or(1.0))?, options)),
+        Format::Npy => {
+            let mut file = regular::open_small(path, limits::SURFACE)?;
+            let mut content = Vec::new();
+            file.by_ref().take(npy::HEAD as u64).read_to_end(&mut content)?;
+            npy::check_length(&content, file.metadata()?.len())?;
+            file.take(limits::SURFACE).read_to_end(&mut content)?;
+            Ok(array(format, npy::read(&content, options.unit.unwrap_or(1.0))?, options))
+        }
         Format::Npz => {
             let (dataset, unit) = (options.dataset.as_deref(), options.unit.unwrap_or(1.0));
             let (name, read) = npy::read_archive(&regular::read(path, limits::SURFACE)?, dataset, unit)?;

@@ -13,7 +13,7 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 const LONGEST: usize = 10_000;
 
 /// Bytes from which a header can be read, if the file is that long.
-pub(super) const HEAD: usize = MAGIC.len() + 2 + 4 + LONGEST;
+pub(in crate::surface) const HEAD: usize = MAGIC.len() + 2 + 4 + LONGEST;
 
 /// What a header says.
 #[derive(Debug, Clone, PartialEq)]

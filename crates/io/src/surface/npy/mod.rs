@@ -12,13 +12,12 @@ use plateau_core::surface::Patch;
 use zip::ZipArchive;
 
 pub use error::NpyError;
+pub(super) use header::HEAD;
+use header::Header;
 pub(crate) use header::preamble;
-use header::{HEAD, Header};
 use number::Number;
 
-use super::error::FileError;
 use super::options::inflated;
-use crate::{limits, regular};
 
 /// An array as heights, column by column.
 #[derive(Debug)]
@@ -57,16 +56,12 @@ pub(super) fn read(content: &[u8], unit: f64) -> Result<Array, NpyError> {
     Ok(Array { columns, rows, heights, integers: number.is_integer(), descr: header.descr })
 }
 
-/// Reads an .npy file. One that is not as long as its header says is not read: it may have gigabytes of holes.
+/// Refuses an .npy file that is not as long as its first [`HEAD`] bytes say, before the rest is read: it may have gigabytes of holes.
 ///
 /// # Errors
-/// What the system says, and [`NpyError`] as for [`read`].
-pub(super) fn read_file(path: &Path, unit: f64) -> Result<Array, FileError> {
-    let file = regular::open_small(path, limits::SURFACE)?;
-    let mut head = Vec::new();
-    (&file).take(HEAD as u64).read_to_end(&mut head)?;
-    grid_of(&Header::read(&head)?, file.metadata()?.len())?;
-    Ok(read(&regular::read(path, limits::SURFACE)?, unit)?)
+/// [`NpyError`] as for [`read`].
+pub(super) fn check_length(head: &[u8], bytes: u64) -> Result<(), NpyError> {
+    grid_of(&Header::read(head)?, bytes).map(drop)
 }
 
 /// What an .npy file of so many bytes holds: type of its numbers, columns and rows.
