@@ -24,6 +24,27 @@ fn a_mistyped_command_gets_the_one_that_was_meant() {
     }
     let message = refused(directory.plateau(["simulate"]));
     assert!(!message.contains("did you mean"), "{message}");
+    let message = refused(directory.plateau(["sweep", "rnu", "study.toml"]));
+    assert!(message.contains("did you mean plateau sweep run?"), "{message}");
+    let message = refused(directory.plateau(["version"]));
+    assert!(message.contains("the version: plateau --version") && !message.contains("verify"), "{message}");
+}
+
+#[test]
+fn what_is_named_in_the_place_of_something_else_is_told_by_what_it_is() {
+    let directory = with_scene(&[]);
+    let message = refused(directory.plateau(["plot", "scene.toml"]));
+    assert!(message.contains("which `plateau run scene.toml` writes"), "{message}");
+    let message = refused(directory.plateau(["report", "run.h5", "-o", "out.pdf"]));
+    assert!(
+        message.contains("-o out.pdf: a report is a page in HTML") && message.contains("such as out.html"),
+        "{message}"
+    );
+    let message = refused(directory.plateau(["surface", "scene.toml", "--pitch", "0,02 mm"]));
+    assert!(message.contains("decimals have a point: \"0.02 mm\""), "{message}");
+    // A word that is none decides nothing over other keys.
+    let message = refused(directory.plateau(["check", "scene.toml", "--set", "plateaus.debris=globl"]));
+    assert!(message.contains("\"globl\" is unknown") && !message.contains("captured_fraction"), "{message}");
 }
 
 #[test]

@@ -152,6 +152,41 @@ fn assert_told(outcome: &Outcome, what: &str) {
 }
 
 #[test]
+fn what_memory_does_not_hold_is_refused_before_it_is_made() {
+    let directory = WorkingDirectory::new();
+    // 2^28 grey pixels, which are refused by the size that the file and its header have.
+    let side = (1_u32 << 14).to_be_bytes();
+    let header = [b"IHDR", &side[..], &side, &[8, 0, 0, 0, 0]].concat();
+    let mut sum = flate2::Crc::new();
+    sum.update(&header);
+    let length = (header.len() as u32 - 4).to_be_bytes();
+    let image = [b"\x89PNG\r\n\x1a\n", &length[..], &header, &sum.sum().to_be_bytes(), &[0; 300_000]].concat();
+    directory.write("height.png", image);
+    surface_scene(&directory, "height.png", "pitch = \"1 um\"\nheight_range = [\"0 um\", \"1 um\"]\n");
+    let refused = limited(&directory, &["run", "scene.toml"]);
+    assert_refused(&refused, "16384 x 16384 pixels need 2.5 GiB of memory and ");
+    // As many heights, of which one chunk is there.
+    let file = hdf5::File::create(directory.path("height.h5")).unwrap();
+    let heights =
+        file.new_dataset::<f64>().shape((1 << 14, 1 << 14)).chunk((1 << 7, 1 << 14)).create("height").unwrap();
+    heights.write_slice(&ndarray::Array2::<f64>::zeros((1 << 7, 1 << 14)), (..1 << 7, ..)).unwrap();
+    drop(heights);
+    file.close().unwrap();
+    surface_scene(&directory, "height.h5", "pitch = \"1 um\"\n");
+    let refused = limited(&directory, &["run", "scene.toml"]);
+    assert_refused(&refused, "the heights of dataset /height need 4.0 GiB of memory and ");
+    // More objects than a file of measurements has.
+    let file = hdf5::File::create(directory.path("many.h5")).unwrap();
+    for number in 0..10_001 {
+        file.create_group(&number.to_string()).unwrap();
+    }
+    file.close().unwrap();
+    surface_scene(&directory, "many.h5", "pitch = \"1 um\"\n");
+    let refused = limited(&directory, &["run", "scene.toml"]);
+    assert_refused(&refused, "it has more than 10000 groups and datasets, expected at most that many");
+}
+
+#[test]
 fn without_threads_nothing_panics() {
     let directory = WorkingDirectory::new();
     for command in commands(&directory) {

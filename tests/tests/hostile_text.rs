@@ -79,6 +79,29 @@ fn names_in_scenes_and_studies_are_of_one_line() {
 }
 
 #[test]
+fn what_is_too_long_to_be_read_is_not_shown_whole() {
+    let directory = WorkingDirectory::new();
+    let long = "x".repeat(10_000_000);
+    directory.write("cycle.csv", format!("time [s],normal_force [N],rotational_speed [rpm]\n0,{long},60\n1,5,60\n"));
+    directory.write(
+        "scene.toml",
+        fs::read_to_string(scene("quick.toml")).unwrap() + "[operation.cycle]\nfile = \"cycle.csv\"\n",
+    );
+    directory.write("list.txt", format!("unit = um\n{long} 1 2\n"));
+    let quantity = format!("operation.normal_force={}", &long[..100_000]);
+    for arguments in [
+        vec!["check", "scene.toml"],
+        vec!["check", &scene("quick.toml"), "--set", &quantity],
+        vec!["check", &scene("quick.toml"), "--set", "pin.base.synthetic.fibre_length=1e308 m"],
+        vec!["surface", "list.txt"],
+    ] {
+        let outcome = directory.plateau(&arguments);
+        assert_eq!(outcome.status, Some(2), "{:.1000}", outcome.stderr);
+        assert!(outcome.stderr.len() < 1000, "{:.1000}", outcome.stderr);
+    }
+}
+
+#[test]
 fn no_table_has_a_formula() {
     let directory = WorkingDirectory::new();
     directory.write("base.toml", quick_scene_with(&[]));

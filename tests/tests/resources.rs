@@ -80,8 +80,8 @@ fn a_run_whose_file_was_replaced_leaves_the_checkpoints_of_the_other_alone() {
 #[test]
 fn a_signal_during_the_preparation_is_heard() {
     let large = ["--set", "mesh.rows=300", "--set", "mesh.disc_columns=20700", "--set", "mesh.pin_columns=1200"];
-    // Fibres that are so long that nearly all of them miss the pin: hours of one loop.
-    let fibres = ["--set", "pin.base.synthetic.fibre_length=1e5 m", "--set", "pin.base.synthetic.fibre_width=1e-7 m"];
+    // Fibres that are so long that nearly all of them miss the pin: nearly as many as are placed at most.
+    let fibres = ["--set", "pin.base.synthetic.fibre_length=4 m", "--set", "pin.base.synthetic.fibre_width=1e-7 m"];
     let cases = [("TERM", 143, &large[..]), ("INT", 130, &large), ("HUP", 129, &large), ("XCPU", 152, &fibres)];
     for (signal, status, sets) in cases {
         let directory = WorkingDirectory::new();
@@ -155,6 +155,29 @@ fn without_memory_a_run_fails_with_status_1() {
     let outcome = run(command);
     assert!(matches!(outcome.status, Some(1 | 2)), "{outcome:?}");
     assert!(outcome.stderr.contains("memory"), "{outcome:?}");
+}
+
+#[test]
+fn with_any_little_memory_a_run_ends_with_one_line_and_leaves_nothing_damaged() {
+    for workers in ["1", "2"] {
+        let mut refused = 0;
+        for kibibytes in (28_000..=188_000).step_by(8_000) {
+            let directory = WorkingDirectory::new();
+            let arguments = ["run", &scene("quick.toml"), "-o", "run.h5", "--workers", workers];
+            let outcome = run(directory.command_after(&format!("ulimit -c 0; ulimit -v {kibibytes}"), arguments));
+            if outcome.status == Some(0) {
+                directory.plateau(["verify", "run.h5"]).quiet_success();
+                continue;
+            }
+            refused += 1;
+            // A mesh that is too large is told as such.
+            assert!(matches!(outcome.status, Some(1 | 2)), "{kibibytes} KiB: {outcome:?}");
+            let (first, _) = outcome.stderr.split_once('\n').unwrap();
+            assert!(first.starts_with("plateau: ") && first.contains("memory and "), "{kibibytes} KiB: {outcome:?}");
+            assert_eq!(directory.names(), [""; 0], "{kibibytes} KiB");
+        }
+        assert!(refused > 0 && refused < 21, "{refused} were refused");
+    }
 }
 
 #[test]

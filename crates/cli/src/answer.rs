@@ -17,6 +17,7 @@ pub fn answered(mut answer: clap::Error) -> ExitCode {
         return ExitCode::from(answer.exit_code() as u8);
     }
     if let Some(tip) = tip(&answer) {
+        answer.remove(ContextKind::SuggestedSubcommand);
         answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     let message = in_plain_words(&answer.to_string());
@@ -45,7 +46,8 @@ fn tip(answer: &clap::Error) -> Option<String> {
             match word.rsplit_once('.').map_or("", |(_, ending)| ending) {
                 "toml" => Some(format!("to run a scene: {} run {word}", called::program())),
                 "h5" => Some(format!("to see a run: {0} report {word}, or {0} plot {word}", called::program())),
-                _ => command_like(&word).map(|command| format!("did you mean {} {command}?", called::program())),
+                _ if word == "version" => Some(format!("the version: {} --version", called::program())),
+                _ => command_like(&word),
             }
         }
         ErrorKind::UnknownArgument => {
@@ -58,11 +60,15 @@ fn tip(answer: &clap::Error) -> Option<String> {
 }
 
 /// The command whose name is the nearest to a word, if it is near: two letters that change places, one that is missing or
-/// wrong.
+/// wrong. A word behind a command with commands of its own is meant as one of these.
 fn command_like(word: &str) -> Option<String> {
-    let command = Arguments::command();
-    let names = command.get_subcommands().map(|command| command.get_name().to_owned());
+    let all = Arguments::command();
+    let first = std::env::args().nth(1).filter(|first| first != word);
+    let parent = first.and_then(|first| all.find_subcommand(&first)).filter(|parent| parent.has_subcommands());
+    let names = parent.unwrap_or(&all).get_subcommands().map(|command| command.get_name().to_owned());
     let distance = |name: &String| strsim::osa_distance(name, word);
     let most = 1 + word.len() / 5;
-    names.filter(|name| distance(name) <= most).min_by_key(distance)
+    let name = names.filter(|name| distance(name) <= most).min_by_key(distance)?;
+    let parent = parent.map_or(String::new(), |parent| format!("{} ", parent.get_name()));
+    Some(format!("did you mean {} {parent}{name}?", called::program()))
 }

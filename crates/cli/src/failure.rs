@@ -2,12 +2,9 @@
 
 use std::fmt;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use plateau_io::scene::SceneError;
 use plateau_run::{Job, Progress, RunError};
-use signal_hook::consts::SIGABRT;
 
 use crate::{excerpt, message};
 
@@ -89,8 +86,9 @@ impl Failure {
     }
 }
 
-/// Numbers of the system's errors that are not the user's fault: no memory, too many open files, in all or of this process.
-const LACKS: [u8; 3] = [12, 23, 24];
+/// Numbers of the system's errors that are not the user's fault: no thread, no memory, too many open files, in all or of this
+/// process.
+const LACKS: [u8; 4] = [11, 12, 23, 24];
 
 /// Whether a message ends in that number of the system, as the standard library and HDF5 write it.
 fn is_lacking(message: &str, number: u8) -> bool {
@@ -124,11 +122,4 @@ pub fn in_job(work: impl FnOnce(&mut Job) -> Result<(), Failure>) -> Result<(), 
             Err(failure)
         }
     }
-}
-
-/// A program that gets no more memory ends as one whose run failed, and not by a signal; the library has said then how much was
-/// asked for. Files are left as a kill leaves them: complete up to the last flush.
-pub fn end_where_memory_does() {
-    // Where the system takes no handler the signal tells, too.
-    let _ = signal_hook::flag::register_conditional_shutdown(SIGABRT, 1, Arc::new(AtomicBool::new(true)));
 }

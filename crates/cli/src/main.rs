@@ -8,6 +8,7 @@ mod commands;
 mod excerpt;
 mod failure;
 mod interrupt;
+mod little_memory;
 mod message;
 mod output;
 mod output_folder;
@@ -29,7 +30,9 @@ use plateau_present::csv_table;
 use plateau_run::machine;
 
 fn main() -> ExitCode {
-    failure::end_where_memory_does();
+    if let Err(failure) = little_memory::begin() {
+        return failure.report();
+    }
     panic::told(answer)
 }
 

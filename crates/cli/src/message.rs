@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use console::{Style, StyledObject};
-use plateau_io::text::shown;
+use plateau_io::text::{shown, shown_line};
 
 static WARNINGS: AtomicBool = AtomicBool::new(true);
 static QUIET: AtomicBool = AtomicBool::new(false);
@@ -60,8 +60,10 @@ fn may_be_said() -> bool {
     WARNINGS.load(Ordering::Relaxed) && !is_quiet()
 }
 
-/// Text of others cannot do anything to the terminal. Where standard error takes nothing (a full disc, a reader gone) the exit
+/// Text of others cannot do anything to the terminal, nor fill it. Where standard error takes nothing (a full disc, a reader gone) the exit
 /// status still tells; `eprintln!` would panic.
 fn say(who: impl fmt::Display, message: impl fmt::Display) {
-    let _ = writeln!(io::stderr().lock(), "{who} {}", shown(&message.to_string()));
+    let message = message.to_string();
+    let lines: Vec<_> = message.split('\n').map(shown_line).collect();
+    let _ = writeln!(io::stderr().lock(), "{who} {}", shown(&lines.join("\n")));
 }

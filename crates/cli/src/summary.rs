@@ -1,6 +1,6 @@
 //! What a finished run tells its user.
 
-use plateau_core::observe::drift::Drift;
+use plateau_core::observe::drift::{Drift, Trend};
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_run::{PartsSummary, RunSummary};
 
@@ -122,10 +122,11 @@ fn drift(drift: &Drift) -> String {
     let sign = if *change > 0.0 { "+" } else { "" };
     let [start, middle, end] =
         [third_quarter.from, last_quarter.from, last_quarter.to].map(|time| number::rounded(time, 4));
-    let found = match (drift.is_beyond_chance(), *change > 0.0) {
-        (true, true) => "contact area still rises",
-        (true, false) => "contact area still falls",
-        (false, _) => "no change beyond chance",
+    let found = match drift.trend() {
+        Trend::Rises => "contact area still rises",
+        Trend::Falls => "contact area still falls",
+        Trend::Steady => "contact area is steady",
+        Trend::Unknown => "cannot be told from a run of this length",
     };
     format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
 }
@@ -143,16 +144,20 @@ mod tests {
             mean,
             standard_error: Some(0.02e-6),
         };
-        let of = |change: f64| {
+        let of = |change: f64, standard_error: f64| {
             drift(&Drift {
                 third_quarter: quarter(30.0, 45.0, 1e-6),
                 last_quarter: quarter(45.0, 60.0, (1.0 + change) * 1e-6),
                 change,
-                standard_error: 0.03,
+                standard_error,
             })
         };
-        assert_eq!(of(0.12), "contact area still rises: +12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
-        assert_eq!(of(-0.12), "contact area still falls: -12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
-        assert_eq!(of(0.05), "no change beyond chance: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(of(0.12, 0.03), "contact area still rises: +12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(of(-0.12, 0.03), "contact area still falls: -12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(
+            of(0.05, 0.03),
+            "cannot be told from a run of this length: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s"
+        );
+        assert_eq!(of(0.01, 0.01), "contact area is steady: +1.0 ± 1.0 % from 30 … 45 s to 45 … 60 s");
     }
 }

@@ -26,7 +26,7 @@ use thiserror::Error;
 
 use crate::run_file::Image;
 use crate::temporary::Temporary;
-use crate::{limits, regular};
+use crate::{memory, regular};
 
 /// How every checkpoint begins.
 const MAGIC: &[u8; 16] = b"plateau state 5\n";
@@ -226,7 +226,7 @@ fn open_whole(path: &Path) -> Result<Option<(File, u64)>, CheckpointError> {
     if length > LARGEST || there != HEAD + length + digest.len() as u64 {
         return Err(damaged("its length is not what it says"));
     }
-    if limits::memory().is_some_and(|memory| length > memory) {
+    if memory::of_machine().is_some_and(|memory| length > memory) {
         return Err(damaged("it is larger than the memory of this machine"));
     }
     let mut hasher = Sha256::new();

@@ -15,6 +15,7 @@
 //! | who may write a run file and its checkpoints | [`claim`] |
 //! | regular files, and nothing else | [`regular`] |
 //! | how much is read of a file | [`limits`] |
+//! | how much memory there is | [`memory`] |
 //! | text that others have written, as it can be shown | [`text`] |
 //! | files that appear when they are complete | [`temporary`] |
 //! | processes: told from later ones, or by the file that they write | [`process`] |
@@ -26,6 +27,7 @@ pub mod dataset_file;
 pub mod export;
 mod hdf5_file;
 pub mod limits;
+pub mod memory;
 pub mod number;
 pub mod plausibility;
 pub mod process;

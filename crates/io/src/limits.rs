@@ -2,9 +2,6 @@
 //!
 //! Surfaces have bounds of their own besides: points of a grid, and what deflate can make of the bytes that are there.
 
-use std::fs;
-use std::path::Path;
-
 /// Bytes of a study: brackets take fifty times their size while they are read.
 pub const STUDY: u64 = 4 << 20;
 /// Bytes of a table of load and speed, or of the points of a design.
@@ -27,11 +24,4 @@ pub const LAYERS: usize = 64;
 /// Says that there is more of something than is read.
 pub(crate) fn more(found: impl std::fmt::Display, most: impl std::fmt::Display, what: &str) -> String {
     format!("{found} {what}, expected at most {most}")
-}
-
-/// Bytes of memory of this machine; none where the system does not tell.
-pub(crate) fn memory() -> Option<u64> {
-    let text = fs::read_to_string(Path::new("/proc/meminfo")).ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }

@@ -28,6 +28,9 @@ pub fn odd_character(text: &str) -> Option<String> {
 /// Letters of a name, a title or a level, at most: so many are read, and fit a table or a figure.
 pub const LONGEST_NAME: usize = 200;
 
+/// Letters of a line of a message, at most: lists of names are cut before, and no path is longer.
+const LONGEST_LINE: usize = 8000;
+
 /// Says that a name, a title or a level has more letters than are taken.
 pub fn too_long(text: &str) -> Option<String> {
     // There are no more letters than bytes, and nobody counts a gigabyte of them.
@@ -46,6 +49,11 @@ pub fn short(text: &str) -> Cow<'_, str> {
 /// As much of a title as is shown of one that somebody else may have made as long as he likes.
 pub fn shown_title(text: &str) -> Cow<'_, str> {
     beginning(text, LONGEST_NAME)
+}
+
+/// As much of a line of a message as is read.
+pub fn shown_line(line: &str) -> Cow<'_, str> {
+    beginning(line, LONGEST_LINE)
 }
 
 fn beginning(text: &str, most: usize) -> Cow<'_, str> {
@@ -131,6 +139,7 @@ mod tests {
         let said = too_long(&"ä".repeat(201)).unwrap();
         assert_eq!(said, format!("\"{}…\" has 201 letters, expected at most 200; shorten it", "ä".repeat(60)));
         assert_eq!((short("a"), shown_title(&"x".repeat(300)).chars().count()), (Cow::Borrowed("a"), 201));
+        assert_eq!(shown_line(&"x".repeat(10_000_000)).chars().count(), 8001);
     }
 
     #[test]

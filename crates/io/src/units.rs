@@ -11,6 +11,8 @@ use dimension::meaning;
 use expression::Scale;
 use thiserror::Error;
 
+use crate::text::short;
+
 pub use dimension::Dimension;
 
 /// 0 °C, K.
@@ -78,7 +80,7 @@ fn advice(found: &str, expected: Dimension) -> &'static str {
 /// # Errors
 /// [`UnitError`], which says what was found and shows what is expected.
 pub fn parse(text: &str, expected: Dimension) -> Result<f64, UnitError> {
-    let shown = || text.trim().escape_debug().to_string();
+    let shown = || short(text.trim()).escape_debug().to_string();
     let Some((number, unit)) = split_number(text.trim()) else {
         let word = text.trim().trim_start_matches(['+', '-']).to_ascii_lowercase();
         return Err(if word.starts_with("inf") || word.starts_with("nan") {

@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use hdf5::Extents;
+use hdf5::types::VarLenUnicode;
+
 use crate::fixtures::{header, sample, small, snapshot};
 use plateau_core::observe::{Map, QUANTITIES};
 use plateau_io::run_file::{End, ReadError, RunFile, RunWriter, State};
@@ -126,6 +129,21 @@ fn a_damaged_run_file_is_told() {
     };
     let newer = change("newer.h5", &|file| file.attr("format_version").unwrap().write_scalar(&2).unwrap());
     assert!(matches!(refused(&newer), ReadError::Newer { found: 2, expected: 1, .. }));
+    // An attribute without data is not what the memory held before.
+    let empty = change("empty_attributes.h5", &|file| {
+        for name in ["workers", "host"] {
+            file.delete_attr(name).unwrap();
+        }
+        file.new_attr::<i64>().shape(Extents::Null).create("workers").unwrap();
+        file.new_attr::<VarLenUnicode>().shape(Extents::Null).create("host").unwrap();
+    });
+    let empty = RunFile::open(&empty).unwrap();
+    assert_eq!((empty.number("workers"), empty.attribute("host")), (None, None));
+    let no_version = change("no_version.h5", &|file| {
+        file.delete_attr("format_version").unwrap();
+        file.new_attr::<i64>().shape(Extents::Null).create("format_version").unwrap();
+    });
+    assert!(matches!(refused(&no_version), ReadError::Foreign { .. }));
     let short = change("short.h5", &|file| file.dataset("series/pool").unwrap().resize(5).unwrap());
     let short = RunFile::open(&short).unwrap();
     assert!(matches!(short.values("pool"), Err(ReadError::Damaged { .. })));

@@ -31,11 +31,11 @@ fn reference(report: &Report) -> String {
         (
             "its wall time",
             format!(
-                "{} for {} steps on {} workers",
+                "{} for {} steps on {}",
                 // A run that had not ended when it became a reference tells none.
                 reference.outcome.wall_time.map_or("not recorded,".to_owned(), number::duration),
                 number::grouped(reference.outcome.steps),
-                made.workers
+                number::count(made.workers as usize, "worker")
             ),
         ),
         (

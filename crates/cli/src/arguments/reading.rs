@@ -105,6 +105,9 @@ fn unit(text: &str) -> Result<f64, String> {
 /// A value of `--pitch`.
 fn pitch(text: &str) -> Result<[f64; 2], String> {
     let pitch = match text.split_once(',') {
+        Some((x, y)) if x.trim().parse::<f64>().is_ok() && y.starts_with(|next: char| next.is_ascii_digit()) => {
+            return Err(format!("a comma parts the pitch along x and along y; decimals have a point: \"{x}.{y}\""));
+        }
         Some((x, y)) => [length(x)?, length(y)?],
         None => [length(text)?; 2],
     };

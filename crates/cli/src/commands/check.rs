@@ -21,6 +21,7 @@ use serde::Serialize;
 
 use super::check_cycle::CycleReport;
 use super::check_outline::OutlineReport;
+use super::check_pulse::PulseReport;
 use super::load_scene;
 use crate::arguments::CheckArguments;
 use crate::called;
@@ -44,6 +45,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     scene.warnings.extend(implausible);
     let parts = parts(&scene.parameters, &loaded.surfaces.pin_base);
     let Loaded { surfaces, inputs, report, .. } = loaded;
+    let pulse = PulseReport::of(&scene.parameters, &surfaces.pin_base, scene.steps);
     let files = files(&scene, &inputs);
     if scene.adaptive.is_some() && Smoothness::forbids_from_the_start(&scene.parameters, &surfaces) {
         message::warning(idle_warning(Idle::Smooth(0.0)));
@@ -55,7 +57,10 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
-    let check = Check::new(&scene, files, report, &parts, simulation.execution(), [preparing, seconds_per_step]);
+    let check = Check {
+        pulse,
+        ..Check::new(&scene, files, report, &parts, simulation.execution(), [preparing, seconds_per_step])
+    };
     stiffness_warning(&scene.parameters).iter().for_each(message::warning);
     if scene.output.file.exists() {
         message::warning(format_args!(
@@ -94,6 +99,9 @@ struct Check {
     #[serde(skip_serializing_if = "Option::is_none")]
     cycle: Option<CycleReport>,
     revolutions: f64,
+    /// Of a scene whose contact area pulses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pulse: Option<PulseReport>,
     samples: u64,
     maps: usize,
     memory: u64,
@@ -224,6 +232,7 @@ impl Check {
             step_time: parameters.step_time(),
             cycle: CycleReport::of(scene),
             revolutions: scene.steps as f64 / mesh.disc_columns() as f64,
+            pulse: None,
             samples: schedule.samples(),
             maps,
             memory: memory_estimate(scene),
@@ -318,6 +327,10 @@ impl Check {
         if let Some(cycle) = &self.cycle {
             // Behind the steps.
             rows.splice(3..3, cycle.rows());
+        }
+        if let Some(pulse) = &self.pulse {
+            // Behind the steps, which no cycle has then.
+            rows.insert(3, ("contact area pulses", pulse.text()));
         }
         if let Some(outline) = &self.outline {
             // Behind the mesh.

@@ -4,6 +4,7 @@ mod accuracy;
 mod check;
 mod check_cycle;
 mod check_outline;
+mod check_pulse;
 mod completions;
 mod export;
 mod fit;

@@ -11,7 +11,7 @@ use plateau_present::report::{self, Pictures};
 use crate::arguments::ReportArguments;
 use crate::failure::Failure;
 use crate::table::{print, table};
-use crate::{output, version};
+use crate::{called, output, version};
 
 /// Makes a page of run files.
 pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
@@ -20,6 +20,7 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
         [path] => super::named_like(path, ".html"),
         _ => "report.html".into(),
     });
+    refuse_other_format(page)?;
     output::check(page, *force, paths)?;
     let runs = super::open_runs(paths)?;
     output::check(page, *force, &super::runs::inputs_of(&runs))?;
@@ -28,6 +29,23 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
         .map_err(Failure::input)?;
     output::write(page, html.as_bytes(), *force)?;
     tell(page, &runs, figures.figures.len(), html.len())
+}
+
+/// Endings of what other commands make, or a browser.
+const NO_PAGES: [&str; 4] = ["pdf", "png", "svg", "csv"];
+
+/// Refuses a name that says that the page is what it is not.
+fn refuse_other_format(page: &Path) -> Result<(), Failure> {
+    let ending = page.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if !NO_PAGES.contains(&ending.as_str()) {
+        return Ok(());
+    }
+    Err(Failure::input(format_args!(
+        "-o {}: a report is a page in HTML, expected a name such as {}; a browser prints it as PDF, `{} plot` makes single figures",
+        page.display(),
+        page.with_extension("html").display(),
+        called::program()
+    )))
 }
 
 /// Says what is on the page.

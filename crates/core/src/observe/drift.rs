@@ -6,6 +6,8 @@ use super::window_mean::{Cumulative, WindowMean};
 
 /// Standard errors from which on a change is not taken for chance: 2.5 times in a hundred in either direction.
 const BEYOND_CHANCE: f64 = 2.0;
+/// A change of this part of the mean is of interest: a run that may hide a larger one tells nothing.
+const OF_INTEREST: f64 = 0.05;
 
 /// The last quarter of a run beside the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -18,6 +20,19 @@ pub struct Drift {
     pub change: f64,
     /// Its standard error, in the same measure, if both are independent.
     pub standard_error: f64,
+}
+
+/// What the change of a mean says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Trend {
+    /// It rises by more than chance explains.
+    Rises,
+    /// It falls by more than chance explains.
+    Falls,
+    /// It changes by less than is of interest.
+    Steady,
+    /// Chance may hide a change that is of interest.
+    Unknown,
 }
 
 impl Drift {
@@ -37,9 +52,15 @@ impl Drift {
         })
     }
 
-    /// Whether the change is more than chance explains.
-    pub fn is_beyond_chance(&self) -> bool {
-        self.change.abs() > BEYOND_CHANCE * self.standard_error
+    /// What the change says.
+    pub fn trend(&self) -> Trend {
+        let chance = BEYOND_CHANCE * self.standard_error;
+        match self.change {
+            change if change > chance => Trend::Rises,
+            change if change < -chance => Trend::Falls,
+            change if change.abs() + chance <= OF_INTEREST => Trend::Steady,
+            _ => Trend::Unknown,
+        }
     }
 }
 
@@ -61,14 +82,25 @@ mod tests {
         assert!((found.change - 0.4).abs() < 1e-12, "{found:?}");
         assert_eq!((found.third_quarter.mean, found.last_quarter.mean), (500.0, 700.0));
         assert_eq!((found.third_quarter.from, found.last_quarter.from, found.last_quarter.to), (200.0, 300.0, 400.0));
-        assert!(found.is_beyond_chance());
+        assert_eq!(found.trend(), Trend::Rises);
     }
 
     #[test]
     fn what_swings_about_a_mean_does_not_drift() {
         // 1 + sin(t), whole and broken periods.
         let found = drift(|time| time + 1.0 - time.cos()).unwrap();
-        assert!(!found.is_beyond_chance() && found.change.abs() < 0.05, "{found:?}");
+        assert!(matches!(found.trend(), Trend::Steady | Trend::Unknown) && found.change.abs() < 0.05, "{found:?}");
+    }
+
+    #[test]
+    fn what_may_hide_a_change_of_interest_is_no_steady_mean() {
+        let of =
+            |change: f64, standard_error: f64| Drift { change, standard_error, ..drift(|time| time).unwrap() }.trend();
+        assert_eq!(
+            [of(0.01, 0.02), of(0.01, 0.021), of(-0.155, 0.084)],
+            [Trend::Steady, Trend::Unknown, Trend::Unknown]
+        );
+        assert_eq!([of(0.05, 0.02), of(-0.05, 0.02)], [Trend::Rises, Trend::Falls]);
     }
 
     #[test]

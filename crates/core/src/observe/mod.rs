@@ -10,6 +10,7 @@
 //! | `event.rs` | what is reported of each event of a cycle |
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
+//! | `pulse.rs` | how long the contact area takes to rise and fall once |
 //! | `window_mean.rs`, `drift.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
 
 pub mod dissipation;
@@ -20,6 +21,7 @@ pub mod map;
 pub mod operation;
 pub mod plateau_size;
 pub mod pressure_spread;
+pub mod pulse;
 pub mod roughness;
 pub mod sample;
 pub mod schedule;

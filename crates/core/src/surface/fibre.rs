@@ -64,6 +64,22 @@ pub enum FibreError {
         /// Width, m.
         width: f64,
     },
+    /// Far more fibres, or far larger ones, would be needed than are placed.
+    #[error(
+        "about {fibres:.0e} fibres of {} by {} would be needed, and {cells:.0e} cells looked at for them, expected at most \
+         {MOST_FIBRES:.0e} and {MOST_CELLS:.0e}: they are too small or too long for this pin",
+        Length(*length), Length(*width)
+    )]
+    OutOfReach {
+        /// Fibres that are expected to be needed.
+        fibres: f64,
+        /// Cells that are expected to be looked at.
+        cells: f64,
+        /// Length from end to end, m.
+        length: f64,
+        /// Width, m.
+        width: f64,
+    },
 }
 
 /// Fibres after which the map is given up.
@@ -88,6 +104,7 @@ impl FibreSynthesis {
             return Ok(base);
         }
         let (width, height) = (Body::Pin.length(mesh), mesh.rows() as f64 * mesh.row_height());
+        self.refuse_out_of_reach(mesh, width, height)?;
         let (area, total) = (mesh.area(), mesh.pin_area());
         let mut random = Random::new(self.seed, Stream::PinBase);
         let mut covered = 0.0;
@@ -119,6 +136,28 @@ impl FibreSynthesis {
             length: self.fibre_length,
             width: self.fibre_width,
         })
+    }
+
+    /// Refuses at once what would be given up after a long time.
+    ///
+    /// Capsules of area `A` with centres anywhere in an area `E` leave the fraction `exp(−n A/E)` free after `n` of them, and each
+    /// is looked for in the part `B/E` of the cells, `B` being the mean area of the rectangle around it.
+    fn refuse_out_of_reach(&self, mesh: &Mesh, width: f64, height: f64) -> Result<(), FibreError> {
+        let (segment, diameter) = (self.fibre_length - self.fibre_width, self.fibre_width);
+        // Without units: lengths near the ends of doubles have no squares.
+        let slenderness = segment / diameter;
+        let extent = ((width + self.fibre_length) / diameter) * ((height + self.fibre_length) / diameter);
+        let (capsule, around) = (slenderness + PI / 4.0, slenderness * slenderness / PI + 4.0 / PI * slenderness + 1.0);
+        // A map is complete, too, when the last cell is covered.
+        let coverings = (-libm::log1p(-self.fibre_fraction)).min(libm::log(mesh.present_cells() as f64) + 1.0);
+        // What no double holds is out of reach as well.
+        let number = |value: f64| if value.is_nan() { f64::INFINITY } else { value };
+        let fibres = number(coverings * extent / capsule);
+        let cells = number(coverings * mesh.pin_cells() as f64 * around / capsule);
+        if fibres <= f64::from(MOST_FIBRES) && cells <= MOST_CELLS as f64 {
+            return Ok(());
+        }
+        Err(FibreError::OutOfReach { fibres, cells, length: self.fibre_length, width: self.fibre_width })
     }
 
     /// A capsule anywhere in the pin's rectangle or up to half a length outside it, so that the edges are as dense as
@@ -308,6 +347,13 @@ mod tests {
             assert!(matches!(settings.base(&mesh), Err(FibreError::ShorterThanWide { .. })));
         }
         let dust = FibreSynthesis { fibre_length: 1e-12, fibre_width: 1e-12, ..fibres(1, 0.3) };
-        assert!(matches!(dust.base(&mesh), Err(FibreError::TooMany { .. })));
+        assert!(matches!(dust.base(&mesh), Err(FibreError::OutOfReach { .. })));
+        // Hours of one loop, and squares that no double holds.
+        for (fibre_length, fibre_width) in
+            [(1e5, 1e-4), (1e308, 1e-4), (1e308, 1e-300), (1e-300, 1e-300), (1.0, 1e-300)]
+        {
+            let settings = FibreSynthesis { fibre_length, fibre_width, ..fibres(1, 0.3) };
+            assert!(matches!(settings.base(&mesh), Err(FibreError::OutOfReach { .. })), "{fibre_length} {fibre_width}");
+        }
     }
 }

@@ -21,6 +21,9 @@ impl fmt::Display for Length {
             (1.0, "m")
         };
         let value = self.0 * per_metre;
+        if value.is_finite() && size != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+            return write!(f, "{value:.3e} {unit}");
+        }
         // Four significant digits, without the zeros that would pretend more.
         let digits = match value.abs() {
             v if v >= 1000.0 => 0,
@@ -44,6 +47,9 @@ mod tests {
         for (metres, text) in [
             (0.0, "0 m"),
             (1.953125e-9, "1.953 nm"),
+            (1e-300, "1.000e-291 nm"),
+            (-2e-13, "-2.000e-4 nm"),
+            (1e308, "1.000e308 m"),
             (5e-5, "50 um"),
             (-3e-6, "-3 um"),
             (0.13823, "138.2 mm"),

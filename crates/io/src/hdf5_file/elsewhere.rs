@@ -13,9 +13,12 @@ use hdf5::{Dataset, Group, IndexType, IterationOrder, LinkInfo, LinkType, Locati
 use memchr::memmem;
 
 use super::blocks::for_each_block;
+use crate::text::short;
 
 /// Bytes of a link that are looked at: names of file and object, each with a zero behind it.
 const LONGEST_LINK: usize = 8192;
+/// Groups and datasets of a file: the library keeps some ten kilobytes of each that is open.
+const MOST_OBJECTS: usize = 10_000;
 /// Names of files that are told.
 const TOLD: usize = 3;
 
@@ -34,7 +37,7 @@ pub(super) fn for_each_dataset(
         }
         // A slash in a name would lead through other links.
         if let Some(name) = first_link(&group, |name, _| name.contains('/'))? {
-            return Err(format!("{} has a link of the name \"{}\"", group.name(), name.escape_debug()).into());
+            return Err(format!("{} has a link of the name \"{}\"", group.name(), short(&name).escape_debug()).into());
         }
         let mut found = None;
         group.iter_visit_default(|name, link| {
@@ -49,6 +52,11 @@ pub(super) fn for_each_dataset(
                 Err(error) if group.group(name).is_ok() => return Err(error),
                 Err(_) => LocationType::Dataset,
             };
+            if seen.len() > MOST_OBJECTS {
+                return Err(
+                    format!("it has more than {MOST_OBJECTS} groups and datasets, expected at most that many").into()
+                );
+            }
             match kind {
                 LocationType::Group => groups.extend(group.group(name)),
                 LocationType::Dataset => {
@@ -93,7 +101,7 @@ fn data_elsewhere(dataset: &Dataset) -> hdf5::Result<Option<String>> {
 
 /// The first of some names.
 fn told(names: impl Iterator<Item = String>) -> String {
-    let mut names: Vec<String> = names.map(|name| name.escape_debug().to_string()).collect();
+    let mut names: Vec<String> = names.map(|name| short(&name).escape_debug().to_string()).collect();
     names.dedup();
     let more = names.len() > TOLD;
     names.truncate(TOLD);
@@ -121,7 +129,7 @@ fn names_behind(bytes: &[u8]) -> Option<String> {
     let names = bytes.get(2..2 + length)?.strip_prefix(b"\0")?.strip_suffix(b"\0")?;
     let mut names = names.split(|byte| *byte == 0);
     let (file, object, nothing) = (names.next()?, names.next()?, names.next());
-    let text = |name| std::str::from_utf8(name).ok().map(|name: &str| name.escape_debug().to_string());
+    let text = |name| std::str::from_utf8(name).ok().map(|name: &str| short(name).escape_debug().to_string());
     let is_link = nothing.is_none() && !file.is_empty() && !object.is_empty();
     if is_link { Some(format!("{} in {}", text(object)?, text(file)?)) } else { None }
 }

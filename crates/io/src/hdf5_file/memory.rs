@@ -1,9 +1,10 @@
 //! A bound on the memory of this process while a library is at work that takes what a damaged file asks for.
 
-use std::fs;
 use std::sync::Mutex;
 
 use rlimit::Resource;
+
+use crate::memory::address_space;
 
 /// What is not done at the same time by two threads.
 static LIMITED: Mutex<()> = Mutex::new(());
@@ -21,13 +22,6 @@ pub(super) fn limited<T>(more: u64, work: impl FnOnce() -> T) -> T {
         let _ = Resource::AS.set(soft, hard);
     }
     result
-}
-
-/// Bytes of the process's address space, where the system tells.
-fn address_space() -> Option<u64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmSize:")?.trim().strip_suffix("kB"));
-    kilobytes?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }
 
 #[cfg(test)]

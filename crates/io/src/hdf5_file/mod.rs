@@ -14,7 +14,7 @@ use std::path::Path;
 
 use hdf5::file::FileBuilder;
 use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenUnicode};
-use hdf5::{Dataset, Location, OpenMode};
+use hdf5::{Attribute, Dataset, H5Type, Location, OpenMode};
 use thiserror::Error;
 
 use crate::regular;
@@ -126,11 +126,7 @@ pub(crate) fn is_marked(path: &Path) -> io::Result<bool> {
 /// # Errors
 /// What the library says when it is there and cannot be read.
 pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Option<String>> {
-    // There is no other way to ask whether it is there.
-    let Ok(attribute) = location.attr(name) else { return Ok(None) };
-    if attribute.size() != 1 {
-        return Ok(None);
-    }
+    let Some(attribute) = attribute_of_one(location, name)? else { return Ok(None) };
     match attribute.dtype()?.to_descriptor()? {
         TypeDescriptor::VarLenUnicode => text(attribute.read_scalar::<VarLenUnicode>()),
         TypeDescriptor::VarLenAscii => text(attribute.read_scalar::<VarLenAscii>()),
@@ -138,6 +134,22 @@ pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Op
         TypeDescriptor::FixedUnicode(_) => text(attribute.read_scalar::<FixedUnicode<64>>()),
         _ => Ok(None),
     }
+}
+
+/// An attribute that is one number, if there is one.
+///
+/// # Errors
+/// As [`text_attribute`].
+pub(crate) fn number_attribute<T: H5Type>(location: &Location, name: &str) -> hdf5::Result<Option<T>> {
+    attribute_of_one(location, name)?.map(|attribute| attribute.read_scalar()).transpose()
+}
+
+/// An attribute that holds one value, if there is one. What an empty one (of a null dataspace) is said to hold is whatever the
+/// memory held before.
+fn attribute_of_one(location: &Location, name: &str) -> hdf5::Result<Option<Attribute>> {
+    // There is no other way to ask whether it is there.
+    let Ok(attribute) = location.attr(name) else { return Ok(None) };
+    Ok(if attribute.space()?.size() == 1 { Some(attribute) } else { None })
 }
 
 /// The bytes of a damaged file may be no text.

@@ -13,6 +13,8 @@ use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
 const MODULI: std::ops::RangeInclusive<f64> = 1e3..=1e12;
 /// No brake slides faster, m/s.
 const FASTEST: f64 = 200.0;
+/// No brake slides as long, s: a year.
+const LONGEST: f64 = 365.25 * 86_400.0;
 /// Cells that a correlation length must have: with fewer, heights of neighbours are all but independent.
 const LEAST_CELLS: f64 = 2.0;
 /// Correlation lengths that a patch must have: with fewer, a few hills are repeated over and over.
@@ -24,6 +26,7 @@ const RULES: &[Rule<Scene>] = &[
     Rule { key: "operation.normal_force", look: nominal_pressure },
     Rule { key: "operation.rotational_speed", look: sliding_speed },
     Rule { key: "operation.sliding_speed", look: sliding_speed },
+    Rule { key: "operation.duration", look: duration },
     Rule {
         key: "materials.disc_primary.youngs_modulus",
         look: |scene| modulus(&scene.parameters.materials.disc_primary),
@@ -80,6 +83,19 @@ fn sliding_speed(scene: &Scene) -> Option<Finding> {
         found: format!("sliding at {} m/s at the mean radius", number(speed)),
         bound: format!("more than {FASTEST} m/s"),
         advice: "check the speed, its unit and the radii in [mesh]",
+    })
+}
+
+fn duration(scene: &Scene) -> Option<Finding> {
+    let parameters = &scene.parameters;
+    if parameters.cycle.is_some() {
+        return None;
+    }
+    let duration = scene.steps as f64 * parameters.step_time();
+    (duration > LONGEST * (1.0 + ROUNDING)).then(|| Finding {
+        found: format!("sliding for {} s", number(duration)),
+        bound: "longer than a year".to_owned(),
+        advice: "check the duration and its unit",
     })
 }
 

@@ -17,11 +17,15 @@ impl RunFile {
         self.of_contact_area(|samples| samples.mean_of_last_tenth())
     }
 
-    /// What the mean contact area changed by in the second half of the run: see [`Drift`]. None where that cannot be told.
+    /// What the mean contact area changed by in the second half of the run: see [`Drift`]. None where that cannot be told, and of a
+    /// run with a cycle, whose contact area follows load and speed.
     ///
     /// # Errors
     /// [`ReadError::Damaged`] when a series cannot be read.
     pub fn drift_of_contact_area(&self) -> Result<Option<Drift>, ReadError> {
+        if self.scene().get("operation").is_some_and(|operation| operation.get("cycle").is_some()) {
+            return Ok(None);
+        }
         self.of_contact_area(Drift::of)
     }
 

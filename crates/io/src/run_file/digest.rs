@@ -112,6 +112,10 @@ fn add_attributes(file: &File, path: &str, location: &Location, lines: &mut Vec<
 
 /// What an attribute says, if it is of a kind for which the library keeps no checksum.
 pub(super) fn texts(file: &File, attribute: &Attribute) -> hdf5::Result<Option<Vec<String>>> {
+    // What an empty one is said to hold is whatever the memory held before.
+    if attribute.space()?.is_null() {
+        return Ok(None);
+    }
     let texts = match attribute.dtype()?.to_descriptor()? {
         TypeDescriptor::VarLenUnicode => {
             let texts = attribute.read_raw::<VarLenUnicode>()?;

@@ -175,6 +175,12 @@ pub(super) fn hdf5_reason(error: &hdf5::Error) -> String {
     system.map_or(message.as_str(), |(system, _)| system).to_owned()
 }
 
+/// The command that writes a run file: of a scene that was named in its place.
+fn run_of(path: &Path) -> String {
+    let is_scene = path.extension().is_some_and(|ending| ending == "toml");
+    if is_scene { format!("plateau run {}", path.display()) } else { "plateau run".to_owned() }
+}
+
 /// Why a run file cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ReadError {
@@ -187,7 +193,7 @@ pub enum ReadError {
         reason: String,
     },
     /// It is no HDF5 file.
-    #[error("{} is no HDF5 file, expected a run file of plateau, which `plateau run` writes", path.display())]
+    #[error("{} is no HDF5 file, expected a run file of plateau, which `{}` writes", path.display(), run_of(path))]
     NotHdf5 {
         /// The file.
         path: PathBuf,

@@ -130,7 +130,7 @@ impl RunFile {
 
     /// A number of its root attributes, such as `workers` or `wall_time`, if it is there.
     pub fn number(&self, name: &str) -> Option<f64> {
-        self.file.attr(name).ok()?.read_scalar().ok()
+        hdf5_file::number_attribute(&self.file, name).ok()?
     }
 
     /// When its run began.
@@ -250,11 +250,8 @@ struct Opening<'a> {
 impl Opening<'_> {
     fn read(self) -> Result<RunFile, ReadError> {
         let foreign = |missing: &str| ReadError::Foreign { path: self.path.into(), missing: missing.into() };
-        let version: i64 = self
-            .file
-            .attr("format_version")
-            .and_then(|attribute| attribute.read_scalar())
-            .map_err(|_| foreign("root attribute format_version"))?;
+        let version = hdf5_file::number_attribute::<i64>(self.file, "format_version").ok().flatten();
+        let version = version.ok_or_else(|| foreign("root attribute format_version"))?;
         if version > i64::from(FORMAT_VERSION) {
             return Err(ReadError::Newer { path: self.path.into(), found: version, expected: FORMAT_VERSION });
         }

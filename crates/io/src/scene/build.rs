@@ -22,6 +22,7 @@ use super::schema::{ACCELERATION, choices, join};
 use super::settings::Settings;
 use super::surfaces::{base, heights};
 use super::{Warning, dissipation, memory, resolved};
+use crate::memory::refuse_beyond;
 use crate::number;
 
 /// Makes the scene; `files` are the scene file and those it extends.
@@ -162,11 +163,9 @@ fn mesh(settings: &Settings) -> Result<Mesh, Problem> {
             _ => &[],
         };
         let needed = memory::estimate(cells.counts, maps, &extras(settings)?, adaptive(settings)?.is_some());
-        if let Some(available) = memory::available().filter(|available| needed > *available) {
+        if let Err(no_room) = refuse_beyond(needed) {
             let message = format!(
-                "{rows} rows and {disc_columns} columns need {} of memory and {} are available; make the mesh smaller",
-                memory::in_words(needed),
-                memory::in_words(available),
+                "{rows} rows and {disc_columns} columns need {no_room}; make the mesh smaller, or allow more memory"
             );
             let key = if settings.get("mesh.cell_size").is_some() {
                 "cell_size"

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Origin, Problem};
+use crate::text::short;
 use crate::units::{self, Dimension};
 use crate::{limits, regular};
 
@@ -186,10 +187,10 @@ impl Reader {
             }
             let field = if self.separator == ';' { field.replace(',', ".") } else { field.to_owned() };
             let Ok(plain) = field.parse::<f64>() else {
-                return wrong(format!("found \"{}\", expected a number", field.escape_debug()));
+                return wrong(format!("found \"{}\", expected a number", short(&field).escape_debug()));
             };
             if !plain.is_finite() || plain < 0.0 {
-                return wrong(format!("found {field}, expected a number of 0 or more"));
+                return wrong(format!("found {}, expected a number of 0 or more", short(&field)));
             }
             match units::parse(&format!("{field} {}", column.unit), column.dimension) {
                 Ok(value) => column.values.push(value),

@@ -13,6 +13,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{Origin, Problem};
 use super::schema;
 use crate::syntax;
+use crate::text::short;
 
 /// Problems that are looked for; nobody reads more, and in a file that is no scene each word may be one.
 const MOST_PROBLEMS: usize = 100;
@@ -34,7 +35,7 @@ impl Value {
     /// The value as it stands in a scene.
     pub(super) fn text(&self) -> String {
         match self {
-            Self::Text(text) => format!("\"{}\"", text.escape_debug()),
+            Self::Text(text) => format!("\"{}\"", short(text).escape_debug()),
             Self::Integer(integer) => integer.to_string(),
             Self::Float(float) => format!("{float:?}"),
             Self::Bool(value) => value.to_string(),
@@ -73,6 +74,17 @@ fn number_in(text: &str) -> Option<String> {
 /// Whether a key is given with this value.
 pub(super) fn chooses(entries: &Entries, choose: schema::Choose) -> bool {
     matches!(entries.get(choose.key), Some(Entry { value: Value::Text(text), .. }) if text == choose.value)
+}
+
+/// Whether the entries make a choice that none of its words is, so that nobody knows what follows from it.
+pub(super) fn is_undecided(entries: &Entries, choice: &str) -> bool {
+    let words = match schema::find(choice).map(|key| key.kind) {
+        Some(schema::Kind::Choice(words)) => words,
+        _ => return false,
+    };
+    entries
+        .get(choice)
+        .is_some_and(|entry| !matches!(&entry.value, Value::Text(text) if words.contains(&text.as_str())))
 }
 
 /// A value and where it was given.

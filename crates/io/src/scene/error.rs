@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-use crate::text::shown_on_one_line;
+use crate::text::{shown_on_one_line, shown_title};
 
 /// Where a value was given.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,7 +34,7 @@ impl fmt::Display for Origin {
         match self {
             Self::Place { file, line, column } => write!(f, "{}:{line}:{column}", file.display()),
             Self::File(file) => write!(f, "{}", file.display()),
-            Self::Set(argument) => write!(f, "--set {}", shown_on_one_line(argument)),
+            Self::Set(argument) => write!(f, "--set {}", shown_on_one_line(&shown_title(argument))),
             Self::Default => write!(f, "default"),
         }
     }

@@ -1,7 +1,4 @@
-//! How much memory a run takes, and how much there is.
-
-use std::fs;
-use std::path::Path;
+//! How much memory a run takes.
 
 use plateau_core::observe::Map;
 use plateau_core::observe::extra::Extra;
@@ -66,40 +63,6 @@ pub(super) fn estimate(
     u64::try_from(state.saturating_mul(simulations).saturating_add(surfaces.max(output))).unwrap_or(u64::MAX)
 }
 
-/// Bytes that this process can have; `None` where the system does not say.
-pub(super) fn available() -> Option<u64> {
-    let read = |path: &Path| fs::read_to_string(path).ok();
-    let machine = read(Path::new("/proc/meminfo")).as_deref().and_then(mem_available);
-    let group = read(Path::new("/proc/self/cgroup")).as_deref().and_then(|text| {
-        let path = Path::new("/sys/fs/cgroup").join(unified_group(text)?);
-        path.ancestors()
-            .take_while(|folder| folder.starts_with("/sys/fs/cgroup"))
-            .filter_map(|folder| read(&folder.join("memory.max"))?.trim().parse().ok())
-            .min()
-    });
-    machine.into_iter().chain(group).min()
-}
-
-/// MemAvailable of /proc/meminfo (proc(5)), in bytes.
-fn mem_available(meminfo: &str) -> Option<u64> {
-    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kibibytes.checked_mul(1024)
-}
-
-/// Path below the root of the cgroup v2 hierarchy (cgroups(7)): the line with hierarchy 0 and no controllers.
-fn unified_group(cgroup: &str) -> Option<&str> {
-    cgroup.lines().find_map(|line| line.strip_prefix("0::/"))
-}
-
-/// "1.5 GiB".
-pub(super) fn in_words(bytes: u64) -> String {
-    const UNITS: [&str; 7] = ["B", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"];
-    let power = bytes.checked_ilog2().unwrap_or(0) as usize / 10;
-    let unit = UNITS.get(power).copied().unwrap_or("B");
-    format!("{:.1} {unit}", bytes as f64 / 2_f64.powi(10 * power as i32))
-}
-
 #[cfg(test)]
 mod tests {
     use plateau_core::observe::EXTRAS;
@@ -127,15 +90,5 @@ mod tests {
         // By hand: 800 rows are padded to 1024; the ring closes, the pin's 100 columns are padded to 128.
         assert_eq!(field(13_800, 800, true), 13_800 * 1024 * 40);
         assert_eq!(field(100, 800, false), 128 * 1024 * 40);
-    }
-
-    #[test]
-    fn reads_what_linux_writes() {
-        let meminfo = "MemTotal:       24684084 kB\nMemFree:        23673160 kB\nMemAvailable:   24091248 kB\n";
-        assert_eq!(mem_available(meminfo), Some(24_091_248 * 1024));
-        assert_eq!(unified_group("1:cpu:/\n0::/system.slice/slurmd\n"), Some("system.slice/slurmd"));
-        assert_eq!(in_words(0), "0.0 B");
-        assert_eq!(in_words(3 << 29), "1.5 GiB");
-        assert_eq!(in_words(u64::MAX), "16.0 EiB");
     }
 }

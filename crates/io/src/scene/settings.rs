@@ -260,7 +260,9 @@ pub(super) fn refuse_missing(entries: &Entries, scene: &Path, problems: &mut Vec
     let mut message = String::new();
     for section in schema::sections() {
         let is_required = |key: &Key| match key.need {
-            Need::RequiredUnless(choose, _) => !document::chooses(entries, choose),
+            Need::RequiredUnless(choose, _) => {
+                !document::chooses(entries, choose) && !document::is_undecided(entries, choose.key)
+            }
             Need::RequiredWithout(table) => !entries.contains_key(table),
             Need::OfWay(unless) => {
                 is_of_chosen_way(key, entries) && !unless.is_some_and(|choose| document::chooses(entries, choose))

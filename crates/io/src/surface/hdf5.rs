@@ -11,6 +11,8 @@ use thiserror::Error;
 
 use super::options::MOST_POINTS;
 use crate::hdf5_file::{self, OpenError, text_attribute};
+use crate::memory::{NoRoom, refuse_beyond};
+use crate::text::short;
 
 /// Why an HDF5 file gives no surface.
 #[derive(Debug, Error)]
@@ -66,6 +68,14 @@ pub enum Hdf5Error {
         found: String,
         /// What can be.
         expected: &'static str,
+    },
+    /// More than memory holds.
+    #[error("the heights of dataset {dataset} need {no_room}")]
+    Memory {
+        /// The dataset.
+        dataset: String,
+        /// How much is needed, and is there.
+        no_room: NoRoom,
     },
     /// Infinite heights.
     #[error(
@@ -166,6 +176,9 @@ pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf
     })?;
     let (name, (columns, rows)) = (dataset.name(), bounded_shape(&dataset)?);
     hdf5_file::refuse_hollow(&dataset)?;
+    // The heights, and what the library converts or inflates at a time, at most all of them.
+    let needed = (2 * columns * rows * size_of::<f64>()) as u64;
+    refuse_beyond(needed).map_err(|no_room| Hdf5Error::Memory { dataset: name.clone(), no_room })?;
     let heights = hdf5_file::guarded(columns * rows * size_of::<f64>(), || dataset.read_raw::<f64>())?;
     let count = heights.iter().filter(|height| height.is_infinite()).count();
     if count > 0 {
@@ -180,7 +193,7 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
     if ["m", "metre", "metres", "meter", "meters"].contains(&found.as_str()) {
         return Ok(());
     }
-    let found = format!("units = \"{}\"", found.escape_debug());
+    let found = format!("units = \"{}\"", short(&found).escape_debug());
     Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected: "\"m\"" })
 }
 
@@ -188,7 +201,7 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
 fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
     let Ok(attribute) = dataset.attr("pitch") else { return Ok(None) };
     let number = attribute.dtype()?.to_descriptor()?;
-    let lengths = match (number, attribute.size()) {
+    let lengths = match (number, attribute.space()?.size()) {
         (TypeDescriptor::Float(_) | TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_), 1 | 2) => {
             attribute.read_raw::<f64>()?
         }

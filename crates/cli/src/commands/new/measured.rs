@@ -3,7 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
-use plateau_core::surface::{Extension, Length, Patch, Spikes};
+use plateau_core::surface::describe::HeightParameters;
+use plateau_core::surface::{Extension, Length, Level, Patch, Spikes, level};
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 
 use super::{CELL, line};
@@ -53,8 +54,39 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
             lines.push(line("extend_seed", 1, "another seed is another ring of the same kind"));
         }
     }
-    lines.push(format!("{:40}# peaks are cut at this height above the mean, as in the paper", "# cutoff = \"3 um\""));
+    if let Some(rms) = rms_height(&measured, spikes.as_ref()) {
+        let cutoff = cutoff(rms);
+        lines.push(line(
+            "cutoff",
+            cutoff.as_str(),
+            "<- peaks are cut at this height above the mean, here the rms height",
+        ));
+        notes.push(format!(
+            "{}: peaks higher than {cutoff} above the mean are cut (cutoff), as on a disc that has run before; without it a few \
+             peaks carry the pin",
+            disc.display()
+        ));
+    }
     Ok((lines.join("\n"), notes))
+}
+
+/// The rms height of what is measured, m, after its levelling and without spikes; none where all heights are the same.
+fn rms_height(measured: &Measured, spikes: Option<&Spikes>) -> Option<f64> {
+    let rms = spikes.map(|spikes| spikes.rms[1]).or_else(|| {
+        let mut heights = measured.heights.clone();
+        level(&mut heights, measured.rows, Level::Plane, false);
+        HeightParameters::of(&heights).map(|of| of.root_mean_square_height)
+    });
+    rms.filter(|rms| *rms > 0.0 && rms.is_finite())
+}
+
+/// A length of two digits, as a scene has it.
+fn cutoff(length: f64) -> String {
+    if length < 1e-6 {
+        format!("{} nm", number::rounded(length * 1e9, 2))
+    } else {
+        format!("{} um", number::rounded(length * 1e6, 2))
+    }
 }
 
 /// The spikes of a patch; of a profile they are not looked for.

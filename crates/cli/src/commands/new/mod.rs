@@ -3,7 +3,7 @@
 mod measured;
 mod refusal;
 
-use plateau_io::scene;
+use plateau_io::{plausibility, scene};
 
 use crate::arguments::NewArguments;
 use crate::called;
@@ -32,7 +32,7 @@ pub fn new(arguments: &NewArguments) -> Result<(), Failure> {
     let Written { text, notes } = text(arguments)?;
     let scene = scene::of_text(path, &text).map_err(|error| refusal::of(arguments, &error))?;
     output::write(path, text.as_bytes(), arguments.force)?;
-    scene.warnings.iter().for_each(message::warning);
+    scene.warnings.iter().chain(&plausibility::of_scene(&scene)).for_each(message::warning);
     let (program, name) = (called::program(), called::argument(&path.to_string_lossy()));
     let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
     print(&format!(
@@ -87,7 +87,7 @@ fn text(arguments: &NewArguments) -> Result<Written, Failure> {
         line(speed_key, speed.as_str(), other_speed),
         line("duration", duration.as_str(), "<-"),
     ];
-    let name = scene.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let name = called::argument(&scene.to_string_lossy());
     let run = format!("{stem}.h5");
     let places = [
         (
@@ -100,7 +100,7 @@ fn text(arguments: &NewArguments) -> Result<Written, Failure> {
         ("{disc}", disc),
         ("{file}", line("file", run.as_str(), "in the folder in which the program is called")),
         ("{name}", name),
-        ("{run}", run),
+        ("{run}", called::argument(&run)),
     ];
     let text = places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value));
     Ok(Written { text, notes })

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::memory::NoRoom;
+
 /// Why an image gives no surface.
 #[derive(Debug, Error)]
 pub enum ImageError {
@@ -30,6 +32,16 @@ pub enum ImageError {
         height: u64,
         /// Size of the file.
         bytes: usize,
+    },
+    /// More than memory holds.
+    #[error("{width} x {height} pixels need {no_room}")]
+    Memory {
+        /// Pixels of a line.
+        width: u64,
+        /// Lines.
+        height: u64,
+        /// How much is needed, and is there.
+        no_room: NoRoom,
     },
     /// The image is to be turned before it is shown.
     #[error("the image is stored turned (TIFF orientation {found}), expected 1, its first line at the top: save it so")]

@@ -7,6 +7,7 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::error::ImageError;
+use crate::memory::refuse_beyond;
 use crate::surface::options::{MOST_POINTS, inflated};
 
 /// Pixels line by line, the first line at the top.
@@ -147,11 +148,18 @@ impl Colour {
     }
 }
 
-/// Refuses an image that promises more than its file can hold, or than memory should.
+/// Refuses an image that promises more than its file can hold, than is read, or than memory holds. `needed` are the bytes of its
+/// pixels.
 fn refuse_promise(width: u64, height: u64, needed: u64, most: usize, bytes: usize) -> Result<(), ImageError> {
     let points = width.checked_mul(height).filter(|points| *points <= MOST_POINTS as u64);
     if points.is_none() || needed > most as u64 {
         return Err(ImageError::TooLarge { width, height, bytes });
     }
-    Ok(())
+    // The pixels as they are stored and as numbers, and a height of each.
+    let heights = width.saturating_mul(height).saturating_mul(size_of::<f64>() as u64);
+    refuse_beyond(needed.saturating_mul(2).saturating_add(heights)).map_err(|no_room| ImageError::Memory {
+        width,
+        height,
+        no_room,
+    })
 }

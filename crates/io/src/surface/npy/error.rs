@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+use crate::memory::NoRoom;
+use crate::text::short;
+
 /// Why a NumPy file gives no surface.
 #[derive(Debug, Error)]
 pub enum NpyError {
@@ -33,6 +36,9 @@ pub enum NpyError {
         /// The most that are read.
         most: usize,
     },
+    /// More than memory holds.
+    #[error("its heights need {0}")]
+    Memory(NoRoom),
     /// The data end too early, or too late.
     #[error("the data have {found} bytes, expected {expected} for shape ({}, {})", shape.0, shape.1)]
     Length {
@@ -66,7 +72,7 @@ pub enum NpyError {
         present: String,
     },
     /// What is wrong with one array of an archive.
-    #[error("array \"{name}\": {reason}")]
+    #[error("array \"{}\": {reason}", short(name))]
     Member {
         /// Name of the array.
         name: String,
@@ -87,7 +93,7 @@ impl NpyError {
         }
         Self::Choice {
             problem: match name {
-                Some(name) => format!("the archive has no one array \"{}\"", name.escape_debug()),
+                Some(name) => format!("the archive has no one array \"{}\"", short(name).escape_debug()),
                 None => "expected one array of two dimensions: name it with dataset = \"...\"".to_owned(),
             },
             present: match present.as_slice() {

@@ -18,6 +18,8 @@ pub(crate) use header::preamble;
 use number::Number;
 
 use super::options::inflated;
+use crate::memory::refuse_beyond;
+use crate::text::short;
 
 /// An array as heights, column by column.
 #[derive(Debug)]
@@ -41,6 +43,8 @@ pub(super) fn read(content: &[u8], unit: f64) -> Result<Array, NpyError> {
     let header = Header::read(content)?;
     let (number, columns, rows) = grid_of(&header, content.len() as u64)?;
     let points = columns * rows;
+    // Heights, and once more where they are to be transposed.
+    refuse_beyond((2 * points * size_of::<f64>()) as u64).map_err(NpyError::Memory)?;
     let mut heights = number.read(&content[header.data..]);
     if header.fortran_order {
         let transposed = (0..columns).flat_map(|column| heights.iter().skip(column).step_by(columns).copied());
@@ -102,6 +106,7 @@ pub(super) fn read_archive(content: &[u8], name: Option<&str>, unit: f64) -> Res
         let shape = (columns as u64, rows as u64);
         return Err(wrap(NpyError::TooLarge { shape, most: most / number.size() }));
     }
+    refuse_beyond(needed as u64).map_err(|no_room| wrap(NpyError::Memory(no_room)))?;
     // One byte more than needed, so that what is too long is found and the checksum at the end is verified.
     let bytes = inflate(&mut archive, index, needed as u64 + 1).map_err(wrap)?;
     let array = read(&bytes, unit).map_err(wrap)?;
@@ -118,10 +123,10 @@ struct Member {
 impl Member {
     fn describe(&self) -> String {
         let what = match &self.header {
-            Ok(header) => format!("{}, shape {}", header.descr.escape_debug(), header.shown_shape()),
+            Ok(header) => format!("{}, shape {}", short(&header.descr).escape_debug(), header.shown_shape()),
             Err(_) => "unreadable".to_owned(),
         };
-        format!("{} ({what})", self.name.escape_debug())
+        format!("{} ({what})", short(&self.name).escape_debug())
     }
 }
 

@@ -1,6 +1,7 @@
 //! The numbers that an array can hold.
 
 use super::error::NpyError;
+use crate::text::short;
 
 /// A type of number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +22,7 @@ enum Kind {
 impl Number {
     /// Reads a type such as `<f8`.
     pub(super) fn of(descr: &str) -> Result<Self, NpyError> {
-        let unknown = || NpyError::Type { found: format!("\"{}\"", descr.escape_debug()) };
+        let unknown = || NpyError::Type { found: format!("\"{}\"", short(descr).escape_debug()) };
         let mut characters = descr.chars();
         let (order, kind, size) = (characters.next(), characters.next(), characters.as_str());
         let kind = match kind {

@@ -58,7 +58,13 @@ fn separator<'a>(
         Some(Decimal::Comma) => return Ok(other),
         None => {}
     }
-    if lines.clone().any(|(_, line)| line.contains('.')) || !fits(other, first) {
+    if lines.clone().any(|(_, line)| line.contains('.')) {
+        return Ok(COMMA);
+    }
+    if let Some((line, part)) = comma_twice(lines.clone()) {
+        return Err(TextError::CommaTwice { line, found: shown(first.trim()), part: shown(part) });
+    }
+    if !fits(other, first) {
         return Ok(COMMA);
     }
     let all_fit = |separator: Separator| {
@@ -78,6 +84,28 @@ fn separator<'a>(
 /// Whether a line has commas within numbers and commas between them, as `1,5, 2,5`.
 fn has_both_commas(line: &str) -> bool {
     line.contains(", ") && line.split(", ").any(|cell| cell.trim_end_matches(',').contains(','))
+}
+
+/// What can only be a part of a number, where all lines are of pairs of digits, as in `-0,0469,0,0192`: a whole number that is -0, or a
+/// fraction with a zero in front.
+fn comma_twice<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> Option<(usize, &'a str)> {
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let has_zero = |digits: &str| digits.len() > 1 && digits.starts_with('0');
+    let mut found = None;
+    for (line, text) in lines {
+        let cells: Vec<&str> = text.trim().trim_end_matches(',').split(',').collect();
+        for pair in cells.chunks(2) {
+            let &[whole, fraction] = pair else { return None };
+            let digits = whole.trim_start_matches(['+', '-']);
+            if !are_digits(digits) || !are_digits(fraction) || has_zero(digits) {
+                return None;
+            }
+            if whole == "-0" || has_zero(fraction) {
+                found.get_or_insert((line, if whole == "-0" { whole } else { fraction }));
+            }
+        }
+    }
+    found
 }
 
 /// Whether every cell of a line is a number, with a decimal comma unless commas part them.
@@ -197,6 +225,13 @@ mod tests {
         let group = "line 1, column 2: \"1,234\" may be 1.234 or 1234: ";
         for text in ["7;1,234\n5;-12,345", "7\t1,234", "7 1,234\n5 1,234", "\"7\",\"1,234\""] {
             assert!(find(text).is_err_and(|error| error.starts_with(group)), "{text:?}");
+        }
+        for (text, part) in [("-0,0469,0,0192\n1,5,2,25", "0469"), ("1,5,-0,5", "-0"), ("0,5,1,25\n0,75,1,05", "05")] {
+            let said = find(text).unwrap_err();
+            assert!(said.contains("commas between the numbers and within them") && said.contains(part), "{said}");
+        }
+        for text in ["1,5,2,25", "01,02,03,04", "1,05,3"] {
+            assert_eq!(find(text).unwrap_or((',', '.')).0, ',', "{text:?}");
         }
         for text in ["1,5\n2,7", "1,5", "1,5\n12,345", "1,5, 2,5\n3,5, 4,5"] {
             let line = text.lines().next().unwrap_or_default();

@@ -104,6 +104,19 @@ pub enum TextError {
         /// The line.
         found: String,
     },
+    /// Commas part the numbers, and are their decimal mark as well.
+    #[error(
+        "line {line}: \"{found}\" has commas between the numbers and within them, for none has \"{part}\" as a number of its own: save \
+         the file with decimal points, or with semicolons between the numbers"
+    )]
+    CommaTwice {
+        /// Where.
+        line: usize,
+        /// The line.
+        found: String,
+        /// What can only be a part of a number.
+        part: String,
+    },
     /// A number that is infinite.
     #[error("line {line}, column {column}: {found} is not finite, expected a finite number, NaN for a missing point")]
     Infinite {
