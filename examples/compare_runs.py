@@ -29,7 +29,7 @@ for path in arguments.runs:
     rows[pathlib.Path(path).stem] = run.plateau.series[COLUMNS].reset_index().iloc[-1]
     units = {"time": "s"} | {name: run[f"series/{name}"].attrs["units"] for name in COLUMNS}
 table = pandas.DataFrame(rows).transpose()
-print(table.rename(columns=lambda name: f"{name}/{units[name]}").to_string(float_format="{:.6g}".format))
+print(table.rename(columns=lambda name: f"{name} ({units[name]})").to_string(float_format="{:.6g}".format))
 axes.set_title("")
 axes.legend()
 axes.figure.savefig(arguments.output, dpi=150)

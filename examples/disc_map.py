@@ -22,4 +22,5 @@ axes = field.plateau.plot(polar=arguments.polar)
 axes.figure.savefig(arguments.output, dpi=150)
 low, mean, high = (float(value) for value in (field.min(), field.plateau.area_mean(), field.max()))
 unit, time = field.attrs["units"], float(field["map_time"])
-print(f"{arguments.map} at {time:.6g} s: from {low:.6g} to {high:.6g} {unit}, mean over the area {mean:.6g}")
+unit = "" if unit == "1" else f" {unit}"
+print(f"{arguments.map} at {time:.6g} s: from {low:.6g}{unit} to {high:.6g}{unit}, mean over the area {mean:.6g}{unit}")

@@ -16,10 +16,10 @@ parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("loads")
 arguments = parser.parse_args()
 
 arguments.folder.mkdir(exist_ok=True)
-print("load/N   contact area/mm2   standard error/mm2")
+print("load (N)   contact area (mm2)   standard error (mm2)")
 for load in arguments.loads:
     file = arguments.folder / f"{load:g}-N.h5"
     # What is there is not run again; what was stopped goes on.
     run = plateau.run(arguments.scene, file, set={"operation.normal_force": f"{load} N"}, resume=True)
     area = run.plateau.mean("contact_area")
-    print(f"{load:6g} {area.value * 1e6:18.6g} {area.error * 1e6:20.6g}")
+    print(f"{load:8g} {area.value * 1e6:19.6g} {area.error * 1e6:21.6g}")

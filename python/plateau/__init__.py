@@ -14,7 +14,16 @@ All quantities are in SI units. The guide is docs/python.md of the project.
 from importlib.metadata import PackageNotFoundError, version
 
 from plateau.commands import Effects, check, collect, effects, run, sweep
-from plateau.errors import InputError, PlateauError, PlateauWarning, RunFailed, RunStopped
+from plateau.errors import (
+    InputError,
+    InputTypeError,
+    MissingFileError,
+    PlateauError,
+    PlateauWarning,
+    RunFailed,
+    RunStopped,
+    UnknownNameError,
+)
 from plateau.map_accessor import MapAccessor
 from plateau.means import Mean
 from plateau.program import find_program
@@ -30,14 +39,17 @@ except PackageNotFoundError:  # a checkout that is not installed
 __all__ = [
     "Effects",
     "InputError",
+    "InputTypeError",
     "MapAccessor",
     "Mean",
+    "MissingFileError",
     "PlateauError",
     "PlateauWarning",
     "RunAccessor",
     "RunFailed",
     "RunStopped",
     "Study",
+    "UnknownNameError",
     "check",
     "collect",
     "effects",

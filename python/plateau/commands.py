@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 import pandas
 import xarray
 
-from plateau.errors import PlateauWarning
+from plateau.errors import InputTypeError, PlateauWarning
 from plateau.program import call
 from plateau.run_file import open_run
 from plateau.study import Study, open_study, read_table
+from plateau.times import seconds
 
 # A path as everywhere in Python.
 Path = str | os.PathLike[str]
@@ -44,7 +45,7 @@ def run(
     workers: int | str | None = None,
     force: bool = False,
     resume: bool = False,
-    extend_to: str | None = None,
+    extend_to: float | str | None = None,
     progress: bool | None = None,
 ) -> xarray.DataTree:
     """Runs a scene and opens its run file.
@@ -63,8 +64,8 @@ def run(
         Replace a run file that exists.
     resume : bool
         Go on with a run that was stopped or killed.
-    extend_to : str, optional
-        Go on beyond the end of a run, to this time, such as ``"7200 s"``.
+    extend_to : float or str, optional
+        Go on beyond the end of a run, to this time, s, or text with a unit such as ``"2 h"``.
     progress : bool, optional
         Whether progress is shown; unless given, in notebooks and terminals.
 
@@ -86,13 +87,13 @@ def run(
     978
     >>> run("quick.toml", "light.h5", set={"operation.normal_force": 1})  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    plateau.errors.InputError: --set operation.normal_force=1: ... 1 has no unit, expected a force such as "47 N" (N, kN, mN)
+    plateau.errors.InputError: set["operation.normal_force"] = 1: ... 1 has no unit, expected a force such as "47 N" (N, kN, mN)
     """
     arguments = ["run", scene, *_scene_arguments(set, workers)]
     if output is not None:
         arguments += ["--output", output]
     if extend_to is not None:
-        arguments += ["--extend-to", extend_to]
+        arguments += ["--extend-to", extend_to if isinstance(extend_to, str) else f"{seconds(extend_to)!r} s"]
     arguments += [flag for flag, given in (("--force", force), ("--resume", resume)) if given]
     summary = call(arguments, progress)
     if summary is None:
@@ -270,4 +271,4 @@ def _toml(value: Any) -> str:
         return "{ " + ", ".join(f"{json.dumps(key)} = {_toml(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(map(_toml, value)) + "]"
-    raise TypeError(f"{value!r} is no value of a scene: expected text, a number, True or False, a list or a dictionary")
+    raise InputTypeError(f"{value!r} is no value of a scene: expected text, a number, True or False, a list or a dictionary")

@@ -1,33 +1,66 @@
-"""Exceptions and warnings: what the program says, in the classes of its exit statuses."""
+"""Exceptions and warnings: what the program says, in the classes of its exit statuses and in the words of Python."""
 
+import re
 from collections.abc import Sequence
+
+# Commands and options as messages of the program have them, and what they are called here; what is longer comes first.
+WORDS = [
+    (r"(?:[\w./-]*/)?plateau sweep run\b", "plateau.sweep"),
+    (r"(?:[\w./-]*/)?plateau (?:sweep )?(run|check|collect|effects)\b", r"plateau.\1"),
+    (r"--(force|resume|retry)\b", r"\1=True"),
+    (r"--set ([\w.-]+)=", r'set["\1"] = '),
+    (r"--model (\w+)", r'model="\1"'),
+    (r"--extend-to TIME\b", "extend_to=TIME"),
+    (r"--(set|workers|jobs|model|confidence|output)\b", r"\1"),
+    (r"--(extend|max)-(to|failures)\b", r"\1_\2"),
+    (r"-o FILE\b", "output=FILE"),
+    (r"-o\b", "output"),
+]
+# Not within the name of a file.
+IN_MESSAGES = [(re.compile(rf"(?<![\w./-]){word}"), here) for word, here in WORDS]
 
 
 class PlateauWarning(UserWarning):
-    """What the program warns of, in its own words."""
+    """What the program warns of."""
 
 
 class PlateauError(RuntimeError):
-    """The program could not do what was asked.
+    """What was asked could not be done.
 
     Parameters
     ----------
     message : str
-        What the program says: what was found, what was expected, where, and what to do.
+        What was found, what was expected, where, and what to do.
     command : sequence of str
-        The command line.
-    status : int
-        The exit status; negative if a signal ended the program.
+        The command line of the program; empty where the program was not called.
+    status : int, optional
+        Exit status of the program; negative if a signal ended it; None where it was not called.
     """
 
-    def __init__(self, message: str, command: Sequence[str] = (), status: int = 1) -> None:
+    def __init__(self, message: str, command: Sequence[str] = (), status: int | None = None) -> None:
         super().__init__(message)
         self.command = list(command)
         self.status = status
 
+    def __str__(self) -> str:
+        # That of KeyError has quotes around the message.
+        return str(self.args[0])
+
 
 class InputError(PlateauError, ValueError):
     """A scene, a study, a file or an argument is wrong (exit status 2)."""
+
+
+class MissingFileError(InputError, FileNotFoundError):
+    """There is no such file."""
+
+
+class UnknownNameError(InputError, KeyError):
+    """A run has no series, map or status of this name."""
+
+
+class InputTypeError(InputError, TypeError):
+    """A value is of a type that has no meaning there."""
 
 
 class RunFailed(PlateauError):
@@ -36,6 +69,29 @@ class RunFailed(PlateauError):
 
 class RunStopped(PlateauError):
     """A signal stopped the run (exit status 128 and the number of the signal); ``resume=True`` goes on with it."""
+
+
+def in_python(message: str) -> str:
+    """A message of the program with options and commands as they are called in Python.
+
+    Parameters
+    ----------
+    message : str
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> in_python("quick.h5 exists; give --force to replace it, or write elsewhere with -o FILE")
+    'quick.h5 exists; give force=True to replace it, or write elsewhere with output=FILE'
+    >>> in_python("1 of 4 failed; `plateau sweep collect` lists their errors, --retry makes them again")
+    '1 of 4 failed; `plateau.collect` lists their errors, retry=True makes them again'
+    """
+    for word, here in IN_MESSAGES:
+        message = word.sub(here, message)
+    return message
 
 
 def error_of(message: str, command: Sequence[str], status: int) -> PlateauError:

@@ -6,6 +6,8 @@ import numpy as np
 import xarray
 
 from plateau import plots
+from plateau.errors import InputError, UnknownNameError
+from plateau.times import seconds
 
 ANGLES = ("disc_angle", "pin_angle")
 # Status of a cell beyond the outline of a round pin.
@@ -35,7 +37,7 @@ class MapAccessor:
         for name in ANGLES:
             if name in self._cells.dims and "radius" in self._cells.coords:
                 return name
-        raise ValueError(f"dimensions {self._cells.dims}: no map; expected disc_angle or pin_angle, and radius")
+        raise InputError(f"dimensions {self._cells.dims}: no map; expected disc_angle or pin_angle, and radius")
 
     def area_mean(self) -> xarray.DataArray:
         """Mean over all cells, each counted with its area; cells beyond a round pin are left out.
@@ -77,7 +79,7 @@ class MapAccessor:
         values = [value for value, known in self.status_names.items() if known == name]
         if not values:
             known = ", ".join(self.status_names.values())
-            raise ValueError(f"no status is called {name!r}, " + (f"there are: {known}" if known else "this is no map of statuses"))
+            raise UnknownNameError(f"no status is called {name!r}, " + (f"there are: {known}" if known else "this is no map of statuses"))
         return self._cells == values[0]
 
     def area_fraction(self, name: str) -> xarray.DataArray:
@@ -103,7 +105,7 @@ class MapAccessor:
         True
         """
         if name == self.status_names.get(ABSENT):
-            raise ValueError(f"{name} cells are no part of the pin's area: ask for none, primary or secondary, or has_status({name!r})")
+            raise InputError(f"{name} cells are no part of the pin's area: ask for none, primary or secondary, or has_status({name!r})")
         area, over = self._cells["radius"], [self._angle, "radius"]
         there = (self._cells != ABSENT) * area
         return (self.has_status(name) * area).sum(over) / there.sum(over)
@@ -135,13 +137,13 @@ class MapAccessor:
         named = {name: place.assign_attrs(units="m", long_name=name) for name, place in places.items()}
         return self._cells.assign_coords(named)
 
-    def at_time(self, time: float | None = None) -> xarray.DataArray:
+    def at_time(self, time: float | str | None = None) -> xarray.DataArray:
         """The map that was recorded nearest to a time.
 
         Parameters
         ----------
-        time : float, optional
-            s; the last one unless given.
+        time : float or str, optional
+            s, or text with a unit such as ``"1 min"``; the last one unless given.
 
         Returns
         -------
@@ -152,14 +154,14 @@ class MapAccessor:
             return self._cells
         if time is None:
             return self._cells.isel(map_time=-1)
-        return self._cells.sel(map_time=time, method="nearest")
+        return self._cells.sel(map_time=seconds(time), method="nearest")
 
-    def plot(self, time: float | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
+    def plot(self, time: float | str | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
         """Draws the map, unrolled or as the ring that it is; needs matplotlib.
 
         Parameters
         ----------
-        time : float, optional
+        time : float or str, optional
             As of `at_time`.
         polar : bool
             As a ring in the plane of the disc.

@@ -4,6 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from plateau.errors import InputError
+
 # Floating-point numbers, shape (samples,).
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -113,7 +115,7 @@ def mean_between(time: Array, integral: Array, revolutions: Array | None, start:
     Mean
     """
     if not 0 <= start < end <= time[-1] * (1 + ROUNDING):
-        raise ValueError(f"from {start:g} to {end:g} s: expected times in order, between 0 and {time[-1]:g} s")
+        raise InputError(f"from {start:g} to {end:g} s: expected times in order, between 0 and {time[-1]:g} s")
     known, sums = np.concatenate([[0.0], time]), np.concatenate([[0.0], integral])
     blocks, turns = 1 + int(((start < time) & (time < end)).sum()), float("nan")
     if revolutions is not None:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from plateau.errors import PlateauError, PlateauWarning, error_of
+from plateau.errors import PlateauError, PlateauWarning, error_of, in_python
 from plateau.progress import Follow, follow_pipe, follow_terminal, shower
 
 # What every message of the program begins with.
@@ -96,7 +96,7 @@ def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = No
         status, said = _wait(command, output, follow_pipe if show is None else follow_terminal, show)
         output.seek(0)
         document = output.read()
-    messages = [message.strip() for message in BEGIN.split(said)]
+    messages = [in_python(message.strip()) for message in BEGIN.split(said)]
     errors = [message for message in messages if message and not message.startswith("warning: ")]
     for message in messages:
         if message.startswith("warning: "):

@@ -8,9 +8,11 @@ import pandas
 import xarray
 
 from plateau import plots
+from plateau.errors import InputError, UnknownNameError
 from plateau.map_accessor import MapAccessor
 from plateau.means import Array, Mean, last_tenth, mean_between
 from plateau.run_file import array
+from plateau.times import seconds
 
 
 @xarray.register_datatree_accessor("plateau")
@@ -27,7 +29,7 @@ class RunAccessor:
 
     def __init__(self, run: xarray.DataTree) -> None:
         if "series" not in run.children:
-            raise AttributeError("no run: expected the tree that plateau.open_run gives, with the group series")
+            raise InputError("this tree is no run: expected the tree that plateau.open_run gives, with the group series")
         self._run = run
 
     @property
@@ -51,7 +53,7 @@ class RunAccessor:
         events = self._run.children["event"].to_dataset(inherit=False)
         return pandas.DataFrame({name: values.values for name, values in events.data_vars.items()})
 
-    def mean(self, series: str = "contact_area", start: float | None = None, end: float | None = None) -> Mean:
+    def mean(self, series: str = "contact_area", start: float | str | None = None, end: float | str | None = None) -> Mean:
         """Mean of a series over a part of the run, with its standard error.
 
         That of the contact area is taken from its integral, which knows every step, and is the number that ``plateau run`` prints.
@@ -62,13 +64,18 @@ class RunAccessor:
         ----------
         series : str
             Name of a series.
-        start, end : float, optional
-            The part, s; unless given, the last tenth of the run, at least ten simulated revolutions.
+        start, end : float or str, optional
+            The part, s, or text with a unit such as ``"30 s"`` or ``"5 min"``; unless given, the last tenth of the run, at least ten simulated revolutions.
 
         Returns
         -------
         Mean
             Value and error in the unit of the series.
+
+        Raises
+        ------
+        InputError
+            If the run has no such series (`UnknownNameError`), or the times are no part of the run.
 
         Examples
         --------
@@ -76,6 +83,8 @@ class RunAccessor:
         >>> filled = plateau.open_run("quick.h5").plateau.mean("filled_fraction")
         >>> bool(0 < filled.error < filled.value < 1)
         True
+        >>> plateau.open_run("quick.h5").plateau.mean("filled_fraction", "30 s", "1 min").start
+        30.0
         """
         time = self._values("time")
         revolutions = self._revolutions()
@@ -84,7 +93,8 @@ class RunAccessor:
             integral = self._values(f"series/{series}_integral")
         else:
             integral = np.cumsum(self._values(f"series/{series}") * np.diff(time, prepend=0.0))
-        return mean_between(time, integral, revolutions, first if start is None else start, last if end is None else end)
+        part = [seconds(default if given is None else given) for given, default in ((start, first), (end, last))]
+        return mean_between(time, integral, revolutions, *part)
 
     def build_up(self, body: str) -> xarray.DataArray:
         """Thickness of the build-up on every cell: how far the height is beyond the substrate, away from the body.
@@ -100,8 +110,8 @@ class RunAccessor:
 
         Raises
         ------
-        ValueError
-            If the run has not the maps of height and substrate.
+        UnknownNameError
+            If there is no such body, or the run has not its maps of height and substrate.
 
         Examples
         --------
@@ -111,10 +121,10 @@ class RunAccessor:
         True
         """
         if body not in ("disc", "pin"):
-            raise ValueError(f"no body is called {body!r}, there are: disc, pin")
+            raise UnknownNameError(f"no body is called {body!r}, there are: disc, pin")
         for name in ("height", "substrate"):
             if body not in self._run.children or name not in self._run[body]:
-                raise ValueError(f"the run has no map {body}/{name}: name {body}_{name} in output.maps of the scene")
+                raise UnknownNameError(f"the run has no map {body}/{name}: name {body}_{name} in output.maps of the scene")
         height, substrate = array(self._run, f"{body}/height"), array(self._run, f"{body}/substrate")
         # The z of the pin grows away from the disc, into its body.
         thickness = height - substrate if body == "disc" else substrate - height

@@ -1,12 +1,13 @@
 """Run files as trees of xarray, also of runs that go on or were killed."""
 
 import difflib
-import errno
 import os
 from typing import Any
 
 import h5py
 import xarray
+
+from plateau.errors import InputError, MissingFileError, UnknownNameError
 
 # What HDF5 and netCDF keep in attributes for themselves.
 INTERNAL = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
@@ -31,9 +32,9 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
 
     Raises
     ------
-    FileNotFoundError
-        If there is no such file.
-    ValueError
+    MissingFileError
+        If there is no such file; it is a `FileNotFoundError`, too.
+    InputError
         If it is no run file.
 
     Examples
@@ -44,14 +45,12 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     >>> quick["series/filled_fraction"].attrs["units"]
     '1'
     """
-    if not os.path.exists(path):
-        raise FileNotFoundError(errno.ENOENT, "there is no such run file", os.fspath(path))
     try:
         # Refused while the file is being written, and after a kill.
         with h5py.File(path, "r") as file:
             ended = _state(file, path) != "running"
     except FileNotFoundError:
-        raise
+        raise MissingFileError(f"{os.fspath(path)}: there is no such run file") from None
     except OSError:
         ended = False
     if ended:
@@ -61,7 +60,7 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
             _state(file, path)
             return _complete_part(file)
     except OSError as error:
-        raise ValueError(f"{os.fspath(path)}: cannot be read as a run file: {error}") from error
+        raise InputError(f"{os.fspath(path)}: cannot be read as a run file: {error}") from error
 
 
 def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
@@ -80,7 +79,7 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
 
     Raises
     ------
-    KeyError
+    UnknownNameError
         If the run has no such variable.
     """
     try:
@@ -89,15 +88,15 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
         group, _, name = path.rpartition("/")
         there = run[group].data_vars if group in run else run.data_vars
         near = difflib.get_close_matches(name, map(str, there), 1)
-        raise KeyError(f"the run has no {path}" + (f", did you mean {near[0]}?" if near else "")) from None
+        raise UnknownNameError(f"the run has no {path}" + (f", did you mean {near[0]}?" if near else "")) from None
     if not isinstance(found, xarray.DataArray):
-        raise KeyError(f"{path} is a group of the run: expected a variable")
+        raise UnknownNameError(f"{path} is a group of the run: expected a variable")
     return found
 
 
 def _state(file: Any, path: str | os.PathLike[str]) -> Any:
     if "state" not in file.attrs or "series" not in file:
-        raise ValueError(f"{os.fspath(path)}: this HDF5 file is no run file: it has no state, or no series")
+        raise InputError(f"{os.fspath(path)}: this HDF5 file is no run file: it has no state, or no series")
     return file.attrs["state"]
 
 

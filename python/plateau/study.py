@@ -8,6 +8,8 @@ from typing import NamedTuple
 import pandas
 import xarray
 
+from plateau.errors import InputError, MissingFileError
+
 
 class Study(NamedTuple):
     """Results of a study.
@@ -40,8 +42,10 @@ def open_study(path: str | os.PathLike[str]) -> Study:
 
     Raises
     ------
-    FileNotFoundError
-        If no results have been collected there.
+    MissingFileError
+        If there is no such study, or no results have been collected there; it is a `FileNotFoundError`, too.
+    InputError
+        If one of the files cannot be read.
 
     Examples
     --------
@@ -51,13 +55,25 @@ def open_study(path: str | os.PathLike[str]) -> Study:
     """
     folder = Path(path)
     if folder.suffix == ".toml":
-        named = tomllib.loads(folder.read_text(encoding="utf-8")).get("directory", folder.stem)
-        folder = folder.parent / named
+        folder = folder.parent / _directory(folder)
     csv, hdf5 = folder / "results.csv", folder / "results.h5"
     for file in (csv, hdf5):
         if not file.is_file():
-            raise FileNotFoundError(f"{file}: there is no such file; `plateau sweep collect` writes it")
-    return Study(read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf"))
+            raise MissingFileError(f"{file}: there is no such file; plateau.collect makes it, or plateau.sweep with the runs")
+    try:
+        return Study(read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{folder}: the results cannot be read: {error}; plateau.collect makes them anew") from error
+
+
+def _directory(study: Path) -> str:
+    """The folder of results that a study file names, relative to it."""
+    try:
+        return str(tomllib.loads(study.read_text(encoding="utf-8")).get("directory", study.stem))
+    except FileNotFoundError:
+        raise MissingFileError(f"{study}: there is no such study") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{study}: cannot be read as a study: {error}") from error
 
 
 def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:

@@ -90,19 +90,20 @@ class Examples(unittest.TestCase):
         [line] = self.example("disc_map.py", "quick.h5", "-o", "disc_map.png")
         self.assertTrue(line.startswith("disc/height at "), line)
         self.close(numbers(line), [times[2], height[2].min(), height[2].max(), mean(height[2])])
+        self.assertEqual(line.count(" m"), 4)  # a unit behind each height, and " mean"
         self.check_picture("disc_map.png")
         [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/pressure", "--time", "11", "-o", "pressure.png")
         self.close(numbers(line), [times[1], pressure[1].min(), pressure[1].max(), mean(pressure[1])])
         self.check_picture("pressure.png")
         [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/status", "--polar", "-o", "status.png")
         self.close(numbers(line)[0], times[2])
-        self.assertIn("from 0 to 2 1,", line)
+        self.assertRegex(line, r"from 0 to 2, mean over the area [\d.]+$")
         self.check_picture("status.png")
 
     def test_compare_runs(self):
         lines = self.example("compare_runs.py", "quick.h5", "strong.h5", "--series", "filled_fraction", "-o", "compare.png")
         self.assertEqual(len(lines), 3)
-        names, units = zip(*(word.rsplit("/", 1) for word in lines[0].split()))
+        names, units = zip(*re.findall(r"(\S+) \((\S+)\)", lines[0]))
         for name, line in zip(["quick", "strong"], lines[1:]):
             with netCDF4.Dataset(self.folder / f"{name}.h5") as run:
                 expected = [run["time"][-1], *(run["series"][series][-1] for series in names[1:])]
@@ -149,7 +150,8 @@ class Examples(unittest.TestCase):
             series = {name: run["series"][name][:] for name in names}
             # Beside the series there is their time.
             self.assertEqual(lines[0], f"{len(time)} samples of {len(run['series'].variables) - 1} series")
-        self.assertEqual(lines[1].split(), names)
+        units = {"time": "s", "contact_area_mean": "m2", "mean_pressure": "Pa", "filled_fraction": "1"}
+        self.assertEqual(dict(re.findall(r"(\S+) \((\S+)\)", lines[1])), units)
         first = time <= time[-1] / 2
         for line, part in zip(lines[2:], [first, ~first]):
             found = [float(word) for word in line.split("]")[1].split()]

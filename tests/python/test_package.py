@@ -8,6 +8,7 @@ import io
 import json
 import os
 import pathlib
+import pickle
 import pkgutil
 import signal
 import subprocess
@@ -25,6 +26,7 @@ from package_scenes import QUICK, ROOT, SHORT, STUDY, InFolder
 
 import plateau
 from plateau import commands, program
+from plateau.times import seconds
 
 
 def stand_in(text):
@@ -76,7 +78,7 @@ class Runs(InFolder):
             np.testing.assert_array_equal(run["time"].values, file["time"][:])
             self.assertEqual(json.loads(json.dumps(run.plateau.scene))["operation"]["duration"], "20 s")
         # What exists is left alone, replaced, or left as it is when it is finished.
-        with self.assertRaisesRegex(plateau.InputError, "short.h5 exists") as caught:
+        with self.assertRaisesRegex(plateau.InputError, "short.h5 exists; give force=True to replace it, .* with output=FILE") as caught:
             plateau.run("quick.toml", "short.h5", set=SHORT)
         self.assertEqual(caught.exception.status, 2)
         self.assertEqual(caught.exception.command[1:3], ["run", "quick.toml"])
@@ -86,7 +88,7 @@ class Runs(InFolder):
         self.assertNotIn("summary", again.attrs)
         named = SHORT | {"operation.duration": "10 s", "output.file": "short.h5"}
         self.assertEqual(plateau.run("quick.toml", set=named, resume=True).sizes, again.sizes)
-        longer = plateau.run("quick.toml", "short.h5", extend_to="20 s", set=SHORT | {"operation.duration": "10 s"})
+        longer = plateau.run("quick.toml", "short.h5", extend_to=20, set=SHORT | {"operation.duration": "10 s"})
         np.testing.assert_array_equal(longer["series/pool"].values, run["series/pool"].values)
         np.testing.assert_array_equal(longer["disc/height"][-1].values, run["disc/height"][-1].values)
 
@@ -107,8 +109,9 @@ class Runs(InFolder):
             self.assertEqual((type(found), found), (type(expected), expected))
         self.assertEqual(tomllib.loads(f"value = {commands._toml(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
         self.assertEqual(commands._toml(np.float64(0.1)), "0.1")
-        with self.assertRaisesRegex(TypeError, "no value of a scene"):
+        with self.assertRaisesRegex(TypeError, "no value of a scene") as caught:
             commands._toml(object())
+        self.assertIsInstance(caught.exception, plateau.PlateauError)
 
     def test_errors_are_those_of_the_exit_status(self):
         kinds = {1: plateau.RunFailed, 2: plateau.InputError, 143: plateau.RunStopped, 7: plateau.PlateauError}
@@ -122,6 +125,36 @@ class Runs(InFolder):
                 self.assertEqual((str(caught.exception), caught.exception.status), ("what happened\n  and where", status))
         with stand_in("kill -KILL $$"), self.assertRaisesRegex(plateau.PlateauError, "ended with status -9"):
             program.call(["run"], False)
+
+    def test_messages_are_in_the_words_of_python(self):
+        said = {
+            "/a b/--force.h5 exists; give --force to replace it": "/a b/--force.h5 exists; give force=True to replace it",
+            "x; without --resume, --force begins again": "x; without resume=True, force=True begins again",
+            "a.h5 is finished; --extend-to TIME goes on": "a.h5 is finished; extend_to=TIME goes on",
+            "--extend-to: it has come to 5 s": "extend_to: it has come to 5 s",
+            "numerics.workers, --workers and --pin have no effect": "numerics.workers, workers and --pin have no effect",
+            "--set mesh.rows=a=b: mesh.rows": 'set["mesh.rows"] = a=b: mesh.rows',
+            "`/bin/plateau run` needs --force, or -o FILE": "`plateau.run` needs force=True, or output=FILE",
+            "plateau sweep run makes them": "plateau.sweep makes them",
+            "--model full fits better; another --model": 'model="full" fits better; another model',
+            "close it with `plateau repair`": "close it with `plateau repair`",
+        }
+        for message, expected in said.items():
+            with stand_in(f"echo 'plateau: {message}' >&2; exit 2"), self.assertRaises(plateau.InputError) as caught:
+                program.call(["run"], False)
+            self.assertEqual(str(caught.exception), expected)
+
+    def test_times(self):
+        told = {"30 s": 30.0, "1.5min": 90.0, " 2 h ": 7200.0, "5e2 ms": 0.5, 7: 7.0, np.float64(2.5): 2.5, ".5 s": 0.5}
+        self.assertEqual([seconds(time) for time in told], list(told.values()))
+        for time in ("30", "30 sec", "s", "1,5 s", "1 N", None, [1], "nan s"):
+            with self.assertRaisesRegex(plateau.InputError, 'no time: expected a number of seconds, or text such as "30 s"'):
+                seconds(time)
+
+    def test_errors_can_be_sent_to_another_process(self):
+        for kind in (plateau.MissingFileError, plateau.UnknownNameError, plateau.InputTypeError, plateau.RunFailed):
+            again = pickle.loads(pickle.dumps(kind("what happened", ["run"], 2)))
+            self.assertEqual((type(again), str(again), again.command, again.status), (kind, "what happened", ["run"], 2))
 
     def test_progress_is_shown_and_taken_away(self):
         said = "printf '\\r\\033[2K##..   50 %%  1.0 of 2.0 s  1s left' >&2; printf '\\r\\033[2K' >&2; test -t 2 && echo '[1]'"
@@ -209,8 +242,10 @@ class Programs(InFolder):
 class Studies(InFolder):
     def test_a_study_from_its_runs_to_its_effects(self):
         pathlib.Path("study.toml").write_text(STUDY)
-        with self.assertRaisesRegex(FileNotFoundError, "sweep collect"):
-            plateau.open_study("study.toml")
+        for path in ("study", "study.toml", "none.toml"):
+            with self.assertRaisesRegex(plateau.MissingFileError, "plateau.collect|no such study") as caught:
+                plateau.open_study(path)
+            self.assertIsInstance(caught.exception, FileNotFoundError)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             made = plateau.sweep("study.toml", jobs=2, progress=False)
@@ -223,7 +258,7 @@ class Studies(InFolder):
         self.assertEqual(made.table["worn [m3]"].tolist(), [float(row["worn [m3]"]) for row in rows])
         np.testing.assert_array_equal(made.table["worn [m3]"], made.data["worn"].values)
         found = plateau.effects("study.toml", model="main", confidence=0.9, output="effects")
-        with self.assertRaisesRegex(plateau.InputError, "--force"):
+        with self.assertRaisesRegex(plateau.InputError, "give force=True to replace them, or name another folder with output"):
             plateau.effects("study.toml", output="effects")
         self.assertEqual(plateau.effects("study.toml", model="main", confidence=0.9, output="effects", force=True).files, found.files)
         self.assertEqual(found.files[0], "effects/effects.csv")
@@ -238,6 +273,14 @@ class Studies(InFolder):
         pathlib.Path("bad.toml").write_text(STUDY.replace("5 N", "5 kg"))
         with self.assertRaisesRegex(plateau.InputError, "(?s)bad.toml.*5 kg"):
             plateau.sweep("bad.toml")
+        pathlib.Path("text.toml").write_text("no table")
+        with self.assertRaisesRegex(plateau.InputError, "text.toml: cannot be read as a study"):
+            plateau.open_study("text.toml")
+        pathlib.Path("damaged").mkdir()
+        pathlib.Path("damaged/results.csv").write_text("run,state\n1,finished\n")
+        pathlib.Path("damaged/results.h5").write_text("no HDF5")
+        with self.assertRaisesRegex(plateau.InputError, "damaged: the results cannot be read"):
+            plateau.open_study("damaged")
 
 
 if __name__ == "__main__":

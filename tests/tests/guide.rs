@@ -59,7 +59,7 @@ fn expect_tutorial(document: &str, files: &[&str]) -> WorkingDirectory {
 #[test]
 fn the_first_run_works_as_it_is_told() {
     let names = walk_through("first-run.md").names();
-    for file in ["quick.h5", "heavier.h5", "mine.h5", "afm.png", "my-disc.h5"] {
+    for file in ["first.h5", "heavier.h5", "mine.h5", "rough-disc.png", "my-disc.h5", "rig.h5"] {
         assert!(names.iter().any(|name| name == file), "{file} in {names:?}");
     }
 }
