@@ -65,6 +65,11 @@ fn the_mean_contact_area_is_that_of_the_last_tenth() {
     let text = directory.plateau(["run", &scene, "-o", "again.h5"]).quiet_success();
     assert!(text.contains("  running in               ") && text.contains(" s to 45 … 60 s\n"), "{text}");
     assert!(text.contains(" mm² (mean of the last 14.") && text.contains("± standard error"), "{text}");
+    // The report says the same.
+    let found = text.lines().find_map(|line| line.trim().strip_prefix("running in")).unwrap().trim();
+    directory.plateau(["report", "again.h5"]).quiet_success();
+    let page = fs::read_to_string(directory.path("again.html")).unwrap();
+    assert!(page.contains(&format!("Running in</th><td>{found}</td>")), "{found}");
     // By hand: 5 µm of 0.3043 of 7.467 mm² at 5e-14 1/Pa, 5 N and 1.825 m/s are 24.9 s; no five of them are in 6 s.
     let checked = directory.plateau(["check", &scene, "--set", "output.file=other.h5"]).quiet_success();
     assert!(

@@ -21,8 +21,8 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_figure() {
     assert!((8..15).contains(&own), "{own} keys are the user's:\n{text}");
     assert!(text.contains("pixel = \"50 um\""), "the scan is smaller than a cell:\n{text}");
     // Sq of the scan is 10.08 nm, as other programs have it (crates/io/tests/sdf.rs).
-    assert!(text.contains("\ncutoff = \"10 nm\" "), "{text}");
-    assert!(outcome.stdout.contains("peaks higher than 10 nm above the mean are cut (cutoff)"), "{}", outcome.stdout);
+    assert!(text.contains("\n# cutoff = \"10 nm\" "), "{text}");
+    assert!(outcome.stdout.contains("no peaks are cut. With cutoff = \"10 nm\", one rms height"), "{}", outcome.stdout);
     fs::write(directory.path("mine.toml"), text.replace("pixel = \"50 um\"", "pixel = \"2 um\"")).unwrap();
     for command in [&["check", "mine.toml"][..], &["run", "mine.toml"], &["plot", "mine.h5", "-o", "figures"]] {
         let outcome = directory.plateau(command);

@@ -11,6 +11,7 @@
 //! | numbers as people read them | [`plateau_io::number`] |
 //! | many values as few, with their envelope | [`envelope`] |
 //! | what runs are called | [`label`] |
+//! | whether a run is still running in, in words | [`running_in`] |
 
 // The tables of files are for those who read the source: they name what is private, too.
 #![allow(rustdoc::private_intra_doc_links)]
@@ -23,6 +24,7 @@ pub mod figure;
 pub mod label;
 mod quantity;
 pub mod report;
+pub mod running_in;
 pub mod study;
 pub mod table;
 pub mod watch;

@@ -9,6 +9,7 @@ use plateau_io::run_file::{RunFile, State};
 use super::html::capital;
 use super::series::Recorded;
 use crate::quantity::{SeriesLook, Unit};
+use crate::running_in::running_in;
 use plateau_io::number;
 
 /// Shown where a run file does not say.
@@ -112,8 +113,14 @@ pub fn facts(run: &RunFile, contact_area: Option<WindowMean>) -> Vec<(&'static s
             ),
         ),
         ("Program", attribute("program")),
+        ("Running in", in_words(run)),
         ("Mean contact area is taken over", contact_area.map_or_else(|| UNKNOWN.into(), |window| over(&window))),
     ]
+}
+
+/// Whether its contact area still changes; a series that is damaged is told elsewhere.
+fn in_words(run: &RunFile) -> String {
+    run.drift_of_contact_area().ok().flatten().map_or_else(|| UNKNOWN.into(), |drift| running_in(&drift))
 }
 
 /// From when to when a mean is taken.

@@ -55,15 +55,14 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
         }
     }
     if let Some(rms) = rms_height(&measured, spikes.as_ref()) {
-        let cutoff = cutoff(rms);
-        lines.push(line(
-            "cutoff",
-            cutoff.as_str(),
-            "<- peaks are cut at this height above the mean, here the rms height",
+        let cutoff = format!("cutoff = \"{}\"", rounded(rms));
+        lines.push(format!(
+            "{:40}# <- cuts peaks at this height above the mean, here one rms height",
+            format!("# {cutoff}")
         ));
         notes.push(format!(
-            "{}: peaks higher than {cutoff} above the mean are cut (cutoff), as on a disc that has run before; without it a few \
-             peaks carry the pin",
+            "{}: no peaks are cut. With {cutoff}, one rms height as in the paper, the contact area is several times as large: \
+             docs/values.md says when to give it",
             disc.display()
         ));
     }
@@ -81,7 +80,7 @@ fn rms_height(measured: &Measured, spikes: Option<&Spikes>) -> Option<f64> {
 }
 
 /// A length of two digits, as a scene has it.
-fn cutoff(length: f64) -> String {
+fn rounded(length: f64) -> String {
     if length < 1e-6 {
         format!("{} nm", number::rounded(length * 1e9, 2))
     } else {

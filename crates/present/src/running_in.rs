@@ -1,0 +1,53 @@
+//! Whether a run is still running in, in words.
+
+use plateau_core::observe::drift::{Drift, Trend};
+use plateau_io::number;
+
+/// Whether the mean contact area still changes, in words.
+pub fn running_in(drift: &Drift) -> String {
+    let Drift { third_quarter, last_quarter, change, standard_error } = drift;
+    let percent = number::with_error(100.0 * change, Some(100.0 * standard_error));
+    let sign = if *change > 0.0 { "+" } else { "" };
+    let [start, middle, end] =
+        [third_quarter.from, last_quarter.from, last_quarter.to].map(|time| number::rounded(time, 4));
+    let found = match drift.trend() {
+        Trend::Rises => "contact area still rises",
+        Trend::Falls => "contact area still falls",
+        Trend::Steady => "contact area is steady",
+        Trend::Unknown => "cannot be told from a run of this length",
+    };
+    format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
+}
+
+#[cfg(test)]
+mod tests {
+    use plateau_core::observe::window_mean::WindowMean;
+
+    use super::*;
+
+    #[test]
+    fn the_change_in_the_second_half_is_told_with_its_error() {
+        let quarter = |from: f64, to: f64, mean: f64| WindowMean {
+            from,
+            to,
+            revolutions: None,
+            mean,
+            standard_error: Some(0.02e-6),
+        };
+        let of = |change: f64, standard_error: f64| {
+            running_in(&Drift {
+                third_quarter: quarter(30.0, 45.0, 1e-6),
+                last_quarter: quarter(45.0, 60.0, (1.0 + change) * 1e-6),
+                change,
+                standard_error,
+            })
+        };
+        assert_eq!(of(0.12, 0.03), "contact area still rises: +12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(of(-0.12, 0.03), "contact area still falls: -12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
+        assert_eq!(
+            of(0.05, 0.03),
+            "cannot be told from a run of this length: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s"
+        );
+        assert_eq!(of(0.01, 0.01), "contact area is steady: +1.0 ± 1.0 % from 30 … 45 s to 45 … 60 s");
+    }
+}
