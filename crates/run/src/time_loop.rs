@@ -111,11 +111,11 @@ impl Assembly {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
         if let Some(cycle) = &self.cycle {
             let angle = self.simulation.parameters().step_angle();
-            sample.add(CYCLE.quantities, cycle.operation_at(moment.step, angle, moment.time, moment.pause));
-            sample.add(ROAD.quantities, [cycle.road_distance_at(moment.time)]);
+            CYCLE.record(&mut sample, cycle.operation_at(moment.step, angle, moment.time, moment.pause));
+            ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {
-            sample.add(ACCELERATION.quantities, [choice.acceleration(), choice.error()]);
+            ACCELERATION.record(&mut sample, [choice.acceleration(), choice.error()]);
         }
         Ok(sample)
     }

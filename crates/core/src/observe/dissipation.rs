@@ -2,13 +2,13 @@
 
 use super::extra::{Extra, Request};
 use super::map::Map;
-use super::sample::Quantity;
+use super::quantity::Quantity;
 use crate::model::parameters::Parameters;
 
-/// A quantity of one of the accounts; no number in a run without it.
+/// A quantity of one of the accounts; none in a run without it.
 macro_rules! of {
     ($part:ident . $field:ident, $name:literal, $unit:literal, $long_name:literal) => {
-        Quantity::of($name, $unit, $long_name, |sample| sample.accounts.$part.map_or(f64::NAN, |part| part.$field))
+        Quantity::of($name, $unit, $long_name, |sample| sample.accounts.$part.map(|part| part.$field))
     };
 }
 

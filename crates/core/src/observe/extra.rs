@@ -1,7 +1,8 @@
 //! What it takes to be a series that not every run has.
 
 use super::map::Map;
-use super::sample::Quantity;
+use super::quantity::Quantity;
+use super::sample::Sample;
 use crate::model::parameters::Parameters;
 
 /// A series that not every run has.
@@ -26,6 +27,13 @@ pub struct Request {
     pub maps: &'static [Map],
     /// Measures it of these fields, column by column: one value for each quantity.
     pub measure: fn(&Parameters, &[Vec<f64>]) -> Vec<f64>,
+}
+
+impl Extra {
+    /// Adds the values of its quantities to a sample.
+    pub fn record(&self, sample: &mut Sample, values: impl IntoIterator<Item = f64>) {
+        sample.extras.extend(self.quantities.iter().map(|quantity| quantity.name).zip(values));
+    }
 }
 
 impl PartialEq for Extra {

@@ -2,7 +2,7 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | `sample.rs` | what every run reports: the fields of a sample, with names and units |
+//! | `sample.rs`, `quantity.rs` | what every run reports: the fields of a sample, and their names and units |
 //! | `extra.rs` | what it takes to be a series that not every run has |
 //! | `roughness.rs`, `pressure_spread.rs` | such series, on request |
 //! | `operation.rs` | such series of runs with a cycle |
@@ -22,6 +22,7 @@ pub mod operation;
 pub mod plateau_size;
 pub mod pressure_spread;
 pub mod pulse;
+pub mod quantity;
 pub mod roughness;
 pub mod sample;
 pub mod schedule;
@@ -29,7 +30,8 @@ pub mod window_mean;
 
 use self::extra::Extra;
 pub use self::map::{ABSENT, Map, MapValues, Snapshot};
-pub use self::sample::{QUANTITIES, Quantity, Sample};
+pub use self::quantity::{QUANTITIES, Quantity};
+pub use self::sample::Sample;
 
 /// The table of series that not every run has, in the order of a run file. Scenes (`output.NAME`), run files, exports,
 /// figures and documents follow from its entries.

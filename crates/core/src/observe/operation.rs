@@ -1,7 +1,7 @@
 //! Series of the operation, in runs whose load or speed is given as a cycle (model 9).
 
 use super::extra::Extra;
-use super::sample::Quantity;
+use super::quantity::Quantity;
 
 /// Load and speed; [`Cycle::operation_at`](crate::model::cycle::Cycle::operation_at) gives their values.
 pub const CYCLE: Extra = Extra {

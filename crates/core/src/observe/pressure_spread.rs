@@ -2,7 +2,7 @@
 
 use super::extra::{Extra, Request};
 use super::map::Map;
-use super::sample::Quantity;
+use super::quantity::Quantity;
 use crate::model::mesh::Mesh;
 
 /// The spread of the pressures with every sample.

@@ -2,7 +2,7 @@
 
 use super::extra::{Extra, Request};
 use super::map::Map;
-use super::sample::Quantity;
+use super::quantity::Quantity;
 use crate::model::mesh::Mesh;
 
 /// Roughness of both bodies with every sample, peaks positive on either: of the whole ring, since all of it passes under the pin,

@@ -1,9 +1,7 @@
-//! Samples, and the quantities that every run reports.
+//! What is reported at the end of a step.
 
 use serde::{Deserialize, Serialize};
 
-use super::dissipation::{EMISSION, FRICTION, HEAT};
-use super::extra::Extra;
 use crate::model::accounts::AccountsReport;
 
 /// The reported quantities at the end of one step, in SI units.
@@ -68,95 +66,3 @@ pub struct Sample {
     #[serde(skip)]
     pub extras: Vec<(&'static str, f64)>,
 }
-
-impl Sample {
-    /// Adds the values of quantities that not every run has.
-    pub fn add(&mut self, quantities: &'static [Quantity], values: impl IntoIterator<Item = f64>) {
-        self.extras.extend(quantities.iter().map(|quantity| quantity.name).zip(values));
-    }
-}
-
-/// Name, unit and meaning of one reported quantity.
-#[derive(Debug, Clone, Copy)]
-pub struct Quantity {
-    /// Name of the series in a run file.
-    pub name: &'static str,
-    /// SI unit as UDUNITS writes it.
-    pub unit: &'static str,
-    /// What it is, in words.
-    pub long_name: &'static str,
-    /// Where a sample keeps it; else it is among the extras.
-    field: Option<fn(&Sample) -> f64>,
-}
-
-impl Quantity {
-    /// One that not every run has, but whose place in a sample is known.
-    pub const fn of(
-        name: &'static str,
-        unit: &'static str,
-        long_name: &'static str,
-        field: fn(&Sample) -> f64,
-    ) -> Self {
-        Self { name, unit, long_name, field: Some(field) }
-    }
-}
-
-impl Quantity {
-    /// One that not every run has.
-    pub const fn extra(name: &'static str, unit: &'static str, long_name: &'static str) -> Self {
-        Self { name, unit, long_name, field: None }
-    }
-
-    /// Whether a sample has it, be it as no number.
-    pub fn is_of(&self, sample: &Sample) -> bool {
-        let has = |part: &Extra, there: bool| !there && part.quantities.iter().any(|own| own.name == self.name);
-        let AccountsReport { friction, heat, emission } = &sample.accounts;
-        let missing =
-            has(&FRICTION, friction.is_some()) || has(&HEAT, heat.is_some()) || has(&EMISSION, emission.is_some());
-        !missing && (self.field.is_some() || sample.extras.iter().any(|(name, _)| *name == self.name))
-    }
-
-    /// The value in a sample; NaN in one without it.
-    pub fn value(&self, sample: &Sample) -> f64 {
-        let among_extras = || sample.extras.iter().find(|(name, _)| *name == self.name).map(|(_, value)| *value);
-        self.field.map(|field| field(sample)).or_else(among_extras).unwrap_or(f64::NAN)
-    }
-}
-
-macro_rules! quantities {
-    ($($field:ident, $unit:literal, $long_name:literal;)*) => {
-        &[$(Quantity {
-            name: stringify!($field),
-            unit: $unit,
-            long_name: $long_name,
-            field: Some(|sample| sample.$field),
-        }),*]
-    };
-}
-
-/// Every series that each run file has, but the time, in the order in which they are reported.
-pub const QUANTITIES: &[Quantity] = quantities! {
-    displacement, "m", "displacement of the rigid pin";
-    contact_area, "m2", "contact area";
-    contact_area_mean, "m2", "contact area, mean over the last simulated revolution";
-    contact_area_integral, "m2 s", "contact area, integral over time";
-    sliding_distance, "m", "sliding distance at the mean radius";
-    contact_ratio, "1", "contact area over the area of the pin";
-    mean_pressure, "Pa", "mean pressure over the cells in contact";
-    max_pressure, "Pa", "largest pressure of any cell";
-    worn_pin, "m3", "volume worn off plateaus of the pin";
-    worn_resin, "m3", "volume worn off the resin of the pin";
-    worn_disc, "m3", "volume worn off the disc";
-    pool, "m3", "wear debris in the contact, not compacted";
-    emitted, "m3", "wear debris that left the contact";
-    deposited_pin, "m3", "wear debris compacted on the pin";
-    deposited_disc, "m3", "wear debris compacted on the disc";
-    returned, "m3", "build-up of unsupported plateaus returned to the pool";
-    pin_primary, "1", "area fraction of the pin that is primary plateau";
-    pin_secondary, "1", "area fraction of the pin that is secondary plateau";
-    pin_none, "1", "area fraction of the pin that is no plateau";
-    disc_secondary, "1", "area fraction of the disc ring that is secondary plateau";
-    filled_fraction, "1", "fraction of the initial volume below the highest disc height that is filled";
-    load_residual, "1", "relative residual of the load balance";
-    balance_residual, "1", "relative residual of the debris balance";
-};

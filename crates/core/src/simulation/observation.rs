@@ -84,7 +84,7 @@ impl Simulation {
             let Some(request) = &extra.request else { continue };
             let maps = self.snapshot_at(moment, request.maps)?.maps;
             let fields: Vec<Vec<f64>> = maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
-            sample.add(extra.quantities, (request.measure)(&self.parameters, &fields));
+            extra.record(&mut sample, (request.measure)(&self.parameters, &fields));
         }
         self.refuse_overflow(&sample, extras)?;
         Ok(sample)

@@ -82,7 +82,7 @@ impl Written {
         };
         // Tests end soon.
         let series: &'static [Quantity] = Vec::leak(self.series.iter().map(quantity).collect());
-        let extra = Box::leak(Box::new(Extra { name: "made up", quantities: series, request: None }));
+        let extra: &'static Extra = Box::leak(Box::new(Extra { name: "made up", quantities: series, request: None }));
         let header = Header {
             title: self.title.into(),
             pin_base: vec![Base::Primary; mesh.pin_cells()],
@@ -113,7 +113,7 @@ impl Written {
             let time = f64::from(second);
             let mean_pressure = (self.value)("mean_pressure", time);
             let mut sample = Sample { step: u64::from(second), time, mean_pressure, ..Sample::default() };
-            sample.add(series, series.iter().map(|quantity| (self.value)(quantity.name, time)));
+            extra.record(&mut sample, series.iter().map(|quantity| (self.value)(quantity.name, time)));
             writer.sample(sample).unwrap();
         }
         writer.finish(&End::Finished, &[]).unwrap();

@@ -1,0 +1,86 @@
+//! The quantities that runs report: their names and units, and where a sample keeps them.
+
+use super::sample::Sample;
+
+/// Takes a quantity from a sample; none where the scene does not ask for it.
+type Field = fn(&Sample) -> Option<f64>;
+
+/// Name, unit and meaning of one reported quantity.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Name of the series in a run file.
+    pub name: &'static str,
+    /// SI unit as UDUNITS writes it.
+    pub unit: &'static str,
+    /// What it is, in words.
+    pub long_name: &'static str,
+    /// Where a sample keeps it; else it is among the extras.
+    field: Option<Field>,
+}
+
+impl Quantity {
+    /// One that not every run has, but whose place in a sample is known.
+    pub const fn of(name: &'static str, unit: &'static str, long_name: &'static str, field: Field) -> Self {
+        Self { name, unit, long_name, field: Some(field) }
+    }
+
+    /// One that not every run has.
+    pub const fn extra(name: &'static str, unit: &'static str, long_name: &'static str) -> Self {
+        Self { name, unit, long_name, field: None }
+    }
+
+    /// Whether a sample has it, be it as no number.
+    pub fn is_of(&self, sample: &Sample) -> bool {
+        self.found(sample).is_some()
+    }
+
+    /// The value in a sample; NaN in one without it.
+    pub fn value(&self, sample: &Sample) -> f64 {
+        self.found(sample).unwrap_or(f64::NAN)
+    }
+
+    fn found(&self, sample: &Sample) -> Option<f64> {
+        match self.field {
+            Some(field) => field(sample),
+            None => sample.extras.iter().find(|(name, _)| *name == self.name).map(|(_, value)| *value),
+        }
+    }
+}
+
+macro_rules! quantities {
+    ($($field:ident, $unit:literal, $long_name:literal;)*) => {
+        &[$(Quantity {
+            name: stringify!($field),
+            unit: $unit,
+            long_name: $long_name,
+            field: Some(|sample| Some(sample.$field)),
+        }),*]
+    };
+}
+
+/// Every series that each run file has, but the time, in the order in which they are reported.
+pub const QUANTITIES: &[Quantity] = quantities! {
+    displacement, "m", "displacement of the rigid pin";
+    contact_area, "m2", "contact area";
+    contact_area_mean, "m2", "contact area, mean over the last simulated revolution";
+    contact_area_integral, "m2 s", "contact area, integral over time";
+    sliding_distance, "m", "sliding distance at the mean radius";
+    contact_ratio, "1", "contact area over the area of the pin";
+    mean_pressure, "Pa", "mean pressure over the cells in contact";
+    max_pressure, "Pa", "largest pressure of any cell";
+    worn_pin, "m3", "volume worn off plateaus of the pin";
+    worn_resin, "m3", "volume worn off the resin of the pin";
+    worn_disc, "m3", "volume worn off the disc";
+    pool, "m3", "wear debris in the contact, not compacted";
+    emitted, "m3", "wear debris that left the contact";
+    deposited_pin, "m3", "wear debris compacted on the pin";
+    deposited_disc, "m3", "wear debris compacted on the disc";
+    returned, "m3", "build-up of unsupported plateaus returned to the pool";
+    pin_primary, "1", "area fraction of the pin that is primary plateau";
+    pin_secondary, "1", "area fraction of the pin that is secondary plateau";
+    pin_none, "1", "area fraction of the pin that is no plateau";
+    disc_secondary, "1", "area fraction of the disc ring that is secondary plateau";
+    filled_fraction, "1", "fraction of the initial volume below the highest disc height that is filled";
+    load_residual, "1", "relative residual of the load balance";
+    balance_residual, "1", "relative residual of the debris balance";
+};
