@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::spans::{band, means_between_ends};
+use super::spans::Spans;
 use super::{Figures, Subject, only_stroke, spans, with_names};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, TWO_COLUMNS, page, up_from_zero};
@@ -23,15 +23,17 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for series in SERIES {
         let (mut bands, mut lines) = (Vec::new(), Vec::new());
         let mut largest = 0.0_f64;
-        for (number, subject) in figures.with_series(NAME, subjects, &[series]) {
+        let having = figures.with_series(NAME, subjects, &[series]);
+        for (number, subject) in &having {
+            let number = *number;
             shown[number] = true;
             let values = subject.run.values(series)?.unwrap_or_default();
             let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
             let values: Vec<f64> = values.iter().map(|value| Unit::PERCENT.value(*value)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
             let stroke = Stroke::of(number, subjects.len());
-            bands.extend(band(&times, &values, stroke.colour));
-            lines.push(Content::Line { points: means_between_ends(&times, &values), stroke });
+            bands.extend(Spans::FINEST.band(&times, &values, stroke.colour, having.len()));
+            lines.push(Content::Line { points: Spans::FINEST.means_between_ends(&times, &values), stroke });
         }
         if lines.is_empty() {
             continue;

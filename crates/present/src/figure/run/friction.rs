@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::spans::{means, pieces};
+use super::spans::{Spans, pieces};
 use super::{Figures, Subject, operation};
 use crate::figure::axes::{Axis, Scale};
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, page, up_from_zero};
@@ -51,7 +51,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for course in &courses {
         let stroke = Stroke::of(course.number, subjects.len());
         let times: Vec<f64> = course.subject.run.time().iter().map(|at| time.value(*at)).collect();
-        let curve = pieces(&means(&times, &course.means));
+        let curve = pieces(&Spans::FINEST.means(&times, &course.means));
         lines.extend(curve.into_iter().map(|points| Content::Line { points, stroke }));
         let points = course.steps.iter().map(|[at, coefficient]| [pressure.value(*at), *coefficient]).collect();
         marks.push(Content::Marks { points, colour: stroke.colour, mark: Mark::Point });

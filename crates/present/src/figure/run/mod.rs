@@ -19,7 +19,7 @@
 //! | where the debris is | [`debris`] |
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
-//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`] and [`shape`], the moments that are
+//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`map_rows`], [`map_section`] and [`shape`], the moments that are
 //! shown in [`moments`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
 //! [`rates`], names of runs in [`mod@crate::label`].
 
@@ -32,6 +32,8 @@ mod filled;
 mod friction;
 mod heights;
 mod map_page;
+mod map_rows;
+mod map_section;
 mod moments;
 mod operation;
 mod plateau_sizes;
