@@ -1,9 +1,9 @@
 //! Contact area against time (paper Fig. 14): the mean over a simulated revolution, and how far single steps are from it.
 
-use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
-use super::spans::{Spans, pieces};
+use super::curve::pieces;
+use super::spans::{MOST_BANDS, Spans};
 use super::{Figures, Subject, only_stroke, operation, spans, with_names};
 use crate::colour::paler;
 use crate::figure::axes::Axis;
@@ -15,8 +15,6 @@ use crate::quantity::{Unit, title};
 
 /// Colour of a line through single steps, as a part of the run's colour.
 const PALE: f64 = 0.5;
-/// Runs whose single steps are shown, at most.
-const MOST_WITH_STEPS: usize = 3;
 /// What the line of a run is.
 const MEAN: &str = "mean of a simulated revolution";
 
@@ -33,7 +31,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         return Ok(());
     }
     // Of the single steps of more runs none could be told from the others.
-    let with_steps = runs.len() <= MOST_WITH_STEPS;
+    let with_steps = runs.len() <= MOST_BANDS;
     if !with_steps {
         runs.iter_mut().for_each(|(_, _, single, _)| single.clear());
     }
@@ -69,7 +67,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
     let only = only_stroke(subjects, runs.iter().map(|(number, ..)| *number));
-    let line = meaning_of_means(spans, runs.iter().map(|(_, subject, ..)| subject.run.time()));
+    let line = spans.meaning(runs.iter().map(|(_, subject, ..)| subject.run.time()), MEAN);
     let own = match only {
         _ if has_bands => spans::meanings(true, only, &line, "least to greatest of single steps"),
         Some(stroke) => {
@@ -107,19 +105,6 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         page(width, height, 1, charts, &meanings),
     );
     Ok(())
-}
-
-/// What a line through means in spans of time is: that of every revolution still, or that of a time so long that revolutions are not told
-/// apart.
-fn meaning_of_means<'a>(spans: Spans, times: impl Iterator<Item = &'a [f64]>) -> String {
-    if spans == Spans::FINEST {
-        return MEAN.to_owned();
-    }
-    let lengths = times.map(|times| spans.duration(times));
-    let (low, high) = lengths.fold((f64::INFINITY, 0.0_f64), |(low, high), length| (low.min(length), high.max(length)));
-    let unit = Unit::for_size("s", high);
-    let [low, high] = [low, high].map(|length| unit.with_symbol(&number::rounded(unit.value(length), 2)));
-    if low == high { format!("weighted mean over {high}") } else { format!("weighted mean over {low} to {high}") }
 }
 
 /// How a line through single steps is drawn.

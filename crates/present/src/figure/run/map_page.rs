@@ -26,16 +26,18 @@ const BETWEEN: f64 = 40.0;
 /// Height of a page of one block of maps, at most: 240 mm beside a width of 180 mm.
 const HIGHEST: f64 = TWO_COLUMNS * 4.0 / 3.0;
 /// What is tried until a page is no higher, one after the other: unrolled maps in fewer, longer windows, then smaller maps.
-const FITS: [Fit; 9] = [
+const FITS: [Fit; 11] = [
     Fit { stretch: 1.0, size: 1.0 },
     Fit { stretch: 1.25, size: 1.0 },
     Fit { stretch: 1.5, size: 1.0 },
     Fit { stretch: 2.0, size: 1.0 },
-    Fit { stretch: 2.0, size: 0.9 },
-    Fit { stretch: 2.0, size: 0.8 },
-    Fit { stretch: 2.0, size: 0.7 },
-    Fit { stretch: 2.0, size: 0.6 },
-    Fit { stretch: 2.0, size: 0.5 },
+    Fit { stretch: 3.0, size: 1.0 },
+    Fit { stretch: 4.0, size: 1.0 },
+    Fit { stretch: 4.0, size: 0.9 },
+    Fit { stretch: 4.0, size: 0.8 },
+    Fit { stretch: 4.0, size: 0.7 },
+    Fit { stretch: 4.0, size: 0.6 },
+    Fit { stretch: 4.0, size: 0.5 },
 ];
 
 /// How maps are fitted into a page.
@@ -219,6 +221,15 @@ mod tests {
         let mesh = Mesh::new(20, 276, 21, 17e-3, 27e-3).unwrap().with_outline(Outline::Disc { radius: 5e-3 }).unwrap();
         assert!(fitted(TWO_COLUMNS, &[], &[block(&mesh)], FITS[0]).size[1] > HIGHEST);
         assert!(page(TWO_COLUMNS, &[], &[block(&mesh)]).size[1] <= HIGHEST);
+        // Three rings that are 129 times as long as they are wide, beside each other.
+        let mesh = Mesh::new(20, 690, 40, 20e-3, 21e-3).unwrap();
+        let mut three = block(&mesh);
+        three.names = vec!["run".to_owned(); 3];
+        for group in &mut three.groups {
+            group.rows = group.rows.iter().flatten().map(|section| vec![section.clone(); 3]).collect();
+        }
+        let fits = page(TWO_COLUMNS, &[], &[three]);
+        assert!(fits.size[1] <= HIGHEST && fits.panels[0].axes.frame.width() > 500.0, "{:?}", fits.size);
         // A page with room for them keeps its maps as large as they are.
         let small = Mesh::new(8, 100, 16, 20e-3, 24e-3).unwrap();
         let block = || MapBlock { groups: block(&small).groups.split_off(1), ..MapBlock::default() };

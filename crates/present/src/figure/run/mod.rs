@@ -20,12 +20,13 @@
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
 //! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`map_rows`], [`map_section`] and [`shape`], the moments that are
-//! shown in [`moments`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
+//! shown in [`moments`], many samples as few in [`spans`], [`curve`] and [`mod@crate::envelope`], what grows as what is added in a time in
 //! [`rates`], names of runs in [`mod@crate::label`].
 
 mod build_up;
 mod contact_area;
 mod contact_temperature;
+mod curve;
 mod debris;
 mod emission;
 mod filled;

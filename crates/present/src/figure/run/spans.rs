@@ -1,20 +1,25 @@
 //! Many samples as few: their mean, and how far they reach, in spans of time.
 
+use plateau_io::number;
 use plotters::style::RGBColor;
 
+use super::curve::{pieces, weighted};
 use crate::colour::paler;
 use crate::figure::chart::Meaning;
 use crate::figure::page::{Content, KeyStyle};
 use crate::figure::stroke::Stroke;
+use crate::quantity::Unit;
 
 /// How much of a band's colour hides what lies below; among several bands less.
 const OPACITY: f64 = 0.28;
 const OPACITY_OF_SEVERAL: f64 = 0.12;
+/// Runs whose samples have bands, or lines of their own beside the means, at most: of more none could be told from the others.
+pub const MOST_BANDS: usize = 3;
 /// A line that goes up and down over more than so many times the height of all lines is no line for the eye.
 const MOST_WAY: f64 = 3.0;
 
 /// In how many spans of time, at most, samples are put together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Spans {
     most: usize,
 }
@@ -70,6 +75,20 @@ impl Spans {
         let [Some(first), Some(last)] = [times.first(), times.last()] else { return 0.0 };
         let length = Self::FINEST.length(times.len()) as f64 * (last - first) / (times.len() - 1).max(1) as f64;
         length * (2 * (Self::FINEST.most / self.most)).max(1) as f64
+    }
+
+    /// What the lines of a course are, of runs with samples at these times: what they are at the finest, or over how long a time means go.
+    pub fn meaning<'a>(self, times: impl Iterator<Item = &'a [f64]>, finest: &str) -> String {
+        if self == Self::FINEST {
+            return finest.to_owned();
+        }
+        let ends = (f64::INFINITY, 0.0_f64);
+        let (low, high) = times
+            .map(|times| self.duration(times))
+            .fold(ends, |(low, high), length| (low.min(length), high.max(length)));
+        let unit = Unit::for_size("s", high);
+        let [low, high] = [low, high].map(|length| unit.with_symbol(&number::rounded(unit.value(length), 2)));
+        if low == high { format!("weighted mean over {high}") } else { format!("weighted mean over {low} to {high}") }
     }
 
     /// Whether there are so many samples that their reach is a band.
@@ -133,20 +152,6 @@ impl Spans {
     }
 }
 
-/// Means of every value and those beside it, with weights that fall to nothing at so many places from it; near the begin, where most
-/// happens, of as few as there are before it, near the end of those before it.
-fn weighted(points: &[[f64; 2]], beside: usize) -> Vec<[f64; 2]> {
-    let mean = |at: usize| {
-        let reach = (beside - 1).min(at);
-        let part = |other: usize| (reach + 1 - at.abs_diff(other)) as f64;
-        let around = at - reach..=(at + reach).min(points.len() - 1);
-        let (sum, weights) = around
-            .fold((0.0, 0.0), |(sum, weights), other| (sum + part(other) * points[other][1], weights + part(other)));
-        [points[at][0], sum / weights]
-    };
-    (0..points.len()).map(mean).collect()
-}
-
 /// What lines and bands are, where there are bands: in the colour of the only run, else in words, for there is no line of all runs.
 pub fn meanings(has_bands: bool, only: Option<Stroke>, line: &str, band: &str) -> Vec<Meaning> {
     match only {
@@ -160,12 +165,6 @@ pub fn meanings(has_bands: bool, only: Option<Stroke>, line: &str, band: &str) -
             [("lines", line), ("bands", band)].map(|(what, text)| Meaning::in_words(&format!("{what}: {text}"))).into()
         }
     }
-}
-
-/// The pieces of a curve whose points have gaps between them: those that are no numbers.
-pub fn pieces(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-    let is_number = |point: &[f64; 2]| point[1].is_finite();
-    points.split(|point| !is_number(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }
 
 #[cfg(test)]
@@ -249,14 +248,6 @@ mod tests {
     }
 
     #[test]
-    fn weights_fall_with_distance() {
-        // By hand: 1, 2, 3, 2, 1 in the middle, 1, 2, 1 behind the begin; 1, 2, 3, 2 and 1, 2, 3 at the end.
-        let points = [0.0, 0.0, 9.0, 0.0, 0.0].map(|value| [1.0, value]);
-        let means: Vec<f64> = weighted(&points, 3).iter().map(|point| point[1]).collect();
-        assert_eq!(means, [0.0, 2.25, 3.0, 2.25, 1.5]);
-    }
-
-    #[test]
     fn several_bands_hide_less() {
         let times: Vec<f64> = (0..1000).map(f64::from).collect();
         let opacity = |bands| match &ALL.band(&times, &times, RGBColor(1, 2, 3), bands)[..] {
@@ -264,13 +255,6 @@ mod tests {
             _ => panic!("one band"),
         };
         assert!(opacity(5) < opacity(1));
-    }
-
-    #[test]
-    fn a_curve_is_broken_where_there_is_no_number() {
-        let [gap, one, two, three] = [f64::NAN, 1.0, 2.0, 3.0].map(|value| [value, value]);
-        assert_eq!(pieces(&[gap, one, two, gap, gap, three]), [vec![one, two], vec![three]]);
-        assert_eq!(pieces(&[gap]), [[[0.0; 2]; 0]; 0]);
     }
 
     #[test]

@@ -118,13 +118,13 @@ impl Written {
         for second in 1..=END {
             let time = f64::from(second);
             let mean_pressure = (self.value)("mean_pressure", time);
-            let [contact_area, contact_area_mean] =
-                ["contact_area", "contact_area_mean"].map(|name| (self.value)(name, time));
+            let value = |name| (self.value)(name, time);
             let mut sample = Sample {
                 step: u64::from(second),
                 time,
-                contact_area,
-                contact_area_mean,
+                contact_area: value("contact_area"),
+                contact_area_mean: value("contact_area_mean"),
+                pin_secondary: value("pin_secondary"),
                 mean_pressure,
                 ..Sample::default()
             };
