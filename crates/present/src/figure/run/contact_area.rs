@@ -2,9 +2,9 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::curve::pieces;
-use super::spans::{MOST_BANDS, Spans};
-use super::{Figures, Subject, only_stroke, operation, spans, with_names};
+use super::legend::{meanings, only_stroke, with_names};
+use super::spans::{MOST_BANDS, Spans, pieces};
+use super::{Figures, Subject, operation};
 use crate::colour::paler;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
@@ -69,7 +69,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let only = only_stroke(subjects, runs.iter().map(|(number, ..)| *number));
     let line = spans.meaning(runs.iter().map(|(_, subject, ..)| subject.run.time()), MEAN);
     let own = match only {
-        _ if has_bands => spans::meanings(true, only, &line, "least to greatest of single steps"),
+        _ if has_bands => meanings(true, only, &line, "least to greatest of single steps"),
         Some(stroke) => {
             vec![Meaning::of_line(stroke, &line), Meaning::of_line(single_steps(stroke), "single steps")]
         }

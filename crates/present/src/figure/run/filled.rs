@@ -2,8 +2,9 @@
 
 use plateau_io::run_file::ReadError;
 
+use super::legend::{meanings, only_stroke, with_names};
 use super::spans::{MOST_BANDS, Spans};
-use super::{Figures, Subject, only_stroke, spans, with_names};
+use super::{Figures, Subject};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
@@ -70,8 +71,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let only = only_stroke(subjects, (0..subjects.len()).filter(|number| shown[*number]));
     let times = || subjects.iter().map(|subject| subject.run.time()).filter(|times| !times.is_empty());
     let is_binned = times().any(|times| spans.has_bands(times)) || spans != Spans::FINEST;
-    let mut own =
-        spans::meanings(is_binned, only, &spans.meaning(times(), "mean of a span of time"), "least to greatest");
+    let mut own = meanings(is_binned, only, &spans.meaning(times(), "mean of a span of time"), "least to greatest");
     own.truncate(if has_bands { 2 } else { 1 });
     let meanings = with_names(subjects, |number| shown[number], own);
     let width = figures.width(TWO_COLUMNS);

@@ -6,9 +6,10 @@ use plateau_core::observe::Map;
 use plateau_core::surface::describe::MaterialCurve;
 use plateau_io::run_file::ReadError;
 
+use super::legend::{only_stroke, with_names};
 use super::map_rows::having;
 use super::moments::{heights, shown_moments};
-use super::{Figures, Subject, moments, only_stroke, with_names};
+use super::{Figures, Subject, moments};
 use crate::figure::axes::{Axis, Scale};
 use crate::figure::chart::{Chart, TWO_COLUMNS, page};
 use crate::figure::histogram::Histogram;

@@ -5,9 +5,10 @@ use plateau_core::observe::Map;
 use plateau_core::observe::plateau_size::plateau_areas;
 use plateau_io::run_file::ReadError;
 
+use super::legend::{only_stroke, with_names};
 use super::map_rows::{any_of, having};
 use super::moments::{floats, moment, shown_moments, statuses};
-use super::{Figures, Subject, moments, only_stroke, with_names};
+use super::{Figures, Subject, moments};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{Anchor, TEXT};
 use crate::figure::chart::{COLUMN, Chart, TWO_COLUMNS, page};

@@ -3,15 +3,11 @@
 use plateau_io::number;
 use plotters::style::RGBColor;
 
-use super::curve::{pieces, weighted};
-use crate::colour::paler;
-use crate::figure::chart::Meaning;
-use crate::figure::page::{Content, KeyStyle};
-use crate::figure::stroke::Stroke;
+use crate::figure::page::Content;
 use crate::quantity::Unit;
 
 /// How much of a band's colour hides what lies below; among several bands less.
-const OPACITY: f64 = 0.28;
+pub const OPACITY: f64 = 0.28;
 const OPACITY_OF_SEVERAL: f64 = 0.12;
 /// Runs whose samples have bands, or lines of their own beside the means, at most: of more none could be told from the others.
 pub const MOST_BANDS: usize = 3;
@@ -152,19 +148,24 @@ impl Spans {
     }
 }
 
-/// What lines and bands are, where there are bands: in the colour of the only run, else in words, for there is no line of all runs.
-pub fn meanings(has_bands: bool, only: Option<Stroke>, line: &str, band: &str) -> Vec<Meaning> {
-    match only {
-        _ if !has_bands => Vec::new(),
-        Some(stroke) => {
-            let colour = paler(stroke.colour, OPACITY);
-            let area = Meaning { colour, style: KeyStyle::Area, text: band.to_owned() };
-            vec![Meaning::of_line(stroke, line), area]
-        }
-        None => {
-            [("lines", line), ("bands", band)].map(|(what, text)| Meaning::in_words(&format!("{what}: {text}"))).into()
-        }
-    }
+/// The pieces of a curve whose points have gaps between them: those that are no numbers.
+pub fn pieces(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let is_number = |point: &[f64; 2]| point[1].is_finite();
+    points.split(|point| !is_number(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
+}
+
+/// Means of every value and those beside it, with weights that fall to nothing at so many places from it; near the begin, where most
+/// happens, of as few as there are before it, near the end of those before it.
+fn weighted(points: &[[f64; 2]], beside: usize) -> Vec<[f64; 2]> {
+    let mean = |at: usize| {
+        let reach = (beside - 1).min(at);
+        let part = |other: usize| (reach + 1 - at.abs_diff(other)) as f64;
+        let around = at - reach..=(at + reach).min(points.len() - 1);
+        let (sum, weights) = around
+            .fold((0.0, 0.0), |(sum, weights), other| (sum + part(other) * points[other][1], weights + part(other)));
+        [points[at][0], sum / weights]
+    };
+    (0..points.len()).map(mean).collect()
 }
 
 #[cfg(test)]
@@ -214,20 +215,6 @@ mod tests {
     }
 
     #[test]
-    fn a_legend_has_what_is_drawn() {
-        let stroke = Stroke::of(0, 1);
-        let [line, area] = &meanings(true, Some(stroke), "mean", "reach")[..] else { panic!("two meanings") };
-        assert_eq!((line.colour, area.colour), (stroke.colour, paler(stroke.colour, OPACITY)));
-        let words = meanings(true, None, "mean", "reach");
-        assert!(words.iter().all(|meaning| meaning.style == KeyStyle::Words));
-        assert_eq!(
-            words.iter().map(|meaning| meaning.text.as_str()).collect::<Vec<_>>(),
-            ["lines: mean", "bands: reach"]
-        );
-        assert!(meanings(false, None, "mean", "reach").is_empty());
-    }
-
-    #[test]
     fn lines_that_go_up_and_down_all_the_time_are_put_together() {
         let times: Vec<f64> = (0..4000).map(f64::from).collect();
         let slow: Vec<f64> = times.iter().map(|time| time.sqrt()).collect();
@@ -267,5 +254,20 @@ mod tests {
         let at = |time: f64| spans.windows(2).find(|pair| pair[0][0] <= time && time <= pair[1][0]).unwrap()[1];
         assert_eq!((at(4321.0)[2], at(9999.0)[1]), (7.0, -2.0));
         assert_eq!((spans[0][0], spans[spans.len() - 1][0]), (0.0, 10_000.0));
+    }
+
+    #[test]
+    fn a_curve_is_broken_where_there_is_no_number() {
+        let [gap, one, two, three] = [f64::NAN, 1.0, 2.0, 3.0].map(|value| [value, value]);
+        assert_eq!(pieces(&[gap, one, two, gap, gap, three]), [vec![one, two], vec![three]]);
+        assert_eq!(pieces(&[gap]), [[[0.0; 2]; 0]; 0]);
+    }
+
+    #[test]
+    fn weights_fall_with_distance() {
+        // By hand: 1, 2, 3, 2, 1 in the middle, 1, 2, 1 behind the begin; 1, 2, 3, 2 and 1, 2, 3 at the end.
+        let points = [0.0, 0.0, 9.0, 0.0, 0.0].map(|value| [1.0, value]);
+        let means: Vec<f64> = weighted(&points, 3).iter().map(|point| point[1]).collect();
+        assert_eq!(means, [0.0, 2.25, 3.0, 2.25, 1.5]);
     }
 }

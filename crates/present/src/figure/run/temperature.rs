@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::curve::pieces;
+use super::spans::pieces;
 use super::{Figures, Subject, operation};
 use crate::envelope::thin;
 use crate::figure::axes::Axis;
