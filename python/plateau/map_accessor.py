@@ -157,7 +157,9 @@ class MapAccessor:
         return self._cells.sel(map_time=seconds(time), method="nearest")
 
     def plot(self, time: float | str | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
-        """Draws the map, unrolled or as the ring that it is; needs matplotlib.
+        """Draws the map, unrolled or as the ring that it is, with the colours of the program's figures; needs matplotlib.
+
+        Heights of the pin are drawn as they rise toward the disc, from their mean.
 
         Parameters
         ----------
@@ -166,13 +168,14 @@ class MapAccessor:
         polar : bool
             As a ring in the plane of the disc.
         ax : matplotlib.axes.Axes, optional
-            Where; new axes unless given.
+            Where; new axes unless given, of an unrolled ring several below each other.
         **options
             Those of ``pcolormesh``, such as ``cmap``.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The lowest of them.
 
         Examples
         --------

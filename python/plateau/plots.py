@@ -6,13 +6,12 @@ from typing import Any
 import numpy as np
 import xarray
 
+from plateau.looks import APART, Look, colours, in_drawn_unit, look_of
 from plateau.run_file import array
 
-# Units in which quantities are drawn: factor and name.
-DRAWN = {"m2": (1e6, "mm²"), "m3": (1e9, "mm³"), "Pa": (1e-6, "MPa")}
-# Lengths below this, m, are drawn in micrometres.
-SMALL = 1e-3
-STATUS_COLOURS = ["#d9d9d9", "#4c72b0", "#dd8452", "#ffffff"]
+# Length of a window of an unrolled ring over its height, about, and windows at most.
+ELONGATION = 8.6
+MOST_WINDOWS = 6
 
 
 def new_axes(**options: Any) -> Any:
@@ -32,26 +31,6 @@ def new_axes(**options: Any) -> Any:
     except ImportError as error:
         raise ImportError("figures need matplotlib: pip install 'plateau-brake[plot]'") from error
     return plt.subplots(layout="constrained", **options)[1]
-
-
-def in_drawn_unit(values: xarray.DataArray) -> tuple[Any, str]:
-    """Values in the unit in which they are drawn, and its name.
-
-    Parameters
-    ----------
-    values : xarray.DataArray
-        With the attribute ``units``, SI.
-
-    Returns
-    -------
-    tuple of array and str
-        The name is empty where there is no unit.
-    """
-    unit, numbers = str(values.attrs.get("units", "1")), values.values
-    if unit == "m" and numbers.size and np.nanmax(np.abs(numbers), initial=0.0) < SMALL:
-        return numbers * 1e6, "µm"
-    factor, name = DRAWN.get(unit, (1.0, "" if unit == "1" else unit))
-    return numbers * factor, name
 
 
 def draw_series(run: xarray.DataTree, series: Sequence[str], *, ax: Any = None) -> Any:
@@ -90,7 +69,7 @@ def draw_series(run: xarray.DataTree, series: Sequence[str], *, ax: Any = None) 
 
 
 def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
-    """Draws a map at one moment.
+    """Draws a map at one moment, with the colours and scales of the figures of the program, in proportion.
 
     Parameters
     ----------
@@ -101,38 +80,89 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     polar : bool
         In the plane of the disc; else unrolled, over arc length at the mean radius.
     ax : matplotlib.axes.Axes, optional
-        Where; new axes unless given.
+        Where; new axes unless given, of a long ring several below each other.
     **options
         Those of ``pcolormesh``.
 
     Returns
     -------
     matplotlib.axes.Axes
+        The lowest of them.
     """
-    ax = new_axes(figsize=(6, 5) if polar else (9, 3)) if ax is None else ax
     [angle] = [name for name in cells.dims if name != "radius"]
     cells = cells.transpose("radius", angle)
     angles, radii = np.meshgrid(edges(cells[angle].values), edges(cells["radius"].values) * 1e3)
-    if polar:
-        places = (radii * np.cos(angles), radii * np.sin(angles))
-    else:
-        places = (angles * radii.mean(), radii)
-    if names:
-        from matplotlib.colors import ListedColormap
-
-        colours = ListedColormap(STATUS_COLOURS[: max(names) + 1])
-        options = {"cmap": colours, "vmin": -0.5, "vmax": max(names) + 0.5} | options
-    values, unit = in_drawn_unit(cells)
-    picture = ax.pcolormesh(*places, values, rasterized=True, **options)
-    bar = ax.figure.colorbar(picture, ax=ax, label=unit)
+    x, y = (radii * np.cos(angles), radii * np.sin(angles)) if polar else (angles * radii.mean(), radii)
+    panels = panels_for(x, y, polar) if ax is None else [ax]
+    look = look_of(cells, names)
+    chosen = options_of(look, options)
+    # The first column of each window, and the end of the last one.
+    ends = np.linspace(0, x.shape[1] - 1, len(panels) + 1).astype(int)
+    for panel, begin, end in zip(panels, ends[:-1], ends[1:], strict=True):
+        part = np.s_[:, begin : end + 1]
+        picture = panel.pcolormesh(x[part], y[part], look.values[:, begin:end], rasterized=True, **chosen)
+        panel.set_aspect("equal")
+    last = panels[-1]
+    bar = last.figure.colorbar(picture, ax=panels, label=look.label, extend="neither" if names else look.extend)
     if names:
         bar.set_ticks(list(names), labels=list(names.values()))
     labels = ("x, mm", "y, mm") if polar else ("arc length, mm", "radius, mm")
     moment = f", {float(cells['map_time']):.6g} s" if "map_time" in cells.coords else ""
-    ax.set(xlabel=labels[0], ylabel=labels[1], title=str(cells.attrs.get("long_name", cells.name)) + moment)
+    grey = f"; grey: {look.apart}" if look.apart else ""
+    last.set_xlabel(labels[0])
+    panels[len(panels) // 2].set_ylabel(labels[1])
+    panels[0].set_title(str(cells.attrs.get("long_name", cells.name)) + moment + grey)
+    return last
+
+
+def panels_for(x: Any, y: Any, polar: bool) -> list[Any]:
+    """New axes for a map with these corners of cells, mm: for an unrolled ring several, as in the figures of the program.
+
+    Parameters
+    ----------
+    x, y : array
+        The corners.
+    polar : bool
+        Whether it is drawn in the plane of the disc.
+
+    Returns
+    -------
+    list of matplotlib.axes.Axes
+        From the top.
+    """
     if polar:
-        ax.set_aspect("equal")
-    return ax
+        return [new_axes(figsize=(6, 5))]
+    elongation = float(np.ptp(x) / np.ptp(y))
+    windows = min(max(round(elongation / ELONGATION), 1), MOST_WINDOWS, x.shape[1] - 1)
+    # Seven inches are for the map, and above each window half of one for numbers.
+    height = 0.8 + windows * (0.5 + min(7 * windows / elongation, 5))
+    return list(np.atleast_1d(new_axes(figsize=(9, height), nrows=windows)))
+
+
+def options_of(look: Look, options: dict[str, Any]) -> dict[str, Any]:
+    """Those of ``pcolormesh``: what a look says, but for what the user says.
+
+    Parameters
+    ----------
+    look : Look
+        How the map is drawn.
+    options : dict
+        What the user says.
+
+    Returns
+    -------
+    dict
+    """
+    chosen = dict(look.options)
+    if "norm" in options:
+        chosen.pop("vmin", None)
+        chosen.pop("vmax", None)
+    elif "vmin" in options or "vmax" in options:
+        chosen.pop("norm", None)
+    chosen |= options
+    if isinstance(chosen["cmap"], str):
+        chosen["cmap"] = colours(chosen["cmap"], APART if look.apart else None)
+    return chosen
 
 
 def edges(centres: Any) -> Any:

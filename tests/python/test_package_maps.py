@@ -180,13 +180,47 @@ class Runs(InFolder):
             axes = self.round_["pin/pressure"].plateau.plot(polar=polar)
             drawn = axes.collections[0].get_array()
             np.testing.assert_allclose(np.ma.filled(drawn, np.nan), self.round_["pin/pressure"].values[-1].T / 1e6)
-            self.assertIn("MPa", [other.get_ylabel() for other in axes.figure.axes])
+            self.assertIn("pressure, MPa", [other.get_ylabel() for other in axes.figure.axes])
         axes = self.run_["disc/status"].plateau.plot(10.0)
         axes.figure.canvas.draw()
-        names = [label.get_text() for label in axes.figure.axes[1].get_yticklabels()]
+        names = [label.get_text() for label in axes.figure.axes[-1].get_yticklabels()]
         self.assertEqual([name for name in names if name.isalpha()], ["none", "primary", "secondary"])
-        # The ring is as long as the circle of its mean radius.
+        # The ring is as long as the circle of its mean radius, in six windows below each other, and everything is in proportion.
+        panels = axes.figure.axes[:-1]
+        self.assertEqual(len(panels), 6)
         self.assertAlmostEqual(axes.get_xlim()[1] / (2 * np.pi * self.run_["radius"].values.mean() * 1e3), 1.0, delta=1e-6)
+        self.assertEqual([round(panel.get_xlim()[0] / (axes.get_xlim()[1] / 6)) for panel in panels], [0, 1, 2, 3, 4, 5])
+        self.assertTrue(all(panel.get_aspect() == 1 for panel in panels))
+
+    def test_colours_are_those_of_the_program(self):
+        command = [os.environ["PLATEAU_PROGRAM"], "plot", "quick.h5", "--format", "svg", "-o", "svg", "-q", "--force"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+        def hex_of(picture, value):
+            from matplotlib.colors import to_hex
+
+            return to_hex(picture.cmap(picture.norm(value))).upper()
+
+        status = self.run_["pin/status"].plateau.plot().collections[0]
+        figure = pathlib.Path("svg/status.svg").read_text()
+        for value in range(3):
+            self.assertIn(hex_of(status, value), figure)
+        # Without contact a cell is grey, and beyond a round pin white.
+        axes = self.round_["pin/pressure"].plateau.plot()
+        pressure = axes.collections[0]
+        self.assertIn(hex_of(pressure, 0.0), pathlib.Path("svg/pressure.svg").read_text())
+        self.assertEqual(hex_of(pressure, np.nan), "#FFFFFF")
+        self.assertIn("grey: no contact", axes.get_title())
+        # Peaks of the pin, whose z grows away from the disc, are high.
+        height = self.run_["pin/height"].plateau.plot().collections[0].get_array()
+        z = self.run_["pin/height"].values[-1].T
+        np.testing.assert_allclose(height, (z.mean() - z) * 1e6, atol=1e-9)
+        # What lies below the range has its lowest colour, not that of cells without contact.
+        disc = self.run_["disc/height"].plateau.plot().collections[0]
+        self.assertEqual(hex_of(disc, -1e3), hex_of(disc, disc.norm.vmin))
+        # What the user says holds.
+        cmap = self.run_["disc/height"].plateau.plot(cmap="magma", vmin=-5).collections[0]
+        self.assertEqual((cmap.cmap.name, cmap.norm.vmin), ("magma", -5))
 
 
 class Unfinished(InFolder):

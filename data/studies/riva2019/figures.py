@@ -23,6 +23,8 @@ DOCS = HERE.parents[2] / "docs/images"
 RESULTS = json.loads((HERE / "results.json").read_text())
 # Of Okabe and Ito, told apart by everybody.
 COLOURS = ["#000000", "#0072b2", "#d55e00"]
+# What stands beside the lines of the discs.
+BESIDE = {"1": "rough disc (baseline)", "0.1": "disc with heights / 10", "0.01": "disc with heights / 100"}
 STATUS = ListedColormap(["#d9d2c3", "#8c8c8c", "#0072b2"])
 OF_STATUS = {"cmap": STATUS, "vmin": -0.5, "vmax": 2.5}
 STATUSES = ["none (resin)", "primary", "secondary"]
@@ -142,17 +144,23 @@ def filling_of_the_baseline(run: dict[str, object]) -> None:
 
 
 def contact_area() -> None:
-    """The paper's figure 14, with pooled debris beside it."""
+    """The paper's figure 14, with pooled debris beside it. Every line has its name beside it, to be told in grey, too."""
     figure, axes = plt.subplots(figsize=(5.6, 3.2), layout="constrained")
+    accelerations = {m_of_one("runs", heights) for heights in NAMES}
     for (heights, name), colour in zip(NAMES.items(), COLOURS, strict=True):
-        for part, how in (("pooled_runs", {"lw": 0.8, "alpha": 0.55, "ls": "--"}), ("runs", {"lw": 1.3, "label": f"{name}, m = {m_of_one('runs', heights)}"})):
+        m = "" if len(accelerations) == 1 else f", m = {m_of_one('runs', heights)}"
+        for part, how in (("pooled_runs", {"lw": 0.9, "alpha": 0.7, "ls": "--"}), ("runs", {"lw": 1.5})):
             time, area = np.transpose(RESULTS[part][heights]["contact_area"])
             axes.plot(time, area * 1e6, color=colour, **how)
-    axes.plot([], [], color="grey", lw=0.8, ls="--", label="pooled debris, m = 1")
+        place = (time[-1], area[-1] * 1e6 + 0.5) if time[-1] > END else (END + 60, area[-10:].mean() * 1e6 - 0.2)
+        axes.annotate(BESIDE[heights] + m, place, color=colour, ha="right" if time[-1] > END else "left")
+    how_fast = f", m = {accelerations.pop()}" if len(accelerations) == 1 else ""
+    axes.plot([], [], color="grey", lw=1.5, label=f"local debris{how_fast}")
+    axes.plot([], [], color="grey", lw=0.9, ls="--", label="the same disc with pooled debris, m = 1")
     axes.axvline(3000, color="grey", lw=0.6, ls=":")
     axes.annotate("end of the paper's simulations", (3000, 0.2), textcoords="offset points", xytext=(4, 0), color="grey")
     axes.set(xlabel="time, s", ylabel="contact area, mm², means of 50 s", xlim=(0, 7200), ylim=(0, None))
-    axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08), ncols=2)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 0.08))
     save(figure, "fig14")
 
 

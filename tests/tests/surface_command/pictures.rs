@@ -32,13 +32,13 @@ fn a_picture_shows_the_map_the_histogram_and_the_curve() {
     };
     let [(_, low_end, low_count), (_, _, high_count), (missing_start, _, missing_count)] =
         [low, high, missing].map(places);
-    // The map is 280 by 700 pixels or larger (points 2 µm by 5 µm apart); a quarter of it each, half high; the missing one
+    // The map is 176 by 440 pixels or larger (points 2 µm by 5 µm apart); a quarter of it each, half high; the missing one
     // is above the low one, for y grows upward.
-    assert!(low_count > 40_000 && missing_count > 40_000 && high_count > 80_000, "{low_count} {missing_count}");
+    assert!(low_count > 18_000 && missing_count > 18_000 && high_count > 36_000, "{low_count} {missing_count}");
     assert!((f64::from(low_count) / f64::from(missing_count) - 1.0).abs() < 0.1);
     assert!((f64::from(high_count) / f64::from(low_count) - 2.0).abs() < 0.2);
     assert!(missing_start[1] < low_end[1] / 2, "{missing_start:?} {low_end:?}");
-    // Axes and letters; the two bars of the histogram, one of its 64 classes of 430 pixels each, less their outlines.
+    // Axes and letters; the two bars of the histogram, one of its 64 classes of 360 pixels each, less their outlines.
     for (colour, least) in [([0x22; 3], 5_000), ([0x9d, 0xbf, 0xd6], 1_000)] {
         assert!(places(colour).2 > least, "{colour:?}: {}", places(colour).2);
     }

@@ -7,7 +7,9 @@ use plateau_io::dataset_file::now;
 use plateau_io::scene::Scene;
 use plateau_io::surface::{self, Loaded};
 use plateau_present::figure::{Figure, Format, accuracy as drawing};
-use plateau_run::accuracy::{AccuracyError, Found, Ladder, ReadReference, Report, Row, Wish, read_reference, search};
+use plateau_run::accuracy::{
+    AccuracyError, Found, Ladder, ReadReference, Report, Row, Wish, integrator_name, read_reference, search,
+};
 use plateau_run::execution::decide;
 use plateau_run::input_files;
 
@@ -127,7 +129,8 @@ fn figure(report: &Report) -> Figure {
             Ladder::TimeAcceleration => format!("{value}"),
             Ladder::Tolerance => format!("tolerance {value}"),
             Ladder::Mesh => format!("{value}\u{d7} coarser"),
-            Ladder::Integrator | Ladder::Perturbation => String::new(),
+            Ladder::Integrator => integrator_name(row.rung.numerics.integrator).to_owned(),
+            Ladder::Perturbation => format!("heights times 1 + {value:e}"),
         };
         drawing::Rung { time: row.cost().time, error: row.error(), on_front: row.on_front, label }
     };

@@ -3,10 +3,10 @@
 use std::ops::RangeInclusive;
 
 use super::axes::Axis;
-use super::canvas::{Anchor, LINE, TEXT};
+use super::canvas::LINE;
 use super::chart::{COLUMN, Chart, Meaning, page};
 use super::format::Figure;
-use super::labels::Labels;
+use super::labels::{Labels, write_labels};
 use super::page::{Content, KeyStyle, Page};
 use super::stroke::{SOLID, Stroke};
 use crate::colour::{APART, FAINT};
@@ -51,7 +51,7 @@ pub struct Rung {
     pub error: f64,
     /// Whether no other run is as quick and as exact.
     pub on_front: bool,
-    /// What stands beside it, where there is room; may be empty.
+    /// What stands beside it, where there is room.
     pub label: String,
 }
 
@@ -157,7 +157,7 @@ fn meanings(reference: &Reference, ladders: &[Shown], has_front: bool) -> Vec<Me
     meanings
 }
 
-/// Writes beside points what they are, where there is room; first beside those of the front.
+/// Writes beside points what they are, off all lines; first beside those of the front.
 fn label(page: &mut Page, rungs: &[&Rung]) {
     let Some(axes) = page.panels.first().map(|panel| panel.axes.clone()) else { return };
     let place = |rung: &Rung| {
@@ -165,13 +165,17 @@ fn label(page: &mut Page, rungs: &[&Rung]) {
         axes.place_within(x, y)
     };
     let mut labels = Labels::new(axes.frame, rungs.iter().map(|rung| place(rung)));
-    let mut waiting: Vec<&&Rung> = rungs.iter().filter(|rung| !rung.label.is_empty()).collect();
-    waiting.sort_by_key(|rung| !rung.on_front);
-    for rung in waiting {
-        if let Some(begin) = labels.beside(&rung.label, place(rung)) {
-            page.write(rung.label.as_str(), begin, Anchor::Right, TEXT);
-        }
+    let lines = page.panels.iter().flat_map(|panel| &panel.contents).filter_map(|content| match content {
+        Content::Line { points, .. } => Some(points),
+        _ => None,
+    });
+    for pair in lines.flat_map(|points| points.windows(2)) {
+        labels.avoid([0, 1].map(|end| axes.place_within(pair[end][0], pair[end][1])));
     }
+    let mut named: Vec<&&Rung> = rungs.iter().filter(|rung| !rung.label.is_empty()).collect();
+    named.sort_by_key(|rung| !rung.on_front);
+    let named = named.into_iter().map(|rung| (rung.label.clone(), place(rung))).collect();
+    write_labels(page, 0, &labels, named);
 }
 
 /// A range with room round positive values; where there are none, any.
@@ -184,7 +188,32 @@ fn range(values: impl Iterator<Item = f64>) -> RangeInclusive<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::range;
+    use super::*;
+    use crate::figure::canvas::TEXT;
+    use crate::figure::font::text_width;
+
+    #[test]
+    fn labels_stand_off_the_lines() {
+        // The line of the first ladder falls steeply on the left of the other's point.
+        let rung = |time: f64, error: f64, label: &str| Rung { time, error, on_front: false, label: label.to_owned() };
+        let ladder = |name, rungs, is_joined| Ladder { name, colour: 0, is_joined, is_chance: false, rungs };
+        let steep = ladder("m", vec![rung(0.3, 1.1e-3, "10"), rung(0.6, 1.7e-4, "5")], true);
+        let others = vec![rung(1.5, 7e-4, "tolerance 0.002"), rung(0.2, 1.6e-3, "exponential")];
+        let reference = Reference { time: 2.4, error: 0.0, time_acceleration: 1.0 };
+        let page = figure(&reference, &[steep, ladder("others", others, false)]).page;
+        let axes = &page.panels[0].axes;
+        let ends = [[0.3, 0.11], [0.6, 0.017]].map(|[x, y]| axes.place(x, y));
+        for label in ["10", "5", "tolerance 0.002", "exponential"] {
+            let words = page.texts.iter().find(|words| words.text == label).expect(label);
+            let (x, y) = words.place;
+            let along =
+                |part: f64| [ends[0].0 + part * (ends[1].0 - ends[0].0), ends[0].1 + part * (ends[1].1 - ends[0].1)];
+            let is_within = |[right, down]: [f64; 2]| {
+                (x..x + text_width(label, TEXT)).contains(&right) && (down - y).abs() < 0.5 * f64::from(TEXT)
+            };
+            assert!(!(0..=100).map(|step| along(f64::from(step) / 100.0)).any(is_within), "{label}");
+        }
+    }
 
     #[test]
     fn ranges_have_room_on_both_sides() {

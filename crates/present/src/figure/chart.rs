@@ -18,6 +18,8 @@ pub const TWO_COLUMNS: f64 = 2160.0;
 pub const MARGIN: f64 = 24.0;
 /// Room between boxes, pixels.
 const BETWEEN: f64 = 48.0;
+/// Room between what colours mean and what is written above a box, pixels: else they are one text for the eye.
+pub const LEGEND: f64 = 22.0;
 /// Width of the sample of a colour, pixels.
 const KEY: f64 = 60.0;
 
@@ -78,6 +80,9 @@ pub fn page(width: f64, height: f64, across: usize, charts: Vec<Chart>, meanings
     for row in rows {
         let titled = row.iter().any(|chart| !chart.title.is_empty());
         top += if titled { LINE_OF_TEXT + 12.0 } else { 16.0 };
+        if titled && !meanings.is_empty() && page.panels.is_empty() {
+            top += LEGEND;
+        }
         let mut left = MARGIN;
         let mut below = 0.0_f64;
         for (chart, room) in row.iter().zip(&rooms) {

@@ -187,19 +187,6 @@ impl Labels {
         let is_led_through = self.leaders.iter().any(|leader| passes(leader, frame));
         !is_taken && !is_on_line && !is_led_through && is_within(frame, &self.whole)
     }
-
-    /// Where a text beside a point begins, if there is room for it; it has the room then.
-    pub fn beside(&mut self, text: &str, (x, y): Place) -> Option<Place> {
-        let size = [text_width(text, TEXT), f64::from(TEXT)];
-        let [beside, above] = [0.5 * size[0] + DOT + 6.0, 0.5 * size[1] + DOT];
-        let middles =
-            [(beside, -above), (beside, above), (-beside, above), (-beside, -above), (beside, 0.0), (-beside, 0.0)];
-        let mut frames = middles.into_iter().map(|(right, down)| around((x + right, y + down), size));
-        let is_free = |frame: &Frame| !self.taken.iter().any(|other| overlap(frame, other));
-        let frame = frames.find(|frame| is_within(frame, &self.whole) && is_free(frame))?;
-        self.taken.push(frame);
-        Some((frame.x[0], 0.5 * (frame.y[0] + frame.y[1])))
-    }
 }
 
 /// How labels are placed, until there is room for all: in which order, and in how many places beside their points; with those on the
@@ -306,17 +293,21 @@ mod tests {
     fn labels_have_room_of_their_own() {
         let points = [(100.0, 100.0), (120.0, 105.0), (140.0, 100.0), (160.0, 110.0), (500.0, 100.0)];
         let whole = Frame { x: [0.0, 520.0], y: [0.0, 200.0] };
-        let mut labels = Labels::new(whole, points.into_iter());
-        let begins: Vec<_> = points.iter().map(|point| labels.beside("a label", *point)).collect();
-        assert!(begins[0].is_some());
-        let placed = &labels.taken[points.len()..];
-        assert_eq!(placed.len(), begins.iter().flatten().count());
-        for (index, one) in labels.taken.iter().enumerate().skip(points.len()) {
+        let labels = Labels::new(whole, points.into_iter());
+        let named = |text: &str| points.map(|point| (vec![text.to_owned()], point));
+        let placed = labels.all(&named("a label"));
+        let frame = |placed: &Placed| {
+            let ((x, y), half) = (placed.begin, 0.5 * f64::from(TEXT));
+            Frame { x: [x, x + text_width("a label", TEXT)], y: [y - half, y + half] }
+        };
+        let frames: Vec<Frame> = placed.iter().flatten().map(frame).collect();
+        let taken = labels.taken.iter().chain(&frames);
+        for (index, one) in frames.iter().enumerate() {
             assert!(is_within(one, &whole));
-            assert!(!labels.taken[..index].iter().any(|other| overlap(one, other)));
+            assert_eq!(taken.clone().take(points.len() + index).filter(|other| overlap(one, other)).count(), 0);
         }
         // The last one has no room on its right.
-        assert!(begins[4].is_some_and(|(x, _)| x < 500.0));
-        assert_eq!(labels.beside(&"long ".repeat(50), points[0]), None);
+        assert!(placed[0].is_some() && placed[4].as_ref().is_some_and(|placed| placed.begin.0 < 500.0));
+        assert!(labels.all(&named(&"long ".repeat(50))).iter().all(Option::is_none));
     }
 }

@@ -4,14 +4,15 @@ use plateau_core::model::mesh::Mesh;
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_rows::{Painted, any_of, having, rows};
 use super::moments::{leave_blank, moment};
 use super::shape::Shape;
 use super::thickness::{BODIES, Body, largest, moments_of_thickness, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Meaning, TWO_COLUMNS};
+use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
 use crate::quantity::MapLook;
 
@@ -53,7 +54,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         blocks.push(MapBlock { names, groups });
     }
     let nothing = Meaning { colour: APART, style: KeyStyle::Area, text: "nothing has built up".to_owned() };
-    let width = figures.width(TWO_COLUMNS);
+    let width = figures.width(width_of(&blocks));
     figures.add(
         NAME,
         "Build-up on disc and pin",

@@ -2,8 +2,9 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::spans::{band, means, pieces};
-use super::{Figures, Subject, only_stroke, operation, spans, with_names};
+use super::legend::{meanings, only_stroke, with_names};
+use super::spans::{MOST_BANDS, Spans, pieces};
+use super::{Figures, Subject, operation};
 use crate::colour::paler;
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
@@ -29,38 +30,54 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     if runs.is_empty() {
         return Ok(());
     }
-    let largest = runs.iter().flat_map(|(_, _, single, mean)| single.iter().chain(mean)).copied().fold(0.0, f64::max);
-    let area = Unit::for_size("m2", largest);
+    // Of the single steps of more runs none could be told from the others.
+    let with_steps = runs.len() <= MOST_BANDS;
+    if !with_steps {
+        runs.iter_mut().for_each(|(_, _, single, _)| single.clear());
+    }
     let end = runs.iter().filter_map(|(_, subject, ..)| subject.run.time().last()).copied().fold(0.0, f64::max);
     let time = Unit::for_size("s", end);
+    let mut charts = operation::charts(subjects, &time, end)?;
+    let with_operation = !charts.is_empty();
+    // The ups and downs of load and speed are to be seen.
+    let spans = match with_operation {
+        true => Spans::FINEST,
+        false => Spans::calm(runs.iter().map(|(_, subject, _, mean)| (subject.run.time(), &mean[..]))),
+    };
+    let course = |subject: &Subject, mean: &[f64]| spans.course(subject.run.time(), mean);
+    let drawn = runs.iter().flat_map(|(_, subject, _, mean)| course(subject, mean)).flatten().map(|[_, mean]| mean);
+    let largest = runs.iter().flat_map(|(_, _, single, _)| single).copied().chain(drawn).fold(0.0, f64::max);
+    let area = Unit::for_size("m2", largest);
     let mut steps = Vec::new();
     let mut lines = Vec::new();
     for (number, subject, single, mean) in &runs {
         let times: Vec<f64> = subject.run.time().iter().map(|seconds| time.value(*seconds)).collect();
         let single: Vec<f64> = single.iter().map(|value| area.value(*value)).collect();
         let stroke = Stroke::of(*number, subjects.len());
-        let bands = band(&times, &single, stroke.colour);
+        let bands = spans.band(&times, &single, stroke.colour, runs.len());
         let is_banded = !bands.is_empty();
         steps.extend(bands);
         if !is_banded {
             let stroke = single_steps(stroke);
-            steps.extend(pieces(&means(&times, &single)).into_iter().map(|points| Content::Line { points, stroke }));
+            let points = pieces(&Spans::FINEST.means(&times, &single));
+            steps.extend(points.into_iter().map(|points| Content::Line { points, stroke }));
         }
         let mean: Vec<f64> = mean.iter().map(|value| area.value(*value)).collect();
-        lines.extend(pieces(&means(&times, &mean)).into_iter().map(|points| Content::Line { points, stroke }));
+        lines.extend(spans.course(&times, &mean).into_iter().map(|points| Content::Line { points, stroke }));
     }
     let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
     let only = only_stroke(subjects, runs.iter().map(|(number, ..)| *number));
+    let line = spans.meaning(runs.iter().map(|(_, subject, ..)| subject.run.time()), MEAN);
     let own = match only {
-        _ if has_bands => spans::meanings(true, only, MEAN, "least to greatest of single steps"),
+        _ if has_bands => meanings(true, only, &line, "least to greatest of single steps"),
         Some(stroke) => {
-            vec![Meaning::of_line(stroke, MEAN), Meaning::of_line(single_steps(stroke), "single steps")]
+            vec![Meaning::of_line(stroke, &line), Meaning::of_line(single_steps(stroke), "single steps")]
         }
-        None => vec![Meaning::in_words(&format!("lines: {MEAN}, paler: single steps"))],
+        None if with_steps => vec![Meaning::in_words(&format!("lines: {line}, paler: single steps"))],
+        None => vec![Meaning::in_words(&format!("lines: {line}"))],
     };
     let meanings = with_names(subjects, |shown| runs.iter().any(|(number, ..)| *number == shown), own);
-    let mut charts = operation::charts(subjects, &time, end)?;
-    let (with_operation, height) = (!charts.is_empty(), if charts.is_empty() { 760.0 } else { 420.0 });
+    let height = if with_operation { 420.0 } else { 760.0 };
     charts.push(Chart {
         title: String::new(),
         x: Axis::linear(0.0..=time.value(end), time.label("time")),
@@ -80,10 +97,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "contact-area",
         "Contact area",
         format!(
-            "Contact area against time: the line is the mean over the last simulated revolution, the band reaches from the least \
-         to the greatest of the samples of single steps. Where there are more samples than the figure can tell apart, the line \
-         is their mean; where there are few, a paler line goes through those of single steps instead of the band. Both have a gap \
-         where nothing rubs.{of_operation}"
+            "Contact area against time: the line is the mean over the last simulated revolution, or, where this goes up and down \
+             all along, a weighted mean over the time that is stated. The band reaches from the least to the greatest of the samples \
+             of single steps; where there are few, a paler line goes through these. Of more than three runs there are the \
+             means alone. All have a gap where nothing rubs.{of_operation}"
         ),
         page(width, height, 1, charts, &meanings),
     );
@@ -99,6 +116,7 @@ fn single_steps(stroke: Stroke) -> Stroke {
 mod tests {
     use super::*;
     use crate::colour::RUNS;
+    use crate::figure::page::Page;
     use crate::figure::run::written::{Written, lines_of};
 
     #[test]
@@ -117,6 +135,24 @@ mod tests {
                 assert!(lines.iter().flatten().all(|[time, _]| !is_still(*time)), "{zero}: {lines:?}");
             }
         }
+    }
+
+    #[test]
+    fn many_runs_that_pulse_have_lines_alone() {
+        let pulsing = |name: &str, time: f64| match name {
+            "contact_area_mean" => 1.0 + (time % 2.0),
+            _ => 1.0 + (time % 3.0),
+        };
+        let page = |runs: usize| {
+            let runs: Vec<Written> = (0..runs).map(|_| Written::new("one", &[], pulsing)).collect();
+            let figures = Written::figures(&runs);
+            figures.figures.iter().find(|figure| figure.name == "contact-area").unwrap().page.clone()
+        };
+        let has = |page: &Page, wanted: &str| page.texts.iter().any(|words| words.text == wanted);
+        let [three, four] = [3, 4].map(page);
+        assert_eq!((three.panels[0].contents.len(), four.panels[0].contents.len()), (6, 4));
+        assert!(has(&three, "lines: weighted mean over 4 s, paler: single steps"), "{:?}", three.texts);
+        assert!(has(&four, "lines: weighted mean over 4 s"), "{:?}", four.texts);
     }
 
     #[test]

@@ -3,13 +3,14 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, having, page, rows};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_rows::{Painted, having, rows};
 use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Meaning, TWO_COLUMNS};
+use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
 use crate::quantity::{BEYOND, MapLook, RobustRange};
 use plateau_io::number;
@@ -65,7 +66,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         });
     }
     let none = Meaning { colour: APART, style: KeyStyle::Area, text: "no temperature".to_owned() };
-    let width = figures.width(TWO_COLUMNS);
+    let width = figures.width(width_of(&blocks));
     figures.add(
         NAME,
         "Contact temperature of the pin",

@@ -3,8 +3,9 @@
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
+use super::legend::{only_stroke, with_names};
 use super::rates::{Rate, per_metre, rates, steps};
-use super::{Figures, Subject, only_stroke, operation, with_names};
+use super::{Figures, Subject, operation};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;

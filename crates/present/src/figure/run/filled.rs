@@ -2,8 +2,9 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::spans::{band, means_between_ends};
-use super::{Figures, Subject, only_stroke, spans, with_names};
+use super::legend::{meanings, only_stroke, with_names};
+use super::spans::{MOST_BANDS, Spans};
+use super::{Figures, Subject};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
@@ -13,28 +14,47 @@ use crate::quantity::{Unit, title};
 const NAME: &str = "filled";
 const SERIES: [&str; 4] = ["filled_fraction", "disc_secondary", "pin_secondary", "pin_primary"];
 
+/// A run by its number, the times of its samples, s, and a series, %.
+type Course<'a> = (usize, &'a [f64], Vec<f64>);
+
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
     let end = subjects.iter().filter_map(|subject| subject.run.time().last()).copied().fold(0.0, f64::max);
     let time = Unit::for_size("s", end);
-    let mut charts = Vec::new();
     let mut shown = vec![false; subjects.len()];
-    let mut has_bands = false;
+    let mut courses = Vec::new();
     for series in SERIES {
-        let (mut bands, mut lines) = (Vec::new(), Vec::new());
-        let mut largest = 0.0_f64;
+        let mut runs = Vec::new();
         for (number, subject) in figures.with_series(NAME, subjects, &[series]) {
             shown[number] = true;
             let values = subject.run.values(series)?.unwrap_or_default();
-            let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
             let values: Vec<f64> = values.iter().map(|value| Unit::PERCENT.value(*value)).collect();
-            largest = values.iter().copied().fold(largest, f64::max);
-            let stroke = Stroke::of(number, subjects.len());
-            bands.extend(band(&times, &values, stroke.colour));
-            lines.push(Content::Line { points: means_between_ends(&times, &values), stroke });
+            runs.push((number, subject.run.time(), values));
         }
-        if lines.is_empty() {
-            continue;
+        if !runs.is_empty() {
+            courses.push((series, runs));
+        }
+    }
+    // All charts have lines of one kind.
+    let calm = |(_, runs): &(_, Vec<Course>)| Spans::calm(runs.iter().map(|(_, times, values)| (*times, &values[..])));
+    let spans = courses.iter().map(calm).min().unwrap_or(Spans::FINEST);
+    let mut charts = Vec::new();
+    let mut has_bands = false;
+    for (series, runs) in courses {
+        let (mut bands, mut lines) = (Vec::new(), Vec::new());
+        let mut largest = 0.0_f64;
+        for (number, times, values) in &runs {
+            let times: Vec<f64> = times.iter().map(|at| time.value(*at)).collect();
+            largest = values.iter().copied().fold(largest, f64::max);
+            let stroke = Stroke::of(*number, subjects.len());
+            if runs.len() <= MOST_BANDS {
+                bands.extend(spans.band(&times, values, stroke.colour, runs.len()));
+            }
+            if spans == Spans::FINEST {
+                lines.push(Content::Line { points: spans.means_between_ends(&times, values), stroke });
+            } else {
+                lines.extend(spans.course(&times, values).into_iter().map(|points| Content::Line { points, stroke }));
+            }
         }
         let y = if series == "filled_fraction" { "part of the volume" } else { "part of the area" };
         has_bands |= !bands.is_empty();
@@ -49,7 +69,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         return Ok(());
     }
     let only = only_stroke(subjects, (0..subjects.len()).filter(|number| shown[*number]));
-    let own = spans::meanings(has_bands, only, "mean of a span of time", "least to greatest");
+    let times = || subjects.iter().map(|subject| subject.run.time()).filter(|times| !times.is_empty());
+    let is_binned = times().any(|times| spans.has_bands(times)) || spans != Spans::FINEST;
+    let mut own = meanings(is_binned, only, &spans.meaning(times(), "mean of a span of time"), "least to greatest");
+    own.truncate(if has_bands { 2 } else { 1 });
     let meanings = with_names(subjects, |number| shown[number], own);
     let width = figures.width(TWO_COLUMNS);
     figures.add(
@@ -57,8 +80,28 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "Filling and coverage",
         "Filled part of the initial volume below the highest point of the disc, and parts of the area of disc and pin that \
          are plateaus, against time. A cell is secondary as soon as any debris lies on it. Where \
-         there are more samples than the figure can tell apart, the line is their mean and the band their extent.",
+         there are more samples than the figure can tell apart, the line is their mean and the band their extent; more than three runs \
+         have lines alone.",
         page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::run::written::Written;
+
+    #[test]
+    fn series_that_pulse_have_means_that_the_legend_states() {
+        let texts = |values: fn(f64) -> f64| {
+            let run = |title| Written::new(title, &[], move |_, time| values(time));
+            let figures = Written::figures(&[run("one"), run("two")]);
+            let page = &figures.figures.iter().find(|figure| figure.name == NAME).unwrap().page;
+            page.texts.iter().map(|words| words.text.clone()).collect::<Vec<_>>()
+        };
+        let stated = "lines: weighted mean over 4 s".to_owned();
+        assert!(texts(|time| 0.5 + 0.1 * (time % 2.0)).contains(&stated));
+        assert!(!texts(|time| 0.01 * time).iter().any(|text| text.starts_with("lines")));
+    }
 }

@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::spans::{means, pieces};
+use super::spans::Spans;
 use super::{Figures, Subject, operation};
 use crate::figure::axes::{Axis, Scale};
 use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, around, page, up_from_zero};
@@ -47,18 +47,25 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         courses.iter().flat_map(|course| &course.means).chain(steps().map(|[_, coefficient]| coefficient));
     let y = Axis::linear(around(coefficients), SeriesLook::of("friction_coefficient").title);
     let (x, pressure) = pressure_axis(steps().map(|[pressure, _]| *pressure));
+    let times = || courses.iter().map(|course| course.subject.run.time());
+    // The ups and downs of load and speed are to be seen.
+    let has_cycle = |course: &Course| course.subject.run.series().iter().any(|series| series.name == "normal_force");
+    let spans = match courses.iter().any(has_cycle) {
+        true => Spans::FINEST,
+        false => Spans::calm(times().zip(courses.iter().map(|course| &course.means[..]))),
+    };
     let (mut lines, mut marks) = (Vec::new(), Vec::new());
     for course in &courses {
         let stroke = Stroke::of(course.number, subjects.len());
         let times: Vec<f64> = course.subject.run.time().iter().map(|at| time.value(*at)).collect();
-        let curve = pieces(&means(&times, &course.means));
+        let curve = spans.course(&times, &course.means);
         lines.extend(curve.into_iter().map(|points| Content::Line { points, stroke }));
         let points = course.steps.iter().map(|[at, coefficient]| [pressure.value(*at), *coefficient]).collect();
         marks.push(Content::Marks { points, colour: stroke.colour, mark: Mark::Point });
     }
     let mut charts = [
         Chart {
-            title: "mean of the last simulated revolution".to_owned(),
+            title: spans.meaning(times(), "mean of the last simulated revolution"),
             x: Axis::linear(0.0..=time.value(end), time.label("time")),
             y: y.clone(),
             contents: lines,
@@ -75,7 +82,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         NAME,
         "Coefficient of friction",
         format!(
-            "Coefficient of friction, left the mean of the last simulated revolution, weighted by load, against time, right that \
+            "Coefficient of friction, left the mean of the last simulated revolution, weighted by load, or, where this goes up and down all along, its weighted mean \
+             over the time that is stated, against time, right that \
              of single steps against their mean contact pressure; of a run at most {MOST_MARKS} samples, evenly chosen. Events of a \
              single run with a cycle that has ended are shaded."
         ),

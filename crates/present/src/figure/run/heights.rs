@@ -6,10 +6,11 @@ use plateau_core::observe::Map;
 use plateau_core::surface::describe::MaterialCurve;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::having;
+use super::legend::{only_stroke, with_names};
+use super::map_rows::having;
 use super::moments::{heights, shown_moments};
-use super::{Figures, Subject, moments, only_stroke, with_names};
-use crate::figure::axes::Axis;
+use super::{Figures, Subject, moments};
+use crate::figure::axes::{Axis, Scale};
 use crate::figure::chart::{Chart, TWO_COLUMNS, page};
 use crate::figure::histogram::Histogram;
 use crate::figure::page::Content;
@@ -21,7 +22,8 @@ const NAME: &str = "heights";
 const CLASSES: usize = 80;
 /// Part of the cells that is shown at least where parts are on a scale of equal ratios, %.
 const LEAST_SHOWN: f64 = 0.01;
-/// Distributions whose maxima differ more than this many times are shown on such a scale.
+/// Distributions whose maxima differ more than this many times, or of which one class has more than this many times as many cells as the
+/// others have in the mean, are shown on such a scale.
 const MOST_LINEAR: f64 = 6.0;
 /// Points of the Abbott-Firestone curve.
 const CURVE: usize = 200;
@@ -35,9 +37,16 @@ struct Distribution {
     curve: Vec<f64>,
 }
 
+/// The heights of a body in all runs.
+struct Body<'a> {
+    look: &'a MapLook,
+    range: RangeInclusive<f64>,
+    distributions: Vec<Distribution>,
+}
+
 /// Adds the figure.
 pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError> {
-    let mut charts = Vec::new();
+    let mut bodies = Vec::new();
     let mut shown = vec![false; subjects.len()];
     for map in [Map::DiscHeight, Map::PinHeight] {
         let having = having(figures, NAME, subjects, map);
@@ -50,11 +59,14 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             continue;
         }
         runs.iter().for_each(|(run, _)| shown[*run] = true);
-        charts.extend(body_charts(MapLook::of(map), &runs, subjects.len())?);
+        bodies.push(Body::of(MapLook::of(map), &runs)?);
     }
-    if charts.is_empty() {
+    if bodies.is_empty() {
         return Ok(());
     }
+    // Disc and pin are compared: both are on one kind of scale.
+    let scale = if bodies.iter().any(Body::is_dominated) { Scale::Logarithmic } else { Scale::Linear };
+    let charts = bodies.iter().flat_map(|body| body.charts(scale, subjects.len())).collect();
     let has_first = subjects.iter().any(|subject| shown_moments(subject).len() > 1);
     let only = only_stroke(subjects, (0..subjects.len()).filter(|run| shown[*run]));
     let meanings = with_names(subjects, |run| shown[run], moments::meanings(subjects, only, has_first));
@@ -77,62 +89,88 @@ fn scaled(subject: &Subject, look: &MapLook, index: usize) -> Result<Vec<f64>, R
     Ok(heights)
 }
 
-/// The distribution of a body and its Abbott-Firestone curve.
-fn body_charts(look: &MapLook, runs: &[(usize, &Subject)], count: usize) -> Result<[Chart; 2], ReadError> {
-    let mut range = RobustRange::default();
-    for (_, subject) in runs {
-        for index in shown_moments(subject) {
-            range.add(scaled(subject, look, index)?.into_iter());
+impl Body<'_> {
+    fn of<'a>(look: &'a MapLook, runs: &[(usize, &Subject)]) -> Result<Body<'a>, ReadError> {
+        let mut range = RobustRange::default();
+        for (_, subject) in runs {
+            for index in shown_moments(subject) {
+                range.add(scaled(subject, look, index)?.into_iter());
+            }
         }
-    }
-    let range = wider(&range.between(0.001, 0.999));
-    let mut distributions = Vec::new();
-    for (run, subject) in runs {
-        let moments = shown_moments(subject);
-        for (place, index) in moments.iter().enumerate() {
-            let heights = scaled(subject, look, *index)?;
-            let histogram = Histogram::of(&heights, 0.0, range.clone(), CLASSES);
-            let curve = MaterialCurve::of(&heights, 0.0);
-            distributions.push(Distribution {
-                run: *run,
-                first: place + 1 < moments.len(),
-                histogram,
-                curve: (0..=CURVE).map(|part| curve.height(part as f64 / CURVE as f64)).collect(),
-            });
+        let range = wider(&range.between(0.001, 0.999));
+        let mut distributions = Vec::new();
+        for (run, subject) in runs {
+            let moments = shown_moments(subject);
+            for (place, index) in moments.iter().enumerate() {
+                let heights = scaled(subject, look, *index)?;
+                let histogram = Histogram::of(&heights, 0.0, range.clone(), CLASSES);
+                let curve = MaterialCurve::of(&heights, 0.0);
+                distributions.push(Distribution {
+                    run: *run,
+                    first: place + 1 < moments.len(),
+                    histogram,
+                    curve: (0..=CURVE).map(|part| curve.height(part as f64 / CURVE as f64)).collect(),
+                });
+            }
         }
+        Ok(Body { look, range, distributions })
     }
-    let body = look.body();
-    let y = Axis::linear(range, look.unit.label(&format!("{body}, {}", look.what)));
-    let line = |distribution: &Distribution, points| Content::Line {
-        points,
-        stroke: Stroke::of(distribution.run, count).at(distribution.first),
-    };
-    let largest = |one: &Distribution| one.histogram.fractions.iter().copied().fold(1e-6, f64::max);
-    let narrowest = distributions.iter().map(largest).fold(0.0, f64::max);
-    let widest = distributions.iter().map(largest).fold(narrowest, f64::min);
-    // Beside a narrow distribution nothing would be seen of a wide one.
-    let x = if narrowest > MOST_LINEAR * widest {
-        Axis::logarithmic(LEAST_SHOWN..=130.0 * narrowest, "cells per class, %")
-    } else {
-        Axis::linear(0.0..=105.0 * narrowest, "cells per class, %")
-    };
-    Ok([
-        Chart {
-            title: format!("{body}, distribution"),
-            x,
-            y: y.clone(),
-            contents: distributions
-                .iter()
-                .flat_map(|one| outlines(&one.histogram).into_iter().map(|points| line(one, points)))
-                .collect(),
-        },
-        Chart {
-            title: format!("{body}, Abbott-Firestone curve"),
-            x: Axis::linear(0.0..=100.0, "material ratio, %"),
-            y: y.shared(),
-            contents: distributions.iter().map(|one| line(one, ratio_curve(&one.curve))).collect(),
-        },
-    ])
+
+    /// Whether beside a narrow distribution, or beside one class, nothing would be seen of all else on a scale of equal differences.
+    fn is_dominated(&self) -> bool {
+        let largest = self.distributions.iter().map(Distribution::largest);
+        let narrowest = largest.clone().fold(0.0, f64::max);
+        let widest = largest.fold(narrowest, f64::min);
+        narrowest > MOST_LINEAR * widest || self.distributions.iter().any(Distribution::has_a_peak)
+    }
+
+    /// The distribution and the Abbott-Firestone curve.
+    fn charts(&self, scale: Scale, count: usize) -> [Chart; 2] {
+        let Body { look, range, distributions } = self;
+        let body = look.body();
+        let y = Axis::linear(range.clone(), look.unit.label(&format!("{body}, {}", look.what)));
+        let line = |distribution: &Distribution, points| Content::Line {
+            points,
+            stroke: Stroke::of(distribution.run, count).at(distribution.first),
+        };
+        let narrowest = distributions.iter().map(Distribution::largest).fold(0.0, f64::max);
+        let x = match scale {
+            Scale::Logarithmic => Axis::logarithmic(LEAST_SHOWN..=130.0 * narrowest, "cells per class, %"),
+            Scale::Linear => Axis::linear(0.0..=105.0 * narrowest, "cells per class, %"),
+        };
+        [
+            Chart {
+                title: format!("{body}, distribution"),
+                x,
+                y: y.clone(),
+                contents: distributions
+                    .iter()
+                    .flat_map(|one| outlines(&one.histogram).into_iter().map(|points| line(one, points)))
+                    .collect(),
+            },
+            Chart {
+                title: format!("{body}, Abbott-Firestone curve"),
+                x: Axis::linear(0.0..=100.0, "material ratio, %"),
+                y: y.shared(),
+                contents: distributions.iter().map(|one| line(one, ratio_curve(&one.curve))).collect(),
+            },
+        ]
+    }
+}
+
+impl Distribution {
+    /// The largest part of the cells that is in a class.
+    fn largest(&self) -> f64 {
+        self.histogram.fractions.iter().copied().fold(1e-6, f64::max)
+    }
+
+    /// Whether one class has far more cells than the others.
+    fn has_a_peak(&self) -> bool {
+        let largest = self.largest();
+        let fractions = self.histogram.fractions.iter().filter(|part| **part > 0.0);
+        let (count, sum) = fractions.fold((0.0, 0.0), |(count, sum), part| (count + 1.0, sum + part));
+        largest * (count - 1.0) > MOST_LINEAR * (sum - largest) && count > 1.0
+    }
 }
 
 /// A range with a margin.
@@ -168,7 +206,26 @@ fn ratio_curve(curve: &[f64]) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use plateau_core::observe::MapValues;
+
     use super::*;
+    use crate::figure::run::written::Written;
+
+    #[test]
+    fn a_class_that_has_most_cells_makes_the_scales_of_disc_and_pin_logarithmic() {
+        let scales = |heights: fn(usize) -> f64| {
+            let map = |cells: usize| std::iter::once(MapValues::Float((0..cells).map(heights).collect()));
+            let run = Written::new("one", &[], |_, time| time)
+                .with_maps(Map::DiscHeight, map(240))
+                .and_maps(Map::PinHeight, std::iter::once(MapValues::Float((0..20).map(|cell| cell as f64).collect())));
+            let figures = Written::figures(&[run]);
+            let figure = figures.figures.iter().find(|figure| figure.name == NAME).unwrap();
+            [0, 2].map(|panel| figure.page.panels[panel].axes.x.scale)
+        };
+        // Every second cell of the disc is cut at one height.
+        assert_eq!(scales(|cell| if cell % 2 == 0 { 300.0 } else { cell as f64 }), [Scale::Logarithmic; 2]);
+        assert_eq!(scales(|cell| cell as f64), [Scale::Linear; 2]);
+    }
 
     #[test]
     fn steps_end_where_there_are_no_heights() {

@@ -19,8 +19,8 @@
 //! | where the debris is | [`debris`] |
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
-//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`] and [`shape`], the moments that are
-//! shown in [`moments`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
+//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`map_rows`], [`map_section`] and [`shape`], the moments that are
+//! shown in [`moments`], what lines and bands are in [`legend`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
 //! [`rates`], names of runs in [`mod@crate::label`].
 
 mod build_up;
@@ -31,7 +31,10 @@ mod emission;
 mod filled;
 mod friction;
 mod heights;
+mod legend;
 mod map_page;
+mod map_rows;
+mod map_section;
 mod moments;
 mod operation;
 mod plateau_sizes;
@@ -51,10 +54,8 @@ use std::path::PathBuf;
 
 use plateau_io::run_file::{ReadError, RunFile};
 
-use super::chart::Meaning;
 use super::format::Figure;
 use super::page::{PER_MILLIMETRE, Page};
-use super::stroke::Stroke;
 use crate::colour::ColourMap;
 use crate::label::labels;
 use moments::nearest;
@@ -150,23 +151,6 @@ struct Subject<'a> {
     label: String,
     /// Indices of the maps that are shown, in their order; none if those are the first and the last.
     chosen: Vec<usize>,
-}
-
-/// How the lines of the only run that a figure shows are drawn; none where it shows several.
-fn only_stroke(subjects: &[Subject], mut shown: impl Iterator<Item = usize>) -> Option<Stroke> {
-    let first = shown.next()?;
-    shown.all(|number| number == first).then(|| Stroke::of(first, subjects.len()))
-}
-
-/// What the lines of a figure mean: whose they are, then what those of one run are. The only run has its name in words where its lines have
-/// meanings of their own.
-fn with_names(subjects: &[Subject], shown: impl Fn(usize) -> bool, own: Vec<Meaning>) -> Vec<Meaning> {
-    let shown: Vec<usize> = (0..subjects.len()).filter(|number| shown(*number)).collect();
-    let name = |number: &usize| match &subjects[*number].label {
-        label if shown.len() == 1 && !own.is_empty() => Meaning::in_words(label),
-        label => Meaning::of_run(*number, label),
-    };
-    shown.iter().map(name).chain(own.iter().cloned()).collect()
 }
 
 /// The figures of runs, in the order of [`NAMES`]. What a run did not record is left out.

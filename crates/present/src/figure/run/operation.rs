@@ -3,7 +3,7 @@
 use plateau_io::run_file::{ReadError, RunFile};
 
 use super::Subject;
-use super::spans::means;
+use super::spans::Spans;
 use crate::colour::INK;
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, up_from_zero};
@@ -28,7 +28,10 @@ pub fn charts(subjects: &[Subject], time: &Unit, end: f64) -> Result<Vec<Chart>,
             let times: Vec<f64> = subject.run.time().iter().map(|at| time.value(*at)).collect();
             let values: Vec<f64> = values.iter().map(|value| look.unit.value(*value)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
-            lines.push(Content::Line { points: means(&times, &values), stroke: Stroke::of(number, subjects.len()) });
+            lines.push(Content::Line {
+                points: Spans::FINEST.means(&times, &values),
+                stroke: Stroke::of(number, subjects.len()),
+            });
         }
         if lines.is_empty() {
             return Ok(Vec::new());

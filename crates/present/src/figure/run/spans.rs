@@ -1,55 +1,151 @@
 //! Many samples as few: their mean, and how far they reach, in spans of time.
 
+use plateau_io::number;
 use plotters::style::RGBColor;
 
-use crate::colour::paler;
-use crate::figure::chart::Meaning;
-use crate::figure::page::{Content, KeyStyle};
-use crate::figure::stroke::Stroke;
+use crate::figure::page::Content;
+use crate::quantity::Unit;
 
-/// Spans that a figure distinguishes, at most.
-const MOST_SPANS: usize = 250;
-/// How much of a band's colour hides what lies below.
-const OPACITY: f64 = 0.28;
+/// How much of a band's colour hides what lies below; among several bands less.
+pub const OPACITY: f64 = 0.28;
+const OPACITY_OF_SEVERAL: f64 = 0.12;
+/// Runs whose samples have bands, or lines of their own beside the means, at most: of more none could be told from the others.
+pub const MOST_BANDS: usize = 3;
+/// A line that goes up and down over more than so many times the height of all lines is no line for the eye.
+const MOST_WAY: f64 = 3.0;
 
-/// The band over which samples reach, in pieces where there are no numbers between; none where they are so few that a line goes through
-/// each of them.
-pub fn band(times: &[f64], values: &[f64], colour: RGBColor) -> Vec<Content> {
-    if times.len() <= MOST_SPANS {
-        return Vec::new();
-    }
-    let spans = spans(times, values);
-    let pieces = spans.split(|span| !span[1].is_finite()).filter(|piece| !piece.is_empty());
-    pieces.map(|spans| Content::Band { spans: spans.to_vec(), colour, opacity: OPACITY }).collect()
+/// In how many spans of time, at most, samples are put together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Spans {
+    most: usize,
 }
 
-/// What lines and bands are, where there are bands: in the colour of the only run, else in words, for there is no line of all runs.
-pub fn meanings(has_bands: bool, only: Option<Stroke>, line: &str, band: &str) -> Vec<Meaning> {
-    match only {
-        _ if !has_bands => Vec::new(),
-        Some(stroke) => {
-            let colour = paler(stroke.colour, OPACITY);
-            let area = Meaning { colour, style: KeyStyle::Area, text: band.to_owned() };
-            vec![Meaning::of_line(stroke, line), area]
-        }
-        None => {
-            [("lines", line), ("bands", band)].map(|(what, text)| Meaning::in_words(&format!("{what}: {text}"))).into()
-        }
-    }
-}
+impl Spans {
+    /// As many as a figure distinguishes.
+    pub const FINEST: Self = Self { most: 250 };
+    /// As few as still show a course.
+    const COARSEST: Self = Self { most: 30 };
 
-/// Means of time and value in spans of time; of the values that are numbers, where there are any.
-pub fn means(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
-    let length = times.len().div_ceil(MOST_SPANS).max(1);
-    let mean = |(times, values): (&[f64], &[f64])| {
-        let both = times.iter().zip(values).map(|(time, value)| [*time, *value]);
-        let mut points: Vec<[f64; 2]> = both.clone().filter(|[_, value]| value.is_finite()).collect();
-        if points.is_empty() {
-            points = both.collect();
+    /// So many that no line goes up and down all the time, as where the contact comes and goes in many revolutions: several
+    /// such lines would be one block.
+    pub fn calm<'a>(curves: impl Iterator<Item = (&'a [f64], &'a [f64])> + Clone) -> Self {
+        let mut spans = Self::FINEST;
+        while spans.most > Self::COARSEST.most && !spans.are_calm(curves.clone()) {
+            spans.most = (spans.most / 2).max(Self::COARSEST.most);
         }
-        [0, 1].map(|part| points.iter().map(|point| point[part]).sum::<f64>() / points.len() as f64)
-    };
-    times.chunks(length).zip(values.chunks(length)).map(mean).collect()
+        spans
+    }
+
+    fn are_calm<'a>(self, curves: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
+        let (mut low, mut high, mut longest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
+        for (times, values) in curves {
+            let mut way = 0.0;
+            for piece in self.course(times, values) {
+                way += piece.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs()).sum::<f64>();
+                (low, high) =
+                    piece.iter().fold((low, high), |(low, high), [_, value]| (low.min(*value), high.max(*value)));
+            }
+            longest = longest.max(way);
+        }
+        longest <= MOST_WAY * (high - low).max(0.0)
+    }
+
+    /// Samples of a span.
+    fn length(self, samples: usize) -> usize {
+        samples.div_ceil(self.most).max(1)
+    }
+
+    /// The lines through means: as many as a figure distinguishes, each, where spans are coarser, with those beside it, whose weights fall
+    /// to nothing a span away. A line through means of single spans would go up and down where ups and downs are about as long.
+    pub fn course(self, times: &[f64], values: &[f64]) -> Vec<Vec<[f64; 2]>> {
+        let beside = Self::FINEST.most / self.most;
+        let mut lines = pieces(&Self::FINEST.means(times, values));
+        if beside > 1 {
+            lines.iter_mut().for_each(|line| *line = weighted(line, beside));
+        }
+        lines
+    }
+
+    /// Over how long a time the means of a course go.
+    pub fn duration(self, times: &[f64]) -> f64 {
+        let [Some(first), Some(last)] = [times.first(), times.last()] else { return 0.0 };
+        let length = Self::FINEST.length(times.len()) as f64 * (last - first) / (times.len() - 1).max(1) as f64;
+        length * (2 * (Self::FINEST.most / self.most)).max(1) as f64
+    }
+
+    /// What the lines of a course are, of runs with samples at these times: what they are at the finest, or over how long a time means go.
+    pub fn meaning<'a>(self, times: impl Iterator<Item = &'a [f64]>, finest: &str) -> String {
+        if self == Self::FINEST {
+            return finest.to_owned();
+        }
+        let ends = (f64::INFINITY, 0.0_f64);
+        let (low, high) = times
+            .map(|times| self.duration(times))
+            .fold(ends, |(low, high), length| (low.min(length), high.max(length)));
+        let unit = Unit::for_size("s", high);
+        let [low, high] = [low, high].map(|length| unit.with_symbol(&number::rounded(unit.value(length), 2)));
+        if low == high { format!("weighted mean over {high}") } else { format!("weighted mean over {low} to {high}") }
+    }
+
+    /// Whether there are so many samples that their reach is a band.
+    pub fn has_bands(self, values: &[f64]) -> bool {
+        self.length(values.len()) > 1
+    }
+
+    /// The band over which samples reach, one of so many, in pieces where there are no numbers between; none where they are so few that a
+    /// line goes through each of them.
+    pub fn band(self, times: &[f64], values: &[f64], colour: RGBColor, bands: usize) -> Vec<Content> {
+        if !self.has_bands(values) {
+            return Vec::new();
+        }
+        let reach = self.reach(times, values);
+        let opacity = if bands > 1 { OPACITY_OF_SEVERAL } else { OPACITY };
+        let pieces = reach.split(|span| !span[1].is_finite()).filter(|piece| !piece.is_empty());
+        pieces.map(|spans| Content::Band { spans: spans.to_vec(), colour, opacity }).collect()
+    }
+
+    /// Means of time and value in spans of time; of the values that are numbers, where there are any.
+    pub fn means(self, times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+        let length = self.length(times.len());
+        let mean = |(times, values): (&[f64], &[f64])| {
+            let both = times.iter().zip(values).map(|(time, value)| [*time, *value]);
+            let mut points: Vec<[f64; 2]> = both.clone().filter(|[_, value]| value.is_finite()).collect();
+            if points.is_empty() {
+                points = both.collect();
+            }
+            [0, 1].map(|part| points.iter().map(|point| point[part]).sum::<f64>() / points.len() as f64)
+        };
+        times.chunks(length).zip(values.chunks(length)).map(mean).collect()
+    }
+
+    /// The first sample, the means in spans of time, and the last sample.
+    pub fn means_between_ends(self, times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+        let end = |at: Option<(&f64, &f64)>| at.map(|(time, value)| [*time, *value]);
+        let mut points: Vec<[f64; 2]> = end(times.first().zip(values.first())).into_iter().collect();
+        points.extend(self.means(times, values));
+        points.extend(end(times.last().zip(values.last())));
+        points.dedup();
+        points
+    }
+
+    /// Least and greatest value in spans of time, each with the last value before it, so that the band has no gaps but where there is no
+    /// number.
+    fn reach(self, times: &[f64], values: &[f64]) -> Vec<[f64; 3]> {
+        let length = self.length(times.len());
+        let mut spans = Vec::with_capacity(2 * self.most);
+        for first in (0..times.len()).step_by(length) {
+            let last = (first + length).min(times.len()) - 1;
+            let span = &values[first.saturating_sub(1)..=last];
+            let (low, high) = span
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
+            let has_own = values[first..=last].iter().any(|value| value.is_finite());
+            let [low, high] = if has_own { [low, high] } else { [f64::NAN; 2] };
+            spans.extend([[times[first], low, high], [times[last], low, high]]);
+        }
+        spans.dedup();
+        spans
+    }
 }
 
 /// The pieces of a curve whose points have gaps between them: those that are no numbers.
@@ -58,57 +154,46 @@ pub fn pieces(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     points.split(|point| !is_number(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }
 
-/// The first sample, the means in spans of time, and the last sample.
-pub fn means_between_ends(times: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
-    let end = |at: Option<(&f64, &f64)>| at.map(|(time, value)| [*time, *value]);
-    let mut points: Vec<[f64; 2]> = end(times.first().zip(values.first())).into_iter().collect();
-    points.extend(means(times, values));
-    points.extend(end(times.last().zip(values.last())));
-    points.dedup();
-    points
-}
-
-/// Least and greatest value in spans of time, each with the last value before it, so that the band has no gaps but where there is no number.
-fn spans(times: &[f64], values: &[f64]) -> Vec<[f64; 3]> {
-    let length = times.len().div_ceil(MOST_SPANS).max(1);
-    let mut spans = Vec::with_capacity(2 * MOST_SPANS);
-    for first in (0..times.len()).step_by(length) {
-        let last = (first + length).min(times.len()) - 1;
-        let span = &values[first.saturating_sub(1)..=last];
-        let (low, high) = span
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(*value), high.max(*value)));
-        let has_own = values[first..=last].iter().any(|value| value.is_finite());
-        let [low, high] = if has_own { [low, high] } else { [f64::NAN; 2] };
-        spans.extend([[times[first], low, high], [times[last], low, high]]);
-    }
-    spans.dedup();
-    spans
+/// Means of every value and those beside it, with weights that fall to nothing at so many places from it; near the begin, where most
+/// happens, of as few as there are before it, near the end of those before it.
+fn weighted(points: &[[f64; 2]], beside: usize) -> Vec<[f64; 2]> {
+    let mean = |at: usize| {
+        let reach = (beside - 1).min(at);
+        let part = |other: usize| (reach + 1 - at.abs_diff(other)) as f64;
+        let around = at - reach..=(at + reach).min(points.len() - 1);
+        let (sum, weights) = around
+            .fold((0.0, 0.0), |(sum, weights), other| (sum + part(other) * points[other][1], weights + part(other)));
+        [points[at][0], sum / weights]
+    };
+    (0..points.len()).map(mean).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const ALL: Spans = Spans::FINEST;
+    const MOST_SPANS: usize = ALL.most;
+
     #[test]
     fn few_samples_have_no_band() {
         let times: Vec<f64> = (0..=MOST_SPANS).map(|time| time as f64).collect();
         let colour = RGBColor(1, 2, 3);
-        assert!(band(&times[1..], &times[1..], colour).is_empty());
-        let [Content::Band { spans, .. }] = &band(&times, &times, colour)[..] else { panic!("one band") };
+        assert!(ALL.band(&times[1..], &times[1..], colour, 1).is_empty());
+        let [Content::Band { spans, .. }] = &ALL.band(&times, &times, colour, 1)[..] else { panic!("one band") };
         // By hand: two samples a span, and the sample before.
         assert_eq!(spans[..4], [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [2.0, 1.0, 3.0], [3.0, 1.0, 3.0]]);
     }
 
     #[test]
     fn the_line_goes_through_samples_or_through_their_means() {
-        assert_eq!(means(&[1.0, 2.0], &[5.0, 4.0]), [[1.0, 5.0], [2.0, 4.0]]);
+        assert_eq!(ALL.means(&[1.0, 2.0], &[5.0, 4.0]), [[1.0, 5.0], [2.0, 4.0]]);
         let times: Vec<f64> = (0..3 * MOST_SPANS).map(|time| time as f64).collect();
         let values: Vec<f64> = times.iter().map(|time| time % 3.0).collect();
         // By hand: three samples a span, the values 0, 1 and 2 in each.
-        let means = means(&times, &values);
+        let means = ALL.means(&times, &values);
         assert_eq!((means.len(), means[0], means[1]), (MOST_SPANS, [1.0, 1.0], [4.0, 1.0]));
-        let whole = means_between_ends(&times, &values);
+        let whole = ALL.means_between_ends(&times, &values);
         assert_eq!((whole.len(), whole[0], whole[1]), (MOST_SPANS + 2, [0.0, 0.0], [1.0, 1.0]));
         assert_eq!(whole[MOST_SPANS + 1], [(3 * MOST_SPANS - 1) as f64, 2.0]);
     }
@@ -119,10 +204,10 @@ mod tests {
         let times: Vec<f64> = (0..4 * MOST_SPANS).map(|time| time as f64).collect();
         let mut values = vec![2.0; times.len()];
         values[5..12].fill(f64::NAN);
-        let means = means(&times, &values);
+        let means = ALL.means(&times, &values);
         assert_eq!((means[0], means[1], means[3]), ([1.5, 2.0], [4.0, 2.0], [13.5, 2.0]));
         assert!(means[2][1].is_nan());
-        let bands = band(&times, &values, RGBColor(1, 2, 3));
+        let bands = ALL.band(&times, &values, RGBColor(1, 2, 3), 1);
         let [Content::Band { spans: before, .. }, Content::Band { spans: after, .. }] = &bands[..] else {
             panic!("two bands")
         };
@@ -130,17 +215,45 @@ mod tests {
     }
 
     #[test]
-    fn a_legend_has_what_is_drawn() {
-        let stroke = Stroke::of(0, 1);
-        let [line, area] = &meanings(true, Some(stroke), "mean", "reach")[..] else { panic!("two meanings") };
-        assert_eq!((line.colour, area.colour), (stroke.colour, paler(stroke.colour, OPACITY)));
-        let words = meanings(true, None, "mean", "reach");
-        assert!(words.iter().all(|meaning| meaning.style == KeyStyle::Words));
-        assert_eq!(
-            words.iter().map(|meaning| meaning.text.as_str()).collect::<Vec<_>>(),
-            ["lines: mean", "bands: reach"]
-        );
-        assert!(meanings(false, None, "mean", "reach").is_empty());
+    fn lines_that_go_up_and_down_all_the_time_are_put_together() {
+        let times: Vec<f64> = (0..4000).map(f64::from).collect();
+        let slow: Vec<f64> = times.iter().map(|time| time.sqrt()).collect();
+        // Forty seconds up and down, as far as the slow one rises.
+        let pulsing: Vec<f64> = times.iter().map(|time| 30.0 * (time * std::f64::consts::TAU / 40.0).sin()).collect();
+        let spans_of = |curves: &[&Vec<f64>]| Spans::calm(curves.iter().map(|values| (&times[..], &values[..])));
+        assert_eq!(spans_of(&[&slow]), Spans::FINEST);
+        let coarse = spans_of(&[&slow, &pulsing]);
+        // Eight spans of 16 s on both sides.
+        assert_eq!((coarse, coarse.duration(&times)), (Spans { most: 31 }, 256.0));
+        let [course] = &coarse.course(&times, &pulsing)[..] else { panic!("one line") };
+        assert!(course[8..242].iter().all(|[_, value]| value.abs() < 3.0), "{course:?}");
+        // What does not pulse stays as it is.
+        let [straight] = &coarse.course(&times, &times)[..] else { panic!("one line") };
+        assert!(straight[..242].iter().all(|[time, value]| (time - value).abs() < 1e-9));
+        let constant = vec![2.0; times.len()];
+        assert_eq!(spans_of(&[&constant]), Spans::FINEST);
+    }
+
+    #[test]
+    fn several_bands_hide_less() {
+        let times: Vec<f64> = (0..1000).map(f64::from).collect();
+        let opacity = |bands| match &ALL.band(&times, &times, RGBColor(1, 2, 3), bands)[..] {
+            [Content::Band { opacity, .. }] => *opacity,
+            _ => panic!("one band"),
+        };
+        assert!(opacity(5) < opacity(1));
+    }
+
+    #[test]
+    fn no_extreme_of_many_samples_is_lost() {
+        let times: Vec<f64> = (0..10_001).map(f64::from).collect();
+        let mut values = vec![1.0; times.len()];
+        (values[4321], values[9999]) = (7.0, -2.0);
+        let spans = ALL.reach(&times, &values);
+        assert!(spans.len() <= 2 * MOST_SPANS);
+        let at = |time: f64| spans.windows(2).find(|pair| pair[0][0] <= time && time <= pair[1][0]).unwrap()[1];
+        assert_eq!((at(4321.0)[2], at(9999.0)[1]), (7.0, -2.0));
+        assert_eq!((spans[0][0], spans[spans.len() - 1][0]), (0.0, 10_000.0));
     }
 
     #[test]
@@ -151,14 +264,10 @@ mod tests {
     }
 
     #[test]
-    fn no_extreme_of_many_samples_is_lost() {
-        let times: Vec<f64> = (0..10_001).map(f64::from).collect();
-        let mut values = vec![1.0; times.len()];
-        (values[4321], values[9999]) = (7.0, -2.0);
-        let spans = spans(&times, &values);
-        assert!(spans.len() <= 2 * MOST_SPANS);
-        let at = |time: f64| spans.windows(2).find(|pair| pair[0][0] <= time && time <= pair[1][0]).unwrap()[1];
-        assert_eq!((at(4321.0)[2], at(9999.0)[1]), (7.0, -2.0));
-        assert_eq!((spans[0][0], spans[spans.len() - 1][0]), (0.0, 10_000.0));
+    fn weights_fall_with_distance() {
+        // By hand: 1, 2, 3, 2, 1 in the middle, 1, 2, 1 behind the begin; 1, 2, 3, 2 and 1, 2, 3 at the end.
+        let points = [0.0, 0.0, 9.0, 0.0, 0.0].map(|value| [1.0, value]);
+        let means: Vec<f64> = weighted(&points, 3).iter().map(|point| point[1]).collect();
+        assert_eq!(means, [0.0, 2.25, 3.0, 2.25, 1.5]);
     }
 }

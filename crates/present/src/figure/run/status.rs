@@ -6,13 +6,14 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_rows::{Painted, any_of, having, rows};
 use super::moments::{leave_blank, moment, shown_moments, statuses};
 use super::shape::Shape;
 use super::thickness::{BODIES, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{GROUND, paler};
-use crate::figure::chart::{Meaning, TWO_COLUMNS};
+use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
 use crate::quantity::{MapLook, STATUS_LOOKS, StatusLook, Unit};
 use plateau_io::number;
@@ -74,7 +75,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         ),
     });
     let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).chain(films).collect();
-    let width = figures.width(TWO_COLUMNS);
+    let width = figures.width(width_of(&blocks));
     figures.add(
         NAME,
         "Status of disc and pin",

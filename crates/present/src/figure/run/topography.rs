@@ -4,13 +4,13 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, Painted, any_of, having, page, rows};
+use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_rows::{Painted, any_of, having, rows};
 use super::moments::{heights, leave_blank, moment, shown_moments};
 use super::shape::Shape;
 use super::{Figures, Options, Subject};
 use crate::colour::{COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
-use crate::figure::chart::TWO_COLUMNS;
 use crate::quantity::{BEYOND, MapLook, RobustRange};
 use plateau_io::number;
 
@@ -42,7 +42,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
         }
         blocks.push(MapBlock { names, groups });
     }
-    let width = figures.width(TWO_COLUMNS);
+    let width = figures.width(width_of(&blocks));
     figures.add(
         NAME,
         "Topography of disc and pin",

@@ -27,8 +27,8 @@ pub struct Written {
     /// Names of its series besides those of every run.
     series: Vec<&'static str>,
     value: Box<Value>,
-    /// A map, and its values a second from each other.
-    maps: Option<(Map, Vec<MapValues>)>,
+    /// Maps, and their values a second from each other.
+    maps: Vec<(Map, Vec<MapValues>)>,
     /// Whether the pin is a circle of 4 mm.
     is_round: bool,
 }
@@ -36,12 +36,18 @@ pub struct Written {
 impl Written {
     /// A run without maps.
     pub fn new(title: &'static str, series: &[&'static str], value: impl Fn(&str, f64) -> f64 + 'static) -> Self {
-        Self { title, series: series.to_vec(), value: Box::new(value), maps: None, is_round: false }
+        Self { title, series: series.to_vec(), value: Box::new(value), maps: Vec::new(), is_round: false }
     }
 
     /// The same with a map, a second from each other, from 0 s on.
     pub fn with_maps(self, map: Map, values: impl Iterator<Item = MapValues>) -> Self {
-        Self { maps: Some((map, values.collect())), ..self }
+        Self { maps: vec![(map, values.collect())], ..self }
+    }
+
+    /// The same with one more map, at as many moments.
+    pub fn and_maps(mut self, map: Map, values: impl Iterator<Item = MapValues>) -> Self {
+        self.maps.push((map, values.collect()));
+        self
     }
 
     /// The same with maps of the temperature, K.
@@ -104,15 +110,24 @@ impl Written {
             surfaces: Vec::new(),
         };
         let mut writer = RunWriter::create(path, false, &header).unwrap();
-        if let Some((map, moments)) = &self.maps {
-            for (second, values) in moments.iter().enumerate() {
-                writer.snapshot(Snapshot { time: second as f64, maps: vec![(*map, values.clone())] }).unwrap();
-            }
+        let moments = self.maps.iter().map(|(_, moments)| moments.len()).max().unwrap_or(0);
+        for second in 0..moments {
+            let maps = self.maps.iter().map(|(map, moments)| (*map, moments[second].clone())).collect();
+            writer.snapshot(Snapshot { time: second as f64, maps }).unwrap();
         }
         for second in 1..=END {
             let time = f64::from(second);
             let mean_pressure = (self.value)("mean_pressure", time);
-            let mut sample = Sample { step: u64::from(second), time, mean_pressure, ..Sample::default() };
+            let value = |name| (self.value)(name, time);
+            let mut sample = Sample {
+                step: u64::from(second),
+                time,
+                contact_area: value("contact_area"),
+                contact_area_mean: value("contact_area_mean"),
+                pin_secondary: value("pin_secondary"),
+                mean_pressure,
+                ..Sample::default()
+            };
             extra.record(&mut sample, series.iter().map(|quantity| (self.value)(quantity.name, time)));
             writer.sample(sample).unwrap();
         }

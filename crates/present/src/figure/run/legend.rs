@@ -1,0 +1,60 @@
+//! What lines and bands of runs are, in the legend above a figure: whose they are comes first, then how they were made of the samples. The
+//! only run of a figure has its own colours there; what is said of several is said in words.
+
+use super::Subject;
+use super::spans::OPACITY;
+use crate::colour::paler;
+use crate::figure::chart::Meaning;
+use crate::figure::page::KeyStyle;
+use crate::figure::stroke::Stroke;
+
+/// How the lines of the only run that a figure shows are drawn; none where it shows several.
+pub fn only_stroke(subjects: &[Subject], mut shown: impl Iterator<Item = usize>) -> Option<Stroke> {
+    let first = shown.next()?;
+    shown.all(|number| number == first).then(|| Stroke::of(first, subjects.len()))
+}
+
+/// What the lines of a figure mean: whose they are, then what those of one run are. The only run has its name in words where its lines have
+/// meanings of their own.
+pub fn with_names(subjects: &[Subject], shown: impl Fn(usize) -> bool, own: Vec<Meaning>) -> Vec<Meaning> {
+    let shown: Vec<usize> = (0..subjects.len()).filter(|number| shown(*number)).collect();
+    let name = |number: &usize| match &subjects[*number].label {
+        label if shown.len() == 1 && !own.is_empty() => Meaning::in_words(label),
+        label => Meaning::of_run(*number, label),
+    };
+    shown.iter().map(name).chain(own.iter().cloned()).collect()
+}
+
+/// What lines and bands are, where there are bands: in the colour of the only run, else in words, for there is no line of all runs.
+pub fn meanings(has_bands: bool, only: Option<Stroke>, line: &str, band: &str) -> Vec<Meaning> {
+    match only {
+        _ if !has_bands => Vec::new(),
+        Some(stroke) => {
+            let colour = paler(stroke.colour, OPACITY);
+            let area = Meaning { colour, style: KeyStyle::Area, text: band.to_owned() };
+            vec![Meaning::of_line(stroke, line), area]
+        }
+        None => {
+            [("lines", line), ("bands", band)].map(|(what, text)| Meaning::in_words(&format!("{what}: {text}"))).into()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_legend_has_what_is_drawn() {
+        let stroke = Stroke::of(0, 1);
+        let [line, area] = &meanings(true, Some(stroke), "mean", "reach")[..] else { panic!("two meanings") };
+        assert_eq!((line.colour, area.colour), (stroke.colour, paler(stroke.colour, OPACITY)));
+        let words = meanings(true, None, "mean", "reach");
+        assert!(words.iter().all(|meaning| meaning.style == KeyStyle::Words));
+        assert_eq!(
+            words.iter().map(|meaning| meaning.text.as_str()).collect::<Vec<_>>(),
+            ["lines: mean", "bands: reach"]
+        );
+        assert!(meanings(false, None, "mean", "reach").is_empty());
+    }
+}

@@ -1,0 +1,125 @@
+//! The charts of a surface beside its map: how its heights are distributed, and the Abbott-Firestone curve.
+
+use std::ops::RangeInclusive;
+
+use plateau_core::surface::describe::CoreHeight;
+
+use super::axes::{Axes, Axis, Frame};
+use super::canvas::{Anchor, LINE, TEXT};
+use super::chart::Meaning;
+use super::page::{Content, KeyStyle, Page, Panel};
+use super::stroke::Stroke;
+use super::surface_description::DescribedSurface;
+use crate::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT};
+use crate::quantity::Unit;
+use plateau_io::number::{significant, with_minus};
+
+/// Distance of the lines of text above a chart, pixels, and the room that they take.
+const SPACING: f64 = 1.25 * TEXT as f64;
+pub const CAPTION: f64 = 3.0 * SPACING + 10.0;
+
+impl DescribedSurface<'_> {
+    /// Adds the chart with its words.
+    pub fn add_histogram(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {
+        let fractions = &self.drawn.histogram.fractions;
+        let largest = fractions.iter().copied().fold(0.0, f64::max).max(1e-6);
+        let x = Axis::linear(0.0..=105.0 * largest, "points per class, %");
+        let class = (range.end() - range.start()) / fractions.len() as f64;
+        let ends = |number: usize| [0, 1].map(|end| range.start() + (number + end) as f64 * class);
+        let bar = |(number, fraction): (usize, &f64)| {
+            let [low, high] = ends(number);
+            let spans = [0.0, 100.0 * fraction].map(|x| [x, low, high]).to_vec();
+            Content::Band { spans, colour: DATA_AREA, opacity: 1.0 }
+        };
+        let filled = fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0);
+        let mut contents: Vec<Content> = filled.map(bar).collect();
+        let steps = fractions.iter().enumerate();
+        let points = steps.flat_map(|(number, fraction)| ends(number).map(|y| [100.0 * fraction, y])).collect();
+        contents.push(Content::Line { points, stroke: Stroke::solid(DATA, LINE) });
+        page.panels.push(Panel { axes: Axes { frame, x, y: height_axis(range.clone(), unit) }, contents });
+        let (heights, outside) = (&self.description.heights, self.drawn.histogram.outside);
+        let mut lines = vec![
+            format!("Sq {}", height_text(heights.root_mean_square_height, unit)),
+            format!("Ssk {}   Sku {}", number(heights.skewness), number(heights.kurtosis)),
+        ];
+        if outside > 0.0 {
+            lines.push(format!("beyond the axis: {} %", percent(outside)));
+        }
+        write_above(page, &frame, lines);
+    }
+
+    /// Adds the chart with its words.
+    pub fn add_curve(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {
+        let y = Axis::linear(range.clone(), "").shared();
+        let axes = Axes { frame, x: Axis::linear(0.0..=100.0, "material ratio, %"), y };
+        let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, upper, lower } =
+            self.description.core;
+        let line = |points, colour, width| Content::Line { points, stroke: Stroke::solid(colour, width) };
+        let mut contents = Vec::new();
+        if peak_ratio.is_finite() {
+            let span = |ratio: f64, ends: [f64; 2]| [100.0 * ratio, unit.value(ends[0]), unit.value(ends[1])];
+            let peaks = vec![span(0.0, [upper, upper + reduced_peak_height]), span(peak_ratio, [upper; 2])];
+            let dales = vec![span(dale_ratio, [lower; 2]), span(1.0, [lower - reduced_dale_depth, lower])];
+            let triangle = |spans| Content::Band { spans, colour: DERIVED_AREA, opacity: 1.0 };
+            contents.extend([triangle(peaks), triangle(dales)]);
+            let [upper, lower] = [upper, lower].map(|height| unit.value(height));
+            contents.extend([upper, lower].map(|height| line(vec![[0.0, height], [100.0, height]], FAINT, 2)));
+            contents.push(line(vec![[0.0, upper], [100.0, lower]], DERIVED, LINE));
+        }
+        let curve = &self.description.material_curve;
+        let last = curve.len().saturating_sub(1).max(1) as f64;
+        let point = |(class, height): (usize, &f64)| [100.0 * class as f64 / last, unit.value(*height)];
+        contents.push(line(curve.iter().enumerate().map(point).collect(), DATA, LINE + 2));
+        page.panels.push(Panel { axes, contents });
+        let [core, peak, dale] =
+            [core_height, reduced_peak_height, reduced_dale_depth].map(|height| height_text(height, unit));
+        let lines = vec![
+            format!("Sk {core}"),
+            format!("Spk {peak}   Svk {dale}"),
+            format!("Smr1 {} %   Smr2 {} %", percent(peak_ratio), percent(dale_ratio)),
+        ];
+        write_above(page, &frame, lines);
+    }
+}
+
+/// What is drawn about the curves.
+pub fn meanings() -> Vec<Meaning> {
+    let line = |colour, text: &str| Meaning::of_line(Stroke::solid(colour, LINE), text);
+    let triangles = "triangles as large as peaks and dales, Spk and Svk high".to_owned();
+    vec![
+        line(DERIVED, "line along the flattest 40 % of the curve"),
+        line(FAINT, "its ends, Sk apart"),
+        Meaning { colour: DERIVED_AREA, style: KeyStyle::Area, text: triangles },
+    ]
+}
+
+/// The axis of heights.
+pub fn height_axis(range: RangeInclusive<f64>, unit: &Unit) -> Axis {
+    Axis::linear(range, unit.label("height"))
+}
+
+fn height_text(height: f64, unit: &Unit) -> String {
+    unit.with_symbol(&number(unit.value(height)))
+}
+
+/// Lines of text above a box.
+fn write_above(page: &mut Page, frame: &Frame, lines: Vec<String>) {
+    let count = lines.len();
+    for (line, text) in lines.into_iter().enumerate() {
+        let place = (frame.x[0], frame.y[0] - 10.0 - (count - line) as f64 * SPACING);
+        page.write(text, place, Anchor::BelowRight, TEXT);
+    }
+}
+
+/// Three significant digits, with a minus sign.
+pub fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "\u{2013}".to_owned();
+    }
+    with_minus(&significant(if value.abs() < 1e-3 { 0.0 } else { value }, 3))
+}
+
+/// A part in per cent, of three significant digits.
+pub fn percent(fraction: f64) -> String {
+    if fraction.is_nan() { "\u{2013}".to_owned() } else { significant(100.0 * fraction, 3) }
+}
