@@ -1,5 +1,7 @@
 //! What is said where a study asks for what cannot be: numbers without rows of zeros, names with signs, and what to do next.
 
+use std::fs;
+
 use plateau_tests::program::{Outcome, WorkingDirectory, scene};
 
 const FACTORS: &str = "[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nrange = [\"5 N\", \"15 N\"]\n\
@@ -104,4 +106,92 @@ fn a_measurement_that_no_number_fits_is_named() {
         2,
         "response \"worn\": what was measured and what runs give differ",
     );
+}
+
+/// A study of a rig with two values of each factor and two sets of specimens, and its table.
+fn two_values() -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    let seeds = "[replicates]\nkeys = [\"disc.surface.synthetic.seed\"]\nseeds = [1, 2]\n";
+    let response = "[[response]]\nname = \"y\"\nimported = true\n";
+    let head = "version = 1\ntitle = \"Two\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n";
+    directory.write("study.toml", format!("{head}{seeds}{FACTORS}{response}"));
+    let values = [[1.0, 1.3], [2.0, 1.95], [3.0, 3.25], [4.0, 3.95]];
+    let mut table = "load [N],fibres,replicate,y\n".to_owned();
+    for ([load, fibres], own) in [[5.0, 0.2], [15.0, 0.2], [5.0, 0.4], [15.0, 0.4]].into_iter().zip(values) {
+        for (replicate, value) in own.into_iter().enumerate() {
+            table.push_str(&format!("{load},{fibres},{},{value}\n", replicate + 1));
+        }
+    }
+    directory.write("table.csv", table);
+    import(&directory);
+    directory
+}
+
+#[test]
+fn two_values_of_a_factor_are_said_to_show_no_curve() {
+    let directory = two_values();
+    let both = "load, fibres: the runs have two values of each, so that they show no curve";
+    said(&ask(&directory, &["predict"]), 0, both);
+    said(&ask(&directory, &["predict", "--at", "load=5 N"]), 0, "warning: fibres: the runs have two values of it");
+    let at_a_run = ask(&directory, &["predict", "--at", "load=5 N", "--at", "fibres=0.4"]);
+    assert!(at_a_run.status == Some(0) && at_a_run.stderr.is_empty(), "{at_a_run:?}");
+    said(&ask(&directory, &["optimize", "--maximize", "y", "--force"]), 0, both);
+    let held = ask(&directory, &["optimize", "--maximize", "y", "--hold", "fibres=0.2", "--force"]);
+    said(&held, 0, "warning: load: the runs have two values of it");
+    let three = lab(&["y"], "", |load, fibres| load * fibres);
+    import(&three);
+    assert_eq!(ask(&three, &["predict", "--at", "load=7 N"]).stderr, "");
+}
+
+#[test]
+fn an_interval_of_means_as_wide_as_that_of_runs_is_explained() {
+    let found = ask(&two_values(), &["predict"]);
+    said(&found, 0, "y: so few sets of seeds hardly tell by how much others would differ");
+    let many = lab(&["y"], "", |load, fibres| load * fibres);
+    import(&many);
+    assert!(!ask(&many, &["predict"]).stdout.contains("sets of seeds"));
+}
+
+#[test]
+fn levels_in_quotes_that_are_numbers_are_numbers() {
+    let directory = WorkingDirectory::new();
+    let factor = "[[factor]]\nname = \"grade\"\nlevels = [\"1\", \"2\", \"10\"]\n";
+    let response = "[[response]]\nname = \"y\"\nimported = true\n";
+    let head = "version = 1\ndesign = \"full-factorial\"\ndirectory = \"results\"\n";
+    let load = &FACTORS[..FACTORS.rfind("[[factor]]").unwrap()];
+    directory.write("study.toml", format!("{head}{factor}{load}{response}"));
+    directory.write("table.csv", "grade,load [N],y\n1,5,1\n2,5,1.9\n10,5,10.3\n1,15,2.1\n2,15,3.2\n10,15,11\n");
+    import(&directory);
+    said(&ask(&directory, &["predict", "--at", "grade=2"]), 0, "grade = 2");
+    let between = ask(&directory, &["predict", "--at", "grade=5"]);
+    said(&between, 2, "the model knows the levels 1, 2, 10 alone; --model quadratic tells what lies between them");
+    said(&ask(&directory, &["predict", "--at", "grade=5", "--model", "quadratic"]), 0, "grade = 5");
+}
+
+#[test]
+fn keys_and_names_that_nobody_would_find_again_are_told() {
+    let directory = lab(&["y"], "", |load, fibres| load * fibres);
+    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
+    for (from, to, words) in [
+        ("[[factor]]", "[[factors]]", "unknown field `factors`, expected one of `version`"),
+        ("[[factor]]", "[[factors]]", "; did you mean \"factor\"?"),
+        ("\"load\"", "\" load\"", "factor.name: \" load\" has a blank at an end"),
+        ("\"y\"", "\"y\u{feff}\"", "response.name: \"y\\u{feff}\" has the character U+FEFF"),
+        ("range = [0.2, 0.4]", "levels = [0.2, \"wet \"]", "factor.levels: \"wet \" has a blank at an end"),
+    ] {
+        directory.write("study.toml", text.replace(from, to));
+        said(&ask(&directory, &["plan"]), 2, words);
+    }
+}
+
+#[test]
+fn a_plan_of_very_many_runs_says_that_it_has_not_looked_at_all() {
+    let directory = WorkingDirectory::new();
+    let study = |points: usize| {
+        let head = format!("version = 1\nbase = \"{}\"\ndesign = \"sobol\"\npoints = {points}\n", scene("quick.toml"));
+        directory.write("study.toml", format!("{head}{FACTORS}"));
+        ask(&directory, &["plan"])
+    };
+    said(&study(20_001), 0, "20 001 runs are more than 20 000, so that their scenes are not looked at here");
+    assert!(!study(8).stderr.contains("not looked at"));
 }

@@ -11,6 +11,9 @@ const MOST_HALVINGS: usize = 30;
 /// Part of the decrease that the gradient promises which a step has to bring.
 const SUFFICIENT: f64 = 1e-4;
 
+/// Decrease, as a part of the value, that rounding hides: no shorter step is tried.
+const HIDDEN: f64 = 1e-14;
+
 /// A value and its gradient.
 pub(crate) type Slope = (f64, Vec<f64>);
 
@@ -92,6 +95,9 @@ fn search(
         clamp(&mut next);
         let moved: Vec<f64> = next.iter().zip(place).map(|(next, x)| next - x).collect();
         let promised = dot(&moved, gradient);
+        if promised.abs() < HIDDEN * value.abs() {
+            return None;
+        }
         if let Some(slope) = function(&next).filter(|(next, _)| *next <= value + SUFFICIENT * promised) {
             return Some((next, moved, slope));
         }

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::document::{self, Document};
 use super::factor::{Factor, Level, Values};
-use super::place::{MOST_PROBLEMS, Place};
+use super::place::{MOST_PROBLEMS, Place, unseen};
 use super::response::Response;
 use super::response_keys::{responses, series_name};
 use super::{DesignSource, Order, Study, measured, points_of_file, replicates};
@@ -217,6 +217,10 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
             let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));
             if let Some((at, found)) = odd {
                 return refuse(at, format!("{} has {found}; take it out", list[at].text.escape_debug()));
+            }
+            let words = || list.iter().enumerate().filter(|(_, level)| level.number.is_none());
+            if let Some((at, unseen)) = words().find_map(|(at, level)| Some((at, unseen(&level.label)?))) {
+                return refuse(at, unseen);
             }
             if let Some((at, long)) =
                 list.iter().enumerate().find_map(|(at, level)| Some((at, too_long(&level.label)?)))

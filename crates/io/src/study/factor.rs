@@ -263,9 +263,10 @@ fn dimension(key: &str) -> Option<Dimension> {
 /// A value in SI units, if it is a number; without a key in the unit in which it is stated.
 fn si_number(key: &str, value: &toml::Value) -> Option<f64> {
     match value {
+        // A plain number in quotes is a number as one with a unit is, which needs them: of a rig nobody says otherwise.
         toml::Value::String(text) if key.is_empty() => {
-            let (number, unit) = text.trim().split_once(' ')?;
-            number.parse().ok().filter(|number: &f64| number.is_finite() && !unit.trim().is_empty())
+            let (number, _) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
+            number.parse().ok().filter(|number: &f64| number.is_finite())
         }
         toml::Value::String(text) => units::parse(text, dimension(key)?).ok(),
         toml::Value::Integer(integer) => Some(*integer as f64),
@@ -324,6 +325,15 @@ mod tests {
             Some(&level("500 kPa"))
         );
         assert_eq!(Factor::in_another_unit(&[level("supplier A"), level("supplier B")]), None);
+    }
+
+    #[test]
+    fn numbers_of_a_rig_are_numbers_in_quotes_too() {
+        let level = |text: &str| Level::new("", &toml::Value::String(text.into()));
+        let values = Values::Levels(vec![level("1"), level("2"), level("10")]);
+        let grade = Factor { name: "grade".into(), keys: Vec::new(), stated_unit: String::new(), values };
+        assert_eq!((grade.unit(), level("10").number, grade.parse("10").number), ("1", Some(10.0), Some(10.0)));
+        assert_eq!(["A", "inf", "2b", ""].map(|text| level(text).number), [None; 4]);
     }
 
     #[test]

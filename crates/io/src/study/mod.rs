@@ -32,6 +32,7 @@ mod replicates;
 pub mod response;
 mod response_keys;
 pub mod results_table;
+mod unknown_key;
 pub mod value_table;
 
 use std::path::{Path, PathBuf};
@@ -154,7 +155,8 @@ impl Study {
             let message = "this is a scene, expected a study; `plateau run` and `plateau check` take scenes";
             return Err(at(Origin::File(file.clone()), message.to_owned()));
         }
-        let document: Document = toml::from_str(&text).map_err(|error| located(&error, error.message().to_owned()))?;
+        let document: Document =
+            toml::from_str(&text).map_err(|error| located(&error, unknown_key::with_advice(error.message())))?;
         build::build(document, path, &place).map_err(StudyError)
     }
 }

@@ -11,6 +11,20 @@ use crate::text::{odd_character, too_long};
 /// Problems that are looked for: nobody reads more.
 pub(super) const MOST_PROBLEMS: usize = 100;
 
+/// Says that a name has what nobody sees, a blank at an end or a byte order mark, which tables and command lines lose, so that the name is
+/// not found again.
+pub(super) fn unseen(name: &str) -> Option<String> {
+    let found = match () {
+        () if name.contains(MARK) => "has the character U+FEFF, which nobody sees",
+        () if name != name.trim() => "has a blank at an end",
+        () => return None,
+    };
+    Some(format!("\"{}\" {found}, so that it is not found again in a table; take it out", name.escape_debug()))
+}
+
+/// The byte order mark, or the blank of no width that it was before.
+const MARK: char = '\u{feff}';
+
 /// Turns a place in the text into line and column.
 pub(super) struct Place<'a> {
     pub file: Arc<Path>,
@@ -35,6 +49,8 @@ impl Place<'_> {
     pub fn check_label(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
         if name.trim().is_empty() {
             problems.push(Problem::new(&at(), key, "the name is empty, expected a word: tables and figures show it"));
+        } else if let Some(unseen) = unseen(name) {
+            problems.push(Problem::new(&at(), key, unseen));
         } else {
             self.check_name(name, at, key, problems);
         }
@@ -48,5 +64,19 @@ impl Place<'_> {
         } else if let Some(long) = too_long(name) {
             problems.push(Problem::new(&at(), key, long));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unseen;
+
+    #[test]
+    fn blanks_at_ends_and_marks_are_told() {
+        assert_eq!(unseen("load on the pin"), None);
+        for name in [" load", "load\u{a0}"] {
+            assert!(unseen(name).unwrap().contains("a blank at an end"), "{name:?}");
+        }
+        assert!(unseen("lo\u{feff}ad").unwrap().starts_with("\"lo\\u{feff}ad\" has the character U+FEFF"));
     }
 }

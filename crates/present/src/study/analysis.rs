@@ -1,5 +1,7 @@
 //! What the collected results of a study tell of its factors: from runs to observations, and what is fitted.
 
+use std::collections::HashSet;
+
 use plateau_io::study::bounds::Bounds;
 use plateau_io::study::collected::{Collected, unit_of};
 use plateau_io::study::factor::Level;
@@ -312,12 +314,7 @@ fn fills_ranges(study: &Study) -> bool {
 
 /// The different levels that a factor has in the runs, in the order in which they appear.
 fn levels(collected: &Collected, factor: usize) -> Vec<Level> {
-    let mut levels: Vec<Level> = Vec::new();
-    for run in &collected.runs {
-        let level = &run.run.levels[factor];
-        if !levels.contains(level) {
-            levels.push(level.clone());
-        }
-    }
-    levels
+    let mut known = HashSet::new();
+    let of_runs = collected.runs.iter().map(|run| &run.run.levels[factor]);
+    of_runs.filter(|level| known.insert((&level.text, &level.label))).cloned().collect()
 }

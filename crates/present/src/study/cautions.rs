@@ -8,6 +8,9 @@ use super::analysis::Analysis;
 /// Correlation of two factors over the runs above which they are said to change together.
 const TOGETHER: f64 = 0.999;
 
+/// Coded values that differ by less are the same.
+const SAME: f64 = 1e-9;
+
 /// Pairs of factors that change together in all runs: a sentence for each.
 pub fn together(analysis: &Analysis) -> Vec<String> {
     let values: Vec<Vec<f64>> = (0..analysis.factors.len())
@@ -39,6 +42,45 @@ pub fn levels_and_ranges(analysis: &Analysis) -> Option<String> {
         format!(
             "{levels}: numbers with two levels vary between these alone, which counts three times as much as an even variation \
              over a range, as of {ranges}; give all of them range = [lower, upper] to compare their parts"
+        )
+    })
+}
+
+/// Numbers of which the runs have two values alone.
+pub fn with_two_values(analysis: &Analysis) -> Vec<usize> {
+    let has_two = |at: &usize| {
+        let factor = &analysis.factors[*at].factor;
+        let coded = analysis.runs.iter().filter_map(|(settings, _)| factor.coded(settings[*at]));
+        let mut coded: Vec<f64> = coded.collect();
+        coded.sort_unstable_by(f64::total_cmp);
+        coded.dedup_by(|one, other| (*one - *other).abs() < SAME);
+        factor.is_numeric() && coded.len() == 2
+    };
+    (0..analysis.factors.len()).filter(has_two).collect()
+}
+
+/// Those of them between whose values one of these places lies.
+pub fn between_two_values(analysis: &Analysis, places: &[&[Setting]]) -> Vec<usize> {
+    let is_between = |at: &usize| {
+        let coded = |settings: &&[Setting]| match settings[*at] {
+            Setting::Coded(coded) => Some(coded),
+            setting => analysis.factors[*at].factor.coded(setting),
+        };
+        places.iter().filter_map(coded).any(|coded| coded.abs() < 1.0 - SAME)
+    };
+    with_two_values(analysis).into_iter().filter(is_between).collect()
+}
+
+/// That the runs show no curve of these factors, which have two values, and what to do; none of no factors.
+pub fn no_curve(analysis: &Analysis, factors: &[usize]) -> Option<String> {
+    let names: Vec<&str> = factors.iter().map(|at| analysis.factors[*at].factor.name.as_str()).collect();
+    let each = if names.len() == 1 { "it" } else { "each" };
+    (!names.is_empty()).then(|| {
+        format!(
+            "{}: the runs have two values of {each}, so that they show no curve: between these, forecasts follow a straight line, and \
+             their intervals do not know by how much the response bends; give a third value in the middle, such as with design = \
+             \"central-composite\", and look with --confirm how far off a forecast is",
+            names.join(", ")
         )
     })
 }

@@ -143,6 +143,19 @@ impl AnalysedResponse {
         Some(format!("{}: {said}{advice}", self.name))
     }
 
+    /// That few sets of seeds make the interval of means as wide as that of runs; none where it is shorter.
+    pub fn note_of_few_seeds(&self, forecast: &Forecast) -> Option<String> {
+        let [low, high] = forecast.mean_interval.filter(|_| forecast.mean_interval == forecast.run_interval)?;
+        let has_seeds = self.effects.as_ref().is_ok_and(|effects| effects.blocks.is_some());
+        (low < high && has_seeds).then(|| {
+            format!(
+                "{}: so few sets of seeds hardly tell by how much others would differ, so that the interval of means is as wide as that \
+                 of runs; give [replicates] more seeds",
+                self.name
+            )
+        })
+    }
+
     /// That the runs do not tell the response at a place; none where they do.
     pub fn note_of_place(&self, settings: &[Setting]) -> Option<String> {
         let tells = self.surrogate()?.tells(settings).ok()?;

@@ -164,7 +164,8 @@ impl<'a> Space<'a> {
                 let found = values.iter().position(|value| (value - number).abs() <= SAME * size);
                 let between = || self.is_continuous(factor).then(|| self.coded(factor, number)).flatten();
                 let setting = found.map(Setting::Level).or_else(|| between().map(Setting::Coded));
-                setting.ok_or_else(|| refused(&format!("the model knows the levels {} alone", labels())))
+                let advice = if own.is_whole() { "" } else { "; --model quadratic tells what lies between them" };
+                setting.ok_or_else(|| refused(&format!("the model knows the levels {} alone{advice}", labels())))
             }
             _ => {
                 let coded = own.coded(level).or_else(|| self.coded(factor, number)).filter(|coded| coded.is_finite());

@@ -7,7 +7,7 @@ use plateau_io::study::Study;
 use plateau_io::study::collected::Collected;
 use plateau_io::study::plan::Plan;
 use plateau_present::study::analysis::{Analysis, Asked};
-use plateau_present::study::cautions::together;
+use plateau_present::study::cautions::{no_curve, together};
 use plateau_study::effects::EffectsError;
 
 use super::collect::{Found, collected};
@@ -74,6 +74,11 @@ impl Analysed {
     /// Says which factors cannot be told apart, for those who do not show the effects.
     pub fn warn_of_factors(&self) {
         together(&self.analysis).into_iter().for_each(|said| message::warning(format_args!("{said}")));
+    }
+
+    /// Says of which factors the runs show no curve.
+    pub fn warn_of_no_curve(&self, factors: &[usize]) {
+        no_curve(&self.analysis, factors).into_iter().for_each(message::warning);
     }
 
     /// Of a study. Runs without results are said.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use plateau_io::number;
 use plateau_present::figure::Figure;
 use plateau_present::figure::optimum::{Shown, figures};
+use plateau_present::study::cautions::with_two_values;
 use plateau_present::study::forecasts::heads;
 use plateau_present::study::goals::{self, Aim, limit_words};
 use plateau_present::study::place::{Place, Space};
@@ -18,7 +19,8 @@ use super::effects_files::draw_all;
 use super::optimize_limits::{LimitReport, Limited};
 use super::optimize_search::{beyond_runs, search};
 use super::predict::{
-    ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_bounds, notes_of_place, reasons, settings_of,
+    ForecastReport, SettingReport, confirmed_text, forecasts_of, notes_of_intervals, notes_of_place, reasons,
+    settings_of,
 };
 use crate::arguments::{LimitOn, OptimizeArguments};
 use crate::failure::Failure;
@@ -37,6 +39,9 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let (goals, limits) = wanted(&analysed, arguments)?;
     let space = Space::new(analysed.plan.study(), analysis);
     let axes = axes(&analysed, &space, arguments)?;
+    let mut straight = with_two_values(analysis);
+    straight.retain(|factor| axes[*factor] == Axis::Range);
+    analysed.warn_of_no_curve(&straight);
     let contour = arguments.contour.as_deref().map(|names| pair(&space, names, &axes)).transpose()?;
     // What is asked wrongly is said first: with --force alone one would ask wrongly again.
     let mut folder = OutputFolder::new(folder, arguments.force)?;
@@ -221,7 +226,7 @@ fn text_of(
         + &limited.text(best, confidence)?
         + &reasons(analysed)
         + &notes_of_place(analysed, place)
-        + &notes_of_bounds(analysed, forecasts))
+        + &notes_of_intervals(analysed, forecasts))
 }
 
 /// A goal in words.

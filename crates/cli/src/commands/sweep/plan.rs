@@ -47,6 +47,15 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         ended = Some(Ended { finished: entries.len() - failed, failed });
         repeats = Some(resolved.repeats());
     }
+    if plan.runs() > RESOLVED && has_scene {
+        message::note(format_args!(
+            "{}: {} runs are more than {}, so that their scenes are not looked at here, nor which of them are there already; \
+             `plateau sweep run` looks at all of them before it makes the first",
+            plan.study().path.display(),
+            number::grouped(plan.runs() as u64),
+            number::grouped(RESOLVED as u64)
+        ));
+    }
     if let Some(csv) = &arguments.csv {
         output::write(csv, table_of_runs(&plan).as_bytes(), arguments.force)?;
         message::note(format_args!("wrote {}", csv.display()));

@@ -7,6 +7,7 @@ use plateau_io::number;
 use plateau_io::study::value_table::{Row, ValueTable};
 use plateau_io::text::short;
 use plateau_present::study::analysis::AnalysedResponse;
+use plateau_present::study::cautions::between_two_values;
 use plateau_present::study::forecasts::heads;
 use plateau_present::study::place::{Place, Space};
 use plateau_study::design::Setting;
@@ -39,6 +40,8 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
     let confidence = arguments.fit.confidence;
     let places = places(&analysed, arguments)?;
     refuse_beyond(&places, arguments.extrapolate)?;
+    let settings: Vec<&[Setting]> = places.iter().map(|place| &place.settings[..]).collect();
+    analysed.warn_of_no_curve(&between_two_values(&analysed.analysis, &settings));
     let surrogates: Vec<_> = analysed.analysis.responses.iter().map(AnalysedResponse::surrogate).collect();
     let forecasts = places.iter().map(|place| forecasts_at(&analysed, &surrogates, place, confidence));
     let forecasts = forecasts.collect::<Result<Vec<_>, Failure>>()?;
@@ -190,7 +193,7 @@ fn text_of(analysed: &Analysed, place: &Place, forecasts: &[Option<Forecast>], c
     columns(&heading, &names, &rows)
         + &reasons(analysed)
         + &notes_of_place(analysed, place)
-        + &notes_of_bounds(analysed, forecasts)
+        + &notes_of_intervals(analysed, forecasts)
 }
 
 /// Of which responses the runs do not tell what is at a place, a line for each.
@@ -199,11 +202,14 @@ pub(super) fn notes_of_place(analysed: &Analysed, place: &Place) -> String {
     notes.map(|note| format!("  {note}\n")).collect()
 }
 
-/// Which intervals are cut where a response cannot be, a line for each.
-pub(super) fn notes_of_bounds(analysed: &Analysed, forecasts: &[Option<Forecast>]) -> String {
+/// Which intervals are cut where a response cannot be, and which few seeds make as wide as another one, a line for each.
+pub(super) fn notes_of_intervals(analysed: &Analysed, forecasts: &[Option<Forecast>]) -> String {
     let each = analysed.analysis.responses.iter().zip(forecasts);
-    each.filter_map(|(response, forecast)| Some(format!("  {}\n", response.note_of_bounds(forecast.as_ref()?)?)))
-        .collect()
+    let each = each.filter_map(|(response, forecast)| Some((response, forecast.as_ref()?)));
+    let notes = each.flat_map(|(response, forecast)| {
+        [response.note_of_bounds(forecast), response.note_of_few_seeds(forecast)].into_iter().flatten()
+    });
+    notes.map(|note| format!("  {note}\n")).collect()
 }
 
 /// Why a response is forecast by what it is, a line for each of which there was a choice; and of which the model misses something.

@@ -44,7 +44,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
             &y,
             &places[0],
         ),
-        scatter(Axis::linear(range_of(order.into_iter()), "run, in the order in which they are made"), &y, &places[1]),
+        scatter(Axis::linear(range_of(order.into_iter()), "run order"), &y, &places[1]),
         normal(&places[2]),
     ];
     let mut page = page(TWO_COLUMNS, HEIGHT, 3, charts, &[]);

@@ -154,7 +154,7 @@ fn stationary(effects: &Effects, axes: &[FactorAxis], unit: &Unit) -> Option<Str
     }
     let surface = effects.surface(&vec![Setting::Coded(0.0); axes.len()]).ok()?;
     let Some(point) = &surface.stationary else {
-        return Some("The fitted surface is a ridge: it is level nowhere, or along a line.".to_owned());
+        return Some("The fitted surface is a ridge: it has no single stationary point.".to_owned());
     };
     let nature = match surface.nature {
         Nature::Maximum => "a maximum",
@@ -176,7 +176,7 @@ fn stationary(effects: &Effects, axes: &[FactorAxis], unit: &Unit) -> Option<Str
             })
             .collect();
         return Some(format!(
-            "The fitted surface is level nowhere within the ranges of the study; where it has {nature} lies {}.",
+            "The fitted surface has no stationary point within the ranges of the study; the one beyond them, {nature}, lies {}.",
             directions.join(", ")
         ));
     }

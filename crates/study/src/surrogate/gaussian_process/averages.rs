@@ -6,6 +6,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
 use super::GaussianProcessError;
 use super::inputs::Inputs;
 use crate::effects::{EffectsError, Observation};
@@ -72,6 +75,24 @@ impl Averages {
         let offset = responses().sum::<f64>() / runs.len() as f64;
         runs.iter_mut().for_each(|(.., response)| *response -= offset);
         Ok(Self::of(points, seeds.len(), &runs, offset))
+    }
+
+    /// So many of the points, drawn by lot, the same every time; what replicates tell of the noise stays.
+    pub fn drawn(&self, count: usize) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(0);
+        let mut order: Vec<usize> = (0..self.points.len()).collect();
+        for at in (1..order.len()).rev() {
+            order.swap(at, (generator.next_u64() % (at as u64 + 1)) as usize);
+        }
+        order.truncate(count);
+        order.sort_unstable();
+        let values = |all: &[f64]| order.iter().map(|at| all[*at]).collect();
+        Self {
+            points: order.iter().map(|at| self.points[*at].clone()).collect(),
+            means: values(&self.means),
+            weights: values(&self.weights),
+            ..*self
+        }
     }
 
     /// Those of runs, each a point, a set of seeds and a response.

@@ -5,6 +5,9 @@
 /// √5.
 const ROOT: f64 = 2.236_067_977_499_79;
 
+/// Beyond this sum along all axes, as a multiple of the lengths, points are not alike at all.
+const FARTHEST: f64 = 700.0;
+
 /// What distance is along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Axis {
@@ -25,6 +28,7 @@ impl Axis {
 }
 
 /// The correlation at a distance, as a multiple of the length.
+#[cfg(test)]
 pub(super) fn correlation(distance: f64) -> f64 {
     let a = ROOT * distance;
     (1.0 + a + a * a / 3.0) * libm::exp(-a)
@@ -37,10 +41,16 @@ pub(super) fn slope(distance: f64) -> f64 {
     a * a * (1.0 + a) / (3.0 + 3.0 * a + a * a)
 }
 
-/// The correlation of two points, axes multiplied.
+/// The correlation of two points, axes multiplied: of the exponentials, one of the sum.
 pub(super) fn between(axes: &[Axis], lengths: &[f64], one: &[f64], other: &[f64]) -> f64 {
-    let along = axes.iter().zip(lengths).zip(one.iter().zip(other));
-    along.map(|((axis, length), (one, other))| correlation(axis.distance(*one, *other) / length)).product()
+    let (mut product, mut sum) = (1.0, 0.0);
+    for ((axis, length), (one, other)) in axes.iter().zip(lengths).zip(one.iter().zip(other)) {
+        let a = ROOT * axis.distance(*one, *other) / length;
+        product *= 1.0 + a + a * a / 3.0;
+        sum += a;
+    }
+    // So far away the product may be more than there are numbers for, and its exponential is nothing.
+    if sum < FARTHEST { product * libm::exp(-sum) } else { 0.0 }
 }
 
 /// The derivative of the logarithm of that by the first point's coordinate on one axis of numbers.
@@ -74,6 +84,10 @@ mod tests {
     fn categories_are_alike_or_not() {
         assert_eq!(between(&[Axis::Category], &[0.5], &[2.0], &[2.0]), 1.0);
         let other = between(&[Axis::Category, Axis::Number], &[0.5, 3.0], &[2.0, 0.1], &[1.0, 0.1]);
-        assert_eq!(other, correlation(2.0));
+        assert!((other - correlation(2.0)).abs() < 1e-16);
+        let lengths = [0.5, 3.0];
+        let both = between(&[Axis::Number, Axis::Number], &lengths, &[2.0, 0.1], &[1.0, 1.0]);
+        assert!((both - correlation(2.0) * correlation(0.3)).abs() < 1e-16);
+        assert_eq!(between(&[Axis::Number, Axis::Number], &lengths, &[1e200, 0.1], &[1.0, 1.0]), 0.0);
     }
 }

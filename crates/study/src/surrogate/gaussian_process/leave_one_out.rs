@@ -26,10 +26,11 @@ impl GaussianProcess {
 
     /// The same with other equations.
     pub(super) fn left_out_with(&self, solved: &Solved) -> Vec<LeftOut> {
+        let diagonals = solved.factor.inverse_diagonal();
         let each = |(at, mean): (usize, &f64)| {
             let trend = solved.inverse_trend.row(at);
             let spread = (trend * &solved.trend_inverse).dot(&trend);
-            let diagonal = solved.inverse[(at, at)] - spread;
+            let diagonal = diagonals[at] - spread;
             // By = C⁻¹(y − Fβ), for β is that of generalised least squares.
             let error = solved.weights[at] / diagonal;
             let observed = mean + self.averages.offset;

@@ -17,7 +17,7 @@ use statrs::distribution::{ContinuousCDF, Normal as StandardNormal};
 
 use super::averages::Averages;
 use super::kernel::Axis;
-use super::likelihood::{ends, from_logs, to_logs};
+use super::likelihood::{ENOUGH, ROUGHLY, ends, from_logs, to_logs};
 use super::solved::Solved;
 use super::{GaussianProcess, Hyperparameters, LeftOut, Trend};
 use crate::design::{Factor, Kind, Setting, design};
@@ -33,6 +33,8 @@ const NOISE_SPREAD: f64 = 3.0;
 /// Sets that are drawn at least and at most, and how many are so in between: as many as this many operations allow.
 const DRAWN: [usize; 2] = [64, 512];
 const OPERATIONS: f64 = 2e8;
+/// Sets that are drawn with more than [`ENOUGH`] points, all about the most likely place: so many points leave no other likely.
+const DRAWN_OF_MANY: usize = 20;
 /// Sets that are kept.
 const KEPT: usize = 48;
 /// How much wider than the curvature says they are drawn.
@@ -101,17 +103,20 @@ impl Search<'_> {
             let gradient = gradient.iter().zip(by_prior).map(|(own, prior)| -own - prior).collect();
             Some((-solved.log_likelihood - prior, gradient))
         };
-        let best = minimise(slope, &to_logs(most_likely), &low, &high, TOLERANCE)?;
+        let points = self.averages.points.len();
+        let are_many = points > ENOUGH;
+        let tolerance = if are_many { ROUGHLY } else { TOLERANCE };
+        let best = minimise(slope, &to_logs(most_likely), &low, &high, tolerance)?;
         let root = self.root(&best.place, |logs| slope(logs).map(|(_, gradient)| gradient))?;
         let near = Normal { middle: best.place, root: WIDER * root };
         let before =
             Normal { middle: self.middles(), root: DMatrix::from_diagonal(&DVector::from_vec(self.spreads())) };
-        let count = (OPERATIONS / (self.averages.points.len() as f64).powi(3)) as usize;
+        let count = ((OPERATIONS / (points as f64).powi(3)) as usize).clamp(DRAWN[0], DRAWN[1]);
+        let count = if are_many { DRAWN_OF_MANY } else { count };
         let mut drawn: Vec<(f64, Likely)> = Vec::new();
-        let count = count.clamp(DRAWN[0], DRAWN[1]);
         for (number, deviates) in deviates(low.len(), count).into_iter().enumerate() {
             // Halves of the sequence are spread evenly; every other point of it would not be.
-            let from = if 2 * number < count { &near } else { &before };
+            let from = if are_many || 2 * number < count { &near } else { &before };
             let logs = from.at(deviates);
             if logs.iter().zip(low.iter().zip(&high)).any(|(log, (low, high))| !(low..=high).contains(&log)) {
                 continue;
@@ -120,7 +125,8 @@ impl Search<'_> {
             let Some(solved) = Solved::new(self.axes, self.trend, self.averages, &hyperparameters) else { continue };
             let [one, other] = [near.log_density(&logs)?, before.log_density(&logs)?];
             let of_both = one.max(other) + libm::log1p(libm::exp(-(one - other).abs()));
-            let log = self.marginal(&solved) + self.prior(&logs).0 - of_both;
+            let density = if are_many { one } else { of_both };
+            let log = self.marginal(&solved) + self.prior(&logs).0 - density;
             drawn.push((log, Likely { weight: 1.0, hyperparameters, solved }));
         }
         Some(chosen(drawn))

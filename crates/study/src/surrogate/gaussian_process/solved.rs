@@ -5,9 +5,10 @@
 //! on lengths and g alone. Where there are replicates, their sum of squares S with ν degrees of freedom tells the noise g·σ²,
 //! too: the likelihood is that of means and replicates together.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 
 use super::averages::Averages;
+use super::cholesky::{Cholesky, Symmetric};
 use super::kernel::{self, Axis};
 use super::{Hyperparameters, Trend};
 
@@ -18,9 +19,7 @@ const LOG_TWO_PI: f64 = 1.837_877_066_409_345_3;
 #[derive(Debug, Clone)]
 pub(super) struct Solved {
     /// L of C = LLᵀ: what is nearly known loses fewer digits by it than by C⁻¹.
-    pub factor: Cholesky<f64, Dyn>,
-    /// C⁻¹.
-    pub inverse: DMatrix<f64>,
+    pub factor: Cholesky,
     /// C⁻¹F.
     pub inverse_trend: DMatrix<f64>,
     /// (FᵀC⁻¹F)⁻¹.
@@ -39,13 +38,12 @@ impl Solved {
     /// Solves the equations; none where lengths and noise leave C without an inverse in floating point.
     pub fn new(axes: &[Axis], trend: Trend, averages: &Averages, hyperparameters: &Hyperparameters) -> Option<Self> {
         let correlation = correlation(axes, &averages.points, &averages.weights, hyperparameters);
-        let factor = Cholesky::new(correlation)?;
-        let lower = factor.l_dirty();
-        let log_determinant = 2.0 * (0..averages.means.len()).map(|at| libm::log(lower[(at, at)])).sum::<f64>();
+        let factor = correlation.cholesky()?;
+        let log_determinant = factor.log_determinant();
         let basis = trend.matrix(axes, &averages.points);
         let means = DVector::from_column_slice(&averages.means);
-        let inverse_trend = factor.solve(&basis);
-        let trend_factor = Cholesky::new(basis.transpose() * &inverse_trend)?;
+        let inverse_trend = factor.solve_columns(&basis);
+        let trend_factor = nalgebra::Cholesky::new(basis.transpose() * &inverse_trend)?;
         let coefficients = trend_factor.solve(&(inverse_trend.transpose() * &means));
         let left = &means - &basis * &coefficients;
         let weights = factor.solve(&left);
@@ -59,7 +57,6 @@ impl Solved {
         let log_noise = if averages.freedom > 0 { freedom * libm::log(noise) } else { 0.0 };
         let log_likelihood = -0.5 * (count * (LOG_TWO_PI + libm::log(variance) + 1.0) + log_determinant + log_noise);
         let solved = Self {
-            inverse: factor.inverse(),
             factor,
             inverse_trend,
             trend_inverse: trend_factor.inverse(),
@@ -73,23 +70,24 @@ impl Solved {
 
     /// 1 − rᵀC⁻¹r for correlations r with the points: what a point leaves open, as a part of the variance.
     pub fn left_open(&self, known: &DVector<f64>) -> f64 {
-        self.factor.l_dirty().solve_lower_triangular(known).map_or(1.0, |white| 1.0 - white.norm_squared())
+        1.0 - self.factor.half_solve(known).norm_squared()
     }
 
     /// Derivatives of the likelihood's logarithm by the logarithms of the lengths, and of the noise.
     pub fn gradient(&self, axes: &[Axis], averages: &Averages, hyperparameters: &Hyperparameters) -> Vec<f64> {
         let (points, lengths, noise) = (&averages.points, &hyperparameters.lengths, hyperparameters.noise);
         let mut gradient = vec![0.0; lengths.len() + 1];
+        let inverse = self.factor.inverse();
         for (row, one) in points.iter().enumerate() {
             for (column, other) in points[..row].iter().enumerate() {
-                let pull = self.weights[row] * self.weights[column] / self.variance - self.inverse[(row, column)];
+                let pull = self.weights[row] * self.weights[column] / self.variance - inverse.at(row, column);
                 // Once for each of the two places that the pair has in C, times the half in front.
                 let share = pull * kernel::between(axes, lengths, one, other);
                 for at in 0..lengths.len() {
                     gradient[at] += share * kernel::slope(axes[at].distance(one[at], other[at]) / lengths[at]);
                 }
             }
-            let pull = self.weights[row] * self.weights[row] / self.variance - self.inverse[(row, row)];
+            let pull = self.weights[row] * self.weights[row] / self.variance - inverse.at(row, row);
             gradient[lengths.len()] += 0.5 * noise * averages.weights[row] * pull;
         }
         if averages.freedom > 0 {
@@ -101,17 +99,13 @@ impl Solved {
 }
 
 /// C: correlations, with the noise of each mean on the diagonal.
-fn correlation(axes: &[Axis], points: &[Vec<f64>], weights: &[f64], hyperparameters: &Hyperparameters) -> DMatrix<f64> {
-    let mut matrix = DMatrix::zeros(points.len(), points.len());
-    for (row, one) in points.iter().enumerate() {
-        for (column, other) in points[..row].iter().enumerate() {
-            let value = kernel::between(axes, &hyperparameters.lengths, one, other);
-            matrix[(row, column)] = value;
-            matrix[(column, row)] = value;
+fn correlation(axes: &[Axis], points: &[Vec<f64>], weights: &[f64], hyperparameters: &Hyperparameters) -> Symmetric {
+    Symmetric::from_fn(points.len(), |row, column| {
+        if row == column {
+            return 1.0 + hyperparameters.noise * weights[row];
         }
-        matrix[(row, row)] = 1.0 + hyperparameters.noise * weights[row];
-    }
-    matrix
+        kernel::between(axes, &hyperparameters.lengths, &points[row], &points[column])
+    })
 }
 
 impl Trend {

@@ -1,10 +1,14 @@
 //! Responses that come from elsewhere: which run each line of a table is of, and where its values are kept.
 //!
+//! `columns` tells which column of a table is which, `places` which run a line is of.
+//!
 //! They are kept in one table, `imported.csv` in the folder of the results, a line for each run that has any: factors in SI
 //! units, the replicate, and the responses. It is replaced as a whole by who has claimed it, one process at a time, and the new one is
 //! on the disk before it has the name of the old one. Lines belong to points, not to numbers of runs: levels that are added later move no value.
 
-use std::collections::{HashMap, HashSet};
+mod columns;
+mod places;
+
 use std::fs;
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -14,20 +18,16 @@ use std::time::{Duration, Instant};
 use super::Study;
 use super::factor::{Factor, Level};
 use super::plan::Plan;
-use super::value_table::{Row, ValueTable};
+use super::value_table::ValueTable;
 use crate::claim::{Claim, ClaimError};
 use crate::regular;
 use crate::temporary::Temporary;
-use crate::text::{cell, short};
-use crate::units::parse_as;
+use crate::text::cell;
+use columns::Columns;
+use places::Places;
 
-/// Numbers of a table and of the design are the same if they differ by less than this part of the factor's largest one: tables
-/// are rounded by those who write them.
-const ROUNDED: f64 = 1e-6;
 /// What the column of replicates is called.
 const REPLICATE: &str = "replicate";
-/// Column of the number of a run, which is passed over.
-const RUN: &str = "run";
 /// How long is waited for other processes that take in values, and how long between two looks.
 const PATIENCE: Duration = Duration::from_secs(30);
 const PAUSE: Duration = Duration::from_millis(20);
@@ -215,176 +215,4 @@ pub fn with_unit(name: &str, unit: &str) -> String {
 
 fn times(count: usize) -> String {
     if count == 1 { "once".to_owned() } else { format!("{count} times") }
-}
-
-/// What tells the runs of a study apart: the place of each factor's level among all its levels, and the replicate, if it is
-/// given.
-type Key = (Vec<usize>, Option<usize>);
-
-/// The runs of a study by their points, in the order of the design.
-struct Places {
-    /// Different levels of each factor.
-    levels: Vec<Vec<Level>>,
-    /// Runs of each point, with their replicates, that no line is of so far.
-    free: HashMap<Vec<usize>, Vec<(usize, usize)>>,
-    counts: HashMap<Vec<usize>, usize>,
-}
-
-impl Places {
-    fn new(plan: &Plan) -> Self {
-        let mut places =
-            Self { levels: vec![Vec::new(); plan.study().factors.len()], free: HashMap::new(), counts: HashMap::new() };
-        let mut known: Vec<HashMap<String, usize>> = vec![HashMap::new(); places.levels.len()];
-        for place in 0..plan.runs() {
-            let run = plan.run(place + 1);
-            let mut key = Vec::new();
-            for (factor, level) in run.levels.into_iter().enumerate() {
-                let levels = &mut places.levels[factor];
-                key.push(*known[factor].entry(level.text.clone()).or_insert_with(|| {
-                    levels.push(level);
-                    levels.len() - 1
-                }));
-            }
-            *places.counts.entry(key.clone()).or_insert(0) += 1;
-            places.free.entry(key).or_default().push((place, run.replicate));
-        }
-        places
-    }
-
-    /// The place of a level among those of its factor; none where it has no such level.
-    fn find(&self, factor: usize, level: &Level) -> Option<usize> {
-        let levels = &self.levels[factor];
-        let Some(number) = level.number else { return levels.iter().position(|own| own.label == level.label) };
-        let numbers = || levels.iter().enumerate().filter_map(|(at, own)| Some((at, own.number?)));
-        let largest = numbers().fold(0.0_f64, |largest, (_, own)| largest.max(own.abs()));
-        let distance = |own: f64| (own - number).abs();
-        let nearest = numbers().min_by(|one, other| distance(one.1).total_cmp(&distance(other.1)))?;
-        (distance(nearest.1) <= ROUNDED * largest).then_some(nearest.0)
-    }
-
-    /// The first run of a point that no line is of so far.
-    fn take(&mut self, key: &Key) -> Option<usize> {
-        let free = self.free.get_mut(&key.0)?;
-        let at = free.iter().position(|(_, replicate)| key.1.is_none_or(|wanted| wanted == *replicate))?;
-        Some(free.remove(at).0)
-    }
-
-    fn count(&self, key: &Key) -> usize {
-        self.counts.get(&key.0).copied().unwrap_or(0)
-    }
-}
-
-/// Which columns of a table are which.
-struct Columns {
-    factors: Vec<usize>,
-    replicate: Option<usize>,
-    /// Columns of responses, with their place in the study and their SI unit.
-    responses: Vec<(usize, usize, &'static str)>,
-}
-
-impl Columns {
-    /// Those of a table; one that is `kept` by the study may have columns of responses that it had before.
-    fn of(table: &ValueTable, study: &Study, kept: bool) -> Result<Self, String> {
-        let at = |what: String| format!("{}: {what}", table.path().display());
-        let heads = || table.heads_in_words();
-        let factors = table.factor_columns(&study.factors)?;
-        let missing = study.factors.iter().zip(&factors).find(|(_, column)| column.is_none());
-        if let Some((factor, _)) = missing {
-            return Err(at(format!("no column of the factor \"{}\"; it has {}", factor.name, heads())));
-        }
-        let factors: Vec<usize> = factors.into_iter().flatten().collect();
-        let mut columns = Self { factors, replicate: None, responses: Vec::new() };
-        let of_responses: HashMap<&str, usize> =
-            study.responses.iter().enumerate().rev().map(|(at, response)| (response.name.as_str(), at)).collect();
-        let of_factors: HashSet<usize> = columns.factors.iter().copied().collect();
-        for column in (0..table.heads().len()).filter(|column| !of_factors.contains(column)) {
-            let (name, unit) = table.named(column);
-            if name == REPLICATE && unit.is_empty() {
-                columns.replicate = Some(column);
-                continue;
-            }
-            let head = &table.heads()[column];
-            let known = [name, head.as_str()].into_iter().filter_map(|name| of_responses.get(name)).min().copied();
-            let Some(response) = known.filter(|at| kept || study.responses[*at].is_imported()) else {
-                // The number of a run, as `plateau sweep plan --csv` writes it.
-                if kept || name == RUN {
-                    continue;
-                }
-                let names: Vec<&str> =
-                    study.responses.iter().filter(|own| own.is_imported()).map(|own| own.name.as_str()).collect();
-                let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-                return Err(at(format!(
-                    "column \"{}\" is no factor and no response with imported = true; of these the study has {known}",
-                    short(head)
-                )));
-            };
-            let wanted: &'static str = study.responses[response].unit("");
-            let unit = if study.responses[response].name == *head { "" } else { unit };
-            let measures_the_same = unit == wanted || parse_as(&format!("1 {unit}"), wanted).is_ok();
-            if unit.is_empty() && wanted != "1" || !unit.is_empty() && !measures_the_same {
-                let and = if wanted == "1" {
-                    "for the study gives it no unit"
-                } else {
-                    "or another unit that measures the same"
-                };
-                let wanted = with_unit(&study.responses[response].name, wanted);
-                return Err(at(format!("column \"{head}\": expected \"{wanted}\", {and}")));
-            }
-            columns.responses.push((column, response, wanted));
-        }
-        if columns.responses.is_empty() && !kept {
-            return Err(at(format!("no column of a response with imported = true; it has {}", heads())));
-        }
-        Ok(columns)
-    }
-
-    /// Which point a line is of; none where the design has no such level.
-    fn key(&self, table: &ValueTable, row: &Row, study: &Study, places: &Places) -> Result<Option<Key>, String> {
-        let mut found = Vec::new();
-        for (at, (factor, column)) in study.factors.iter().zip(&self.factors).enumerate() {
-            let level = table.level(row, *column, factor)?;
-            let Some(place) = places.find(at, &level) else { return Ok(None) };
-            found.push(place);
-        }
-        if !places.counts.contains_key(&found) {
-            return Ok(None);
-        }
-        let replicate = self.replicate.map(|column| table.number(row, column)).transpose()?.flatten();
-        let count = study.replicates.as_ref().map_or(1, |replicates| replicates.seeds.len());
-        let replicate = replicate.map(|number| {
-            let is_one = number.fract() == 0.0 && (1.0..=count as f64).contains(&number);
-            is_one
-                .then_some(number as usize - 1)
-                .ok_or_else(|| format!("{}: replicate {number}, expected a number from 1 to {count}", table.place(row)))
-        });
-        Ok(Some((found, replicate.transpose()?)))
-    }
-
-    /// Why a line is of no point.
-    fn misfit(&self, table: &ValueTable, row: &Row, study: &Study, places: &Places) -> String {
-        for (at, (factor, column)) in study.factors.iter().zip(&self.factors).enumerate() {
-            let Ok(level) = table.level(row, *column, factor) else { continue };
-            if places.find(at, &level).is_none() {
-                let known: Vec<&str> = places.levels[at].iter().take(12).map(|level| level.label.as_str()).collect();
-                let more = if places.levels[at].len() > known.len() { ", …" } else { "" };
-                return format!(
-                    "{} = {} is in no point of the design, which has {}{more}",
-                    factor.name,
-                    level.label,
-                    known.join(", ")
-                );
-            }
-        }
-        "no point of the design has these levels together; `plateau sweep plan --csv` writes all points".to_owned()
-    }
-
-    /// Puts the responses of a line where those of its run are; empty cells change nothing.
-    fn put(&self, table: &ValueTable, row: &Row, values: &mut [f64]) -> Result<(), String> {
-        for (column, response, unit) in &self.responses {
-            if let Some(number) = table.quantity(row, *column, unit)? {
-                values[*response] = number;
-            }
-        }
-        Ok(())
-    }
 }
