@@ -261,8 +261,10 @@ impl Opening<'_> {
         };
         let state = text("state")?;
         let state = State::of(&state).ok_or_else(|| self.damaged(format!("its state is \"{state}\"")))?;
-        let scene: toml::Table =
-            text("scene")?.parse().map_err(|error| self.damaged(format!("its scene is no TOML: {error}")))?;
+        let scene: toml::Table = text("scene")?.parse().map_err(|error: toml::de::Error| {
+            // The line of TOML that it shows may be all of a text that somebody else has made.
+            self.damaged(format!("its scene is no TOML: {}", error.message()))
+        })?;
         let mesh = self.mesh(&scene)?;
         let time = self.all(TIME)?;
         let map_time = if self.file.link_exists(MAP_TIME) { self.all(MAP_TIME)? } else { Vec::new() };

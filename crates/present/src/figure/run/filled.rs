@@ -35,9 +35,12 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             courses.push((series, runs));
         }
     }
-    // All charts have lines of one kind.
+    // All charts have lines of one kind; those of a run alone cross no others.
     let calm = |(_, runs): &(_, Vec<Course>)| Spans::calm(runs.iter().map(|(_, times, values)| (*times, &values[..])));
-    let spans = courses.iter().map(calm).min().unwrap_or(Spans::FINEST);
+    let spans = match subjects.len() {
+        1 => Spans::FINEST,
+        _ => courses.iter().map(calm).min().unwrap_or(Spans::FINEST),
+    };
     let mut charts = Vec::new();
     let mut has_bands = false;
     for (series, runs) in courses {

@@ -253,7 +253,10 @@ mod tests {
             assert!(found.half_solve(&right).iter().zip(&half).all(|(one, other)| near(*one, *other)), "{size}");
             let solution = expected.solve(&right);
             assert!(found.solve(&right).iter().zip(&solution).all(|(one, other)| near(*one, *other)), "{size}");
-            assert_eq!(found.solve_columns(&DMatrix::from_columns(&[right.clone()])).column(0), found.solve(&right));
+            assert_eq!(
+                found.solve_columns(&DMatrix::from_columns(std::slice::from_ref(&right))).column(0),
+                found.solve(&right)
+            );
             let (inverse, own) = (expected.inverse(), found.inverse());
             let is_same = |row: usize, column: usize| near(own.at(row, column), inverse[(row, column)]);
             assert!((0..size).all(|row| (0..=row).all(|column| is_same(row, column))), "{size}");
