@@ -1,7 +1,11 @@
 //! What one who types commands all day expects: hints, marks, quiet and talkative runs.
 
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with};
+use std::ffi::OsStr;
 use std::fs;
+use std::os::unix::ffi::OsStrExt;
+use std::os::unix::process::CommandExt;
+
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, run};
 
 fn with_scene(edits: &[(&str, &str)]) -> WorkingDirectory {
     let directory = WorkingDirectory::new();
@@ -28,6 +32,15 @@ fn a_mistyped_command_gets_the_one_that_was_meant() {
     assert!(message.contains("did you mean plateau sweep run?"), "{message}");
     let message = refused(directory.plateau(["version"]));
     assert!(message.contains("the version: plateau --version") && !message.contains("verify"), "{message}");
+}
+
+#[test]
+fn a_program_whose_path_is_no_utf_8_says_what_was_meant_too() {
+    let directory = WorkingDirectory::new();
+    let mut command = directory.command(["rnu"]);
+    command.arg0(OsStr::from_bytes(b"/odd\xff/plateau"));
+    let message = refused(run(command));
+    assert!(message.contains("did you mean") && message.contains("run?"), "{message}");
 }
 
 #[test]

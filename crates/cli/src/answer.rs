@@ -63,7 +63,8 @@ fn tip(answer: &clap::Error) -> Option<String> {
 /// wrong. A word behind a command with commands of its own is meant as one of these.
 fn command_like(word: &str) -> Option<String> {
     let all = Arguments::command();
-    let first = std::env::args().nth(1).filter(|first| first != word);
+    // A path of the program that is no UTF-8 is nobody's mistake.
+    let first = std::env::args_os().nth(1).and_then(|first| first.into_string().ok()).filter(|first| first != word);
     let parent = first.and_then(|first| all.find_subcommand(&first)).filter(|parent| parent.has_subcommands());
     let names = parent.unwrap_or(&all).get_subcommands().map(|command| command.get_name().to_owned());
     let distance = |name: &String| strsim::osa_distance(name, word);

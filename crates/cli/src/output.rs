@@ -43,6 +43,11 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
     if force { Ok(()) } else { Err(exists(path)) }
 }
 
+/// The ending of a name, in small letters; empty where it has none.
+pub fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
 /// Writes a file that appears under its name when it is complete.
 ///
 /// # Errors

@@ -49,7 +49,12 @@ pub fn refuse_to_begin() -> Result<(), NoRoom> {
 
 /// Whether the system limits the address space of this process (`ulimit -v`).
 pub fn is_address_space_limited() -> bool {
-    Resource::AS.get().is_ok_and(|(soft, _)| soft != rlimit::INFINITY)
+    address_space_limit().is_some()
+}
+
+fn address_space_limit() -> Option<u64> {
+    let (soft, _) = Resource::AS.get().ok()?;
+    (soft != rlimit::INFINITY).then_some(soft)
 }
 
 /// Bytes that this process can have: of the machine, of its group (cgroup v2), of its address space. `None` where the system
@@ -79,8 +84,7 @@ pub(crate) fn address_space() -> Option<u64> {
 
 /// Bytes that a limit of the address space (`ulimit -v`) leaves for what the program works on; none where there is no limit.
 fn of_address_space() -> Option<u64> {
-    let (soft, _) = Resource::AS.get().ok().filter(|_| is_address_space_limited())?;
-    Some(soft.saturating_sub(address_space()?).saturating_sub(BESIDES))
+    Some(address_space_limit()?.saturating_sub(address_space()?).saturating_sub(BESIDES))
 }
 
 /// A number of kibibytes in a file of the system (proc(5)), in bytes.

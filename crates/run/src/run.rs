@@ -127,9 +127,7 @@ impl Prepared {
         let report = close(result, writer, &assembly, &path)?;
         checkpointer.write(&mut assembly, true, Some(Synced::already()), observer)?;
         checkpointer.wait(observer);
-        let contact_area = RunFile::open(&path)
-            .and_then(|run| Ok((run.last_contact_area()?, run.drift_of_contact_area()?)))
-            .map_err(RunFailure::Read)?;
+        let contact_area = RunFile::open(&path).and_then(|run| run.contact_area()).map_err(RunFailure::Read)?;
         let implausible = recorded.warnings(&scene);
         warn_of_scene(&mut scene, implausible, observer);
         let last = checkpointer.last_sample.clone().unwrap_or_default();

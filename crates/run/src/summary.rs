@@ -7,7 +7,7 @@ use plateau_core::observe::Sample;
 use plateau_core::observe::drift::Drift;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
-use plateau_io::run_file::WriterReport;
+use plateau_io::run_file::{ContactArea, WriterReport};
 use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
 use serde::Serialize;
@@ -133,7 +133,7 @@ impl RunSummary {
         surfaces: Vec<String>,
         file: PathBuf,
         last: &Sample,
-        (contact_area_last_tenth, contact_area_drift): (Option<WindowMean>, Option<Drift>),
+        ended: ContactArea,
         course: Course,
         report: WriterReport,
         wall_time: f64,
@@ -152,8 +152,8 @@ impl RunSummary {
             peak_memory: machine::peak_memory(),
             contact_area: last.contact_area,
             contact_area_mean: last.contact_area_mean,
-            contact_area_last_tenth,
-            contact_area_drift,
+            contact_area_last_tenth: ended.last_tenth,
+            contact_area_drift: ended.drift,
             contact_ratio: last.contact_ratio,
             mean_pressure: last.mean_pressure,
             max_pressure: last.max_pressure,

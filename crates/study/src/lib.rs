@@ -9,4 +9,5 @@ pub mod fit;
 pub mod optimum;
 mod quasi_newton;
 pub mod sensitivity;
+pub mod shuffle;
 pub mod surrogate;

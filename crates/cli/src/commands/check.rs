@@ -57,10 +57,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         Simulation::with_execution(scene.parameters.clone(), surfaces, decided).map_err(Failure::input)?;
     let seconds_per_step = time_per_step(&mut simulation, scene.steps, TRIAL).map_err(Failure::run)?;
     // A ring of few columns has no work for many workers: what there are, the simulation knows.
-    let check = Check {
-        pulse,
-        ..Check::new(&scene, files, report, &parts, simulation.execution(), [preparing, seconds_per_step])
-    };
+    let check = Check::new(&scene, files, report, &parts, pulse, simulation.execution(), [preparing, seconds_per_step]);
     stiffness_warning(&scene.parameters).iter().for_each(message::warning);
     if scene.output.file.exists() {
         message::warning(format_args!(
@@ -185,6 +182,7 @@ impl Check {
         files: Vec<File>,
         surfaces: Vec<String>,
         parts: &[Part],
+        pulse: Option<PulseReport>,
         execution: Execution,
         [preparing_time, seconds_per_step]: [f64; 2],
     ) -> Self {
@@ -232,7 +230,7 @@ impl Check {
             step_time: parameters.step_time(),
             cycle: CycleReport::of(scene),
             revolutions: scene.steps as f64 / mesh.disc_columns() as f64,
-            pulse: None,
+            pulse,
             samples: schedule.samples(),
             maps,
             memory: memory_estimate(scene),

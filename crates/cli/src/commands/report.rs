@@ -36,8 +36,7 @@ const NO_PAGES: [&str; 4] = ["pdf", "png", "svg", "csv"];
 
 /// Refuses a name that says that the page is what it is not.
 fn refuse_other_format(page: &Path) -> Result<(), Failure> {
-    let ending = page.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if !NO_PAGES.contains(&ending.as_str()) {
+    if !NO_PAGES.contains(&output::ending(page).as_str()) {
         return Ok(());
     }
     Err(Failure::input(format_args!(

@@ -9,7 +9,7 @@ use crate::arguments::{RunArguments, SceneArguments};
 use crate::failure::{Failure, in_job};
 use crate::table::print;
 use crate::terminal::Terminal;
-use crate::{called, message, summary, version};
+use crate::{called, message, output, summary, version};
 
 /// Runs a scene, together with the other processes of the job if there are any.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -69,14 +69,14 @@ const MADE_OF_RUNS: [(&str, &str); 8] = [
 ];
 
 /// Refuses a name that says that a run file is what it is not; `given` says where it is from.
-fn refuse_other_format(given: &str, output: &Path) -> Result<(), Failure> {
-    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+fn refuse_other_format(given: &str, file: &Path) -> Result<(), Failure> {
+    let ending = output::ending(file);
     match MADE_OF_RUNS.iter().find(|(other, _)| *other == ending) {
         None => Ok(()),
         Some((_, call)) => Err(Failure::input(format_args!(
             "{given} {}: a run file is HDF5, expected a name such as {}; afterwards `{} {call}` makes .{ending} of it",
-            output.display(),
-            output.with_extension("h5").display(),
+            file.display(),
+            file.with_extension("h5").display(),
             called::program()
         ))),
     }

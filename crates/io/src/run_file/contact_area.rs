@@ -7,32 +7,27 @@ use plateau_core::observe::window_mean::{Cumulative, WindowMean};
 
 use super::{ReadError, RunFile};
 
+/// What the contact area of a run was at its end; nothing of it where that cannot be told.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ContactArea {
+    /// The mean over the last tenth of the run, m², as far as it is recorded: see [`Cumulative::mean_of_last_tenth`].
+    pub last_tenth: Option<WindowMean>,
+    /// What the mean changed by in the second half of the run; none of a run with a cycle, whose contact area follows load and speed.
+    pub drift: Option<Drift>,
+}
+
 impl RunFile {
-    /// The mean contact area over the last tenth of the run, m², as far as it is recorded: see
-    /// [`Cumulative::mean_of_last_tenth`]. None without samples or without the series.
+    /// The contact area at the end of the run, as far as it is recorded.
     ///
     /// # Errors
     /// [`ReadError::Damaged`] when a series cannot be read.
-    pub fn last_contact_area(&self) -> Result<Option<WindowMean>, ReadError> {
-        self.of_contact_area(|samples| samples.mean_of_last_tenth())
-    }
-
-    /// What the mean contact area changed by in the second half of the run: see [`Drift`]. None where that cannot be told, and of a
-    /// run with a cycle, whose contact area follows load and speed.
-    ///
-    /// # Errors
-    /// [`ReadError::Damaged`] when a series cannot be read.
-    pub fn drift_of_contact_area(&self) -> Result<Option<Drift>, ReadError> {
-        if self.scene().get("operation").is_some_and(|operation| operation.get("cycle").is_some()) {
-            return Ok(None);
-        }
-        self.of_contact_area(Drift::of)
-    }
-
-    fn of_contact_area<T>(&self, look: impl FnOnce(&Cumulative<'_>) -> Option<T>) -> Result<Option<T>, ReadError> {
-        let Some(integral) = self.values("contact_area_integral")? else { return Ok(None) };
+    pub fn contact_area(&self) -> Result<ContactArea, ReadError> {
+        let Some(integral) = self.values("contact_area_integral")? else { return Ok(ContactArea::default()) };
         let revolutions = self.revolutions()?.unwrap_or_default();
-        Ok(look(&Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions }))
+        let samples = Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions };
+        let has_cycle = self.scene().get("operation").is_some_and(|operation| operation.get("cycle").is_some());
+        let drift = if has_cycle { None } else { Drift::of(&samples) };
+        Ok(ContactArea { last_tenth: samples.mean_of_last_tenth(), drift })
     }
 
     /// Simulated revolutions from t = 0 to every sample, where the sliding distance is recorded: a simulated revolution stands

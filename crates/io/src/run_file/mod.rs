@@ -38,6 +38,7 @@ mod store;
 mod verify;
 mod writer;
 
+pub use contact_area::ContactArea;
 pub use error::{ReadError, RunFileError};
 pub use header::{Earlier, End, Header, InputFile};
 pub use image::Image;

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use plateau_study::design::{self, Aliases, Design, Setting};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use plateau_study::shuffle::shuffle;
 
 use super::factor::Level;
 use super::{DesignSource, Order, Study, StudyError};
@@ -157,13 +156,7 @@ fn place(setting: Setting) -> String {
 fn order(order: Order, seed: u64, runs: u32) -> Vec<u32> {
     let mut numbers: Vec<u32> = (0..runs).collect();
     if order == Order::Random {
-        // Fisher and Yates, from the end.
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        for last in (1..numbers.len()).rev() {
-            // Below 2^32 runs, the share of numbers that come once more often is below 2^-32.
-            let other = random.next_u64() % (last as u64 + 1);
-            numbers.swap(last, other as usize);
-        }
+        shuffle(&mut numbers, seed);
     }
     numbers
 }

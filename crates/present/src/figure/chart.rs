@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 
 use super::axes::{Axes, Axis, Frame};
 use super::canvas::{Anchor, TEXT};
-use super::font::{shortened, text_width};
+use super::font::{lines, shortened, text_width};
 use super::page::{Content, Key, KeyStyle, LINE_OF_TEXT, Page, Panel};
 use super::stroke::Stroke;
 use crate::colour::INK;
@@ -111,17 +111,8 @@ pub fn note(page: &mut Page, text: &str) {
         return;
     }
     let room = page.size[0] - 2.0 * MARGIN;
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ') {
-        match lines.last_mut() {
-            Some(line) if text_width(&format!("{line} {word}"), NOTE) <= room => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(shortened(word, NOTE, room)),
-        }
-    }
-    for line in lines {
+    for line in lines(text.split_inclusive(' '), NOTE, room) {
+        let line = shortened(&line, NOTE, room);
         let top = page.size[1] - MARGIN;
         page.write(line, (MARGIN, top), Anchor::BelowRight, NOTE);
         page.size[1] = (page.size[1] + LINE_OF_NOTE).ceil();

@@ -23,6 +23,18 @@ pub fn text_width(text: &str, size: u32) -> f64 {
     (FONT_NAME, size).into_font().box_size(text).map_or(0.0, |(width, _)| f64::from(width))
 }
 
+/// A text in lines of this room, broken between pieces; a piece that is too long has a line of its own.
+pub fn lines<'a>(pieces: impl Iterator<Item = &'a str>, size: u32, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for piece in pieces {
+        match lines.last_mut() {
+            Some(line) if text_width(format!("{line}{piece}").trim_end(), size) <= room => line.push_str(piece),
+            _ => lines.push(piece.to_owned()),
+        }
+    }
+    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
+}
+
 /// A text that is too long for its room, with its middle left out.
 pub fn shortened(text: &str, size: u32, room: f64) -> String {
     let letters: Vec<char> = text.chars().collect();

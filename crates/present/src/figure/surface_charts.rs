@@ -2,14 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-use plateau_core::surface::describe::CoreHeight;
+use plateau_core::surface::describe::{CoreHeight, Description};
 
 use super::axes::{Axes, Axis, Frame};
 use super::canvas::{Anchor, LINE, TEXT};
 use super::chart::Meaning;
+use super::histogram::Histogram;
 use super::page::{Content, KeyStyle, Page, Panel};
 use super::stroke::Stroke;
-use super::surface_description::DescribedSurface;
 use crate::colour::{DATA, DATA_AREA, DERIVED, DERIVED_AREA, FAINT};
 use crate::quantity::Unit;
 use plateau_io::number::{significant, with_minus};
@@ -18,10 +18,21 @@ use plateau_io::number::{significant, with_minus};
 const SPACING: f64 = 1.25 * TEXT as f64;
 pub const CAPTION: f64 = 3.0 * SPACING + 10.0;
 
-impl DescribedSurface<'_> {
-    /// Adds the chart with its words.
-    pub fn add_histogram(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {
-        let fractions = &self.drawn.histogram.fractions;
+/// What the charts of a surface show.
+pub struct SurfaceCharts<'a> {
+    /// How its heights are distributed.
+    pub histogram: &'a Histogram,
+    /// Its parameters.
+    pub description: &'a Description,
+    /// In which its heights are drawn.
+    pub unit: &'a Unit,
+}
+
+impl SurfaceCharts<'_> {
+    /// Adds the distribution of the heights with its words.
+    pub fn add_histogram(&self, page: &mut Page, frame: Frame) {
+        let (unit, range) = (self.unit, scaled(&self.histogram.range, self.unit));
+        let fractions = &self.histogram.fractions;
         let largest = fractions.iter().copied().fold(0.0, f64::max).max(1e-6);
         let x = Axis::linear(0.0..=105.0 * largest, "points per class, %");
         let class = (range.end() - range.start()) / fractions.len() as f64;
@@ -36,8 +47,8 @@ impl DescribedSurface<'_> {
         let steps = fractions.iter().enumerate();
         let points = steps.flat_map(|(number, fraction)| ends(number).map(|y| [100.0 * fraction, y])).collect();
         contents.push(Content::Line { points, stroke: Stroke::solid(DATA, LINE) });
-        page.panels.push(Panel { axes: Axes { frame, x, y: height_axis(range.clone(), unit) }, contents });
-        let (heights, outside) = (&self.description.heights, self.drawn.histogram.outside);
+        page.panels.push(Panel { axes: Axes { frame, x, y: height_axis(range, unit) }, contents });
+        let (heights, outside) = (&self.description.heights, self.histogram.outside);
         let mut lines = vec![
             format!("Sq {}", height_text(heights.root_mean_square_height, unit)),
             format!("Ssk {}   Sku {}", number(heights.skewness), number(heights.kurtosis)),
@@ -48,9 +59,10 @@ impl DescribedSurface<'_> {
         write_above(page, &frame, lines);
     }
 
-    /// Adds the chart with its words.
-    pub fn add_curve(&self, page: &mut Page, frame: Frame, range: &RangeInclusive<f64>, unit: &Unit) {
-        let y = Axis::linear(range.clone(), "").shared();
+    /// Adds the Abbott-Firestone curve with its words.
+    pub fn add_curve(&self, page: &mut Page, frame: Frame) {
+        let unit = self.unit;
+        let y = Axis::linear(scaled(&self.histogram.range, unit), "").shared();
         let axes = Axes { frame, x: Axis::linear(0.0..=100.0, "material ratio, %"), y };
         let CoreHeight { core_height, reduced_peak_height, reduced_dale_depth, peak_ratio, dale_ratio, upper, lower } =
             self.description.core;
@@ -96,6 +108,11 @@ pub fn meanings() -> Vec<Meaning> {
 /// The axis of heights.
 pub fn height_axis(range: RangeInclusive<f64>, unit: &Unit) -> Axis {
     Axis::linear(range, unit.label("height"))
+}
+
+/// A range of heights in the unit in which they are drawn.
+pub fn scaled(range: &RangeInclusive<f64>, unit: &Unit) -> RangeInclusive<f64> {
+    unit.value(*range.start())..=unit.value(*range.end())
 }
 
 fn height_text(height: f64, unit: &Unit) -> String {

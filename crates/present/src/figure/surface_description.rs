@@ -13,7 +13,7 @@ use super::format::Figure;
 use super::histogram::Histogram;
 use super::page::{Content, Key, KeyStyle, Page, Panel};
 use super::raster::Raster;
-use super::surface_charts::{CAPTION, height_axis, meanings, number, percent};
+use super::surface_charts::{CAPTION, SurfaceCharts, height_axis, meanings, number, percent, scaled};
 use crate::colour::MISSING;
 use crate::quantity::Unit;
 
@@ -42,8 +42,7 @@ const CLASSES: usize = 64;
 #[derive(Debug, Clone)]
 pub struct Drawn {
     map: Raster,
-    /// How the heights are distributed.
-    pub histogram: Histogram,
+    histogram: Histogram,
 }
 
 impl Drawn {
@@ -95,9 +94,9 @@ impl DescribedSurface<'_> {
         let first = y + HEAD + CAPTION;
         let chart = |x: [f64; 2]| Frame { x, y: [first, first + CHART] };
         let unit = self.height_unit();
-        let range = scaled(&self.drawn.histogram.range, &unit);
-        self.add_histogram(page, chart(HISTOGRAM), &range, &unit);
-        self.add_curve(page, chart(CURVE), &range, &unit);
+        let charts = SurfaceCharts { histogram: &self.drawn.histogram, description: self.description, unit: &unit };
+        charts.add_histogram(page, chart(HISTOGRAM));
+        charts.add_curve(page, chart(CURVE));
         (top + height).max(first + CHART) + FOOT
     }
 
@@ -203,8 +202,4 @@ fn height_range(description: &Description) -> RangeInclusive<f64> {
 fn colour_range(description: &Description) -> RangeInclusive<f64> {
     let [low, high] = central_heights(description, [0.005, 0.995]);
     if high > low { low..=high } else { low - 1e-10..=high + 1e-10 }
-}
-
-fn scaled(range: &RangeInclusive<f64>, unit: &Unit) -> RangeInclusive<f64> {
-    unit.value(*range.start())..=unit.value(*range.end())
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use plateau_core::model::outline::Outline;
 use plateau_core::observe::window_mean::WindowMean;
-use plateau_io::run_file::{RunFile, State};
+use plateau_io::run_file::{ContactArea, RunFile, State};
 
 use super::html::capital;
 use super::series::Recorded;
@@ -79,8 +79,8 @@ pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Me
     measures
 }
 
-/// What there is to tell of a run besides its numbers: name and text. `contact_area` is its mean.
-pub fn facts(run: &RunFile, contact_area: Option<WindowMean>) -> Vec<(&'static str, String)> {
+/// What there is to tell of a run besides its numbers: name and text.
+pub fn facts(run: &RunFile, contact_area: &ContactArea) -> Vec<(&'static str, String)> {
     let attribute = |name: &str| run.attribute(name).unwrap_or_else(|| UNKNOWN.into());
     let mesh = run.mesh();
     let size = fs::metadata(run.path()).map_or_else(|_| UNKNOWN.into(), |file| number::bytes(file.len()));
@@ -113,14 +113,9 @@ pub fn facts(run: &RunFile, contact_area: Option<WindowMean>) -> Vec<(&'static s
             ),
         ),
         ("Program", attribute("program")),
-        ("Running in", in_words(run)),
-        ("Mean contact area is taken over", contact_area.map_or_else(|| UNKNOWN.into(), |window| over(&window))),
+        ("Running in", contact_area.drift.as_ref().map_or_else(|| UNKNOWN.into(), running_in)),
+        ("Mean contact area is taken over", contact_area.last_tenth.as_ref().map_or_else(|| UNKNOWN.into(), over)),
     ]
-}
-
-/// Whether its contact area still changes; a series that is damaged is told elsewhere.
-fn in_words(run: &RunFile) -> String {
-    run.drift_of_contact_area().ok().flatten().map_or_else(|| UNKNOWN.into(), |drift| running_in(&drift))
 }
 
 /// From when to when a mean is taken.

@@ -1,8 +1,7 @@
 //! The page, put together.
 
 use plateau_core::observe::Map;
-use plateau_core::observe::window_mean::WindowMean;
-use plateau_io::run_file::{ReadError, RunFile, State};
+use plateau_io::run_file::{ContactArea, ReadError, RunFile, State};
 
 use super::document::Document;
 use super::html;
@@ -37,8 +36,9 @@ const SCRIPT: &str = concat!(
 pub fn page(runs: &[RunFile], pictures: &Pictures, program: &str) -> Result<String, ReadError> {
     let labels = labels(runs);
     let series = runs.iter().map(recorded).collect::<Result<Vec<_>, _>>()?;
-    let contact_areas = runs.iter().map(RunFile::last_contact_area).collect::<Result<Vec<_>, _>>()?;
-    let of_every_run = series.iter().zip(&contact_areas).map(|(series, area)| outcome::measures(series, *area));
+    let contact_areas = runs.iter().map(RunFile::contact_area).collect::<Result<Vec<_>, _>>()?;
+    let of_every_run =
+        series.iter().zip(&contact_areas).map(|(series, area)| outcome::measures(series, area.last_tenth));
     let measures: Vec<_> =
         of_every_run.zip(dissipation::measures(&series)).map(|(every, parts)| [every, parts].concat()).collect();
     let mut document = Document::new(runs, &labels, &series, &pictures.pictures);
@@ -90,7 +90,7 @@ struct Parts<'a> {
     runs: &'a [RunFile],
     labels: &'a [String],
     series: &'a [Vec<Recorded>],
-    contact_areas: &'a [Option<WindowMean>],
+    contact_areas: &'a [ContactArea],
     measures: &'a [Vec<Measure>],
 }
 
@@ -124,7 +124,7 @@ impl Parts<'_> {
 
     fn summary(&self) -> String {
         let facts: Vec<_> =
-            self.runs.iter().zip(self.contact_areas).map(|(run, area)| outcome::facts(run, *area)).collect();
+            self.runs.iter().zip(self.contact_areas).map(|(run, area)| outcome::facts(run, area)).collect();
         let fact = |index: usize| {
             let name = facts[0][index].0.to_owned();
             std::iter::once(name).chain(facts.iter().map(|facts| facts[index].1.clone())).collect()

@@ -215,9 +215,10 @@ mod tests {
     fn a_class_that_has_most_cells_makes_the_scales_of_disc_and_pin_logarithmic() {
         let scales = |heights: fn(usize) -> f64| {
             let map = |cells: usize| std::iter::once(MapValues::Float((0..cells).map(heights).collect()));
-            let run = Written::new("one", &[], |_, time| time)
-                .with_maps(Map::DiscHeight, map(240))
-                .and_maps(Map::PinHeight, std::iter::once(MapValues::Float((0..20).map(|cell| cell as f64).collect())));
+            let run = Written::new("one", &[], |_, time| time).with_maps(Map::DiscHeight, map(240)).with_maps(
+                Map::PinHeight,
+                std::iter::once(MapValues::Float((0..20).map(|cell| cell as f64).collect())),
+            );
             let figures = Written::figures(&[run]);
             let figure = figures.figures.iter().find(|figure| figure.name == NAME).unwrap();
             [0, 2].map(|panel| figure.page.panels[panel].axes.x.scale)

@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use super::map_section::MapSection;
+use super::map_section::{Fit, MapSection};
 use crate::figure::axes::{Axis, Frame};
 use crate::figure::canvas::{Anchor, TITLE};
 use crate::figure::chart::{COLUMN, LEGEND, MARGIN, Meaning, TWO_COLUMNS, legend};
@@ -39,15 +39,6 @@ const FITS: [Fit; 11] = [
     Fit { stretch: 4.0, size: 0.6 },
     Fit { stretch: 4.0, size: 0.5 },
 ];
-
-/// How maps are fitted into a page.
-#[derive(Debug, Clone, Copy)]
-pub struct Fit {
-    /// How much longer the windows of unrolled maps are than they mostly are.
-    pub stretch: f64,
-    /// The part of the width that there is for a map that it takes.
-    pub size: f64,
-}
 
 /// Maps that share a colour scale, in rows; a place may be empty.
 #[derive(Debug, Clone, Default)]

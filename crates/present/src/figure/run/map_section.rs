@@ -3,11 +3,10 @@
 use plateau_core::model::mesh::Mesh;
 use plotters::style::RGBColor;
 
-use super::map_page::Fit;
 use super::shape::{Shape, Window};
 use crate::figure::axes::{Axes, Axis, Frame};
 use crate::figure::canvas::{Anchor, TEXT};
-use crate::figure::font::{shortened, text_width};
+use crate::figure::font::{lines, shortened, text_width};
 use crate::figure::page::{Content, LINE_OF_TEXT, Page, Panel};
 
 /// Height of a box, at least, and at most: a map that has the page for itself is not larger than one of two beside each other.
@@ -29,6 +28,15 @@ pub struct MapSection<'a> {
     pub shape: Shape,
     /// Number of the colour of every cell, column by column.
     pub cells: Vec<u8>,
+}
+
+/// How maps are fitted into a page.
+#[derive(Debug, Clone, Copy)]
+pub struct Fit {
+    /// How much longer the windows of unrolled maps are than they mostly are.
+    pub stretch: f64,
+    /// The part of the width that there is for a map that it takes.
+    pub size: f64,
 }
 
 /// Where a map lies on its page.
@@ -107,14 +115,7 @@ impl MapSection<'_> {
 
 /// A text in lines of at most this width, broken behind commas.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for part in text.split_inclusive(", ") {
-        match lines.last_mut() {
-            Some(line) if text_width(format!("{line}{part}").trim_end(), TEXT) <= room => line.push_str(part),
-            _ => lines.push(part.to_owned()),
-        }
-    }
-    lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
+    lines(text.split_inclusive(", "), TEXT, room)
 }
 
 #[cfg(test)]

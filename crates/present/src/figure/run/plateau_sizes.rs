@@ -163,7 +163,7 @@ mod tests {
         let of = |values: MapValues| std::iter::repeat_n(values, 2);
         let run = Written::new("drive", &[], |_, time| time)
             .with_maps(Map::Pressure, of(MapValues::Float(vec![0.0; CELLS])))
-            .and_maps(Map::PinStatus, of(MapValues::Status(vec![Status::Secondary as u8; CELLS])));
+            .with_maps(Map::PinStatus, of(MapValues::Status(vec![Status::Secondary as u8; CELLS])));
         let figures = Written::figures(&[run]);
         let page = &figures.figures.iter().find(|figure| figure.name == NAME).unwrap().page;
         let frame = page.panels[0].axes.frame;

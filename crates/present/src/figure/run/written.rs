@@ -39,13 +39,8 @@ impl Written {
         Self { title, series: series.to_vec(), value: Box::new(value), maps: Vec::new(), is_round: false }
     }
 
-    /// The same with a map, a second from each other, from 0 s on.
-    pub fn with_maps(self, map: Map, values: impl Iterator<Item = MapValues>) -> Self {
-        Self { maps: vec![(map, values.collect())], ..self }
-    }
-
-    /// The same with one more map, at as many moments.
-    pub fn and_maps(mut self, map: Map, values: impl Iterator<Item = MapValues>) -> Self {
+    /// The same with a map, or one more at as many moments, a second from each other, from 0 s on.
+    pub fn with_maps(mut self, map: Map, values: impl Iterator<Item = MapValues>) -> Self {
         self.maps.push((map, values.collect()));
         self
     }

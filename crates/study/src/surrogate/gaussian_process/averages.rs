@@ -6,12 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-
 use super::GaussianProcessError;
 use super::inputs::Inputs;
 use crate::effects::{EffectsError, Observation};
+use crate::shuffle::shuffle;
 
 /// Responses beyond this have no squares.
 const LARGEST_RESPONSE: f64 = 1e150;
@@ -79,11 +77,8 @@ impl Averages {
 
     /// So many of the points, drawn by lot, the same every time; what replicates tell of the noise stays.
     pub fn drawn(&self, count: usize) -> Self {
-        let mut generator = ChaCha8Rng::seed_from_u64(0);
         let mut order: Vec<usize> = (0..self.points.len()).collect();
-        for at in (1..order.len()).rev() {
-            order.swap(at, (generator.next_u64() % (at as u64 + 1)) as usize);
-        }
+        shuffle(&mut order, 0);
         order.truncate(count);
         order.sort_unstable();
         let values = |all: &[f64]| order.iter().map(|at| all[*at]).collect();
