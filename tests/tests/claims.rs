@@ -164,14 +164,14 @@ fn a_lock_of_another_machine_is_left_to_the_user() {
     let lock = fs::read_to_string(directory.path("run.h5.lock")).unwrap();
     child.wait().unwrap();
     let mut lock: serde_json::Value = serde_json::from_str(&lock).unwrap();
-    lock["writer"]["host"] = "node17".into();
+    lock["writer"]["machine"]["host"] = "node17".into();
     directory.write("run.h5.lock", format!("{lock}\n"));
     let before = directory.content();
     for more in ["--resume", "--force"] {
         let refused = racer(&directory, "run.h5", more).output().unwrap();
         let said = String::from_utf8(refused.stderr).unwrap();
         assert_eq!(refused.status.code(), Some(2), "{said}");
-        assert!(said.contains("on the machine node17") && said.contains("remove run.h5.lock"), "{said}");
+        assert!(said.contains("of the machine node17") && said.contains("remove run.h5.lock"), "{said}");
     }
     assert!(directory.content() == before);
     fs::remove_file(directory.path("run.h5.lock")).unwrap();

@@ -86,9 +86,9 @@ fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
     assert_eq!(directory.plateau(short).status, Some(0));
     let before = fs::read(directory.path("run.h5")).unwrap();
     let content = (HUGE - 16 - 8 - 32).to_le_bytes();
-    huge(&directory, "run.h5.checkpoint", &[&b"plateau state 5\n"[..], &content].concat(), HUGE);
+    huge(&directory, "run.h5.checkpoint", &[&b"plateau state 6\n"[..], &content].concat(), HUGE);
     let refused = limited(&directory, &[&short[..], &["--resume"]].concat());
-    assert_refused(&refused, "memory of this machine");
+    assert_refused(&refused, "larger than any of this run");
     assert!(fs::read(directory.path("run.h5")).unwrap() == before);
     // A line that never ends, and a pipe.
     let study = format!(
@@ -103,6 +103,30 @@ fn checkpoints_and_journals_take_no_more_memory_than_they_hold() {
         let outcome = limited(&directory, &["sweep", command, "study.toml"]);
         assert_eq!(outcome.status, Some(0), "{outcome:?}");
     }
+}
+
+#[test]
+fn what_can_be_read_and_not_described_is_refused_with_both_numbers() {
+    let directory = WorkingDirectory::new();
+    let header = b"\x93NUMPY\x01\0\x76\0{'descr': '<f4', 'fortran_order': False, 'shape': (4, 500000), }";
+    let header = [&header[..], &[b' '; 53], b"\n"].concat();
+    assert_eq!(header.len(), 128);
+    huge(&directory, "flat.npy", &header, 128 + 4 * 4 * 500_000);
+    let mut seen = [false; 3];
+    // A step at a time from what does not read it to what describes it.
+    for mebibytes in (60..260).step_by(10) {
+        let limit = format!("ulimit -c 0; ulimit -v {}", mebibytes << 10);
+        let outcome = run(directory.command_after(&limit, &["surface", "flat.npy", "--pitch", "1 um"]));
+        let one_line = outcome.stderr.starts_with("plateau: ") && outcome.stderr.lines().count() == 1;
+        let described = outcome.stderr.contains("4 x 500000 points can be read, but to describe them needs ");
+        let kind = match outcome.status {
+            Some(0) => 2,
+            Some(1 | 2) if one_line => usize::from(described),
+            _ => panic!("{mebibytes} MiB: {outcome:?}"),
+        };
+        seen[kind] = true;
+    }
+    assert_eq!(seen, [true; 3], "not read, not described, described");
 }
 
 /// Every command that does something.

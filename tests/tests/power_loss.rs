@@ -104,7 +104,7 @@ impl Undisturbed {
 /// Samples of the newest checkpoint that holds, if one does.
 fn samples_kept(directory: &WorkingDirectory) -> Option<usize> {
     let states = checkpoint::paths(&directory.path("run.h5")).into_iter();
-    states.filter_map(|path| checkpoint::read::<RunState>(&path).ok()?).map(|state| state.samples).next()
+    states.filter_map(|path| checkpoint::read::<RunState>(&path, None).ok()?).map(|state| state.samples).next()
 }
 
 /// What became of losses, to be told.
@@ -209,7 +209,7 @@ fn loss_without_image(undisturbed: &Undisturbed, random: &mut Stream) -> Option<
     let calls = below(random, undisturbed.journal.calls() + 1);
     let directory = on(&undisturbed.journal.disk_after(calls, random));
     for path in checkpoint::paths(&directory.path("run.h5")) {
-        if let Ok(Some(mut state)) = checkpoint::read::<RunState>(&path) {
+        if let Ok(Some(mut state)) = checkpoint::read::<RunState>(&path, None) {
             state.images.clear();
             checkpoint::keep(&path, &state).unwrap();
         }

@@ -4,14 +4,14 @@
 //! written to a temporary file that is complete on the disk before it gets its name; so one of them always holds.
 //!
 //! ```text
-//! magic    16 bytes: "plateau state 5\n"
+//! magic    16 bytes: "plateau state 6\n"
 //! length   8 bytes: of what follows but for the digest, the least first
 //! content  the state, in the encoding of the crate postcard 1
 //! digest   32 bytes: SHA-256 of the content
 //! ```
 
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use plateau_core::acceleration::scout::ScoutCheckpoint;
@@ -29,15 +29,17 @@ use crate::temporary::Temporary;
 use crate::{memory, regular};
 
 /// How every checkpoint begins.
-const MAGIC: &[u8; 16] = b"plateau state 5\n";
+const MAGIC: &[u8; 16] = b"plateau state 6\n";
 /// Bytes before the content.
 const HEAD: u64 = 16 + 8;
 /// How those of every version do.
 const OWN: &[u8] = b"plateau state ";
 /// Bytes of what is neither of every cell nor of every column, at most: scene and sums.
 const BESIDES: u64 = 16 * 1024;
-/// No mesh that fits into memory needs more, bytes.
-const LARGEST: u64 = 1 << 40;
+/// More than series of any length take in the file of a state, and more than how a run file is organised, bytes.
+const AMPLE: u64 = 1 << 30;
+/// Bytes that are read at once: the system takes long over many small parts of a large file.
+const BLOCK: usize = 1 << 20;
 
 /// All that a run needs to go on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -116,6 +118,11 @@ pub fn size_estimate(mesh: &Mesh, chooses_acceleration: bool) -> u64 {
     BESIDES + pressures + revolution + states * (cells * (2 * size_of::<f64>() as u64 + 1) + BESIDES)
 }
 
+/// More bytes than any file of a state of a run on this mesh has; to be given to [`read`].
+pub fn ample_size(mesh: &Mesh) -> u64 {
+    size_estimate(mesh, true).saturating_add(AMPLE)
+}
+
 /// Where the checkpoints of a run file are: the last, and the one before.
 pub fn paths(run_file: &Path) -> [PathBuf; 2] {
     ["checkpoint", "checkpoint-before"].map(|ending| {
@@ -164,7 +171,7 @@ pub fn write(run_file: &Path, state: &RunState) -> io::Result<()> {
     // Who may not read the run file may not read what it is made of.
     temporary.permit_as(if last.exists() { &last } else { run_file });
     // A damaged one does not take the place of one that may hold.
-    if matches!(open_whole(&last), Ok(Some(_))) {
+    if matches!(open_whole(&last, None), Ok(Some(_))) {
         fs::rename(&last, &before)?;
     }
     temporary.publish_durably()
@@ -190,12 +197,13 @@ fn fill(path: &Path, state: &impl Serialize) -> io::Result<Temporary> {
     Ok(temporary)
 }
 
-/// Reads a state, such as a checkpoint; none if there is no such file.
+/// Reads a state, such as a checkpoint; none if there is no such file. One that is larger than `most` bytes is refused before it
+/// is read, and one that is larger than the memory of the machine always.
 ///
 /// # Errors
 /// [`CheckpointError`].
-pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointError> {
-    let Some((mut file, length)) = open_whole(path)? else { return Ok(None) };
+pub fn read<T: DeserializeOwned>(path: &Path, most: Option<u64>) -> Result<Option<T>, CheckpointError> {
+    let Some((mut file, length)) = open_whole(path, most)? else { return Ok(None) };
     // A file with holes takes no room on the disk. Memory for all of it is taken only now, as it is known to be what was written.
     let mut content = vec![0; length as usize];
     let there = file.seek(SeekFrom::Start(HEAD)).and_then(|_| file.read_exact(&mut content));
@@ -205,7 +213,7 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<Option<T>, CheckpointErr
 }
 
 /// Opens the file of a state whose digest holds, and tells how many bytes the state has; none if there is no such file.
-fn open_whole(path: &Path) -> Result<Option<(File, u64)>, CheckpointError> {
+fn open_whole(path: &Path, most: Option<u64>) -> Result<Option<(File, u64)>, CheckpointError> {
     let mut file = match regular::open_own(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         file => file.map_err(|error| CheckpointError::Read { path: path.into(), error })?,
@@ -223,14 +231,18 @@ fn open_whole(path: &Path) -> Result<Option<(File, u64)>, CheckpointError> {
     file.read_exact(&mut length).map_err(failed)?;
     let length = u64::from_le_bytes(length);
     let there = file.metadata().map_err(failed)?.len();
-    if length > LARGEST || there != HEAD + length + digest.len() as u64 {
+    if Some(there) != length.checked_add(HEAD + digest.len() as u64) {
         return Err(damaged("its length is not what it says"));
+    }
+    if most.is_some_and(|most| there > most) {
+        return Err(damaged("it is larger than any of this run"));
     }
     if memory::of_machine().is_some_and(|memory| length > memory) {
         return Err(damaged("it is larger than the memory of this machine"));
     }
     let mut hasher = Sha256::new();
-    io::copy(&mut Read::by_ref(&mut file).take(length), &mut hasher).map_err(failed)?;
+    let mut content = BufReader::with_capacity(BLOCK, Read::by_ref(&mut file).take(length));
+    io::copy(&mut content, &mut hasher).map_err(failed)?;
     file.read_exact(&mut digest).map_err(failed)?;
     if hasher.finalize().as_slice() != digest {
         return Err(damaged("its digest does not hold"));

@@ -23,8 +23,11 @@ use thiserror::Error;
 use crate::process::{Life, Process};
 use crate::random;
 use crate::temporary::{Temporary, folder};
+use crate::text::short;
 use crate::timestamp::iso_8601;
 
+/// Version of the format.
+const VERSION: u32 = 2;
 /// How every lock begins.
 const START: &str = "{\"plateau_lock\":";
 /// More bytes than any lock has.
@@ -49,13 +52,19 @@ pub struct Claim {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Owner {
-    /// Version of the format.
+    /// [`VERSION`].
     plateau_lock: u32,
     writer: Process,
     /// ISO 8601.
     since: String,
     /// Only this lock has it.
     number: String,
+}
+
+/// What locks of every version say.
+#[derive(Deserialize)]
+struct Version {
+    plateau_lock: u32,
 }
 
 /// Why a file is not claimed.
@@ -73,8 +82,9 @@ pub enum ClaimError {
     },
     /// Nobody here can tell whether the process that has it lives.
     #[error(
-        "{} is being written by process {process} on the machine {host}, since {since}; if that process has ended, remove {}",
-        path.display(), lock.display()
+        "{} is being written by process {process} of the machine {host}, since {since}, and from here it cannot be told whether that lives; \
+        if it has ended, remove {}",
+        path.display(), lock.display(), host = short(host), since = short(since)
     )]
     Elsewhere {
         /// What was to be claimed.
@@ -98,6 +108,19 @@ pub enum ClaimError {
         path: PathBuf,
         /// What is in the way.
         lock: PathBuf,
+    },
+    /// Another version of the program has it, or had.
+    #[error(
+        "{} is a lock of another version of plateau (format {found}, expected {VERSION}): if no process writes {}, remove it",
+        lock.display(), path.display()
+    )]
+    OtherVersion {
+        /// What was to be claimed.
+        path: PathBuf,
+        /// The file that says so.
+        lock: PathBuf,
+        /// Version of its format.
+        found: u32,
     },
     /// Nobody can tell who has it.
     #[error("cannot read {}, which says who writes {}: {error}", lock.display(), path.display())]
@@ -194,14 +217,19 @@ impl Drop for Claim {
 
 impl Owner {
     fn this() -> Self {
-        Self { plateau_lock: 1, writer: Process::this(), since: iso_8601(SystemTime::now()), number: random::word() }
+        Self {
+            plateau_lock: VERSION,
+            writer: Process::this(),
+            since: iso_8601(SystemTime::now()),
+            number: random::word(),
+        }
     }
 
     fn refusal(self, path: &Path, lock: &Path) -> ClaimError {
         let (path, lock, since) = (path.to_owned(), lock.to_owned(), self.since);
-        let Process { host, number: process, .. } = self.writer.clone();
+        let process = self.writer.number;
         match self.writer.life() {
-            Life::Unknown => ClaimError::Elsewhere { path, lock, process, host, since },
+            Life::Unknown => ClaimError::Elsewhere { path, lock, process, host: self.writer.machine.host, since },
             _ => ClaimError::Here { path, process, since },
         }
     }
@@ -265,6 +293,10 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
             read => read.map_err(unreadable)?,
         };
         if text.ends_with('\n') || !(text.starts_with(START) || START.starts_with(&text)) {
+            let Version { plateau_lock: found } = serde_json::from_str(&text).map_err(|_| foreign())?;
+            if found != VERSION {
+                return Err(ClaimError::OtherVersion { path: path.to_owned(), lock: lock.to_owned(), found });
+            }
             let owner = serde_json::from_str::<Owner>(&text).ok().filter(|owner| random::is_word(&owner.number));
             return owner.map(Some).ok_or_else(foreign);
         }

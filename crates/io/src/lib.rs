@@ -27,6 +27,7 @@ pub mod dataset_file;
 pub mod export;
 mod hdf5_file;
 pub mod limits;
+pub mod machine;
 pub mod memory;
 pub mod number;
 pub mod plausibility;

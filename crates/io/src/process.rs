@@ -10,18 +10,18 @@ use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 
+use crate::machine::{Machine, Relation};
+
 /// Who a process is. What the system does not tell is empty or 0.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Process {
-    /// Name of its machine.
-    pub host: String,
+    /// Where it runs.
+    pub machine: Machine,
     /// Its number.
     #[serde(rename = "process")]
     pub number: u32,
     /// When it was started, in ticks of the system's clock since the machine was.
     started: u64,
-    /// Which start of the machine that is.
-    boot: String,
     /// Where its number holds: a container may have numbers of its own.
     numbers: String,
     /// Number of its user.
@@ -44,39 +44,32 @@ impl Process {
     pub fn this() -> Self {
         let number = std::process::id();
         Self {
-            host: host(),
+            machine: Machine::this(),
             number,
             started: status_of(number)
                 .ok()
                 .and_then(|status| state_and_start(&status))
                 .map_or(0, |(_, started)| started),
-            boot: fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default().trim().to_owned(),
             numbers: fs::read_link("/proc/self/ns/pid").unwrap_or_default().to_string_lossy().into_owned(),
             user: fs::metadata("/proc/self").map_or(0, |process| process.uid()),
         }
     }
 
-    /// Whether this machine was started anew since: what it had not handed to the disk may be gone.
-    pub fn is_of_earlier_start(&self) -> bool {
-        let this = Self::this();
-        let known = !self.boot.is_empty() && !this.boot.is_empty();
-        known && self.host == this.host && self.boot != this.boot
-    }
-
     /// Whether it lives.
     pub fn life(&self) -> Life {
         let this = Self::this();
-        if self.host != this.host || this.started == 0 {
+        // Where numbers hold elsewhere there may be the same one twice, even on one machine.
+        if self.numbers != this.numbers || this.started == 0 {
             return Life::Unknown;
         }
-        if self.boot != this.boot {
-            return Life::Ended;
+        match self.machine.seen_from(&this.machine) {
+            Relation::SameStart => {
+                let hidden = self.user != this.user && !fs::exists("/proc/1").unwrap_or(false);
+                life_by(status_of(self.number), self.started, hidden)
+            }
+            Relation::EarlierStart => Life::Ended,
+            Relation::Unknown => Life::Unknown,
         }
-        if self.numbers != this.numbers {
-            return Life::Unknown;
-        }
-        let hidden = self.user != this.user && !fs::exists("/proc/1").unwrap_or(false);
-        life_by(status_of(self.number), self.started, hidden)
     }
 }
 
@@ -100,16 +93,6 @@ fn life_by(status: io::Result<String>, started: u64, hidden: bool) -> Life {
         // A system may keep to itself how the processes of other users are, though not that they are (proc(5), hidepid=1).
         Err(_) => Life::Unknown,
     }
-}
-
-/// Name of this machine.
-pub fn host() -> String {
-    fs::read_to_string("/proc/sys/kernel/hostname")
-        .map(|name| name.trim().to_owned())
-        .ok()
-        .filter(|name| !name.is_empty())
-        .or_else(|| std::env::var("HOSTNAME").ok())
-        .unwrap_or_else(|| "unknown".into())
 }
 
 /// What the system tells of a process of this machine.
@@ -209,12 +192,8 @@ mod tests {
         let this = Process::this();
         assert_eq!(this.life(), Life::Lives);
         assert_eq!(Process { started: this.started + 1, ..this.clone() }.life(), Life::Ended);
-        let before = Process { boot: "before".into(), ..this.clone() };
-        assert_eq!(before.life(), Life::Ended);
-        assert!(before.is_of_earlier_start() && !this.is_of_earlier_start());
-        assert!(!Process { host: "elsewhere".into(), ..before.clone() }.is_of_earlier_start());
-        assert!(!Process { boot: String::new(), ..before }.is_of_earlier_start());
-        assert_eq!(Process { host: "elsewhere".into(), ..this.clone() }.life(), Life::Unknown);
+        let elsewhere = Machine { host: "elsewhere".into(), ..this.machine.clone() };
+        assert_eq!(Process { machine: elsewhere, ..this.clone() }.life(), Life::Unknown);
         assert_eq!(Process { numbers: "pid:[1]".into(), ..this }.life(), Life::Unknown);
     }
 

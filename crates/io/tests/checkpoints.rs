@@ -45,13 +45,32 @@ pub fn state_after(scene: &Scene, steps: u64) -> RunState {
 }
 
 #[test]
+fn what_is_larger_than_any_state_of_a_run_is_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, _] = checkpoint::paths(&folder.path().join("run.h5"));
+    // It takes no room on the disk, and its digest is not looked at.
+    for (size, most, expected) in [
+        (4 << 30, Some(checkpoint::ample_size(&scene().parameters.mesh)), "larger than any of this run"),
+        (1 << 42, None, "larger than the memory of this machine"),
+        (1 << 20, None, "its digest does not hold"),
+    ] {
+        let size: u64 = size;
+        let head = [&b"plateau state 6\n"[..], &(size - 16 - 8 - 32).to_le_bytes()].concat();
+        fs::write(&path, head).unwrap();
+        fs::File::options().write(true).open(&path).unwrap().set_len(size).unwrap();
+        let refused = checkpoint::read::<RunState>(&path, most).unwrap_err().to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
+}
+
+#[test]
 fn a_damaged_checkpoint_does_not_take_the_place_of_one_that_holds() {
     let folder = tempfile::tempdir().unwrap();
     let run_file = folder.path().join("run.h5");
     let [last, before] = checkpoint::paths(&run_file);
     let scene = scene();
     let steps_of = |path: &Path| {
-        let state = checkpoint::read::<RunState>(path).ok().flatten();
+        let state = checkpoint::read::<RunState>(path, None).ok().flatten();
         state.map(|state| state.simulation.run.steps())
     };
     for steps in [1, 2] {

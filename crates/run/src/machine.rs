@@ -2,7 +2,7 @@
 
 use std::fs;
 
-pub use plateau_io::process::host;
+pub use plateau_io::machine::host;
 
 /// Name of the processor.
 pub fn processor() -> String {

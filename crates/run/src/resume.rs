@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use plateau_core::model::mesh::Mesh;
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
 use plateau_io::scene::differences;
@@ -17,13 +18,14 @@ use crate::observer::Observer;
 /// [`InputError`] when there are some, but none of them holds or they are of another run.
 pub fn states(
     run_file: &Path,
+    mesh: &Mesh,
     identity: &RunIdentity,
     extends: bool,
     observer: &mut dyn Observer,
 ) -> Result<Vec<RunState>, InputError> {
     let (mut states, mut trouble) = (Vec::new(), Vec::new());
     for path in checkpoint::paths(run_file) {
-        match checkpoint::read::<RunState>(&path) {
+        match checkpoint::read::<RunState>(&path, Some(checkpoint::ample_size(mesh))) {
             Ok(state) => states.extend(state),
             Err(error) => {
                 observer.warning(&error);

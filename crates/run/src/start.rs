@@ -48,7 +48,7 @@ impl Request<'_> {
     /// # Errors
     /// [`RunError`] when the file cannot be made, or what is there is of another run.
     pub fn start(&self, job: &mut Job, observer: &mut dyn Observer) -> Result<Option<Start>, RunError> {
-        let Self { path, identity, options, .. } = *self;
+        let Self { path, header, identity, options, .. } = *self;
         let claim = if job.leads() { Some(Claim::of(path)?) } else { None };
         // No process looks at what is there before that is done.
         job.sum(0, 0)?;
@@ -57,7 +57,7 @@ impl Request<'_> {
         }
         let resumes = options.mode.resumes();
         let mut states = match resumes {
-            true => resume::states(path, identity, self.extends(), observer)?,
+            true => resume::states(path, &header.mesh, identity, self.extends(), observer)?,
             false => Vec::new(),
         };
         let there = if resumes { self.look(&states, claim.as_ref(), observer)? } else { None };

@@ -97,7 +97,7 @@ fn silence(scene: &toml::Table) -> Duration {
 fn origin(path: &Path) -> Result<(String, toml::Table), Failure> {
     match (RunFile::open(path), run_file::last_writer(path)) {
         (Ok(run), _) => Ok((run.attribute("host").unwrap_or_default(), run.scene().clone())),
-        (Err(_), Some((writer, scene))) => Ok((writer.host, scene.parse().unwrap_or_default())),
+        (Err(_), Some((writer, scene))) => Ok((writer.machine.host, scene.parse().unwrap_or_default())),
         (Err(error), None) => Err(Failure::input(error)),
     }
 }

@@ -50,7 +50,7 @@ fn finish(
     scene.output.maps.clear();
     let mut assembly = Assembly::new(&scene, surfaces, Execution { workers, ..Execution::default() })?;
     let mut recorder = Recorder::new(study, &scene, watcher, under_way);
-    if let Some(state) = recorder.under_way.find(&recorder.names()) {
+    if let Some(state) = recorder.under_way.find(&scene.parameters.mesh, &recorder.names()) {
         assembly.restore(&state.simulation)?;
         let steps = state.simulation.run.steps();
         watcher.goes_on(steps);

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use plateau_core::model::mesh::Mesh;
 use plateau_core::simulation::SimulationError;
 use plateau_io::checkpoint::{self, SimulationState};
 use plateau_io::claim::Claim;
@@ -51,9 +52,10 @@ impl UnderWay {
         self.every = Duration::try_from_secs_f64(every).unwrap_or(Duration::MAX);
     }
 
-    /// What was kept, if there is something that holds and has these series.
-    pub fn find(&self, names: &[String]) -> Option<State> {
-        let state: Option<State> = checkpoint::read(&self.path).unwrap_or_else(|error| {
+    /// What was kept of a run on this mesh, if there is something that holds and has these series.
+    pub fn find(&self, mesh: &Mesh, names: &[String]) -> Option<State> {
+        let most = checkpoint::ample_size(mesh);
+        let state: Option<State> = checkpoint::read(&self.path, Some(most)).unwrap_or_else(|error| {
             message::warning(format_args!("{error}: this run begins again"));
             None
         });

@@ -10,8 +10,9 @@ use super::*;
 fn leave(lock: &Path) -> Owner {
     let mut child = Command::new("true").spawn().unwrap();
     let mut owner = Owner::this();
+    let numbers = serde_json::to_value(&owner.writer).unwrap()["numbers"].clone();
     owner.writer = serde_json::from_value(serde_json::json!({
-        "host": owner.writer.host, "process": child.id(), "started": 1, "boot": "before", "numbers": "", "user": 0,
+        "machine": owner.writer.machine, "process": child.id(), "started": 1, "numbers": numbers, "user": 0,
     }))
     .unwrap();
     child.wait().unwrap();
@@ -88,13 +89,45 @@ fn who_may_live_elsewhere_is_named_with_the_file_to_remove() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.h5");
     let mut owner = leave(&lock_of(&path));
-    owner.writer.host = "node17".into();
+    owner.writer.machine.host = "node17".into();
     let text = serde_json::to_string(&owner).unwrap() + "\n";
     fs::write(lock_of(&path), &text).unwrap();
     let message = Claim::of(&path).unwrap_err().to_string();
-    assert!(message.contains("on the machine node17"), "{message}");
+    assert!(message.contains("of the machine node17"), "{message}");
     assert!(message.ends_with(&format!("remove {}", lock_of(&path).display())), "{message}");
     assert_eq!(fs::read_to_string(lock_of(&path)).unwrap(), text);
+}
+
+#[test]
+fn the_lock_of_a_living_process_on_another_machine_of_the_same_name_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    for boot in ["another", ""] {
+        let mut owner = Owner::this();
+        let machine = &mut owner.writer.machine;
+        // As of a copy of this machine, or of a container that is started again elsewhere.
+        (machine.boot, machine.hardware) = (boot.into(), vec!["another".into()]);
+        let text = serde_json::to_string(&owner).unwrap() + "\n";
+        fs::write(lock_of(&path), &text).unwrap();
+        for refused in [Claim::of(&path).map(drop), Claim::check(&path).map(drop)] {
+            assert!(matches!(refused, Err(ClaimError::Elsewhere { .. })), "{refused:?}");
+        }
+        assert_eq!(fs::read_to_string(lock_of(&path)).unwrap(), text);
+    }
+}
+
+#[test]
+fn a_lock_of_another_version_is_named_and_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let lock = lock_of(&path);
+    for version in [1, 3] {
+        let content = format!("{{\"plateau_lock\":{version},\"writer\":7}}\n");
+        fs::write(&lock, &content).unwrap();
+        let message = Claim::of(&path).unwrap_err().to_string();
+        assert!(message.contains(&format!("(format {version}, expected 2)")), "{message}");
+        assert_eq!(fs::read_to_string(&lock).unwrap(), content);
+    }
 }
 
 #[test]

@@ -97,7 +97,8 @@ pub fn last_writer(path: &Path) -> Option<(Process, String)> {
 
 /// The newest checkpoint that knows how a file was organised.
 fn checkpoint_of(path: &Path) -> Option<(RunState, Image)> {
-    let states = checkpoint::paths(path).into_iter().filter_map(|path| checkpoint::read::<RunState>(&path).ok()?);
+    let states =
+        checkpoint::paths(path).into_iter().filter_map(|path| checkpoint::read::<RunState>(&path, None).ok()?);
     states.into_iter().find_map(|mut state| {
         let place = state.images.iter().position(|image| image.is_of(path))?;
         let image = state.images.swap_remove(place);
@@ -125,10 +126,12 @@ pub fn repair(path: &Path) -> Result<Repair, RepairError> {
     }
     Temporary::remove_abandoned(&resolve(path, true)?);
     let checkpoint = checkpoint_of(path);
-    if let Some((state, image)) = checkpoint.as_ref().filter(|(_, image)| image.writer.is_of_earlier_start()) {
+    if let Some((state, image)) =
+        checkpoint.as_ref().filter(|(_, image)| image.writer.machine.may_be_of_earlier_start())
+    {
         return from_checkpoint(path, state, image, LeftOut::NotOnDisk);
     }
-    let is_doubtful = claim.before().is_some_and(Process::is_of_earlier_start);
+    let is_doubtful = claim.before().is_some_and(|writer| writer.machine.may_be_of_earlier_start());
     match (from_file(path, if is_doubtful { LeftOut::Doubtful } else { LeftOut::Nothing }), checkpoint) {
         (Err(RepairError::Read(_) | RepairError::Write(RunFileError::Earlier { .. })), Some((state, image))) => {
             from_checkpoint(path, &state, &image, LeftOut::Unreadable)

@@ -35,7 +35,7 @@ fn changed_checkpoints_are_refused() {
     });
     Fuzz { corpus: "checkpoints", cases: 600, least_accepted: u32::MAX }.run(strategy, |content| {
         fs::write(&path, content).unwrap();
-        match checkpoint::read::<RunState>(&path) {
+        match checkpoint::read::<RunState>(&path, None) {
             Err(error) => prop_assert!(!error.to_string().is_empty()),
             Ok(state) => prop_assert!(state.is_some() && content == original, "a changed checkpoint is believed"),
         }
@@ -54,11 +54,11 @@ fn changed_states_end_in_a_number_or_an_error() {
         let mut content = content.clone();
         changes.iter().for_each(|change| change.apply(&mut content));
         let length = (content.len() as u64).to_le_bytes();
-        [&b"plateau state 5\n"[..], &length, &content, &Sha256::digest(&content)].concat()
+        [&b"plateau state 6\n"[..], &length, &content, &Sha256::digest(&content)].concat()
     });
     Fuzz { corpus: "states", cases: 400, least_accepted: 20 }.run(strategy, |content| {
         fs::write(&path, content).unwrap();
-        let state = match checkpoint::read::<RunState>(&path) {
+        let state = match checkpoint::read::<RunState>(&path, None) {
             Err(error) => {
                 prop_assert!(!error.to_string().is_empty());
                 return Ok(false);

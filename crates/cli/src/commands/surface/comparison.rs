@@ -5,6 +5,9 @@ use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, 
 use plateau_core::surface::{Body, Level, Patch, level};
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
+use super::subject::describe;
+use crate::failure::Failure;
+
 /// A prepared patch, described at its own pitch and averaged over cells of the mesh, as the heights of the body are.
 pub struct Comparison {
     /// What the patch is called.
@@ -35,14 +38,25 @@ pub struct Cells {
 
 impl Comparison {
     /// Describes the patch of a body, peaks positive; none if it has no heights.
-    pub fn of(body: Body, name: &str, mut patch: Patch, mesh: &Mesh, form: Level, draws: bool) -> Option<Self> {
+    ///
+    /// # Errors
+    /// [`Failure`] where that needs more memory than there is.
+    pub fn of(
+        body: Body,
+        name: &str,
+        mut patch: Patch,
+        mesh: &Mesh,
+        form: Level,
+        draws: bool,
+    ) -> Result<Option<Self>, Failure> {
         if body == Body::Pin {
             // The pin's z grows away from the disc.
             patch.heights.iter_mut().for_each(|height| *height = -*height);
         }
         level(&mut patch.heights, patch.rows, form, false);
         let grid = Grid::of(&patch);
-        let description = Description::of(&grid)?;
+        let Some(description) = describe(name, &grid)? else { return Ok(None) };
+        // There are fewer of them than points of the patch.
         let cells = patch.cell_averages(mesh).and_then(|cells| {
             let grid = Grid::of(&cells);
             Some(Cells {
@@ -52,14 +66,14 @@ impl Comparison {
                 errors: sampling_errors(&grid),
             })
         });
-        Some(Self {
+        Ok(Some(Self {
             name: format!("{name} patch"),
             points: [patch.columns, patch.rows],
             pitch: [patch.column_pitch, patch.row_pitch],
             drawn: draws.then(|| Drawn::of(&grid, &description)),
             patch: description,
             cells,
-        })
+        }))
     }
 
     /// What is drawn of the patch, if anything is.

@@ -121,7 +121,7 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
     let patches = [(Body::Disc, patches.disc), (Body::Pin, patches.pin)];
     for (subject, (body, patch)) in subjects.iter_mut().zip(patches) {
         let compare = |patch| Comparison::of(body, &subject.name, patch, mesh, level, draws(arguments));
-        subject.comparison = patch.and_then(compare);
+        subject.comparison = patch.map(compare).transpose()?.flatten();
     }
     Ok(subjects)
 }

@@ -6,6 +6,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, level};
+use plateau_io::memory::refuse_beyond;
 use plateau_io::surface::Measured;
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
@@ -47,7 +48,7 @@ impl Subject {
         let grid = Grid { columns, rows, pitch, heights: &heights };
         let points = heights.len();
         let none = || named(path, format_args!("none of its {points} points has a height"));
-        let description = Description::of(&grid).ok_or_else(none)?;
+        let description = describe(&path.display().to_string(), &grid)?.ok_or_else(none)?;
         Ok(Self {
             name: path.display().to_string(),
             origin: format.to_string(),
@@ -78,7 +79,8 @@ impl Subject {
             let (columns, rows) = (body.columns(mesh), mesh.rows());
             let pitch = Some([mesh.column_width(), mesh.row_height()]);
             let grid = Grid { columns, rows, pitch, heights: &heights };
-            let description = Description::of(&grid).ok_or_else(|| Failure::input("the mesh has no cells"))?;
+            let description = describe(name, &grid)?;
+            let description = description.ok_or_else(|| Failure::input("the mesh has no cells"))?;
             let own = |line: &&String| line.starts_with(&format!("{name}."));
             Ok(Self {
                 name: name.to_owned(),
@@ -122,6 +124,20 @@ impl Subject {
         });
         self.comparison.as_ref().and_then(Comparison::described).into_iter().chain(own)
     }
+}
+
+/// Describes the heights of a surface of that name; none if no point has one.
+///
+/// # Errors
+/// [`Failure`] where that needs more memory than there is.
+pub(super) fn describe(name: &str, grid: &Grid) -> Result<Option<Description>, Failure> {
+    let Grid { columns, rows, .. } = *grid;
+    refuse_beyond(Description::memory_needed(columns, rows)).map_err(|no_room| {
+        Failure::input(format_args!(
+            "{name}: its {columns} x {rows} points can be read, but to describe them needs {no_room}; give a coarser surface, or a part of it"
+        ))
+    })?;
+    Ok(Description::of(grid))
 }
 
 /// The form that is taken out of a surface, or of one that closes round the ring.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Grid;
-use super::correlate::{Lags, correlate};
+use super::correlate::{self, Lags, correlate};
 
 /// s: value to which the autocorrelation decays.
 const CORRELATION_THRESHOLD: f64 = 0.2;
@@ -29,6 +29,18 @@ pub struct Autocorrelation {
 }
 
 impl Autocorrelation {
+    /// Bytes that [`of`](Self::of) takes for a grid of that size, at most.
+    pub(super) fn memory_needed(columns: usize, rows: usize) -> u64 {
+        let lags = Lags::of(columns, rows);
+        if lags.x == 0 || lags.y == 0 {
+            return 0;
+        }
+        // The numbers of pairs are kept, as u32, while the sums are made.
+        let pairs = correlate::memory_needed::<u32>(columns, rows);
+        let kept = ((lags.x as u64 + 1) * lags.height() as u64).saturating_mul(size_of::<u32>() as u64);
+        pairs.max(kept.saturating_add(correlate::memory_needed::<f64>(columns, rows)))
+    }
+
     /// That of a grid of known pitch, with heights measured from `mean`.
     ///
     /// Along straight lines from no lag to every lag on the edge of the window, the autocorrelation is linear between the

@@ -56,12 +56,22 @@ pub(super) fn correlate<T: Copy + Default + Send + Sync>(
     transform_back_along_y(&harmonics, height, lags, |sum| finish(sum * scale))
 }
 
+/// Bytes that [`correlate`] takes for a grid of that size, at most, with its result.
+pub(super) fn memory_needed<T>(columns: usize, rows: usize) -> u64 {
+    let lags = Lags::of(columns, rows);
+    let harmonics = (fast_length(rows + lags.y) / 2 + 1).next_multiple_of(BAND);
+    let kept = |columns: usize| (columns as u64).saturating_mul((harmonics * size_of::<Complex<f64>>()) as u64);
+    let field = ((lags.x as u64 + 1) * lags.height() as u64).saturating_mul(size_of::<T>() as u64);
+    // The field is made when the lags along x are left of the columns.
+    kept(columns).saturating_add(kept(BATCH.min(columns))).max(kept(lags.x + 1).saturating_add(field))
+}
+
 /// Harmonics of every column, band by band; in a band, column by column.
 fn transform_along_y(columns: &[&[f64]], height: usize, value: impl Fn(f64) -> f64 + Sync) -> Vec<Complex<f64>> {
     let plan = RealFftPlanner::new().plan_fft_forward(height);
     let count = plan.complex_len().next_multiple_of(BAND);
     let mut harmonics = vec![Complex::default(); columns.len() * count];
-    let mut lines = vec![Complex::default(); BATCH * count];
+    let mut lines = vec![Complex::default(); BATCH.min(columns.len()) * count];
     for (batch, part) in columns.chunks(BATCH).enumerate() {
         lines.par_chunks_mut(count).zip(part).for_each_init(
             || (plan.make_input_vec(), plan.make_scratch_vec()),

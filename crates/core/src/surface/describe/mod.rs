@@ -51,6 +51,13 @@ pub struct Description {
 }
 
 impl Description {
+    /// Bytes that [`of`](Self::of) takes besides the heights of a grid of that size, at most.
+    pub fn memory_needed(columns: usize, rows: usize) -> u64 {
+        // The sorted heights are gone before the autocorrelation is made.
+        let sorted = (columns as u64).saturating_mul(rows as u64).saturating_mul(size_of::<f64>() as u64);
+        sorted.max(Autocorrelation::memory_needed(columns, rows))
+    }
+
     /// Describes heights from which form was taken out. None if no point has a height.
     ///
     /// Takes one and a half times the memory of the heights besides them, and a quarter more where points are missing. The
