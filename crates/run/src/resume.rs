@@ -110,6 +110,14 @@ pub fn writer(
     states: &mut [RunState],
     observer: &mut dyn Observer,
 ) -> Result<(RunWriter, usize), RunError> {
+    if !path.exists() {
+        // Else every checkpoint would say so.
+        return Err(InputError::NotResumable {
+            path: path.to_owned(),
+            what: "is gone, though its checkpoint is there".into(),
+        }
+        .into());
+    }
     let mut refusals = Vec::new();
     for (place, state) in states.iter_mut().enumerate() {
         let earlier = Earlier {
