@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use plateau_io::brief;
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
 use plateau_io::scene::differences;
 use plateau_io::scene::schema::{self, Role};
+use plateau_io::text::shown_title;
 
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
@@ -64,7 +66,7 @@ fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: b
     if changed.is_empty() && identity.inputs.len() == state.inputs.len() {
         return Ok(());
     }
-    Err(refusal(run_file, format_args!("files that it reads have changed: {}", changed.join(", "))))
+    Err(refusal(run_file, format_args!("files that it reads have changed: {}", brief::list(changed, ", "))))
 }
 
 /// Refuses a run file of another scene.
@@ -82,14 +84,15 @@ pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, exte
         .into_iter()
         .filter(|difference| !free(&difference.key))
         .map(|difference| {
-            let value = |value: Option<String>| value.unwrap_or_else(|| "nothing".into());
+            let value =
+                |value: Option<String>| value.map_or_else(|| "nothing".into(), |it| shown_title(&it).into_owned());
             format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
         })
         .collect();
     if keys.is_empty() {
         Ok(())
     } else {
-        Err(refusal(run_file, format_args!("the scene differs: {}", keys.join(", "))))
+        Err(refusal(run_file, format_args!("the scene differs: {}", brief::list(keys, ", "))))
     }
 }
 
