@@ -17,8 +17,8 @@ SERIES = [
     "balance_residual", "contact_area", "contact_area_integral", "contact_area_mean", "contact_ratio", "disc_secondary",
     "emitted", "filled_fraction", "load_residual", "pin_secondary", "worn_disc", "worn_pin", "worn_resin",
 ]
-# The first is of the whole file; a cut run has not ended when the run did.
-LEFT_OUT = {"attributes_sha256", "end_time"}
+# The digests are of the whole file; a cut run has not ended when the run did.
+LEFT_OUT = {"attributes_sha256", "numbers_sha256", "execution_sha256", "end_time"}
 # A step with m = 1 is far shorter, samples are never as close, s.
 CLOSE = 1e-3
 

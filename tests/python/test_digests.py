@@ -1,8 +1,10 @@
 """The digests of a run file, computed anew from docs/run-file.md by h5py and hashlib alone."""
 
 import hashlib
+import json
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -11,7 +13,8 @@ import h5py
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-OF_THE_EXECUTION = {"host", "instruction_set", "start_time", "end_time"}
+OF_THE_EXECUTION = {"host", "instruction_set", "start_time", "end_time", "workers", "wall_time"}
+DIGESTS = {"attributes_sha256", "execution_sha256"}
 
 
 def sha256(data):
@@ -29,10 +32,37 @@ def texts(file, name, value):
     return None
 
 
+def number(value):
+    """Whole numbers have their digits, others the 64 bits of IEEE 754."""
+    return str(value) if isinstance(value, numpy.integer) else struct.pack(">d", value).hex()
+
+
+def line(file, path, name, value):
+    """The line of an attribute of any kind."""
+    said = texts(file, name, value)
+    if isinstance(value, bytes):
+        said = [value.decode()]
+    elif said is None and isinstance(value, (numpy.number, numpy.ndarray)) and value.dtype.kind in "iuf":
+        said = [number(each) for each in numpy.ravel(value)]
+    return (f"{path}@{name}" + ("" if said is None else f"={','.join(said)}") + "\n").encode()
+
+
+def other_lines(file):
+    """The lines of all attributes that have none in `lines`, but for those of the execution."""
+    things = [("/", file)]
+    file.visititems(lambda name, thing: things.append((f"/{name}", thing)))
+    # `visititems` does not follow the link.
+    things.append(("/series/time", file["series/time"]))
+    for path, thing in things:
+        for name, value in thing.attrs.items():
+            if (path != "/" or name not in OF_THE_EXECUTION | DIGESTS) and texts(file, name, value) is None:
+                yield line(file, path, name, value)
+
+
 def lines(file, path, thing):
     """The lines of a group or a dataset and of all that is below it."""
     for name, value in thing.attrs.items():
-        said = None if name in OF_THE_EXECUTION | {"attributes_sha256"} else texts(file, name, value)
+        said = None if name in OF_THE_EXECUTION | DIGESTS else texts(file, name, value)
         if said is not None:
             yield f"{path}@{name}={','.join(said)}\n".encode()
     if isinstance(thing, h5py.Group):
@@ -52,6 +82,18 @@ class Digests(unittest.TestCase):
             )
             with h5py.File(path) as file:
                 self.check(file)
+            self.check_verdict(path, "intact", True)
+            # As earlier programs left it.
+            with h5py.File(path, "r+") as file:
+                for name in ["numbers_sha256", "execution_sha256", "attributes_sha256"]:
+                    del file.attrs[name]
+                file.attrs["attributes_sha256"] = sha256(b"".join(sorted(lines(file, "/", file))))
+            self.check_verdict(path, "intact", False)
+
+    def check_verdict(self, path, verdict, covers_numbers):
+        command = [os.environ["PLATEAU_PROGRAM"], "verify", path, "--json"]
+        found = json.loads(subprocess.run(command, check=False, capture_output=True).stdout)[0]
+        self.assertEqual((found["verdict"], found["covers_numbers"]), (verdict, covers_numbers), found)
 
     def check(self, file):
         checked = []
@@ -70,6 +112,11 @@ class Digests(unittest.TestCase):
         self.assertEqual(len(checked), 36)
         every = sorted(lines(file, "/", file))
         self.assertEqual(sha256(b"".join(every)), file.attrs["attributes_sha256"])
+        others = sorted(other_lines(file))
+        self.assertIn(b"/@format_version=1\n", others)
+        self.assertEqual(sha256(b"".join(others)), file.attrs["numbers_sha256"])
+        execution = sorted(line(file, "/", name, file.attrs[name]) for name in OF_THE_EXECUTION)
+        self.assertEqual(sha256(b"".join(execution)), file.attrs["execution_sha256"])
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use hdf5::file::OpenMode;
-use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::types::{TypeDescriptor, VarLenAscii, VarLenUnicode};
 use hdf5::{Dataset, Group, H5Type};
 
 /// A status as docs/run-file.md numbers and names it.
@@ -165,6 +165,10 @@ impl RunFile {
             let kind = self.file.attr(name).and_then(|attribute| attribute.dtype()?.to_descriptor());
             match kind.unwrap_or_else(|error| panic!("{name}: {error}")) {
                 TypeDescriptor::VarLenUnicode => self.text(name),
+                TypeDescriptor::VarLenAscii => {
+                    let read = self.file.attr(name).and_then(|attribute| attribute.read_scalar::<VarLenAscii>());
+                    read.unwrap_or_else(|error| panic!("{name}: {error}")).to_string()
+                }
                 _ => self.number(name).to_string(),
             }
         };

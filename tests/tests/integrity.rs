@@ -3,6 +3,8 @@
 use std::fs;
 use std::process::Stdio;
 
+use hdf5::H5Type;
+use hdf5::types::VarLenUnicode;
 use plateau_tests::program::{WorkingDirectory, kill, scene, wait_until};
 use plateau_tests::run_file::{RunFile, changed, differences};
 use plateau_tests::scenes::Stream;
@@ -89,6 +91,84 @@ fn what_is_damaged_is_named() {
     assert_eq!(directory.plateau(["verify", &scene("quick.toml")]).status, Some(2));
 }
 
+/// Makes the file what somebody else may make of it.
+fn edit(directory: &WorkingDirectory, from: &str, to: &str, edit: impl Fn(&hdf5::File)) {
+    fs::copy(directory.path(from), directory.path(to)).unwrap();
+    let file = changed(directory.path(to));
+    edit(&file);
+    file.close().unwrap();
+}
+
+fn set<T: H5Type>(file: &hdf5::File, name: &str, value: T) {
+    file.delete_attr(name).unwrap();
+    file.new_attr::<T>().create(name).unwrap().write_scalar(&value).unwrap();
+}
+
+#[test]
+fn numbers_among_the_attributes_are_what_was_written() {
+    let directory = WorkingDirectory::new();
+    run(&directory, "run.h5");
+    let places = |what: &str, change: &dyn Fn(&hdf5::File)| {
+        edit(&directory, "run.h5", "changed.h5", change);
+        let (status, document) = verdict(&directory, "changed.h5");
+        assert_eq!(status, Some(1), "{what}: {document}");
+        let damage = document["damage"].as_array().unwrap().iter();
+        damage.map(|damage| damage["place"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let (attributes, numbers) = ("attributes", "numbers among the attributes");
+    let execution = "attributes of machine and time";
+    let text =
+        |file: &hdf5::File, name: &str| set::<VarLenUnicode>(file, name, "2001-01-01T00:00:00Z".parse().unwrap());
+    assert_eq!(places("workers", &|file| set(file, "workers", 64_i64)), [execution]);
+    assert_eq!(places("wall_time", &|file| set(file, "wall_time", 1e-3)), [execution]);
+    for name in ["workers", "wall_time", "host", "start_time", "end_time", "instruction_set", "execution_sha256"] {
+        assert_eq!(places(name, &|file| file.delete_attr(name).unwrap()), [execution], "{name}");
+    }
+    assert_eq!(places("start_time", &|file| text(file, "start_time")), [execution]);
+    assert_eq!(
+        places("more", &|file| file.new_attr::<f64>().create("more").unwrap().write_scalar(&1.0).unwrap()),
+        [numbers]
+    );
+    let flags = |file: &hdf5::File| file.dataset("disc/status").unwrap().delete_attr("flag_values").unwrap();
+    assert_eq!(places("flag_values", &flags), [numbers]);
+    // The digest that tells of the others is itself told of.
+    let without = |file: &hdf5::File| {
+        file.delete_attr("numbers_sha256").unwrap();
+        set(file, "workers", 64_i64);
+    };
+    assert_eq!(places("numbers_sha256", &without), [attributes]);
+    // A number of another width is the same number.
+    edit(&directory, "run.h5", "width.h5", |file| {
+        let workers = file.attr("workers").unwrap().read_scalar::<i64>().unwrap();
+        set(file, "workers", i32::try_from(workers).unwrap());
+        set(file, "format_version", 1_i64);
+    });
+    assert_eq!(verdict(&directory, "width.h5").1["verdict"], "intact");
+}
+
+#[test]
+fn a_format_version_that_is_none_is_refused() {
+    let directory = WorkingDirectory::new();
+    run(&directory, "run.h5");
+    for (version, found) in [(f64::NAN, "NaN"), (f64::NEG_INFINITY, "-inf"), (1.5, "1.5"), (0.0, "0"), (-1.0, "-1")] {
+        edit(&directory, "run.h5", "version.h5", |file| set(file, "format_version", version));
+        let refused = directory.plateau(["report", "version.h5"]);
+        let said = format!("its format_version is {found}, expected a whole number from 1 to 1");
+        assert!(refused.status == Some(2) && refused.stderr.contains(&said), "{refused:?}");
+        let (status, document) = verdict(&directory, "version.h5");
+        assert_eq!((status, &document["verdict"]), (Some(1), &"damaged".into()), "{version}: {document}");
+    }
+    edit(&directory, "run.h5", "version.h5", |file| set(file, "format_version", i64::MIN));
+    assert!(
+        directory
+            .plateau(["watch", "version.h5", "--once"])
+            .stderr
+            .contains("is -9.223372036854776e18, expected a whole")
+    );
+    edit(&directory, "run.h5", "version.h5", |file| set(file, "format_version", 2_u8));
+    assert!(directory.plateau(["verify", "version.h5"]).stderr.contains("format_version 2, expected at most 1"));
+}
+
 #[test]
 fn a_killed_run_is_repaired_and_a_healthy_file_is_left_alone() {
     let directory = WorkingDirectory::new();
@@ -116,7 +196,8 @@ fn a_killed_run_is_repaired_and_a_healthy_file_is_left_alone() {
     assert_eq!(repaired.status, Some(0), "{repaired:?}");
     let run = RunFile::open(&file);
     assert_eq!((run.text("state").as_str(), run.floats("/time")), ("interrupted", samples));
-    assert_eq!(verdict(&directory, "run.h5").1["verdict"], "intact");
+    let document = verdict(&directory, "run.h5").1;
+    assert_eq!((&document["verdict"], &document["covers_numbers"]), (&"intact".into(), &true.into()), "{document}");
     assert!(fs::read(directory.path("run.h5.before-repair")).unwrap() == before);
 
     let healthy = directory.content();

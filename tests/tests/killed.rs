@@ -137,6 +137,21 @@ fn samples_of_before_the_first_checkpoint_stay_when_a_run_begins_anew() {
 }
 
 #[test]
+fn a_run_file_that_is_gone_is_missed_once() {
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "steps = 1000000000")]));
+    let arguments = ["run", "scene.toml", "-o", "run.h5", "--set", "output.checkpoint_every=0.05 s"];
+    let child = directory.command(arguments).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let two = wait_until(|| directory.path("run.h5.checkpoint-before").exists());
+    kill(child);
+    assert!(two, "there are no two checkpoints: {:?}", directory.names());
+    fs::remove_file(directory.path("run.h5")).unwrap();
+    let refused = directory.plateau(arguments.iter().chain(&["--resume"]));
+    let said = "plateau: run.h5 is gone, though its checkpoint is there; without --resume, --force begins again\n";
+    assert_eq!((refused.status, refused.stderr.as_str()), (Some(2), said));
+}
+
+#[test]
 fn a_stopped_run_is_marked_interrupted_and_its_samples_are_whole() {
     for (signal, status) in [("INT", 130), ("TERM", 143)] {
         let directory = WorkingDirectory::new();

@@ -3,6 +3,7 @@
 mod accuracy_command;
 mod adaptive;
 mod bad_input;
+mod bounded_messages;
 mod checkpoint;
 mod claims;
 mod commands;

@@ -13,8 +13,16 @@ use serde_json::Value;
 
 /// Run attributes that tell how, where and when a run was carried out, or whose content does: the resolved scene has
 /// a line for the workers, and the digest of the attributes is one of the scene, too.
-const OF_THE_EXECUTION: [&str; 7] =
-    ["workers", "instruction_set", "scene", "start_time", "end_time", "wall_time", "attributes_sha256"];
+const OF_THE_EXECUTION: [&str; 8] = [
+    "workers",
+    "instruction_set",
+    "scene",
+    "start_time",
+    "end_time",
+    "wall_time",
+    "attributes_sha256",
+    "execution_sha256",
+];
 
 fn cores() -> usize {
     available_parallelism().map_or(1, NonZeroUsize::get)

@@ -4,16 +4,16 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
+use plateau_io::brief;
 use plateau_io::scene::{Origin, Problem, SceneError};
 
 /// Longest line that is shown, characters: of a longer one its beginning.
 const LONGEST: usize = 160;
 
-/// All problems of a scene, each with its line if it has one.
+/// The problems of a scene, as many as are read, each with its line if it has one.
 pub fn of_scene(error: &SceneError) -> String {
     let mut files = HashMap::new();
-    let texts: Vec<String> = error.problems().iter().map(|problem| with_line(problem, &mut files)).collect();
-    texts.join("\n")
+    brief::problems(error.problems().iter().map(|problem| with_line(problem, &mut files)))
 }
 
 fn with_line<'a>(problem: &'a Problem, files: &mut HashMap<&'a Path, Option<String>>) -> String {

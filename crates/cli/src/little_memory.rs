@@ -1,7 +1,6 @@
 //! What the program does where it may take little memory.
 
 use std::env;
-use std::ffi::OsStr;
 use std::os::unix::process::CommandExt;
 use std::process::Command;
 use std::sync::Arc;
@@ -31,12 +30,10 @@ pub fn begin() -> Result<(), Failure> {
 /// Under a limit of the address space (`ulimit -v`, h_vmem of a queue) the C library would reserve 64 MiB of it for each thread, and
 /// whatever needs memory next would get none. It reads how many such pools it makes when a process starts.
 fn begin_anew_with_one_pool() {
-    let Ok(program) = env::current_exe() else { return };
     let mut arguments = env::args_os();
-    let name = arguments.next().unwrap_or_default();
-    let name: &OsStr = if name.is_empty() { program.as_os_str() } else { &name };
-    // It comes back only with an error, and then it is as it was.
-    let _ = Command::new(&program).arg0(name).args(arguments).env(POOLS, "1").exec();
+    let name = arguments.next().filter(|name| !name.is_empty()).unwrap_or_else(|| "plateau".into());
+    // The file of this process, even where another one has its name by now. It comes back only with an error, and then it is as it was.
+    let _ = Command::new("/proc/self/exe").arg0(name).args(arguments).env(POOLS, "1").exec();
 }
 
 /// A program that gets no more memory ends as one whose run failed, and not by a signal; the library has said then how much was

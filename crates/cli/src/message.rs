@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use console::{Style, StyledObject};
-use plateau_io::text::{shown, shown_line};
+use plateau_io::text::{shown, shown_message};
 
 static WARNINGS: AtomicBool = AtomicBool::new(true);
 static QUIET: AtomicBool = AtomicBool::new(false);
@@ -64,6 +64,5 @@ fn may_be_said() -> bool {
 /// status still tells; `eprintln!` would panic.
 fn say(who: impl fmt::Display, message: impl fmt::Display) {
     let message = message.to_string();
-    let lines: Vec<_> = message.split('\n').map(shown_line).collect();
-    let _ = writeln!(io::stderr().lock(), "{who} {}", shown(&lines.join("\n")));
+    let _ = writeln!(io::stderr().lock(), "{who} {}", shown_message(&shown(&message)));
 }

@@ -16,11 +16,13 @@
 //! | regular files, and nothing else | [`regular`] |
 //! | how much is read of a file | [`limits`] |
 //! | how much memory there is | [`memory`] |
+//! | lists in messages, as much of them as is read | [`brief`] |
 //! | text that others have written, as it can be shown | [`text`] |
 //! | files that appear when they are complete | [`temporary`] |
 //! | processes: told from later ones, or by the file that they write | [`process`] |
 
 mod archive;
+pub mod brief;
 pub mod checkpoint;
 pub mod claim;
 pub mod dataset_file;

@@ -2,16 +2,18 @@
 
 use toml::de::Error;
 
+use crate::text::{short, shown_title};
+
 /// What the parser says of a text, and more of what is often wrong.
 pub(crate) fn problem(text: &str, error: &Error) -> String {
     let message = error.message();
     // The parser points at the second of two equal keys, and does not name it.
     let twice = error.span().filter(|_| message == "duplicate key").and_then(|span| text.get(span));
     match twice {
-        Some(key) => format!("{key} is there already in this table, further up: keep one of them"),
+        Some(key) => format!("{} is there already in this table, further up: keep one of them", short(key)),
         None => match error.span().and_then(|span| with_comma(text, span.start)) {
-            Some(found) => format!("{found} has a comma, write {}", found.replacen(',', ".", 1)),
-            None => format!("this is not TOML: {message}"),
+            Some(found) => format!("{} has a comma, write {}", short(found), short(&found.replacen(',', ".", 1))),
+            None => format!("this is not TOML: {}", shown_title(message)),
         },
     }
 }

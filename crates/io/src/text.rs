@@ -28,8 +28,11 @@ pub fn odd_character(text: &str) -> Option<String> {
 /// Letters of a name, a title or a level, at most: so many are read, and fit a table or a figure.
 pub const LONGEST_NAME: usize = 200;
 
-/// Letters of a line of a message, at most: lists of names are cut before, and no path is longer.
-const LONGEST_LINE: usize = 8000;
+/// Letters of what is said of one thing that is wrong, at most: more than any such message has of its own.
+const LONGEST_PROBLEM: usize = 2000;
+
+/// Letters of a message in all, at most: lists are cut before (see [`crate::brief`]), and no path is longer.
+const LONGEST_MESSAGE: usize = 8000;
 
 /// Says that a name, a title or a level has more letters than are taken.
 pub fn too_long(text: &str) -> Option<String> {
@@ -51,12 +54,17 @@ pub fn shown_title(text: &str) -> Cow<'_, str> {
     beginning(text, LONGEST_NAME)
 }
 
-/// As much of a line of a message as is read.
-pub fn shown_line(line: &str) -> Cow<'_, str> {
-    beginning(line, LONGEST_LINE)
+/// As much of what is said of one thing that is wrong as is read, with whatever of a stranger's text is in it.
+pub fn shown_problem(text: &str) -> Cow<'_, str> {
+    beginning(text, LONGEST_PROBLEM)
 }
 
-fn beginning(text: &str, most: usize) -> Cow<'_, str> {
+/// As much of a message as is read.
+pub fn shown_message(message: &str) -> Cow<'_, str> {
+    beginning(message, LONGEST_MESSAGE)
+}
+
+pub(crate) fn beginning(text: &str, most: usize) -> Cow<'_, str> {
     match text.char_indices().nth(most) {
         Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
         None => Cow::Borrowed(text),
@@ -139,7 +147,7 @@ mod tests {
         let said = too_long(&"ä".repeat(201)).unwrap();
         assert_eq!(said, format!("\"{}…\" has 201 letters, expected at most 200; shorten it", "ä".repeat(60)));
         assert_eq!((short("a"), shown_title(&"x".repeat(300)).chars().count()), (Cow::Borrowed("a"), 201));
-        assert_eq!(shown_line(&"x".repeat(10_000_000)).chars().count(), 8001);
+        assert_eq!(shown_message(&"x".repeat(10_000_000)).chars().count(), 8001);
     }
 
     #[test]

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use plateau_io::scene;
 use proptest::prelude::*;
 
-/// What a scene is refused with; the memory of this machine is left out.
+/// What a scene is refused with, every problem, of which a message tells the first twenty; the memory of this machine is left out.
 fn message(path: &Path, sets: &[&str]) -> String {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     let message = match scene::load(path, &sets) {
         Ok(scene) => panic!("{} was accepted:\n{}", path.display(), scene.resolved),
-        Err(error) => error.to_string(),
+        Err(error) => error.problems().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
     };
     match (message.find("of memory and "), message.find(" are available")) {
         (Some(start), Some(end)) => format!("{}of memory and [memory]{}", &message[..start], &message[end..]),

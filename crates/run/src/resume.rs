@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use plateau_core::model::mesh::Mesh;
+use plateau_io::brief;
 use plateau_io::checkpoint::{self, RunState};
 use plateau_io::run_file::{Earlier, Header, RunFileError, RunWriter};
 use plateau_io::scene::differences;
 use plateau_io::scene::schema::{self, Role};
+use plateau_io::text::shown_title;
 
 use crate::checkpointer::RunIdentity;
 use crate::error::{InputError, RunError};
@@ -66,7 +68,7 @@ fn compare(run_file: &Path, state: &RunState, identity: &RunIdentity, extends: b
     if changed.is_empty() && identity.inputs.len() == state.inputs.len() {
         return Ok(());
     }
-    Err(refusal(run_file, format_args!("files that it reads have changed: {}", changed.join(", "))))
+    Err(refusal(run_file, format_args!("files that it reads have changed: {}", brief::list(changed, ", "))))
 }
 
 /// Refuses a run file of another scene.
@@ -84,14 +86,15 @@ pub fn compare_scenes(run_file: &Path, scene: &str, identity: &RunIdentity, exte
         .into_iter()
         .filter(|difference| !free(&difference.key))
         .map(|difference| {
-            let value = |value: Option<String>| value.unwrap_or_else(|| "nothing".into());
+            let value =
+                |value: Option<String>| value.map_or_else(|| "nothing".into(), |it| shown_title(&it).into_owned());
             format!("{} was {}, is {}", difference.key, value(difference.first), value(difference.second))
         })
         .collect();
     if keys.is_empty() {
         Ok(())
     } else {
-        Err(refusal(run_file, format_args!("the scene differs: {}", keys.join(", "))))
+        Err(refusal(run_file, format_args!("the scene differs: {}", brief::list(keys, ", "))))
     }
 }
 
@@ -112,6 +115,14 @@ pub fn writer(
     states: &mut [RunState],
     observer: &mut dyn Observer,
 ) -> Result<(RunWriter, usize), RunError> {
+    if !path.exists() {
+        // Else every checkpoint would say so.
+        return Err(InputError::NotResumable {
+            path: path.to_owned(),
+            what: "is gone, though its checkpoint is there".into(),
+        }
+        .into());
+    }
     let mut refusals = Vec::new();
     for (place, state) in states.iter_mut().enumerate() {
         let earlier = Earlier {

@@ -65,6 +65,8 @@ struct Finding {
     samples: Option<usize>,
     moments: Option<usize>,
     digests: usize,
+    /// Whether there are digests of the numbers among the attributes, and of what tells of machine and time.
+    covers_numbers: bool,
     damage: Vec<Place>,
 }
 
@@ -76,7 +78,7 @@ struct Place {
 
 impl Finding {
     fn of(path: &Path, verification: &Verification) -> Self {
-        let Verification { state, samples, moments, intact, digested, damage } = verification;
+        let Verification { state, samples, moments, intact, digested, covers_numbers, damage } = verification;
         let verdict = match (damage.len(), digested, state) {
             (0, true, _) => Verdict::Intact,
             (0, false, State::Running) => Verdict::NotClosed,
@@ -91,6 +93,7 @@ impl Finding {
             samples: Some(*samples),
             moments: Some(*moments),
             digests: *intact,
+            covers_numbers: *covers_numbers,
             damage: damage.iter().map(place).collect(),
         }
     }
@@ -98,7 +101,16 @@ impl Finding {
     fn unreadable(path: &Path, error: &ReadError) -> Self {
         let damage = vec![Place { place: "file".into(), problem: error.to_string() }];
         let file = path.display().to_string();
-        Self { file, verdict: Verdict::Damaged, state: None, samples: None, moments: None, digests: 0, damage }
+        Self {
+            file,
+            verdict: Verdict::Damaged,
+            state: None,
+            samples: None,
+            moments: None,
+            digests: 0,
+            covers_numbers: false,
+            damage,
+        }
     }
 
     fn to_text(&self) -> String {
@@ -117,6 +129,10 @@ impl Finding {
             rows.push(("state", state.to_owned()));
             rows.push(("holds", format!("samples: {}, moments with maps: {moments}", number::grouped(samples as u64))));
             rows.push(("digests that hold", self.digests.to_string()));
+        }
+        if self.verdict == Verdict::Intact && !self.covers_numbers {
+            let what = "numbers among the attributes, host and times: an earlier program wrote it";
+            rows.push(("without a digest", what.to_owned()));
         }
         rows.extend(self.damage.iter().map(|damage| ("damaged", format!("{}: {}", damage.place, damage.problem))));
         table(&self.file, &rows)

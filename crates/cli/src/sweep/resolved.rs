@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use plateau_io::brief;
 use plateau_io::study::Study;
 use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
@@ -96,15 +97,16 @@ impl Resolved {
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();
-        let mut lines =
-            vec![format!("{}: {} of {} runs cannot be made", plan.study().path.display(), problems.len(), plan.runs())];
+        let heading =
+            format!("{}: {} of {} runs cannot be made", plan.study().path.display(), problems.len(), plan.runs());
+        let mut lines = Vec::new();
         for (number, problem) in &problems {
             if !said.contains(problem) && said.len() < SHOWN {
                 said.push(problem);
                 lines.push(format!("{}:\n{problem}", run_in_words(plan, *number)));
             }
         }
-        Err(Failure::input(lines.join("\n")))
+        Err(Failure::input(format_args!("{heading}\n{}", brief::list(lines, "\n"))))
     }
 }
 
@@ -112,6 +114,6 @@ impl Resolved {
 pub fn run_in_words(plan: &Plan, number: usize) -> String {
     let levels = plan.run(number).levels;
     let settings = plan.study().factors.iter().zip(&levels);
-    let settings: Vec<String> = settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label)).collect();
-    format!("run {number} ({})", settings.join(", "))
+    let settings = settings.map(|(factor, level)| format!("{} = {}", factor.name, level.label));
+    format!("run {number} ({})", brief::list(settings, ", "))
 }

@@ -126,7 +126,17 @@ pub(crate) fn is_marked(path: &Path) -> io::Result<bool> {
 /// # Errors
 /// What the library says when it is there and cannot be read.
 pub(crate) fn text_attribute(location: &Location, name: &str) -> hdf5::Result<Option<String>> {
-    let Some(attribute) = attribute_of_one(location, name)? else { return Ok(None) };
+    attribute_of_one(location, name)?.map_or(Ok(None), |attribute| text_of(&attribute))
+}
+
+/// The text that an attribute of one value holds, of any kind; none of other values.
+///
+/// # Errors
+/// As [`text_attribute`].
+pub(crate) fn text_of(attribute: &Attribute) -> hdf5::Result<Option<String>> {
+    if attribute.space()?.size() != 1 {
+        return Ok(None);
+    }
     match attribute.dtype()?.to_descriptor()? {
         TypeDescriptor::VarLenUnicode => text(attribute.read_scalar::<VarLenUnicode>()),
         TypeDescriptor::VarLenAscii => text(attribute.read_scalar::<VarLenAscii>()),

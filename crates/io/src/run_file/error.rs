@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use crate::checkpoint;
+use crate::text::shown_problem;
 
 /// Why a run file cannot be made or written.
 ///
@@ -156,7 +157,7 @@ pub(super) fn not_anew(path: &Path) -> impl Fn(hdf5::Error) -> RunFileError {
 impl ReadError {
     /// Of a file of which the library says this: damaged, unless the system has no handle left for it.
     pub(super) fn of_library(path: &Path, reason: impl Into<String>) -> Self {
-        let (path, reason) = (path.to_owned(), reason.into());
+        let (path, reason) = (path.to_owned(), shown_problem(&reason.into()).into_owned());
         // Too many open files of this process, or of all: 24 and 23 on Linux.
         let lacks = |number: u8| {
             reason.contains(&format!("errno = {number},")) || reason.contains(&format!("(os error {number})"))

@@ -17,6 +17,7 @@
 //!
 //! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; the series only when the
 //! run has ended and the file is made anew.
+mod attribute_digests;
 mod contact_area;
 mod datasets;
 mod digest;

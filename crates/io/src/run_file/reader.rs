@@ -13,8 +13,10 @@ use super::header::InputFile;
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
 use super::status::Statuses;
 use crate::hdf5_file::{self, OpenError};
+use crate::number;
 use crate::scene::mesh::{Geometry, Refused};
 use crate::scene::schema::choices::{SHAPE, Shape};
+use crate::text::{short, shown_title};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
 
@@ -42,8 +44,10 @@ impl State {
         }
     }
 
+    const ALL: [Self; 4] = [Self::Running, Self::Finished, Self::Interrupted, Self::Failed];
+
     fn of(name: &str) -> Option<Self> {
-        [Self::Running, Self::Finished, Self::Interrupted, Self::Failed].into_iter().find(|state| state.name() == name)
+        Self::ALL.into_iter().find(|state| state.name() == name)
     }
 }
 
@@ -249,21 +253,19 @@ struct Opening<'a> {
 
 impl Opening<'_> {
     fn read(self) -> Result<RunFile, ReadError> {
-        let foreign = |missing: &str| ReadError::Foreign { path: self.path.into(), missing: missing.into() };
-        let version = hdf5_file::number_attribute::<i64>(self.file, "format_version").ok().flatten();
-        let version = version.ok_or_else(|| foreign("root attribute format_version"))?;
-        if version > i64::from(FORMAT_VERSION) {
-            return Err(ReadError::Newer { path: self.path.into(), found: version, expected: FORMAT_VERSION });
-        }
+        self.check_version()?;
         let text = |name: &str| {
             let text = hdf5_file::text_attribute(self.file, name).map_err(|error| self.damaged(reason(&error)))?;
-            text.ok_or_else(|| foreign(&format!("root attribute {name}")))
+            text.ok_or_else(|| self.foreign(&format!("root attribute {name}")))
         };
         let state = text("state")?;
-        let state = State::of(&state).ok_or_else(|| self.damaged(format!("its state is \"{state}\"")))?;
+        let state = State::of(&state).ok_or_else(|| {
+            let known = State::ALL.map(State::name).join(", ");
+            self.damaged(format!("its state is \"{}\", expected {known}", short(&state).escape_debug()))
+        })?;
         let scene: toml::Table = text("scene")?.parse().map_err(|error: toml::de::Error| {
             // The line of TOML that it shows may be all of a text that somebody else has made.
-            self.damaged(format!("its scene is no TOML: {}", error.message()))
+            self.damaged(format!("its scene is no TOML: {}", shown_title(error.message())))
         })?;
         let mesh = self.mesh(&scene)?;
         let time = self.all(TIME)?;
@@ -279,6 +281,23 @@ impl Opening<'_> {
             map_time,
             series: self.series()?,
         })
+    }
+
+    /// Refuses another format than those that are read here, and what is no version at all.
+    fn check_version(&self) -> Result<(), ReadError> {
+        // As a floating-point number, for as a whole one the library would read NaN as 0, and 1.5 as 1.
+        let found = hdf5_file::number_attribute::<f64>(self.file, "format_version").ok().flatten();
+        let found = found.ok_or_else(|| self.foreign("root attribute format_version"))?;
+        if (1..=FORMAT_VERSION).any(|known| f64::from(known) == found) {
+            return Ok(());
+        }
+        if found.is_finite() && found.fract() == 0.0 && found > f64::from(FORMAT_VERSION) {
+            return Err(ReadError::Newer { path: self.path.into(), found: found as i64, expected: FORMAT_VERSION });
+        }
+        Err(self.damaged(format!(
+            "its format_version is {}, expected a whole number from 1 to {FORMAT_VERSION}",
+            number::plain(found)
+        )))
     }
 
     /// The mesh, as the scene has it; the coordinates must be those of this mesh.
@@ -375,6 +394,10 @@ impl Opening<'_> {
                 index + 1
             ))),
         }
+    }
+
+    fn foreign(&self, missing: &str) -> ReadError {
+        ReadError::Foreign { path: self.path.into(), missing: missing.into() }
     }
 
     fn damaged(&self, reason: impl Into<String>) -> ReadError {

@@ -7,6 +7,7 @@ use plateau_core::model::state::Base;
 use plateau_core::observe::{EXTRAS, Map};
 
 use super::{Header, InputFile, ReadError, RunFile};
+use crate::text::{short, shown_title};
 
 impl Header {
     /// The header of a file that is there.
@@ -14,7 +15,7 @@ impl Header {
     /// # Errors
     /// [`ReadError::Damaged`] when something is missing or is no longer what was written.
     pub(super) fn of(run: &RunFile) -> Result<Self, ReadError> {
-        let damaged = |reason: String| ReadError::Damaged { path: run.path().into(), reason };
+        let damaged = |reason: String| ReadError::of_library(run.path(), reason);
         let text = |name: &str| run.attribute(name).ok_or_else(|| damaged(format!("it has no {name}")));
         let has = |name: &str| run.series().iter().any(|series| series.name == name);
         let base = run.pin_base()?.ok_or_else(|| damaged("it has no base of the pin".to_owned()))?;
@@ -22,7 +23,9 @@ impl Header {
         let inputs: Vec<InputFile> = json(run.path(), "inputs", &text("inputs")?)?;
         let seeds = seeds.into_iter().map(|(key, seed)| {
             let number = seed.as_u64();
-            number.map(|number| (key.clone(), number)).ok_or_else(|| damaged(format!("the seed of {key} is {seed}")))
+            number
+                .map(|number| (key.clone(), number))
+                .ok_or_else(|| damaged(format!("the seed of {} is {}", short(&key), short(&seed.to_string()))))
         });
         Ok(Self {
             title: run.title().to_owned(),
@@ -49,5 +52,5 @@ impl Header {
 
 fn json<T: serde::de::DeserializeOwned>(path: &Path, name: &str, text: &str) -> Result<T, ReadError> {
     serde_json::from_str(text)
-        .map_err(|error| ReadError::Damaged { path: path.into(), reason: format!("its {name}: {error}") })
+        .map_err(|error| ReadError::of_library(path, format!("its {name}: {}", shown_title(&error.to_string()))))
 }

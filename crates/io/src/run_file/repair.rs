@@ -19,6 +19,7 @@ use crate::checkpoint::{self, RunState};
 use crate::claim::{Claim, ClaimError};
 use crate::process::Process;
 use crate::temporary::Temporary;
+use crate::text::short;
 use crate::{hdf5_file, random};
 
 /// What became of a file.
@@ -158,8 +159,8 @@ fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Res
     let header = Header::of(run)?;
     let known = |name: &str| quantities(&header.extras).any(|quantity| quantity.name == name);
     if let Some(unknown) = run.series().iter().find(|series| !known(&series.name)) {
-        let program = run.attribute("program").unwrap_or_default();
-        return Err(RepairError::Unknown { path: path.into(), name: unknown.name.clone(), program });
+        let program = short(&run.attribute("program").unwrap_or_default()).into_owned();
+        return Err(RepairError::Unknown { path: path.into(), name: short(&unknown.name).into_owned(), program });
     }
     let place = Place::prepare(path, true, EMPTY_FILE)?;
     // The run ended when it was last heard of.

@@ -6,7 +6,10 @@ use hdf5::Dataset;
 use plateau_core::observe::event::EVENT_QUANTITIES;
 use plateau_core::observe::{Map, MapValues};
 
-use super::digest::{ATTRIBUTES_DIGEST, DIGEST, of_attributes, of_bytes, of_floats, texts};
+use super::attribute_digests::{
+    ATTRIBUTES_DIGEST, EXECUTION_DIGEST, NUMBERS_DIGEST, of_execution, of_numbers, of_texts, texts,
+};
+use super::digest::{DIGEST, of_bytes, of_floats};
 use super::layout::{EVENT, MAP_TIME, PIN_BASE, TIME, event_path, map_path, series_path};
 use super::reader::reason;
 use super::{ReadError, RunFile, State};
@@ -25,6 +28,9 @@ pub struct Verification {
     pub intact: usize,
     /// Whether it has digests: not before it is closed.
     pub digested: bool,
+    /// Whether its digests are of all that it holds: those of earlier programs leave out what is no text among the attributes, and
+    /// what tells how the run was carried out.
+    pub covers_numbers: bool,
     /// What is no longer what was written.
     pub damage: Vec<Damage>,
 }
@@ -50,6 +56,7 @@ pub fn verify(path: &Path) -> Result<Verification, ReadError> {
         moments: run.map_time().len(),
         intact: 0,
         digested: run.file.attr(ATTRIBUTES_DIGEST).is_ok(),
+        covers_numbers: run.file.attr(NUMBERS_DIGEST).is_ok(),
         damage: Vec::new(),
     };
     let mut check = Check { run: &run, found };
@@ -124,10 +131,19 @@ impl Check<'_> {
     }
 
     fn attributes(&mut self) {
+        self.attribute_digest("attributes", ATTRIBUTES_DIGEST, of_texts);
+        // That it is there is held by the digest before: it is one of the texts.
+        if self.found.digested && self.found.covers_numbers {
+            self.attribute_digest("numbers among the attributes", NUMBERS_DIGEST, of_numbers);
+            self.attribute_digest("attributes of machine and time", EXECUTION_DIGEST, of_execution);
+        }
+    }
+
+    fn attribute_digest(&mut self, place: &str, attribute: &str, digest: fn(&hdf5::File) -> hdf5::Result<String>) {
         let file = &self.run.file;
-        let found = hdf5_file::guarded(0, || of_attributes(file)).map_err(|error| reason(&error));
-        let written = hdf5_file::text_attribute(file, ATTRIBUTES_DIGEST).map_err(|error| reason(&error));
-        self.judge("attributes".to_owned(), found, written);
+        let found = hdf5_file::guarded(0, || digest(file)).map_err(|error| reason(&error));
+        let written = hdf5_file::text_attribute(file, attribute).map_err(|error| reason(&error));
+        self.judge(place.to_owned(), found, written);
     }
 
     /// A dataset that has one digest.

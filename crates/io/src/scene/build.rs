@@ -23,7 +23,7 @@ use super::settings::Settings;
 use super::surfaces::{base, heights};
 use super::{Warning, dissipation, memory, resolved};
 use crate::memory::refuse_beyond;
-use crate::number;
+use crate::{brief, number};
 
 /// Makes the scene; `files` are the scene file and those it extends.
 pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path) -> Result<Scene, Problem> {
@@ -274,7 +274,7 @@ fn map_times(settings: &mut Settings, end: f64, warnings: &mut Vec<Warning>) -> 
         warnings.push(Warning {
             place: origin.clone(),
             key: key.to_owned(),
-            found: format!("maps at {}", beyond.join(", ")),
+            found: format!("maps at {}", brief::list(beyond, ", ")),
             // In words for people: the last digits of a time that is a sum of steps say nothing.
             bound: format!("after the run, which ends at {} s", number::to_nine_digits(end)),
             advice: "they are not taken: give earlier times, or a longer operation.duration".to_owned(),

@@ -12,11 +12,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Origin, Problem};
 use super::schema;
+use crate::brief::MOST_PROBLEMS;
 use crate::syntax;
 use crate::text::short;
-
-/// Problems that are looked for; nobody reads more, and in a file that is no scene each word may be one.
-const MOST_PROBLEMS: usize = 100;
 
 /// A value as it stands in the text.
 #[derive(Debug, Clone, PartialEq)]
@@ -250,7 +248,11 @@ impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
             DeValue::Integer(integer) => match i128::from_str_radix(integer.as_str(), integer.radix()) {
                 Ok(integer) => Value::Integer(integer),
                 Err(_) => {
-                    self.problems.push(Problem::new(&origin, path, format!("{integer} is too large a number")));
+                    self.problems.push(Problem::new(
+                        &origin,
+                        path,
+                        format!("{} is too large a number", short(&integer.to_string())),
+                    ));
                     return None;
                 }
             },

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-use crate::text::{shown_on_one_line, shown_title};
+use crate::brief;
+use crate::text::{short, shown_on_one_line, shown_problem, shown_title};
 
 /// Where a value was given.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,16 +64,17 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let message = shown_problem(&self.message);
         match &self.key {
-            Some(key) => write!(f, "{}: {key}: {}", self.origin, self.message),
-            None => write!(f, "{}: {}", self.origin, self.message),
+            Some(key) => write!(f, "{}: {}: {message}", self.origin, short(key)),
+            None => write!(f, "{}: {message}", self.origin),
         }
     }
 }
 
 /// Why a scene cannot be run: everything that was found wrong with it, in the order of the text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", .problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n"))]
+#[error("{}", brief::problems(.problems))]
 pub struct SceneError {
     problems: Vec<Problem>,
 }

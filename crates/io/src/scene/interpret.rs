@@ -11,7 +11,7 @@ use super::error::{Origin, Problem};
 use super::quantity::{at, in_range, quantity};
 use super::rows;
 use super::schema::{self, Kind, Range};
-use crate::text::{odd_character, too_long};
+use crate::text::{odd_character, short, too_long};
 use crate::units::Dimension;
 
 /// A checked value.
@@ -131,6 +131,7 @@ fn one_of<'a, T>(text: &str, choices: &'a [T], name: impl Fn(&T) -> &'static str
     choices.iter().find(|choice| name(choice) == text).ok_or_else(|| {
         let names = || choices.iter().map(&name);
         let hint = schema::nearest(text, names()).map(|name| format!("; did you mean \"{name}\"?"));
+        let text = short(text);
         format!("\"{text}\" is unknown, expected {}{}", quoted(names()), hint.unwrap_or_default())
     })
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::document::{self, Entries, Value};
 use super::error::{Origin, Problem, SceneError, Warning};
 use super::schema::{self, Group};
-use crate::{limits, regular};
+use crate::{brief, limits, regular};
 
 /// The newest version of the scene format that this program reads.
 const VERSION: i128 = 1;
@@ -105,7 +105,7 @@ fn read_chain(path: &Path, problems: &mut Vec<Problem>) -> Result<(Vec<PathBuf>,
         files.push(path.clone());
         if let (Some(first), Some(origin)) = (identities.iter().position(|known| *known == identity), &named) {
             let chain: Vec<_> = files[first..].iter().map(|file| file.display().to_string()).collect();
-            let message = format!("scenes extend each other in a circle: {}", chain.join(" -> "));
+            let message = format!("scenes extend each other in a circle: {}", brief::list(chain, " -> "));
             return Err(Problem::new(origin, "extends", message).into());
         }
         identities.push(identity);

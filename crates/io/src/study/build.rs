@@ -8,12 +8,13 @@ use toml::Spanned;
 
 use super::document::{self, Document};
 use super::factor::{Factor, Level, Values};
-use super::place::{MOST_PROBLEMS, Place, unseen};
+use super::place::{Place, unseen};
 use super::response::Response;
 use super::response_keys::{responses, series_name};
 use super::{DesignSource, Order, Study, measured, points_of_file, replicates};
+use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Origin, Problem, schema};
-use crate::text::{odd_character, too_long};
+use crate::text::{odd_character, short, too_long};
 use crate::units;
 
 /// The newest version of the study format that this program reads.
@@ -63,7 +64,11 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         None | Some((_, "random")) => Order::Random,
         Some((_, "standard")) => Order::Standard,
         Some((order, found)) => {
-            problems.push(place.problem(order, "order", format!("\"{found}\", expected \"random\" or \"standard\"")));
+            problems.push(place.problem(
+                order,
+                "order",
+                format!("\"{}\", expected \"random\" or \"standard\"", short(found)),
+            ));
             Order::Standard
         }
     };
@@ -125,7 +130,7 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
                 let (section, name) = unknown.rsplit_once('.').unwrap_or(("", unknown));
                 let without =
                     if document.base.is_none() { "; what is set on a rig needs a name and no key" } else { "" };
-                let message = format!("\"{unknown}\": {}{without}", schema::unknown(section, name));
+                let message = format!("\"{}\": {}{without}", short(unknown), schema::unknown(section, name));
                 problems.push(place.problem(key, "factor.key", message));
             }
         } else if let Some((at, message)) = without_key(table, document) {
@@ -145,11 +150,15 @@ fn factors(document: &Document, place: &Place<'_>, problems: &mut Vec<Problem>) 
             values.map_err(|problem| problems.push(problem)).unwrap_or(Values::Levels(Vec::new()))
         };
         if !names.insert(name.clone()) {
-            problems.push(Problem::new(&place.at(at.start), "factor.name", format!("\"{name}\" is the name of two")));
+            problems.push(Problem::new(
+                &place.at(at.start),
+                "factor.name",
+                format!("\"{}\" is the name of two", short(&name)),
+            ));
         }
         // A key may stand twice in one list: that sets it to the same value.
         if let (Some(twice), Some(key)) = (keys.iter().find(|key| varied.contains(*key)), &table.key) {
-            problems.push(place.problem(key, "factor.key", format!("\"{twice}\" is varied by two factors")));
+            problems.push(place.problem(key, "factor.key", format!("\"{}\" is varied by two factors", short(twice))));
         }
         varied.extend(keys.iter().cloned());
         let stated_unit = match &values {
@@ -234,7 +243,7 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
                 None | Some((_, "linear")) => false,
                 Some((_, "logarithmic")) => true,
                 Some((scale, found)) => {
-                    let message = format!("\"{found}\", expected \"linear\" or \"logarithmic\"");
+                    let message = format!("\"{}\", expected \"linear\" or \"logarithmic\"", short(found));
                     return Err(place.problem(scale, "factor.scale", message));
                 }
             };
@@ -313,7 +322,7 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
                 Some((_, "rotatable")) => Alpha::Rotatable,
                 Some((_, "orthogonal")) => Alpha::Orthogonal,
                 Some((alpha, found)) => {
-                    let message = format!("\"{found}\", expected \"face\", \"rotatable\" or \"orthogonal\"");
+                    let message = format!("\"{}\", expected \"face\", \"rotatable\" or \"orthogonal\"", short(found));
                     return Err(place.problem(alpha, "alpha", message));
                 }
             };
@@ -347,7 +356,7 @@ fn source(document: &Document, factors: &[Factor], folder: &Path, place: &Place<
         other => {
             let nearest = schema::nearest(other, DESIGNS);
             let advice = nearest.map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"));
-            let message = format!("\"{other}\", expected one of {}{advice}", DESIGNS.join(", "));
+            let message = format!("\"{}\", expected one of {}{advice}", short(other), DESIGNS.join(", "));
             return Err(place.problem(&document.design, "design", message));
         }
     };

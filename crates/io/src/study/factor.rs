@@ -129,6 +129,20 @@ impl Factor {
         }
     }
 
+    /// Tells of settings whether there is a value at them, without making it as [`at`](Self::at) does.
+    pub fn has_value(&self) -> impl Fn(Setting) -> bool + '_ {
+        let ends = match &self.values {
+            Values::Levels(levels) => levels.first().zip(levels.get(1)).filter(|_| levels.len() == 2),
+            Values::Range { low, high, .. } => Some((low, high)),
+        };
+        let between = ends.is_some_and(|(low, high)| one_unit(low, high).is_some());
+        move |setting| match (&self.values, setting) {
+            (Values::Levels(levels), Setting::Level(index)) => index < levels.len(),
+            (Values::Range { .. }, Setting::Level(_)) => true,
+            (_, Setting::Coded(coded)) => between || ends.is_some() && coded.abs() == 1.0,
+        }
+    }
+
     /// Where a value lies, −1 at the lower end and 1 at the upper one; none for words and for more than two levels.
     pub fn coded(&self, level: &Level) -> Option<f64> {
         let (low, high, logarithmic) = match &self.values {
@@ -145,10 +159,7 @@ impl Factor {
 
     /// In the unit of both ends, so that a study of "20 N" to "60 N" has "40 N" between them.
     fn between(&self, low: &Level, high: &Level, coded: f64, logarithmic: bool) -> Option<Level> {
-        let ((from, unit), (to, other)) = (low.split()?, high.split()?);
-        if unit != other {
-            return None;
-        }
+        let (from, to, unit) = one_unit(low, high)?;
         let share = (coded + 1.0) / 2.0;
         let value = if logarithmic { from * libm::pow(to / from, share) } else { from + (to - from) * share };
         // With an exponent where there would be a row of zeros.
@@ -249,6 +260,12 @@ impl fmt::Display for Factor {
             }
         }
     }
+}
+
+/// The numbers of two ends and the unit that both have; none of words and of two units, between which nothing lies.
+fn one_unit<'a>(low: &'a Level, high: &'a Level) -> Option<(f64, f64, &'a str)> {
+    let ((from, unit), (to, other)) = (low.split()?, high.split()?);
+    (unit == other).then_some((from, to, unit))
 }
 
 /// What a key's quantity measures.
@@ -357,6 +374,35 @@ mod tests {
         }
         // Not of quantities: of what?
         assert_eq!(Level::parse("operation.normal_force", "30%").number, None);
+    }
+
+    #[test]
+    fn settings_without_a_value_are_told_as_they_would_be_found() {
+        let levels = |labels: &[&str]| Factor {
+            name: "f".into(),
+            keys: Vec::new(),
+            stated_unit: String::new(),
+            values: Values::Levels(
+                labels.iter().map(|label| Level::new("", &toml::Value::String((*label).into()))).collect(),
+            ),
+        };
+        let range = |ends, logarithmic| factor("contact.foundation_height", ends, logarithmic);
+        for factor in [
+            levels(&[]),
+            levels(&["1 N"]),
+            levels(&["1 N", "2 N"]),
+            levels(&["1 N", "2 kN"]),
+            levels(&["a", "b"]),
+            levels(&["1 N", "2 N", "3 N"]),
+            range(["\"50 um\"", "\"1 mm\""], false),
+            range(["\"50 um\"", "\"60 um\""], true),
+        ] {
+            let has_value = factor.has_value();
+            let coded = [-1.0, -0.5, 0.0, 1.0, 1.5].map(Setting::Coded);
+            for setting in [0, 1, 2].map(Setting::Level).into_iter().chain(coded) {
+                assert_eq!(has_value(setting), factor.at(setting).is_some(), "{factor} at {setting:?}");
+            }
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::document::Document;
 use super::place::Place;
 use super::response::Response;
 use crate::scene::Problem;
+use crate::text::short;
 use crate::units;
 
 /// Runs of a fit, unless given.
@@ -108,10 +109,10 @@ fn number(found: &Value, unit: &str, parse: impl FnOnce(&str, &str) -> Result<f6
         Value::String(text) if unit == "1" && text.trim_end().ends_with('%') => {
             let percent =
                 text.trim_end().trim_end_matches('%').trim().parse::<f64>().ok().filter(|number| number.is_finite());
-            percent.map(|percent| percent / 100.0).ok_or_else(|| format!("\"{text}\", expected {expected}"))
+            percent.map(|percent| percent / 100.0).ok_or_else(|| format!("\"{}\", expected {expected}", short(text)))
         }
         Value::String(text) if unit != "1" => {
-            parse(text, unit).map_err(|reason| format!("\"{text}\": {reason}, expected {expected}"))
+            parse(text, unit).map_err(|reason| format!("\"{}\": {reason}, expected {expected}", short(text)))
         }
         other => Err(format!("{other}, expected {expected}")),
     }

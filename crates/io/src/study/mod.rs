@@ -42,7 +42,7 @@ use plateau_study::design::Kind;
 use thiserror::Error;
 
 use crate::scene::{Origin, Problem};
-use crate::{limits, regular, syntax};
+use crate::{brief, limits, regular, syntax};
 use document::Document;
 use factor::Factor;
 use measured::FitSettings;
@@ -114,7 +114,7 @@ pub enum Order {
 
 /// Why a study cannot be used: everything that is wrong with it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", .0.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n"))]
+#[error("{}", brief::problems(.0))]
 pub struct StudyError(pub Vec<Problem>);
 
 impl Study {

@@ -6,10 +6,7 @@ use std::sync::Arc;
 use toml::Spanned;
 
 use crate::scene::{Origin, Problem};
-use crate::text::{odd_character, too_long};
-
-/// Problems that are looked for: nobody reads more.
-pub(super) const MOST_PROBLEMS: usize = 100;
+use crate::text::{odd_character, short, too_long};
 
 /// Says that a name has what nobody sees, a blank at an end or a byte order mark, which tables and command lines lose, so that the name is
 /// not found again.
@@ -19,6 +16,7 @@ pub(super) fn unseen(name: &str) -> Option<String> {
         () if name != name.trim() => "has a blank at an end",
         () => return None,
     };
+    let name = short(name);
     Some(format!("\"{}\" {found}, so that it is not found again in a table; take it out", name.escape_debug()))
 }
 
@@ -59,6 +57,7 @@ impl Place<'_> {
     /// Refuses a name that cannot be shown on one line or is too long for it, in messages, tables and figures.
     pub fn check_name(&self, name: &str, at: impl FnOnce() -> Origin, key: &str, problems: &mut Vec<Problem>) {
         if let Some(found) = odd_character(name) {
+            let name = short(name);
             let message = format!("\"{}\" has {found}, expected one line of letters; take it out", name.escape_debug());
             problems.push(Problem::new(&at(), key, message));
         } else if let Some(long) = too_long(name) {
@@ -77,6 +76,8 @@ mod tests {
         for name in [" load", "load\u{a0}"] {
             assert!(unseen(name).unwrap().contains("a blank at an end"), "{name:?}");
         }
+        let long = unseen(&format!("{} ", "x".repeat(70_000))).unwrap();
+        assert!(long.contains("x…\" has a blank at an end") && long.len() < 200, "{long}");
         assert!(unseen("lo\u{feff}ad").unwrap().starts_with("\"lo\\u{feff}ad\" has the character U+FEFF"));
     }
 }

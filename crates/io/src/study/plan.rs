@@ -54,13 +54,16 @@ impl Plan {
             DesignSource::Kind(kind) => {
                 let kinds: Vec<_> = study.factors.iter().map(super::factor::Factor::kind).collect();
                 let design = design::design(kind, &kinds).map_err(|error| refuse(error.to_string()))?;
+                let tests: Vec<_> = study.factors.iter().map(|factor| (factor, factor.has_value())).collect();
                 for point in 0..design.points() {
-                    let mut pairs = study.factors.iter().zip(design.point(point));
-                    if let Some((factor, setting)) = pairs.find(|(factor, setting)| factor.at(**setting).is_none()) {
+                    let mut pairs = tests.iter().zip(design.point(point));
+                    if let Some(((factor, _), setting)) = pairs.find(|((_, has_value), setting)| !has_value(**setting))
+                    {
                         let message = format!("\"{}\" has no value at {}", factor.name, place(*setting));
                         return Err(refuse(message));
                     }
                 }
+                drop(tests);
                 Points::Design(design)
             }
         };

@@ -4,8 +4,10 @@ use std::collections::HashSet;
 
 use super::Replicates;
 use super::document;
-use super::place::{MOST_PROBLEMS, Place};
+use super::place::Place;
+use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Problem, schema};
+use crate::text::short;
 
 /// What `[replicates]` says.
 pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut Vec<Problem>) -> Replicates {
@@ -14,7 +16,7 @@ pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut
             let message = format!(
                 "\"{}\" is no seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
                      measured patch",
-                key.get_ref()
+                short(key.get_ref())
             );
             problems.push(place.problem(key, "replicates.keys", message));
         }

@@ -13,10 +13,12 @@ use super::collected::unit_of;
 use super::document::{Mean, Response as Table};
 use super::measured;
 use super::measured_series::{self, Wanted};
-use super::place::{MOST_PROBLEMS, Place};
+use super::place::Place;
 use super::record::EVENT;
 use super::response::{Question, Response, WhichEvent, units};
+use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Problem, schema};
+use crate::text::short;
 use crate::units::{Dimension, parse, parse_as};
 
 /// The responses of a study.
@@ -35,7 +37,11 @@ pub(super) fn responses(
         let name = table.name.get_ref().clone();
         place.check_label(&name, || place.at(table.name.span().start), "response.name", problems);
         if !names.insert(name.clone()) {
-            problems.push(place.problem(&table.name, "response.name", format!("\"{name}\" is the name of two")));
+            problems.push(place.problem(
+                &table.name,
+                "response.name",
+                format!("\"{}\" is the name of two", short(&name)),
+            ));
         }
         let asked = match is_imported(table, place) {
             Ok(true) => imported(table, place).map(|question| (String::new(), question)),
@@ -74,7 +80,7 @@ fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
         if time >= 0.0 {
             Ok(time)
         } else {
-            Err(place.problem(text, key, format!("\"{}\" is before the run", text.get_ref())))
+            Err(place.problem(text, key, format!("\"{}\" is before the run", short(text.get_ref()))))
         }
     };
     let refused = || {
@@ -135,7 +141,7 @@ fn of_file(
             let refuse = |message: String| place.problem(text, "response.correlation_time", message);
             let time = parse(text.get_ref(), Dimension::Time).map_err(|error| refuse(error.to_string()))?;
             if time < 0.0 {
-                return Err(refuse(format!("\"{}\", expected a time of 0 or more", text.get_ref())));
+                return Err(refuse(format!("\"{}\", expected a time of 0 or more", short(text.get_ref()))));
             }
             time
         }
@@ -169,7 +175,7 @@ fn event_name(found: &Spanned<String>, place: &Place<'_>, problems: &mut Vec<Pro
     }
     let known: Vec<_> = EVENT_QUANTITIES.iter().map(|quantity| format!("/{EVENT}{}", quantity.name)).collect();
     let message =
-        format!("\"{}\" is nothing that is reported of events; expected {}", found.get_ref(), known.join(", "));
+        format!("\"{}\" is nothing that is reported of events; expected {}", short(found.get_ref()), known.join(", "));
     problems.push(place.problem(found, "response.dataset", message));
     None
 }
@@ -190,7 +196,7 @@ pub(super) fn series_name(
         || format!("; the series are {}", known().collect::<Vec<_>>().join(", ")),
         |nearest| format!("; did you mean /series/{nearest}?"),
     );
-    problems.push(place.problem(found, key, format!("\"{}\" is no series of a run{nearest}", found.get_ref())));
+    problems.push(place.problem(found, key, format!("\"{}\" is no series of a run{nearest}", short(found.get_ref()))));
     None
 }
 
@@ -224,6 +230,7 @@ fn imported(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
     let found = known.iter().find(|known| **known == unit).or_else(|| known.iter().find(measures_the_same));
     match (found, &table.unit) {
         (None, Some(found)) => {
+            let unit = short(unit);
             let message = format!("\"{unit}\", expected a unit that measures the same as one of {}", known.join(", "));
             Err(place.problem(found, "response.unit", message))
         }
@@ -245,7 +252,7 @@ fn transform(table: &Table, response: &Response, place: &Place<'_>) -> Result<Op
     let word = found.get_ref().as_str();
     let transform = Transform::of_name(word).ok_or_else(|| {
         let names = Transform::ALL.map(|transform| format!("\"{}\"", transform.name())).join(", ");
-        place.problem(found, "response.transform", format!("\"{word}\", expected one of {names}"))
+        place.problem(found, "response.transform", format!("\"{}\", expected one of {names}", short(word)))
     })?;
     let unit = response.unit(unit_of(&response.series));
     if transform == Transform::Logit && unit != "1" {

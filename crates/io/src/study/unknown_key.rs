@@ -1,6 +1,7 @@
 //! Advice where a study has a key that it does not know: which one was meant.
 
 use crate::scene::schema::nearest;
+use crate::text::{short, shown_title};
 
 /// How the message of an unknown key begins, and what parts it from the keys that there are.
 const BEGINNING: &str = "unknown field `";
@@ -13,7 +14,11 @@ pub(super) fn with_advice(message: &str) -> String {
         let meant = nearest(found, rest.split('`').skip(1).step_by(2))?;
         Some(format!("; did you mean \"{meant}\"?"))
     });
-    message.to_owned() + &advice.unwrap_or_default()
+    let message = match parts {
+        Some((found, rest)) => format!("{BEGINNING}{}`{rest}", short(found)),
+        None => shown_title(message).into_owned(),
+    };
+    message + &advice.unwrap_or_default()
 }
 
 #[cfg(test)]

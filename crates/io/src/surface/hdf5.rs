@@ -297,8 +297,11 @@ fn list(datasets: &[Dataset]) -> String {
     if datasets.is_empty() {
         return "it has no datasets".to_owned();
     }
-    let mut names: Vec<String> =
-        datasets.iter().take(NAMED).map(|dataset| format!("{} ({})", dataset.name(), describe(dataset))).collect();
+    let mut names: Vec<String> = datasets
+        .iter()
+        .take(NAMED)
+        .map(|dataset| format!("{} ({})", short(&dataset.name()), describe(dataset)))
+        .collect();
     if datasets.len() > NAMED {
         names.push(format!("and {} more", datasets.len() - NAMED));
     }

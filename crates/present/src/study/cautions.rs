@@ -1,5 +1,6 @@
 //! What a design cannot tell, or tells otherwise than one may think.
 
+use plateau_io::brief;
 use plateau_study::design::Setting;
 use plateau_study::effects::FactorKind;
 
@@ -34,7 +35,7 @@ pub fn together(analysis: &Analysis) -> Vec<String> {
 pub fn levels_and_ranges(analysis: &Analysis) -> Option<String> {
     let of = |is: fn(&FactorKind) -> bool| {
         let names = analysis.factors.iter().filter(move |factor| is(&factor.factor.kind));
-        names.map(|factor| factor.factor.name.as_str()).collect::<Vec<_>>().join(", ")
+        brief::list(names.map(|factor| &factor.factor.name), ", ")
     };
     let levels = of(|kind| matches!(kind, FactorKind::Levels(values) if values.len() == 2));
     let ranges = of(|kind| matches!(kind, FactorKind::Range { .. }));
@@ -80,7 +81,7 @@ pub fn no_curve(analysis: &Analysis, factors: &[usize]) -> Option<String> {
             "{}: the runs have two values of {each}, so that they show no curve: between these, forecasts follow a straight line, and \
              their intervals do not know by how much the response bends; give a third value in the middle, such as with design = \
              \"central-composite\", and look with --confirm how far off a forecast is",
-            names.join(", ")
+            brief::list(&names, ", ")
         )
     })
 }

@@ -1,5 +1,7 @@
 //! Goals and limits of an optimum, as they are given in words: `contact area`, `filled=0.7`, `worn=0.1 mm3..0.3 mm3`.
 
+use plateau_io::brief;
+use plateau_io::text::short;
 use plateau_study::optimum::{Kept, Limit, Wish};
 
 use super::analysis::{AnalysedResponse, Analysis};
@@ -37,8 +39,8 @@ impl Aim {
 pub fn response(analysis: &Analysis, name: &str) -> Result<usize, String> {
     let name = name.trim();
     analysis.responses.iter().position(|response| response.name == name).ok_or_else(|| {
-        let names: Vec<String> = analysis.responses.iter().map(|response| format!("\"{}\"", response.name)).collect();
-        format!("\"{name}\" is no response of the study, expected one of {}", names.join(", "))
+        let names = brief::list(analysis.responses.iter().map(|response| format!("\"{}\"", response.name)), ", ");
+        format!("\"{}\" is no response of the study, expected one of {names}", short(name))
     })
 }
 
@@ -177,7 +179,7 @@ fn value(response: &AnalysedResponse, text: &str) -> Result<f64, String> {
     if unit == plain(response.unit) {
         return Ok(number);
     }
-    Err(format!("\"{text}\": expected a unit of {}", names.join(", ")))
+    Err(format!("\"{}\": expected a unit of {}", short(text), names.join(", ")))
 }
 
 /// A unit as it is typed: `mm²`, `mm^2` and `mm2` are the same.

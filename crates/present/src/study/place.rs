@@ -1,8 +1,9 @@
 //! A place among the factors of a study: named in words, set in a scene, foretold by a surrogate.
 
-use plateau_io::number;
 use plateau_io::study::Study;
 use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::text::short;
+use plateau_io::{brief, number};
 use plateau_study::design::Setting;
 use plateau_study::effects::{FactorKind, Model};
 
@@ -44,8 +45,8 @@ impl<'a> Space<'a> {
     /// The names that there are.
     pub fn factor(&self, name: &str) -> Result<usize, String> {
         self.study.factors.iter().position(|factor| factor.is_called(name)).ok_or_else(|| {
-            let names: Vec<&str> = self.study.factors.iter().map(|factor| factor.name.as_str()).collect();
-            format!("\"{name}\" is no factor of the study, expected one of {}", names.join(", "))
+            let names = brief::list(self.study.factors.iter().map(|factor| &factor.name), ", ");
+            format!("\"{}\" is no factor of the study, expected one of {names}", short(name))
         })
     }
 
@@ -140,7 +141,7 @@ impl<'a> Space<'a> {
     fn setting(&self, factor: usize, level: &Level) -> Result<Setting, String> {
         let (own, analysed) = (&self.study.factors[factor], &self.analysis.factors[factor]);
         let refused = |why: &str| format!("{} = {}: {why}", own.name, level.label);
-        let labels = || analysed.labels.join(", ");
+        let labels = || brief::list(&analysed.labels, ", ");
         let number = level.number.filter(|number| number.is_finite());
         if let FactorKind::Categorical(_) = analysed.factor.kind {
             let found = analysed.labels.iter().position(|label| *label == level.label);

@@ -1,5 +1,6 @@
 //! What a fit is to find: keys with their ranges, and what was measured of the responses; and the fit to what runs gave.
 
+use plateau_io::brief;
 use plateau_io::study::Study;
 use plateau_io::study::collected::{Collected, CollectedRun, unit_of};
 use plateau_io::study::factor::{Factor, Level, Values};
@@ -180,13 +181,13 @@ impl Task {
         let all = self.responses.iter().zip(&self.measurements).map(of);
         let series = || self.series.iter().map(|at| format!("response \"{}\"", study.responses[*at].name));
         let worst = all.max_by(|one, other| one.0.total_cmp(&other.0));
-        worst.map_or_else(|| series().collect::<Vec<_>>().join(", "), |(_, said)| said)
+        worst.map_or_else(|| brief::list(series(), ", "), |(_, said)| said)
     }
 }
 
 /// Why a factor with levels is not fitted, and what to do.
 fn not_a_range(factor: &Factor) -> String {
-    let (name, keys) = (&factor.name, factor.keys.join(", "));
+    let (name, keys) = (&factor.name, brief::list(&factor.keys, ", "));
     let said = format!("factor \"{name}\" ({keys}) has levels, and a fit looks for numbers between two ends");
     match &factor.values {
         Values::Levels(levels) if levels.iter().any(|level| level.number.is_none()) => {
@@ -195,7 +196,7 @@ fn not_a_range(factor: &Factor) -> String {
             format!(
                 "{said}: these are words, {}. Make one study for each word, with set = [\"{}={first}\"] in place of this \
                  factor, fit each, and compare what they say of the misfit: the word with the least misfit fits best",
-                levels.join(", "),
+                brief::list(&levels, ", "),
                 factor.keys[0]
             )
         }

@@ -1,5 +1,6 @@
 //! What is wrong with a new scene, in the words of the command line that it was made of.
 
+use plateau_io::brief;
 use plateau_io::scene::{Problem, SceneError};
 
 use crate::arguments::NewArguments;
@@ -7,8 +8,8 @@ use crate::failure::Failure;
 
 /// Why the scene that the arguments ask for cannot be run; nothing is written.
 pub fn of(arguments: &NewArguments, error: &SceneError) -> Failure {
-    let told: Vec<String> = error.problems().iter().map(|problem| told(arguments, problem)).collect();
-    Failure::input(format_args!("{}\nnothing is written", told.join("\n")))
+    let told = brief::problems(error.problems().iter().map(|problem| told(arguments, problem)));
+    Failure::input(format_args!("{told}\nnothing is written"))
 }
 
 /// A problem with the option that it comes from, or with its key where it comes from none.

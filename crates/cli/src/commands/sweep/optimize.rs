@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use plateau_io::number;
+use plateau_io::{brief, number};
 use plateau_present::figure::Figure;
 use plateau_present::figure::optimum::{Shown, figures};
 use plateau_present::study::cautions::with_two_values;
@@ -148,7 +148,7 @@ fn axes(analysed: &Analysed, space: &Space<'_>, arguments: &OptimizeArguments) -
     if !held.beyond.is_empty() {
         return Err(Failure::input(format_args!(
             "--hold: {}; the search stays within the ranges",
-            held.beyond.join(", ")
+            brief::list(&held.beyond, ", ")
         )));
     }
     let axis = |(factor, setting): (usize, Setting)| match () {

@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use plateau_io::number;
 use plateau_io::study::value_table::{Row, ValueTable};
 use plateau_io::text::short;
+use plateau_io::{brief, number};
 use plateau_present::study::analysis::AnalysedResponse;
 use plateau_present::study::cautions::between_two_values;
 use plateau_present::study::forecasts::heads;
@@ -86,7 +86,7 @@ fn refuse_beyond(places: &[Place], extrapolate: bool) -> Result<(), Failure> {
     let which = if places.len() > 1 { format!("place {}: ", at + 1) } else { String::new() };
     Err(Failure::input(format_args!(
         "{which}{}; the model knows nothing there, give --extrapolate to see what it says nevertheless",
-        place.beyond.join(", ")
+        brief::list(&place.beyond, ", ")
     )))
 }
 

@@ -1,6 +1,7 @@
 //! What to say about a key that no scene has.
 
 use super::{find, is_below, is_table, join, keys};
+use crate::text::short;
 
 /// Likeness (0 to 1, strsim's normalised Damerau-Levenshtein) from which a name counts as mistyped.
 const LIKE: f64 = 0.6;
@@ -58,7 +59,7 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
     if let Some(key) = elsewhere().find(|key| Some(key.name) == like) {
         return format!("unknown key, did you mean \"{}\" in [{}]?", key.name, key.section);
     }
-    let place = if table.is_empty() { "a scene".to_owned() } else { format!("[{table}]") };
+    let place = if table.is_empty() { "a scene".to_owned() } else { format!("[{}]", short(table)) };
     format!("unknown key, {place} has {}", siblings.join(", "))
 }
 

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::places::{Key, Places};
 use super::{REPLICATE, with_unit};
+use crate::brief;
 use crate::study::Study;
 use crate::study::value_table::{Row, ValueTable};
 use crate::text::short;
@@ -50,7 +51,7 @@ impl Columns {
                 }
                 let names: Vec<&str> =
                     study.responses.iter().filter(|own| own.is_imported()).map(|own| own.name.as_str()).collect();
-                let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+                let known = if names.is_empty() { "none".to_owned() } else { brief::list(names, ", ") };
                 return Err(at(format!(
                     "column \"{}\" is no factor and no response with imported = true; of these the study has {known}",
                     short(head)
@@ -104,13 +105,11 @@ impl Columns {
             let Ok(level) = table.level(row, *column, factor) else { continue };
             if places.find(at, &level).is_none() {
                 let levels = places.levels(at);
-                let known: Vec<&str> = levels.iter().take(12).map(|level| level.label.as_str()).collect();
-                let more = if levels.len() > known.len() { ", …" } else { "" };
                 return format!(
-                    "{} = {} is in no point of the design, which has {}{more}",
+                    "{} = {} is in no point of the design, which has {}",
                     factor.name,
-                    level.label,
-                    known.join(", ")
+                    short(&level.label),
+                    brief::list(levels.iter().map(|level| &level.label), ", ")
                 );
             }
         }

@@ -1,0 +1,100 @@
+//! Messages are no longer than anybody reads, however much is wrong and however long the names are.
+
+use std::fs;
+
+use hdf5::types::VarLenUnicode;
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, scene};
+use plateau_tests::run_file::changed;
+
+/// Bytes of a message in all, and more than the longest of these has.
+const LONGEST: usize = 6000;
+
+fn refused(directory: &WorkingDirectory, arguments: &[&str], said: &str) -> Outcome {
+    let outcome = directory.plateau(arguments);
+    assert!(matches!(outcome.status, Some(1 | 2)), "{arguments:?}: {:.2000}", outcome.stderr);
+    assert!(outcome.stderr.contains(said), "{arguments:?}, expected {said:?}: {:.2000}", outcome.stderr);
+    assert!(outcome.stderr.len() < LONGEST, "{arguments:?}: {} bytes: {:.500}", outcome.stderr.len(), outcome.stderr);
+    outcome
+}
+
+#[test]
+fn of_many_mistakes_in_a_scene_the_first_are_told() {
+    let directory = WorkingDirectory::new();
+    let key = |number: usize| format!("{}{number} = 1\n", "k".repeat(400));
+    directory.write("many.toml", (0..300).map(key).collect::<String>() + &quick_scene_with(&[]));
+    for command in ["check", "run"] {
+        let said = refused(&directory, &[command, "many.toml"], " more, at least\n").stderr;
+        assert!(said.contains("many.toml:1:1: kkk"), "{said}");
+    }
+    let short: String = (0..30).map(|number| format!("k{number} = 1\n")).collect();
+    directory.write("short.toml", short + &quick_scene_with(&[]));
+    let said = refused(&directory, &["check", "short.toml"], "").stderr;
+    // Twenty with their lines of the file have room, or nearly.
+    assert!(said.matches("unknown key").count() > 10 && said.ends_with(" more\n"), "{said}");
+    // A tangle of scenes names some of its files.
+    let long = "l".repeat(200);
+    for number in 0..50 {
+        let base = format!("{long}{}.toml", (number + 1) % 50);
+        directory.write(&format!("{long}{number}.toml"), format!("extends = \"{base}\"\n"));
+    }
+    refused(&directory, &["check", &format!("{long}0.toml")], "in a circle");
+    // A key that is there twice, and one that says next to nothing of itself.
+    let twice = "t".repeat(100_000);
+    directory.write("twice.toml", format!("{twice} = 1\n{twice} = 2\n"));
+    refused(&directory, &["check", "twice.toml"], "is there already");
+    let choice = format!("plateaus.debris=\"{twice}\"");
+    refused(&directory, &["check", &scene("quick.toml"), "--set", &choice], "is unknown, expected");
+}
+
+#[test]
+fn of_many_mistakes_in_a_study_the_first_are_told() {
+    let directory = WorkingDirectory::new();
+    let head = format!("version = 1\nbase = \"{}\"\ndesign = \"full-factorial\"\n", scene("quick.toml"));
+    let factor = |name: &str| format!("[[factor]]\nname = \"{name}\"\nkey = \"nothing.{name}\"\nlevels = [1, 2]\n");
+    let many: String = (0..150).map(|number| factor(&format!("{}{number} ", "n".repeat(5000)))).collect();
+    directory.write("study.toml", format!("{head}{many}"));
+    let said = refused(&directory, &["sweep", "plan", "study.toml"], " more, at least\n").stderr;
+    assert!(said.contains("has a blank at an end"), "{said}");
+    let long = "w".repeat(100_000);
+    for (line, expected) in [
+        (format!("{long} = 1\n"), "unknown field `www"),
+        (format!("order = \"{long}\"\n"), "expected \"random\""),
+        (format!("version = \"{long}\"\n"), "version"),
+        (format!("series = [\"{long}\"]\n"), "is no series"),
+    ] {
+        directory.write("study.toml", format!("{head}{line}{}", factor("f")));
+        refused(&directory, &["sweep", "plan", "study.toml"], expected);
+    }
+}
+
+#[test]
+fn of_many_names_in_a_study_some_are_told() {
+    let directory = WorkingDirectory::new();
+    let name = |number: usize| format!("{}{number}", "r".repeat(190));
+    let response = |number| format!("[[response]]\nname = \"{}\"\nimported = true\n", name(number));
+    let responses: String = (0..500).map(response).collect();
+    let factor = "[[factor]]\nname = \"grade\"\nlevels = [\"a\", \"b\"]\n";
+    directory.write("study.toml", format!("version = 1\ndesign = \"full-factorial\"\n{factor}{responses}"));
+    directory.write("table.csv", format!("grade,{}\na,1\n", "h".repeat(300)));
+    refused(&directory, &["sweep", "import", "study.toml", "table.csv"], " more\n");
+}
+
+#[test]
+fn the_state_of_a_strangers_run_is_cut_where_it_is_shown() {
+    let directory = WorkingDirectory::new();
+    let short = ["--set", "operation.duration=1 s"];
+    directory.plateau(["run", &scene("quick.toml"), "-o", "run.h5"].iter().chain(&short)).quiet_success();
+    let file = changed(directory.path("run.h5"));
+    file.delete_attr("state").unwrap();
+    let state: VarLenUnicode = "S".repeat(3_000_000).parse().unwrap();
+    file.new_attr::<VarLenUnicode>().create("state").unwrap().write_scalar(&state).unwrap();
+    file.close().unwrap();
+    let said = "its state is \"SSSSSS";
+    for arguments in [&["report", "run.h5"][..], &["export", "run.h5", "--to", "csv"], &["watch", "run.h5", "--once"]] {
+        let outcome = refused(&directory, arguments, said);
+        assert!(outcome.stderr.len() < 1000, "{}", outcome.stderr);
+    }
+    let verified = directory.plateau(["verify", "run.h5"]);
+    assert!(verified.stdout.contains(said) && verified.stdout.len() < 1000, "{:.2000}", verified.stdout);
+    assert!(fs::metadata(directory.path("run.h5")).unwrap().len() > 3_000_000);
+}
