@@ -1,11 +1,17 @@
 //! Whether a run is still running in, in words.
 
-use plateau_core::observe::drift::{Drift, Trend};
+use plateau_core::observe::drift::{Drift, LEAST_PULSES, Trend};
 use plateau_io::number;
 
 /// Whether the mean contact area still changes, in words.
 pub fn running_in(drift: &Drift) -> String {
-    let Drift { third_quarter, last_quarter, change, standard_error } = drift;
+    let Drift { third_quarter, last_quarter, change, standard_error, pulses } = drift;
+    if let (Trend::TooShort, Some(pulses)) = (drift.trend(), pulses) {
+        let pulses = number::rounded(*pulses, 2);
+        return format!(
+            "cannot be told: a quarter of the run has at most {pulses} pulses of the contact area, {LEAST_PULSES} are needed"
+        );
+    }
     let percent = number::with_error(100.0 * change, Some(100.0 * standard_error));
     let sign = if *change > 0.0 { "+" } else { "" };
     let [start, middle, end] =
@@ -14,7 +20,7 @@ pub fn running_in(drift: &Drift) -> String {
         Trend::Rises => "contact area still rises",
         Trend::Falls => "contact area still falls",
         Trend::Steady => "contact area is steady",
-        Trend::Unknown => "cannot be told from a run of this length",
+        Trend::Unknown | Trend::TooShort => "cannot be told from a run of this length",
     };
     format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
 }
@@ -34,14 +40,21 @@ mod tests {
             mean,
             standard_error: Some(0.02e-6),
         };
-        let of = |change: f64, standard_error: f64| {
+        let with = |change: f64, standard_error: f64, pulses: Option<f64>| {
             running_in(&Drift {
                 third_quarter: quarter(30.0, 45.0, 1e-6),
                 last_quarter: quarter(45.0, 60.0, (1.0 + change) * 1e-6),
                 change,
                 standard_error,
+                pulses,
             })
         };
+        let of = |change: f64, standard_error: f64| with(change, standard_error, Some(3.0));
+        assert_eq!(
+            with(0.12, 0.03, Some(0.6)),
+            "cannot be told: a quarter of the run has at most 0.6 pulses of the contact area, 3 are needed"
+        );
+        assert_eq!(with(0.12, 0.03, None), of(0.12, 0.03));
         assert_eq!(of(0.12, 0.03), "contact area still rises: +12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
         assert_eq!(of(-0.12, 0.03), "contact area still falls: -12.0 ± 3.0 % from 30 … 45 s to 45 … 60 s");
         assert_eq!(

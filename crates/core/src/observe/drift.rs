@@ -2,12 +2,15 @@
 
 use serde::Serialize;
 
-use super::window_mean::{Cumulative, WindowMean};
+use super::window_mean::{Cumulative, LEAST_PARTS, WindowMean, error_of_mean};
 
 /// Standard errors from which on a change is not taken for chance: 2.5 times in a hundred in either direction.
 const BEYOND_CHANCE: f64 = 2.0;
 /// A change of this part of the mean is of interest: a run that may hide a larger one tells nothing.
 const OF_INTEREST: f64 = 0.05;
+/// Pulses in a quarter of a run from which on two quarters can be compared: with one or less the change is that of a pulse, and no
+/// standard error tells that.
+pub const LEAST_PULSES: f64 = 3.0;
 
 /// The last quarter of a run beside the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -18,8 +21,11 @@ pub struct Drift {
     pub last_quarter: WindowMean,
     /// Change from one to the other, as a part of the mean of the third.
     pub change: f64,
-    /// Its standard error, in the same measure, if both are independent.
+    /// Its standard error, in the same measure: of what varies about a straight line through both quarters, for a steady rise is no
+    /// chance; as if both quarters were independent.
     pub standard_error: f64,
+    /// Pulses of the contact area in a quarter, at most; none where nothing pulses or that is not known.
+    pub pulses: Option<f64>,
 }
 
 /// What the change of a mean says.
@@ -33,22 +39,29 @@ pub enum Trend {
     Steady,
     /// Chance may hide a change that is of interest.
     Unknown,
+    /// There are too few pulses in a quarter.
+    TooShort,
 }
 
 impl Drift {
-    /// What the samples of a run tell; none where a quarter has too few samples or simulated revolutions for a standard error, or
-    /// nothing to compare with.
-    pub fn of(samples: &Cumulative<'_>) -> Option<Self> {
+    /// What the samples of a run tell whose contact area pulses in this time, s, or longer; none where a quarter has too few samples or
+    /// simulated revolutions for a standard error, or nothing to compare with.
+    pub fn of(samples: &Cumulative<'_>, pulse_time: Option<f64>) -> Option<Self> {
         let end = *samples.time.last()?;
         let quarter = |from: f64, to: f64| samples.mean(from * end, to * end);
         let (third, last) = (quarter(0.5, 0.75)?, quarter(0.75, 1.0)?);
-        let error = third.standard_error?.hypot(last.standard_error?);
-        let of_third = |value: f64| value / third.mean;
-        (third.mean > 0.0).then(|| Self {
+        let parts = [&third, &last].map(|quarter| samples.parts(quarter.from, quarter.to));
+        let parts = parts[0].min(parts[1]);
+        if parts < LEAST_PARTS || third.mean <= 0.0 {
+            return None;
+        }
+        let rest = beside_a_line(&samples.means_of_parts(third.from, last.to, 2 * parts));
+        Some(Self {
             third_quarter: third,
             last_quarter: last,
-            change: of_third(last.mean - third.mean),
-            standard_error: of_third(error),
+            change: (last.mean - third.mean) / third.mean,
+            standard_error: 2.0_f64.sqrt() * error_of_mean(&rest, parts) / third.mean,
+            pulses: pulse_time.map(|time| 0.25 * end / time),
         })
     }
 
@@ -56,6 +69,7 @@ impl Drift {
     pub fn trend(&self) -> Trend {
         let chance = BEYOND_CHANCE * self.standard_error;
         match self.change {
+            _ if self.pulses.is_some_and(|pulses| pulses < LEAST_PULSES) => Trend::TooShort,
             change if change > chance => Trend::Rises,
             change if change < -chance => Trend::Falls,
             change if change.abs() + chance <= OF_INTEREST => Trend::Steady,
@@ -64,15 +78,26 @@ impl Drift {
     }
 }
 
+/// What is left of values when their least-squares line is taken out.
+fn beside_a_line(values: &[f64]) -> Vec<f64> {
+    let middle = 0.5 * (values.len() as f64 - 1.0);
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let places = || (0..values.len()).map(|place| place as f64 - middle);
+    let slope = places().zip(values).map(|(place, value)| place * value).sum::<f64>()
+        / places().map(|place| place * place).sum::<f64>();
+    places().zip(values).map(|(place, value)| value - mean - slope * place).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surface::random::{Random, Stream};
 
     /// The drift of a quantity that is the derivative of this integral, over 400 s.
     fn drift(integral: impl Fn(f64) -> f64) -> Option<Drift> {
         let time: Vec<f64> = (1..=400).map(f64::from).collect();
         let integral: Vec<f64> = time.iter().map(|time| integral(*time)).collect();
-        Drift::of(&Cumulative { time: &time, integral: &integral, revolutions: &[] })
+        Drift::of(&Cumulative { time: &time, integral: &integral, revolutions: &[] }, None)
     }
 
     #[test]
@@ -83,6 +108,37 @@ mod tests {
         assert_eq!((found.third_quarter.mean, found.last_quarter.mean), (500.0, 700.0));
         assert_eq!((found.third_quarter.from, found.last_quarter.from, found.last_quarter.to), (200.0, 300.0, 400.0));
         assert_eq!(found.trend(), Trend::Rises);
+        // A line has nothing that could be chance.
+        assert!(found.standard_error < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn the_error_is_that_of_what_varies_about_the_line() {
+        // The quantity is 2 t and 1 more or less by lot: the change of means of 100 values errs by √(2/100).
+        let mut random = Random::new(3, Stream::DiscHeight);
+        let (mut sums, mut hits, runs) = (0.0, 0, 400);
+        for _ in 0..runs {
+            let mut noise = vec![0.0];
+            (0..400).for_each(|place| noise.push(noise[place] + if random.uniform() < 0.5 { -1.0 } else { 1.0 }));
+            let found = drift(|time| time * time + noise[time as usize]).unwrap();
+            let of_third = found.third_quarter.mean;
+            sums += (found.standard_error * of_third).powi(2);
+            hits += usize::from((found.change * of_third - 200.0).abs() < 2.0 * found.standard_error * of_third);
+        }
+        let ratio = sums / runs as f64 / 0.02;
+        // Chance moves the mean of 400 estimates by some hundredths; the truncation makes it a little too large.
+        assert!((0.9..1.25).contains(&ratio), "{ratio}");
+        // 95 %, give or take three standard deviations of the count and a little for the estimate.
+        assert!((0.90..0.99).contains(&(hits as f64 / runs as f64)), "{hits} of {runs}");
+    }
+
+    #[test]
+    fn a_quarter_of_few_pulses_tells_nothing() {
+        let time: Vec<f64> = (1..=400).map(f64::from).collect();
+        let integral: Vec<f64> = time.iter().map(|time| time * time).collect();
+        let samples = Cumulative { time: &time, integral: &integral, revolutions: &[] };
+        let trend = |pulse| Drift::of(&samples, Some(pulse)).unwrap().trend();
+        assert_eq!([trend(33.0), trend(34.0)], [Trend::Rises, Trend::TooShort]);
     }
 
     #[test]
@@ -107,7 +163,7 @@ mod tests {
     fn what_is_nothing_or_too_short_tells_nothing() {
         assert_eq!(drift(|_| 0.0), None);
         let time = [1.0, 2.0, 3.0, 4.0];
-        assert_eq!(Drift::of(&Cumulative { time: &time, integral: &time, revolutions: &[] }), None);
-        assert_eq!(Drift::of(&Cumulative { time: &[], integral: &[], revolutions: &[] }), None);
+        assert_eq!(Drift::of(&Cumulative { time: &time, integral: &time, revolutions: &[] }, None), None);
+        assert_eq!(Drift::of(&Cumulative { time: &[], integral: &[], revolutions: &[] }, None), None);
     }
 }

@@ -12,7 +12,7 @@ const LAST_PART: f64 = 0.1;
 pub const LEAST_REVOLUTIONS: f64 = 10.0;
 /// Parts of a window from which a standard error is told, at least: that of n independent values is itself off by a part of
 /// 1/√(2(n−1)), a third here.
-const LEAST_PARTS: usize = 5;
+pub(super) const LEAST_PARTS: usize = 5;
 /// Rounding of counts of revolutions.
 const ROUNDING: f64 = 1e-9;
 
@@ -66,20 +66,33 @@ impl Cumulative<'_> {
         if !in_order || self.integral.len() != self.time.len() {
             return None;
         }
-        let revolutions = (self.revolutions.len() == self.time.len())
-            .then(|| at(self.time, self.revolutions, to) - at(self.time, self.revolutions, from));
+        let revolutions = self.turns(from, to);
         let integral = |moment: f64| at(self.time, self.integral, moment);
         let mean = (integral(to) - integral(from)) / (to - from);
-        let intervals = 1 + self.time.iter().filter(|time| (from < **time) && (**time < to)).count();
-        let parts = revolutions.map_or(intervals, |turns| intervals.min((turns * (1.0 + ROUNDING)) as usize));
-        let width = (to - from) / parts as f64;
-        let edge = |part: usize| integral(if part == parts { to } else { from + part as f64 * width });
-        let standard_error = (parts >= LEAST_PARTS).then(|| {
-            let values: Vec<f64> = (0..parts).map(|part| (edge(part + 1) - edge(part)) / width).collect();
-            standard_error(&values)
-        });
+        let parts = self.parts(from, to);
+        let standard_error = (parts >= LEAST_PARTS).then(|| standard_error(&self.means_of_parts(from, to, parts)));
         let finite = mean.is_finite() && standard_error.is_none_or(f64::is_finite);
         finite.then_some(WindowMean { from, to, revolutions, mean, standard_error })
+    }
+
+    /// Simulated revolutions in a window, if they are known.
+    fn turns(&self, from: f64, to: f64) -> Option<f64> {
+        let is_known = self.revolutions.len() == self.time.len();
+        is_known.then(|| at(self.time, self.revolutions, to) - at(self.time, self.revolutions, from))
+    }
+
+    /// Parts of a window of which a standard error is made; see [`mean`](Self::mean).
+    pub(super) fn parts(&self, from: f64, to: f64) -> usize {
+        let intervals = 1 + self.time.iter().filter(|time| (from < **time) && (**time < to)).count();
+        self.turns(from, to).map_or(intervals, |turns| intervals.min((turns * (1.0 + ROUNDING)) as usize))
+    }
+
+    /// Means over equal parts of a window of [`mean`](Self::mean).
+    pub(super) fn means_of_parts(&self, from: f64, to: f64, parts: usize) -> Vec<f64> {
+        let width = (to - from) / parts as f64;
+        let edge =
+            |part: usize| at(self.time, self.integral, if part == parts { to } else { from + part as f64 * width });
+        (0..parts).map(|part| (edge(part + 1) - edge(part)) / width).collect()
     }
 }
 
@@ -115,10 +128,16 @@ fn at(time: &[f64], values: &[f64], moment: f64) -> f64 {
 /// γ_0 at least: what swings to and fro is not taken for better known than chance. Strict periods are therefore given too
 /// large an error, and so is a mean that drifts.
 pub fn standard_error(values: &[f64]) -> f64 {
-    let n = values.len();
-    let mean = values.iter().sum::<f64>() / n as f64;
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
     let rest: Vec<f64> = values.iter().map(|value| value - mean).collect();
-    let covariance = |lag: usize| rest.iter().zip(&rest[lag..]).map(|(one, other)| one * other).sum::<f64>() / n as f64;
+    error_of_mean(&rest, values.len())
+}
+
+/// The same for the mean of n values, from residuals: those of the n values from their mean, or those of 2 n from a line. A
+/// constant is estimated from every n of them in both cases, so that the divisor is the same.
+pub(super) fn error_of_mean(rest: &[f64], n: usize) -> f64 {
+    let covariance =
+        |lag: usize| rest.iter().zip(&rest[lag..]).map(|(one, other)| one * other).sum::<f64>() / rest.len() as f64;
     let of_one = covariance(0);
     let (mut lags, mut sum, mut before) = (0, -of_one, f64::INFINITY);
     while lags + 2 <= n / 2 {

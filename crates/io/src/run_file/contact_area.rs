@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use plateau_core::observe::drift::Drift;
+use plateau_core::observe::pulse::pulse_time;
 use plateau_core::observe::window_mean::{Cumulative, WindowMean};
 
 use super::{ReadError, RunFile};
+use crate::scene;
 
 /// What the contact area of a run was at its end; nothing of it where that cannot be told.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,8 +28,14 @@ impl RunFile {
         let revolutions = self.revolutions()?.unwrap_or_default();
         let samples = Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions };
         let has_cycle = self.scene().get("operation").is_some_and(|operation| operation.get("cycle").is_some());
-        let drift = if has_cycle { None } else { Drift::of(&samples) };
+        let drift = if has_cycle { None } else { Drift::of(&samples, self.pulse_time()) };
         Ok(ContactArea { last_tenth: samples.mean_of_last_tenth(), drift })
+    }
+
+    /// Time of a pulse of the contact area, s, at least; none where nothing pulses, or the file does not tell.
+    fn pulse_time(&self) -> Option<f64> {
+        let scene = scene::of_text(self.path(), &self.attribute("scene")?).ok()?;
+        pulse_time(&scene.parameters, &self.bases().ok()??)
     }
 
     /// Simulated revolutions from t = 0 to every sample, where the sliding distance is recorded: a simulated revolution stands

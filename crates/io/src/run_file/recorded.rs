@@ -18,7 +18,7 @@ impl Header {
         let damaged = |reason: String| ReadError::of_library(run.path(), reason);
         let text = |name: &str| run.attribute(name).ok_or_else(|| damaged(format!("it has no {name}")));
         let has = |name: &str| run.series().iter().any(|series| series.name == name);
-        let base = run.pin_base()?.ok_or_else(|| damaged("it has no base of the pin".to_owned()))?;
+        let base = run.bases()?.ok_or_else(|| damaged("it has no base of the pin".to_owned()))?;
         let seeds: serde_json::Map<String, serde_json::Value> = json(run.path(), "seeds", &text("seeds")?)?;
         let inputs: Vec<InputFile> = json(run.path(), "inputs", &text("inputs")?)?;
         let seeds = seeds.into_iter().map(|(key, seed)| {
@@ -30,10 +30,7 @@ impl Header {
         Ok(Self {
             title: run.title().to_owned(),
             mesh: run.mesh().clone(),
-            pin_base: base
-                .iter()
-                .map(|base| if *base == Status::Primary as u8 { Base::Primary } else { Base::Resin })
-                .collect(),
+            pin_base: base,
             maps: Map::ALL.into_iter().filter(|map| run.has_map(*map)).collect(),
             extras: EXTRAS.iter().copied().filter(|extra| has(extra.quantities[0].name)).collect(),
             expected_samples: run.time().len() as u64,
@@ -47,6 +44,17 @@ impl Header {
             inputs,
             surfaces: text("surfaces")?.lines().map(str::to_owned).collect(),
         })
+    }
+}
+
+impl RunFile {
+    /// Base of every pin cell, column by column, resin beyond the pin's outline; nothing if it was not recorded.
+    ///
+    /// # Errors
+    /// As for [`pin_base`](Self::pin_base).
+    pub(super) fn bases(&self) -> Result<Option<Vec<Base>>, ReadError> {
+        let of = |base: u8| if base == Status::Primary as u8 { Base::Primary } else { Base::Resin };
+        Ok(self.pin_base()?.map(|found| found.into_iter().map(of).collect()))
     }
 }
 
