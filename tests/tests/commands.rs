@@ -62,8 +62,15 @@ fn the_mean_contact_area_is_that_of_the_last_tenth() {
     let (third, fourth) = (at(0.75) - at(0.5), integral[last] - at(0.75));
     let change = summary["contact_area_drift"]["change"].as_f64().unwrap();
     assert!((change - (fourth / third - 1.0)).abs() < 1e-3, "{change}");
+    // A quarter is 15 s, a pulse 24.9 s or more (below).
+    let pulses = summary["contact_area_drift"]["pulses"].as_f64().unwrap();
+    assert!((pulses - 15.0 / 24.9).abs() < 0.002, "{pulses}");
+    let long = ["numerics.time_acceleration=20", "--set", "operation.duration=300 s"];
+    let text = directory.plateau([&["run", &scene, "-o", "long.h5", "--set"], &long[..]].concat()).quiet_success();
+    assert!(text.contains("  running in               ") && text.contains(" s to 225 … 300 s\n"), "{text}");
     let text = directory.plateau(["run", &scene, "-o", "again.h5"]).quiet_success();
-    assert!(text.contains("  running in               ") && text.contains(" s to 45 … 60 s\n"), "{text}");
+    let too_short = "cannot be told: a quarter of the run has at most 0.6 pulses of the contact area, 3 are needed";
+    assert!(text.contains(&format!("  running in               {too_short}\n")), "{text}");
     assert!(text.contains(" mm² (mean of the last 14.") && text.contains("± standard error"), "{text}");
     // The report says the same.
     let found = text.lines().find_map(|line| line.trim().strip_prefix("running in")).unwrap().trim();

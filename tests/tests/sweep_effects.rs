@@ -115,6 +115,22 @@ fn replicated() -> WorkingDirectory {
 }
 
 #[test]
+fn a_design_with_as_many_terms_as_runs_says_what_would_tell_an_error() {
+    let levels = "[[factor]]\nname = \"pin\"\nkey = \"pin.base.synthetic.fibre_fraction\"\nlevels = [0.2, 0.5, 0.7]\n";
+    let directory = studied("design = \"full-factorial\"", &[POOL, levels, AREA]);
+    let said = effects(&directory, &["--model", "interactions"]).stdout;
+    assert!(said.contains("give [replicates], or a smaller model such as --model main"), "{said}");
+    // Levels have no units: one equation says it.
+    assert_eq!(said.matches("contact area [mm²] =").count(), 1, "{said}");
+    assert!(said.contains("by levels: [factor level] is 1 at this level, else 0"), "{said}");
+    // The scene of the study is that of none of its runs.
+    directory.plateau(["sweep", "collect", "study.toml"]);
+    let scene = hdf5::File::open(directory.path("results/results.h5")).unwrap().attr("base_scene").unwrap();
+    let scene: hdf5::types::VarLenUnicode = scene.read_scalar().unwrap();
+    assert!(scene.contains("fibre_fraction = 0.3"), "{scene}");
+}
+
+#[test]
 fn figures_show_the_means_and_effects_of_the_table() {
     let directory = replicated();
     let text = effects(&directory, &[]).stdout;

@@ -33,12 +33,18 @@ pub fn paragraphs(
     let unit = response.unit_shown(effects);
     let title = response.title();
     let title = if unit.symbol.is_empty() { title } else { format!("{title} [{}]", unit.symbol) };
-    let has_levels =
-        coded.terms.iter().flat_map(|term| &term.variables).any(|variable| matches!(variable, Variable::Level { .. }));
+    let is_level = |variable: &Variable| matches!(variable, Variable::Level { .. });
+    let variables = || coded.terms.iter().flat_map(|term| &term.variables);
+    let has_levels = variables().any(is_level);
     let levels = if has_levels { "; [factor level] is 1 at this level, else 0" } else { "" };
+    let natural_lines = lines(&title, &natural, &unit, factors);
+    if has_levels && variables().all(is_level) {
+        // Levels have no units: both are the same.
+        return vec![("by levels: [factor level] is 1 at this level, else 0".to_owned(), natural_lines)];
+    }
     vec![
         (format!("in coded units, −1 to 1 over each range{levels}"), lines(&title, &coded, &unit, factors)),
-        (format!("in the units of the study ({}){levels}", units(factors)), lines(&title, &natural, &unit, factors)),
+        (format!("in the units of the study ({}){levels}", units(factors)), natural_lines),
     ]
 }
 

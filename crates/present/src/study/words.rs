@@ -1,7 +1,7 @@
 //! What is said of a study: how well a model fits, what cannot be told apart, what repeats.
 
 use plateau_io::study::plan::Plan;
-use plateau_study::effects::{Advice, BoxCox, Effects};
+use plateau_study::effects::{Advice, BoxCox, Effects, ErrorSource};
 
 use plateau_io::number;
 
@@ -44,7 +44,14 @@ pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
             .map(|deviation| format!("error {} (from {})", shown(deviation), effects.error)),
     );
     if effects.residual_standard_deviation.is_none() {
-        parts.push(format!("error {}", effects.error));
+        // It has as many terms as runs.
+        let advice = match effects.error {
+            ErrorSource::Saturated => {
+                ", so no interval can be told: give [replicates], or a smaller model such as --model main"
+            }
+            _ => "",
+        };
+        parts.push(format!("error {}{advice}", effects.error));
     }
     parts.extend(effects.lenth.map(|lenth| {
         let [margin, simultaneous] = [lenth.margin, lenth.simultaneous_margin].map(&shown);

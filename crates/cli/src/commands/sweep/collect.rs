@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use plateau_io::dataset_file::{Attribute, now};
+use plateau_io::scene;
 use plateau_io::study::collected::{CollectError, Collected, State, is_collected};
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
@@ -105,9 +106,9 @@ fn attributes(plan: &Plan, collected: &Collected) -> Result<Vec<(&'static str, A
         ("design", text(&study.design)),
         ("collected", Attribute::Text(now())),
     ];
-    if study.base.is_some() {
-        let scene = plan.scene(&plan.run(1)).map_err(Failure::input)?.resolved;
-        attributes.push(("base_scene", Attribute::Text(scene)));
+    // With what holds for all runs, and without the factors. It may lack what only they give.
+    if let Some(Ok(scene)) = study.base.as_deref().map(|base| scene::load(base, &study.sets)) {
+        attributes.push(("base_scene", Attribute::Text(scene.resolved)));
     }
     Ok(attributes)
 }
