@@ -13,11 +13,12 @@ All quantities are in SI units. The guide is docs/python.md of the project.
 
 from importlib.metadata import PackageNotFoundError, version
 
-from plateau.commands import Effects, check, collect, effects, run, sweep
+from plateau.commands import Effects, check, collect, command, effects, run, sweep
 from plateau.errors import (
     InputError,
     InputTypeError,
     MissingFileError,
+    MissingPackageError,
     PlateauError,
     PlateauWarning,
     RunFailed,
@@ -43,6 +44,7 @@ __all__ = [
     "MapAccessor",
     "Mean",
     "MissingFileError",
+    "MissingPackageError",
     "PlateauError",
     "PlateauWarning",
     "RunAccessor",
@@ -52,6 +54,7 @@ __all__ = [
     "UnknownNameError",
     "check",
     "collect",
+    "command",
     "effects",
     "find_program",
     "open_run",

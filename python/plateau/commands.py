@@ -1,16 +1,16 @@
 """The commands of the program as functions."""
 
-import json
 import os
 import warnings
 from collections.abc import Mapping
+from json import dumps
 from typing import Any, NamedTuple
 
 import pandas
 import xarray
 
 from plateau.errors import InputTypeError, PlateauWarning
-from plateau.program import call
+from plateau.program import call, listen
 from plateau.run_file import open_run
 from plateau.study import Study, open_study, read_table
 from plateau.times import seconds
@@ -25,7 +25,9 @@ class Effects(NamedTuple):
     Attributes
     ----------
     table : pandas.DataFrame
-        A row for each response and term: effect, standard error, p, ... (docs/studies.md).
+        The analysis of variance (docs/studies.md): a row for each response and source of its scatter. Terms of the model have an
+        ``effect``, ``standard_error``, ``low`` and ``high``. The other sources have none (NaN there): ``replicate``, ``residual``, ``lack of fit``,
+        ``pure error``, ``total``. ``table["effect"].dropna()`` has the effects alone.
     responses : list of dict
         For each response what was fitted, and how well: ``name``, ``unit``, ``model``, ``mean``, ``r_squared``, ``terms``, ...
     files : list of str
@@ -239,6 +241,53 @@ def effects(
     return Effects(table, document["responses"], document["files"])
 
 
+def command(*arguments: Any, json: bool = False, progress: bool | None = None, **options: Any) -> Any:
+    """Calls any command of the program, with its options as keywords.
+
+    Parameters
+    ----------
+    *arguments : str or path
+        The command and what follows it: ``"surface", "disc.sdf"``.
+    json : bool
+        Whether the command prints JSON, which is given as Python has it. ``plateau COMMAND --help`` says which commands can.
+    progress : bool, optional
+        Whether progress is shown; unless given, in notebooks and terminals.
+    **options
+        Options of the command, with ``_`` in place of ``-``: ``force=True`` is ``--force``, ``output="figures"`` is ``--output figures``, a
+        list is the option several times. ``set`` takes a mapping, as of `run`. What is None or False is left out.
+
+    Returns
+    -------
+    object
+        With ``json`` the document: dictionaries, lists, numbers and text; None if nothing was printed. Else the text that was printed.
+
+    Raises
+    ------
+    InputError, RunFailed, RunStopped
+        With the message of the program.
+
+    Examples
+    --------
+    >>> found = command("surface", "--prepare", "quick.toml", json=True)
+    >>> [surface["name"] for surface in found]
+    ['disc', 'pin']
+    >>> print(command("plot", "quick.h5", figure=["status", "heights"], output="figures", force=True), end="")
+    wrote figures/status.png: Status of disc and pin
+    wrote figures/heights.png: Height distributions
+    """
+    line: list[Path] = [argument if isinstance(argument, os.PathLike) else str(argument) for argument in arguments]
+    for name, given in options.items():
+        flag = f"--{name.replace('_', '-')}"
+        if isinstance(given, Mapping):
+            given = [f"{key}={_toml(value)}" for key, value in given.items()]
+        if given is True:
+            line.append(flag)
+        elif given is not None and given is not False:
+            for value in given if isinstance(given, list | tuple) else [given]:
+                line += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+    return call(line, progress) if json else listen(line, progress)
+
+
 def _output_of(scene: Path, changes: Mapping[str, Any] | None) -> str:
     """The run file that a scene names."""
     with warnings.catch_warnings():
@@ -266,9 +315,9 @@ def _toml(value: Any) -> str:
     if isinstance(value, int | float):
         return repr(value)
     if isinstance(value, str | os.PathLike):
-        return json.dumps(os.fspath(value), ensure_ascii=False)
+        return dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{json.dumps(key)} = {_toml(part)}" for key, part in value.items()) + " }"
+        return "{ " + ", ".join(f"{dumps(key)} = {_toml(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(map(_toml, value)) + "]"
     raise InputTypeError(f"{value!r} is no value of a scene: expected text, a number, True or False, a list or a dictionary")

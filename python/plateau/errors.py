@@ -1,5 +1,6 @@
 """Exceptions and warnings: what the program says, in the classes of its exit statuses and in the words of Python."""
 
+import os
 import re
 from collections.abc import Sequence
 
@@ -55,6 +56,10 @@ class MissingFileError(InputError, FileNotFoundError):
     """There is no such file."""
 
 
+class MissingPackageError(PlateauError, ImportError):
+    """A package of Python that is needed for this is not installed."""
+
+
 class UnknownNameError(InputError, KeyError):
     """A run has no series, map or status of this name."""
 
@@ -96,6 +101,9 @@ def in_python(message: str) -> str:
 
 def error_of(message: str, command: Sequence[str], status: int) -> PlateauError:
     """The exception for an exit status."""
+    # Messages begin with the file that they are about.
+    if status == 2 and any(message.startswith((f"{word}: ", f"cannot read {word}: ")) and not os.path.exists(word) for word in command[1:]):
+        return MissingFileError(message, command, status)
     if status == 2:
         return InputError(message, command, status)
     if status > 128:

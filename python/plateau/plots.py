@@ -6,12 +6,16 @@ from typing import Any
 import numpy as np
 import xarray
 
+from plateau.errors import MissingPackageError
 from plateau.looks import APART, Look, colours, in_drawn_unit, look_of
 from plateau.run_file import array
 
 # Length of a window of an unrolled ring over its height, about, and windows at most.
 ELONGATION = 8.6
 MOST_WINDOWS = 6
+# In inches: a map that would be lower in its axes is stretched; from one number of an axis to the next.
+LEAST_HEIGHT = 0.3
+BETWEEN_NUMBERS = 0.3
 
 
 def new_axes(**options: Any) -> Any:
@@ -29,7 +33,7 @@ def new_axes(**options: Any) -> Any:
     try:
         import matplotlib.pyplot as plt
     except ImportError as error:
-        raise ImportError("figures need matplotlib: pip install 'plateau-brake[plot]'") from error
+        raise MissingPackageError("figures need matplotlib: pip install 'plateau-brake[plot]', or pip install matplotlib") from error
     return plt.subplots(layout="constrained", **options)[1]
 
 
@@ -101,7 +105,7 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     for panel, begin, end in zip(panels, ends[:-1], ends[1:], strict=True):
         part = np.s_[:, begin : end + 1]
         picture = panel.pcolormesh(x[part], y[part], look.values[:, begin:end], rasterized=True, **chosen)
-        panel.set_aspect("equal")
+        stretched = fit(panel, polar)
     last = panels[-1]
     bar = last.figure.colorbar(picture, ax=panels, label=look.label, extend="neither" if names else look.extend)
     if names:
@@ -109,7 +113,7 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     labels = ("x, mm", "y, mm") if polar else ("arc length, mm", "radius, mm")
     moment = f", {float(cells['map_time']):.6g} s" if "map_time" in cells.coords else ""
     grey = f"; grey: {look.apart}" if look.apart else ""
-    last.set_xlabel(labels[0])
+    last.set_xlabel(labels[0] + (" (stretched)" if stretched else ""))
     panels[len(panels) // 2].set_ylabel(labels[1])
     panels[0].set_title(str(cells.attrs.get("long_name", cells.name)) + moment + grey)
     return last
@@ -137,6 +141,39 @@ def panels_for(x: Any, y: Any, polar: bool) -> list[Any]:
     # Seven inches are for the map, and above each window half of one for numbers.
     height = 0.8 + windows * (0.5 + min(7 * windows / elongation, 5))
     return list(np.atleast_1d(new_axes(figsize=(9, height), nrows=windows)))
+
+
+def fit(panel: Any, polar: bool) -> bool:
+    """Puts a map in proportion, or stretches it where it would be too low to be seen; numbers of the radius stand clear of each other.
+
+    Parameters
+    ----------
+    panel : matplotlib.axes.Axes
+        With the map in it.
+    polar : bool
+        Whether it is drawn in the plane of the disc.
+
+    Returns
+    -------
+    bool
+        Whether it is stretched.
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    box = panel.get_position(original=True)
+    # Also of a part of a figure.
+    whole = panel.figure.bbox.size / panel.figure.dpi
+    width, room = box.width * whole[0], box.height * whole[1]
+    height = min(width * np.ptp(panel.get_ylim()) / np.ptp(panel.get_xlim()), room)
+    stretched = not polar and height < min(LEAST_HEIGHT, room)
+    panel.set_aspect("auto" if stretched else "equal")
+    if not polar:
+        numbers = int((room if stretched else height) / BETWEEN_NUMBERS)
+        if numbers > 2:
+            panel.yaxis.set_major_locator(MaxNLocator(min(numbers, 5)))
+        else:
+            panel.set_yticks(panel.get_ylim(), labels=[f"{radius:.4g}" for radius in panel.get_ylim()])
+    return bool(stretched)
 
 
 def options_of(look: Look, options: dict[str, Any]) -> dict[str, Any]:

@@ -71,7 +71,7 @@ def _scheme(key: Any) -> str:
 
 
 def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None) -> Any:
-    """Calls the program with ``--json`` and gives what it prints.
+    """Calls the program with ``--json`` and gives what it prints, as `listen` does.
 
     Parameters
     ----------
@@ -90,20 +90,45 @@ def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = No
     PlateauError
         With the message of the program. Its warnings are given as `PlateauWarning`.
     """
-    command = [find_program(), *[os.fspath(argument) for argument in arguments], "--json"]
+    document = listen([*arguments, "--json"], progress, 4)
+    return json.loads(document) if document.strip() else None
+
+
+def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None, stacklevel: int = 3) -> str:
+    """Calls the program and gives what it prints on standard output.
+
+    Parameters
+    ----------
+    arguments : sequence of str or path
+        Command and arguments.
+    progress : bool, optional
+        Whether progress is shown; unless given, in a notebook and in a terminal.
+    stacklevel : int
+        Whose line warnings are to name, as of ``warnings.warn``.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    PlateauError
+        With the message of the program. Its warnings are given as `PlateauWarning`.
+    """
+    command = [find_program(), *[os.fspath(argument) for argument in arguments]]
     show = shower(progress)
     with tempfile.TemporaryFile() as output:
         status, said = _wait(command, output, follow_pipe if show is None else follow_terminal, show)
         output.seek(0)
-        document = output.read()
+        printed = output.read().decode(errors="replace")
     messages = [in_python(message.strip()) for message in BEGIN.split(said)]
     errors = [message for message in messages if message and not message.startswith("warning: ")]
     for message in messages:
         if message.startswith("warning: "):
-            warnings.warn(message.removeprefix("warning: "), PlateauWarning, stacklevel=3)
+            warnings.warn(message.removeprefix("warning: "), PlateauWarning, stacklevel=stacklevel)
     if status != 0:
         raise error_of(errors[-1] if errors else f"the program ended with status {status}", command, status)
-    return json.loads(document) if document.strip() else None
+    return printed
 
 
 def _wait(command: list[str], output: Any, follow: Follow, show: Callable[[str], None] | None) -> tuple[int, str]:

@@ -14,6 +14,12 @@ from plateau.means import Array, Mean, last_tenth, mean_between
 from plateau.run_file import array
 from plateau.times import seconds
 
+# Series that are totals since the start of a run (docs/run-file.md).
+TOTALS = frozenset(
+    "contact_area_integral sliding_distance road_distance worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc returned "
+    "friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
+)
+
 
 @xarray.register_datatree_accessor("plateau")
 class RunAccessor:
@@ -75,7 +81,8 @@ class RunAccessor:
         Raises
         ------
         InputError
-            If the run has no such series (`UnknownNameError`), or the times are no part of the run.
+            If the run has no such series (`UnknownNameError`), the times are no part of the run, or the series is a total since its start,
+            such as ``worn_pin``; `rate` tells how fast that grows.
 
         Examples
         --------
@@ -87,12 +94,53 @@ class RunAccessor:
         30.0
         """
         time = self._values("time")
-        revolutions = self._revolutions()
-        first, last = last_tenth(time, revolutions)
+        if series in TOTALS and series in self._run["series"]:
+            raise InputError(
+                f"{series} is a total since the start of the run, and its mean says nothing: "
+                f"rate({series!r}) is how fast it grows, series[{series!r}].iloc[-1] how much it is at the end"
+            )
         if f"{series}_integral" in self._run["series"]:
             integral = self._values(f"series/{series}_integral")
         else:
             integral = np.cumsum(self._values(f"series/{series}") * np.diff(time, prepend=0.0))
+        return self._mean_of(time, integral, start, end)
+
+    def rate(self, series: str, start: float | str | None = None, end: float | str | None = None) -> Mean:
+        """How fast a total grows, in the mean over a part of the run, with its standard error.
+
+        Parameters
+        ----------
+        series : str
+            A series that is a total since the start of the run: ``worn_pin``, ``worn_resin``, ``worn_disc``, ``emitted``, ``sliding_distance``,
+            ``friction_work``, ``pm10_mass``, ...
+        start, end : float or str, optional
+            As of `mean`.
+
+        Returns
+        -------
+        Mean
+            Value and error in the unit of the series in a second.
+
+        Raises
+        ------
+        InputError
+            If the run has no such series (`UnknownNameError`), it is no total, or the times are no part of the run.
+
+        Examples
+        --------
+        >>> import plateau
+        >>> wear = plateau.open_run("quick.h5").plateau.rate("worn_pin")
+        >>> bool(0 < wear.error < wear.value)
+        True
+        """
+        values = self._values(f"series/{series}")
+        if series not in TOTALS:
+            raise InputError(f"{series} is no total since the start of the run: take mean({series!r})")
+        return self._mean_of(self._values("time"), values, start, end)
+
+    def _mean_of(self, time: Array, integral: Array, start: float | str | None, end: float | str | None) -> Mean:
+        revolutions = self._revolutions()
+        first, last = last_tenth(time, revolutions)
         part = [seconds(default if given is None else given) for given, default in ((start, first), (end, last))]
         return mean_between(time, integral, revolutions, *part)
 

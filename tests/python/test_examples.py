@@ -106,11 +106,38 @@ class Examples(unittest.TestCase):
         names, units = zip(*re.findall(r"(\S+) \((\S+)\)", lines[0]))
         for name, line in zip(["quick", "strong"], lines[1:]):
             with netCDF4.Dataset(self.folder / f"{name}.h5") as run:
-                expected = [run["time"][-1], *(run["series"][series][-1] for series in names[1:])]
+                time, series = run["time"][:], {name: run["series"][name][:] for name in names[3:]}
+                integral = run["series"]["contact_area_integral"][:]
             self.assertEqual(line.split()[0], name)
-            self.close([float(word) for word in line.split()[1:]], expected)
-        self.assertEqual(units, ("s", "m2", "Pa", "1", "1", "m3"))
+            found = [float(word) for word in line.split()[1:]]
+            # The mean and the error are those of the other example, and the mean is not that of the last revolution.
+            _, line_of_mean = self.example("contact_area.py", f"{name}.h5", "-o", "other.png")
+            start, end, *mean = numbers(line_of_mean.replace("mm2", "mm"))
+            self.close(found[:3], [end, *(1e-6 * value for value in mean)])
+            first = np.argmin(abs(time - start))
+            self.close(found[1], (integral[-1] - integral[first]) / (time[-1] - time[first]))
+            pressure = series.pop("mean_pressure")[first + 1:].mean()
+            # Samples lie whole steps apart, so that their distances differ a little.
+            np.testing.assert_allclose(found[3], pressure, rtol=2e-3)
+            self.close(found[4:], [values[-1] for values in series.values()])
+        self.assertEqual(names, ("time", "contact_area", "standard_error", "mean_pressure", "filled_fraction", "disc_secondary", "emitted"))
+        self.assertEqual(units, ("s", "m2", "m2", "Pa", "1", "1", "m3"))
         self.check_picture("compare.png")
+
+    def test_lines_of_runs_that_pulse_can_be_told_apart(self):
+        """With the pulses the lines cover each other, as bands of two colours."""
+        for name, force in [("long-5", "5 N"), ("long-10", "10 N")]:
+            changes = [f"operation.normal_force={force}", "operation.duration=1500 s", "numerics.time_acceleration=100", "output.sample_every=1 s"]
+            sets = [argument for change in changes for argument in ("--set", change)]
+            command = [PROGRAM, "run", str(ROOT / "data/scenes/quick.toml"), "-o", f"{name}.h5", *sets]
+            subprocess.run(command, check=True, capture_output=True, timeout=300, cwd=self.folder)
+        self.example("compare_runs.py", "long-5.h5", "long-10.h5", "-o", "long.png")
+        with Image.open(self.folder / "long.png") as picture:
+            pixels = np.asarray(picture.convert("RGB"), dtype=int)
+        for colour in ((31, 119, 180), (255, 127, 14)):
+            part = (abs(pixels - colour).sum(axis=2) < 30).mean()
+            self.assertGreater(part, 0.001)
+            self.assertLess(part, 0.02)
 
     def test_coverage(self):
         lines = self.example("coverage.py", "quick.h5")

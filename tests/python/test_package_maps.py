@@ -151,9 +151,29 @@ class Runs(InFolder):
             without.plateau.mean("warmth")
         self.assertIsInstance(caught.exception, plateau.UnknownNameError)
         with self.assertRaisesRegex(plateau.InputError, "from 10 to 90 s: expected times in order, between 0 and 20"):
-            without.plateau.mean("emitted", "10 s", "1.5 min")
+            without.plateau.mean("mean_pressure", "10 s", "1.5 min")
         self.assertEqual(list(without.plateau.coverage()), [])
         self.assertEqual(len(without.plateau.events), 0)
+
+    def test_totals_have_a_rate_and_no_mean(self):
+        with h5py.File("quick.h5") as file:
+            time, worn = file["time"][:], file["series/worn_pin"][:]
+            # docs/run-file.md: volumes are cumulative but for the pool.
+            volumes = {name for name, values in file["series"].items() if values.attrs["units"] == "m3"} - {"pool"}
+        self.assertIn("worn_pin", volumes)
+        for name in volumes | {"sliding_distance", "contact_area_integral"}:
+            with self.assertRaisesRegex(plateau.InputError, rf"{name} is a total since the start of the run.*rate\('{name}'\)"):
+                self.run_.plateau.mean(name)
+        found = self.run_.plateau.rate("worn_pin", 10, 20)
+        expected = (worn[-1] - np.interp(10, time, worn)) / 10
+        self.assertAlmostEqual(found.value / expected, 1.0, delta=1e-9)
+        self.assertGreater(found.error, 0)
+        area = self.run_.plateau.mean("contact_area")
+        self.assertEqual(self.run_.plateau.rate("contact_area_integral"), area)
+        with self.assertRaisesRegex(plateau.InputError, r"filled_fraction is no total.*take mean\('filled_fraction'\)"):
+            self.run_.plateau.rate("filled_fraction")
+        with self.assertRaises(plateau.UnknownNameError):
+            self.run_.plateau.rate("warmth")
 
     def test_tables(self):
         table = self.run_.plateau.series
@@ -191,6 +211,27 @@ class Runs(InFolder):
         self.assertAlmostEqual(axes.get_xlim()[1] / (2 * np.pi * self.run_["radius"].values.mean() * 1e3), 1.0, delta=1e-6)
         self.assertEqual([round(panel.get_xlim()[0] / (axes.get_xlim()[1] / 6)) for panel in panels], [0, 1, 2, 3, 4, 5])
         self.assertTrue(all(panel.get_aspect() == 1 for panel in panels))
+
+    def test_maps_can_be_read(self):
+        from plateau.plots import new_axes
+
+        height = self.run_["disc/height"]
+        two = new_axes(nrows=2, figsize=(9, 6))
+        self.run_["pin/pressure"].plateau.plot(ax=two[0])
+        height.plateau.plot(ax=two[1])
+        for figure in (two[0].figure, height.plateau.plot().figure):
+            figure.canvas.draw()
+            for panel in figure.axes:
+                boxes = [label.get_window_extent() for label in panel.get_yticklabels() if label.get_text()]
+                boxes.sort(key=lambda box: box.y0)
+                # Labels beyond the ends of an axis are not drawn.
+                shown = [box for box in boxes if panel.bbox.y0 - 10 < (box.y0 + box.y1) / 2 < panel.bbox.y1 + 10]
+                self.assertGreaterEqual(len(shown), 2)
+                self.assertTrue(all(below.y1 <= above.y0 for below, above in zip(shown, shown[1:])), panel.get_title())
+        # A ring in one box is stretched, or it would be a line; a pin is in proportion.
+        self.assertGreater(two[1].bbox.height, 100)
+        self.assertEqual([panel.get_aspect() for panel in two], [1, "auto"])
+        self.assertEqual(two[1].get_xlabel(), "arc length, mm (stretched)")
 
     def test_colours_are_those_of_the_program(self):
         command = [os.environ["PLATEAU_PROGRAM"], "plot", "quick.h5", "--format", "svg", "-o", "svg", "-q", "--force"]

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::os::unix::fs::symlink;
+use std::path::PathBuf;
 use std::process::Command;
 
 use plateau_tests::program::{WorkingDirectory, program, repository, run};
@@ -17,20 +18,22 @@ fn blocks(document: &str, language: &str) -> Vec<String> {
     blocks
 }
 
-/// Runs the shell blocks of a document, one after the other, in a folder that looks like the repository; gives it, and what
-/// the commands said.
+/// Runs the shell blocks of a document, one after the other, in a folder that looks like the repository, or where the one before
+/// has gone; gives the folder, and what the commands said.
 fn walk_and_listen(document: &str) -> (WorkingDirectory, String) {
     let (directory, mut said) = (WorkingDirectory::new(), String::new());
+    let (mut place, left) = (directory.path("."), directory.path(".left"));
     symlink(repository().join("data"), directory.path("data")).unwrap();
     symlink(program(), directory.path("plateau")).unwrap();
     for block in blocks(document, "sh") {
         let mut shell = Command::new("sh");
-        shell.current_dir(directory.path(".")).args(["-e", "-c", &block]);
+        shell.current_dir(&place).args(["-e", "-c", &format!("{block}\npwd > '{}'", left.display())]);
         let outcome = run(shell);
         assert_eq!(outcome.status, Some(0), "{document}:\n{block}\n{}", outcome.stderr);
         assert!(!outcome.stderr.contains("warning"), "{document}:\n{block}\n{}", outcome.stderr);
         said.push_str(&outcome.stdout);
         said.push_str(&outcome.stderr);
+        place = PathBuf::from(fs::read_to_string(&left).expect("a folder").trim_end());
     }
     (directory, said)
 }
@@ -40,12 +43,13 @@ fn walk_through(document: &str) -> WorkingDirectory {
 }
 
 /// Walks through a tutorial: its commands make these files, and say every line that it shows as what one sees. A line that
-/// ends with "…" is the beginning of one.
+/// ends with "…" is the beginning of one. All files are in the folder `own`.
 fn expect_tutorial(document: &str, files: &[&str]) -> WorkingDirectory {
     let (directory, said) = walk_and_listen(document);
     for file in files {
-        assert!(directory.path(file).exists(), "{document}: {file} in {:?}", directory.names());
+        assert!(directory.path("own").join(file).exists(), "{document}: {file}");
     }
+    expect_nothing_beside_own(&directory);
     for shown in blocks(document, "console").iter().flat_map(|block| block.lines()) {
         let is_said = match shown.strip_suffix(" …") {
             Some(begin) => said.lines().any(|line| line.starts_with(begin)),
@@ -56,12 +60,22 @@ fn expect_tutorial(document: &str, files: &[&str]) -> WorkingDirectory {
     directory
 }
 
+/// The commands have left a clone as it was, but for the folder that git ignores.
+fn expect_nothing_beside_own(directory: &WorkingDirectory) {
+    let ignored = fs::read_to_string(repository().join(".gitignore")).expect("a list of what git ignores");
+    assert!(ignored.lines().any(|line| line == "/own/"));
+    let mut names = directory.names();
+    names.retain(|name| name != ".left");
+    assert_eq!(names, ["data", "own", "plateau"]);
+}
+
 #[test]
 fn the_first_run_works_as_it_is_told() {
-    let names = walk_through("first-run.md").names();
+    let directory = walk_through("first-run.md");
     for file in ["first.h5", "heavier.h5", "mine.h5", "rough-disc.png", "my-disc.h5", "rig.h5"] {
-        assert!(names.iter().any(|name| name == file), "{file} in {names:?}");
+        assert!(directory.path("own").join(file).exists(), "{file}");
     }
+    expect_nothing_beside_own(&directory);
 }
 
 #[test]
@@ -82,7 +96,7 @@ fn the_tutorial_about_a_drive_leads_to_its_answer() {
 #[test]
 fn the_tutorial_about_clusters_loses_nothing_that_is_killed() {
     let directory = expect_tutorial("tutorial-cluster.md", &["loads.sbatch", "loads/results.h5"]);
-    let results = fs::read_to_string(directory.path("loads/results.csv")).expect("results");
+    let results = fs::read_to_string(directory.path("own/loads/results.csv")).expect("results");
     assert_eq!(results.lines().skip(1).filter(|line| line.contains(",finished,")).count(), 24);
 }
 
