@@ -73,6 +73,11 @@ fn the_source_files_that_documents_name_exist() {
 }
 
 fn kind(key: &Key) -> String {
+    let value = plain(key);
+    if key.may_be_none() { format!("{value}, or `\"none\"`") } else { value }
+}
+
+fn plain(key: &Key) -> String {
     let example = key.example().map(|example| format!(", such as `{example}`")).unwrap_or_default();
     match key.kind {
         Kind::Quantity { dimension, .. } => format!("{}{example}", dimension.name()),

@@ -119,3 +119,29 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     let said = directory.plateau(["new", "afm.toml", "--disc", "afm.sdf"]).quiet_success();
     assert!(said.contains("is read as 12.8 mm wide"), "{said}");
 }
+
+#[test]
+fn a_bowed_surface_with_few_spikes_is_put_right() {
+    let directory = WorkingDirectory::new();
+    // 100 x 100 points of 20 um: 17 equal steps, rms √24/4.6 = 1.06 um if all were as many, on a bow of 8 um from the middle to the ends, rms 8 √(4/45) = 2.39 um, and seven
+    // spikes of 20 um.
+    let rough = |i: u32, j: u32| (f64::from((i * 7919 + j * 104_729 + i * j * 31) % 17) - 8.0) / 4.6;
+    let height = |i: u32, j: u32| {
+        let x = f64::from(i) / 49.5 - 1.0;
+        8.0 * x * x + rough(i, j) + if (100 * j + i) % 1409 == 700 { 20.0 } else { 0.0 }
+    };
+    let row = |j: u32| (0..100).map(|i| format!("{:.4}", height(i, j))).collect::<Vec<_>>().join("\t") + "\n";
+    let head = "Protocol 7\n100 points each\nunit: um\npitch: 20 um\n";
+    directory.write("bowed.txt", format!("{head}{}", (0..100).map(row).collect::<String>()));
+    // One step to where the table is understood: what the header says right above it is kept.
+    let refused = directory.plateau(["new", "mine.toml", "--disc", "bowed.txt"]);
+    assert!(refused.stderr.contains("skip = 2 beside file") && refused.stderr.contains("--skip"), "{}", refused.stderr);
+    let said = directory.plateau(["new", "mine.toml", "--disc", "bowed.txt", "--skip", "2"]).quiet_success();
+    for note in ["level = \"quadratic\"", "7 of 10000 points are spikes", "outliers = 6", "With cutoff = \"1 um\""] {
+        assert!(said.contains(note), "{note} in {said}");
+    }
+    let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+    for line in ["level = \"quadratic\"", "outliers = 6 ", "fill = \"interpolate\"", "# cutoff = \"1 um\""] {
+        assert!(text.contains(line), "{line} in\n{text}");
+    }
+}

@@ -211,7 +211,8 @@ fn a_cutoff_cuts_peaks() {
         let words = ["at 0 m above the mean it cuts 50 % of the points", "half of them or more"];
         bounds(FLAT, &key, &[&half, &cutoff(0.0)], &[&less, &cutoff(0.0)], &words);
         // The upper half is 0.5 µm above the mean of all.
-        let words = ["at 501 nm above the mean it cuts 0 % of the points", "no point at all"];
+        let words =
+            ["at 501 nm above the mean it cuts 0 % of the points", "no point at all", "or say cutoff = \"none\""];
         bounds(FLAT, &key, &[&half, &cutoff(0.501)], &[&less, &cutoff(0.499)], &words);
     }
     assert_eq!(warnings(FLAT, &["disc.prepare.cutoff=3 um", "pin.prepare.cutoff=0 um"]), []);

@@ -152,3 +152,34 @@ fn a_resolved_scene_says_everything_in_the_order_of_the_format() {
     let folder = std::path::absolute("tests/scenes/good").unwrap();
     insta::assert_snapshot!("resolved", resolved.replace(folder.to_str().unwrap(), "[folder]"));
 }
+
+#[test]
+fn none_takes_out_a_step_that_is_inherited() {
+    let folder = tempfile::tempdir().unwrap();
+    let base = std::path::absolute(good("minimal.toml")).unwrap();
+    let write = |name: &str, extends: &str, steps: &str| {
+        let path = folder.path().join(name);
+        let text = format!("extends = {}\n[disc.prepare]\n{steps}\n", toml::Value::from(extends));
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let steps = "cutoff = \"3 um\"\noutliers = 6\nfill = \"level\"\nl_filter = \"1 mm\"\nextend = \"statistics\"\nextend_seed = 3";
+    write("base.toml", &base.to_string_lossy(), steps);
+    let none = ["cutoff", "outliers", "fill", "l_filter", "extend"].map(|step| format!("{step} = \"none\"")).join("\n");
+    let kept = scene::load(&write("kept.toml", "base.toml", "cutoff = \"4 um\""), &[]).unwrap();
+    let preparation = kept.disc_surface.preparation;
+    assert_eq!((preparation.cutoff, preparation.outliers, preparation.l_filter), (Some(4e-6), Some(6.0), Some(1e-3)));
+    let path = write("none.toml", "base.toml", &none);
+    let taken_out = scene::load(&path, &[]).unwrap();
+    assert_eq!(taken_out.disc_surface.preparation, Preparation::NONE);
+    // What is stored with a run is as if there had never been such steps, so that any reader of scenes takes it.
+    assert_eq!(taken_out.resolved.matches("cutoff").count(), kept.resolved.matches("cutoff").count() - 1);
+    assert!(!taken_out.resolved.contains("fill = ") && !taken_out.resolved.contains("extend_seed"));
+    // Later layers count, here --set; and a word that is not known is refused.
+    let set = |argument: &str| scene::load(&path, &[argument.to_owned()]);
+    assert_eq!(set("disc.prepare.cutoff=5 um").unwrap().disc_surface.preparation.cutoff, Some(5e-6));
+    let none =
+        scene::load(folder.path().join("kept.toml").as_path(), &["disc.prepare.cutoff=none".to_owned()]).unwrap();
+    assert_eq!(none.disc_surface.preparation, Preparation { cutoff: None, ..preparation });
+    assert!(set("disc.prepare.cutoff=never").is_err() && set("disc.surface.unit=none").is_err());
+}

@@ -3,6 +3,7 @@
 
 mod base;
 mod body;
+mod condition;
 mod coverage;
 mod crop;
 pub mod describe;
@@ -34,6 +35,7 @@ mod warnings;
 
 pub use base::{fibre_fraction, set_back_resin};
 pub use body::Body;
+pub use condition::Condition;
 pub use crop::Crop;
 pub use extend::Extension;
 pub use fibre::{FibreError, FibreSynthesis};

@@ -39,7 +39,7 @@ const RULES: &[Rule<Beginning>] = &[
 /// What cannot be meant, now that the surfaces are known, of keys that `scene.warnings` does not name yet.
 pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Warning> {
     let parameters = &scene.parameters;
-    // Where heights are flat nothing can be cut, and whoever tries a flat disc in a scene cannot take its cutoff away.
+    // Where heights are flat nothing can be cut, and whoever tries a flat disc in a scene need not take its cutoff away.
     let cutoff = |heights: &HeightSettings, cut: Option<f64>| match heights.source {
         HeightSource::Flat => None,
         HeightSource::File { .. } | HeightSource::Synthetic(_) => {
@@ -59,7 +59,7 @@ pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Warning> {
 fn useless(cutoff: Option<&Cutoff>) -> Option<Finding> {
     let Cutoff { height, cut } = *cutoff?;
     let (bound, advice) = if cut == 0.0 {
-        ("no point at all", "no peak is so high: check its unit, or leave it out")
+        ("no point at all", "no peak is so high: check its unit, or say cutoff = \"none\"")
     } else if cut >= HALF {
         (
             "half of them or more",

@@ -66,7 +66,8 @@ fn lay_all(
 
     let mut entries = Entries::new();
     let mut replaced = Vec::new();
-    while let Some(layer) = layers.pop() {
+    while let Some(mut layer) = layers.pop() {
+        take_out_steps(&mut layer, &mut entries);
         if layers.is_empty() {
             // The last one is that of `--set`.
             replaced = steps_replaced(&entries, &layer);
@@ -209,6 +210,24 @@ fn steps_replaced(scene: &Entries, set: &Entries) -> Vec<Warning> {
         }
     }
     warnings
+}
+
+/// Removes the steps of a preparation that a layer says are not done, from it and from what is below.
+fn take_out_steps(layer: &mut Entries, below: &mut Entries) {
+    let is_none = |(path, entry): (&String, &document::Entry)| {
+        entry.value == Value::Text("none".to_owned()) && schema::find(path).is_some_and(schema::Key::may_be_none)
+    };
+    let steps: Vec<String> = layer.iter().filter(|entry| is_none(*entry)).map(|(path, _)| path.clone()).collect();
+    for step in steps {
+        layer.remove(&step);
+        remove(&step, below);
+        // What has a meaning only beside it goes, too.
+        let of_step = |group: &Group, name: &str| schema::join(group.section, name) == step;
+        let members = schema::GROUPS.iter().flat_map(|group| group.members.iter().map(move |member| (group, member)));
+        for (group, (_, companions)) in members.filter(|(group, (name, _))| of_step(group, name)) {
+            companions.iter().for_each(|companion| remove(&schema::join(group.section, companion), below));
+        }
+    }
 }
 
 /// A mesh is given in cells or in lengths.

@@ -14,7 +14,7 @@
 //! | colour, width and dashes of lines | [`stroke`] |
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
 //! | charts beside and below each other | [`chart`] |
-//! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`], [`surface_charts`] |
+//! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`], [`surface_map`], [`surface_charts`] |
 //! | the fibre map of a pin beside its micrograph | [`fibre_map`] |
 //! | labels beside points | [`labels`] |
 //! | lines of equal value | [`contour`] |
@@ -51,6 +51,7 @@ mod simplify;
 mod stroke;
 mod surface_charts;
 pub mod surface_description;
+mod surface_map;
 mod ticks;
 
 pub use crate::colour::ColourMap;

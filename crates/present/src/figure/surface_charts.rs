@@ -97,10 +97,10 @@ impl SurfaceCharts<'_> {
 /// What is drawn about the curves.
 pub fn meanings() -> Vec<Meaning> {
     let line = |colour, text: &str| Meaning::of_line(Stroke::solid(colour, LINE), text);
-    let triangles = "triangles as large as peaks and dales, Spk and Svk high".to_owned();
+    let triangles = "peaks and valleys beyond the core: Spk and Svk are the heights of the triangles".to_owned();
     vec![
-        line(DERIVED, "line along the flattest 40 % of the curve"),
-        line(FAINT, "its ends, Sk apart"),
+        line(DERIVED, "line through the flattest 40 % of the curve"),
+        line(FAINT, "upper and lower end of the core: Sk is the distance between them"),
         Meaning { colour: DERIVED_AREA, style: KeyStyle::Area, text: triangles },
     ]
 }

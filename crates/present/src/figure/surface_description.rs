@@ -4,35 +4,32 @@ use std::ops::RangeInclusive;
 
 use plateau_core::surface::describe::{CoreHeight, Description, Grid};
 
-use super::axes::{Axes, Axis, Frame};
+use super::axes::Frame;
 use super::canvas::{Anchor, TEXT, TITLE};
 use super::chart::{TWO_COLUMNS, legend};
-use super::colour_bar::ColourBar;
 use super::font::{shortened, text_width};
 use super::format::Figure;
 use super::histogram::Histogram;
-use super::page::{Content, Key, KeyStyle, Page, Panel};
+use super::page::{Key, KeyStyle, Page};
 use super::raster::Raster;
-use super::surface_charts::{CAPTION, SurfaceCharts, height_axis, meanings, number, percent, scaled};
+use super::surface_charts::{CAPTION, SurfaceCharts, meanings, number, percent};
+use super::surface_map::{LEFT, SurfaceMap};
 use crate::colour::MISSING;
 use crate::quantity::Unit;
 
-/// Left end of maps, with room for the numbers and the label of an axis, and what they are as large as, pixels.
-const LEFT: f64 = 150.0;
-const MAP: [f64; 2] = [660.0, 440.0];
-/// Left and right end of the histogram, and of the curve beside it, which shares its axis.
-const HISTOGRAM: [f64; 2] = [1220.0, 1580.0];
-const CURVE: [f64; 2] = [1640.0, TWO_COLUMNS - 30.0];
+/// Room for the axis of a chart, from the longest colour bar to the histogram; from there to the curve beside it, which shares that axis; and to the
+/// end of the page, pixels.
+const BEFORE_CHARTS: f64 = 160.0;
+const BETWEEN_CHARTS: f64 = 60.0;
+const END: f64 = TWO_COLUMNS - 30.0;
+/// The part of the room for charts that the histogram has.
+const HISTOGRAM: f64 = 0.46;
 /// Their height.
 const CHART: f64 = 360.0;
 /// Room for the title, for the line of remarks above the map, and for the numbers and the label of an axis below a box.
 const HEAD: f64 = 70.0;
 const REMARKS: f64 = 50.0;
 const FOOT: f64 = 120.0;
-/// Length of a colour bar, at least: it has three numbers.
-const SHORTEST_BAR: f64 = 200.0;
-/// A map that is longer than this many times its width is stretched, or nothing could be seen on it.
-const MOST_ELONGATED: f64 = 5.0;
 /// Heights farther than this many times the interquartile range outside the quartiles do not widen axes and colours.
 const FENCE: f64 = 5.0;
 /// Classes of the histogram.
@@ -72,7 +69,10 @@ pub struct DescribedSurface<'a> {
 /// The figure of surfaces below each other: of each map and charts, beside each other. Four of them fit into the page of a journal.
 pub fn figure(surfaces: &[DescribedSurface]) -> Figure {
     let mut page = Page { size: [TWO_COLUMNS, 0.0], ..Page::default() };
-    let top = surfaces.iter().fold(0.0, |top, surface| surface.place(&mut page, top));
+    let right =
+        |surface: &DescribedSurface| surface.map().right(&colour_range(surface.description), &surface.height_unit());
+    let charts_begin = (surfaces.iter().map(right).fold(0.0, f64::max) + BEFORE_CHARTS).ceil();
+    let top = surfaces.iter().fold(0.0, |top, surface| surface.place(&mut page, top, charts_begin));
     let has_core = surfaces.iter().any(|surface| surface.description.core.peak_ratio.is_finite());
     let meanings = if has_core { meanings() } else { Vec::new() };
     page.size[1] = legend(&mut page, &meanings, top).ceil();
@@ -85,24 +85,31 @@ pub fn figure(surfaces: &[DescribedSurface]) -> Figure {
 }
 
 impl DescribedSurface<'_> {
-    /// Puts the surface on the page, this far from its top; gives the place below.
-    fn place(&self, page: &mut Page, y: f64) -> f64 {
-        self.write_title(page, y);
-        let [width, height] = self.map_size();
+    /// Puts the surface on the page, this far from its top, with its charts from there on; gives the place below.
+    fn place(&self, page: &mut Page, y: f64, charts_begin: f64) -> f64 {
+        self.write_title(page, y, charts_begin);
         let top = y + HEAD + if self.has_remarks() { REMARKS } else { 0.0 };
-        self.add_map(page, Frame { x: [LEFT, LEFT + width], y: [top, top + height] });
+        let bottom = self.map().place(page, top, &colour_range(self.description), &self.height_unit());
         let first = y + HEAD + CAPTION;
-        let chart = |x: [f64; 2]| Frame { x, y: [first, first + CHART] };
+        let width = HISTOGRAM * (END - charts_begin - BETWEEN_CHARTS);
+        let chart = |begin: f64, end: f64| Frame { x: [begin, end], y: [first, first + CHART] };
         let unit = self.height_unit();
         let charts = SurfaceCharts { histogram: &self.drawn.histogram, description: self.description, unit: &unit };
-        charts.add_histogram(page, chart(HISTOGRAM));
-        charts.add_curve(page, chart(CURVE));
-        (top + height).max(first + CHART) + FOOT
+        charts.add_histogram(page, chart(charts_begin, charts_begin + width));
+        charts.add_curve(page, chart(charts_begin + width + BETWEEN_CHARTS, END));
+        bottom.max(first + CHART) + FOOT
+    }
+
+    /// Its map.
+    fn map(&self) -> SurfaceMap<'_> {
+        let pitch = self.pitch.unwrap_or([1.0; 2]);
+        let extent = [0, 1].map(|axis| self.points[axis] as f64 * pitch[axis]);
+        SurfaceMap { raster: &self.drawn.map, extent, has_lengths: self.pitch.is_some() }
     }
 
     /// The name, and what is to know of the map.
-    fn write_title(&self, page: &mut Page, y: f64) {
-        let title = shortened(&self.title, TITLE, HISTOGRAM[0] - LEFT);
+    fn write_title(&self, page: &mut Page, y: f64, end: f64) {
+        let title = shortened(&self.title, TITLE, end - LEFT);
         page.write(title, (LEFT, y + 20.0), Anchor::BelowRight, TITLE);
         let (middle, mut begin) = (y + 90.0, LEFT);
         let missing = 1.0 - self.description.measured as f64 / (self.points[0] * self.points[1]) as f64;
@@ -114,7 +121,7 @@ impl DescribedSurface<'_> {
             page.write(text, (frame.x[1] + 12.0, middle), Anchor::Right, TEXT);
             begin = frame.x[1] + 12.0 + width + 40.0;
         }
-        for (axis, stretched) in ["x", "y"].into_iter().zip(self.stretch()) {
+        for (axis, stretched) in ["x", "y"].into_iter().zip(self.map().stretch()) {
             if stretched > 1.0 {
                 let text = format!("{axis} stretched {} times", number(stretched));
                 page.write(text, (begin, middle), Anchor::Right, TEXT);
@@ -124,45 +131,8 @@ impl DescribedSurface<'_> {
 
     /// Whether there is anything to know of the map.
     fn has_remarks(&self) -> bool {
-        self.description.measured < self.points[0] * self.points[1] || self.stretch().iter().any(|times| *times > 1.0)
-    }
-
-    /// Extent along x and y, m or points.
-    fn extent(&self) -> [f64; 2] {
-        let pitch = self.pitch.unwrap_or([1.0; 2]);
-        [self.points[0] as f64 * pitch[0], self.points[1] as f64 * pitch[1]]
-    }
-
-    /// Width and height of the map, pixels.
-    fn map_size(&self) -> [f64; 2] {
-        let [x, y] = self.extent();
-        let proportion = (x / y).clamp(1.0 / MOST_ELONGATED, MOST_ELONGATED);
-        let width = MAP[0].min(MAP[1] * proportion).floor();
-        [width, (width / proportion).floor()]
-    }
-
-    /// How many times larger than in proportion the map is along x and y.
-    fn stretch(&self) -> [f64; 2] {
-        let [x, y] = self.extent();
-        [y / x / MOST_ELONGATED, x / y / MOST_ELONGATED]
-    }
-
-    fn add_map(&self, page: &mut Page, frame: Frame) {
-        let extent = self.extent();
-        let axis = |extent: f64, name: &str| {
-            let unit = if self.pitch.is_some() { Unit::for_size("m", extent) } else { Unit::POINTS };
-            Axis::linear(0.0..=unit.value(extent), unit.label(name))
-        };
-        let colours = colour_range(self.description);
-        let picture = self.drawn.map.picture(&colours);
-        let axes = Axes { frame, x: axis(extent[0], "x"), y: axis(extent[1], "y") };
-        page.panels.push(Panel { axes, contents: vec![Content::Map(picture)] });
-        let unit = self.height_unit();
-        // Points at its ends and room for them. Beside a low map there is room below.
-        let top = frame.y[0] + 28.0;
-        let end = (frame.y[1] - 28.0).max(top + SHORTEST_BAR);
-        let bar = Frame { x: [frame.x[1] + 40.0, frame.x[1] + 80.0], y: [top, end] };
-        page.colour_bars.push(ColourBar::new(bar, height_axis(scaled(&colours, &unit), &unit)));
+        self.description.measured < self.points[0] * self.points[1]
+            || self.map().stretch().iter().any(|times| *times > 1.0)
     }
 
     /// The unit of heights.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use plateau_core::surface::describe::HeightParameters;
-use plateau_core::surface::{Extension, Length, Level, Patch, Spikes, level};
+use plateau_core::surface::{Condition, Extension, Length, Level, Spikes, level};
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 
 use super::{CELL, line};
@@ -28,8 +28,20 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
         let rotate = "# rotate = \"90 deg\"";
         lines.push(format!("{rotate:40}# x of the file is along sliding: turn it where the lay would be across"));
     }
-    lines.push(line("level", "plane", "form that is taken out: mean, plane, quadratic"));
-    let spikes = spikes(&measured);
+    let condition = condition(&measured);
+    match &condition {
+        Some(Condition { form: Level::Quadratic, rms_of_forms: [plane, quadratic], .. }) => {
+            let bow = format!(
+                "the surface is bowed: rms {} once a plane is taken out, {} once second order is",
+                Length(*plane),
+                Length(*quadratic)
+            );
+            lines.push(line("level", "quadratic", &format!("<- {bow}")));
+            notes.push(format!("{}: {bow}: level = \"quadratic\" takes that out", disc.display()));
+        }
+        _ => lines.push(line("level", "plane", "form that is taken out: mean, plane, quadratic")),
+    }
+    let spikes = condition.and_then(|condition| condition.spikes);
     if let Some(spikes) = &spikes {
         lines.push(line("outliers", Spikes::LIMIT as i64, &format!("<- {}", told(spikes))));
         notes.push(format!("{}: {}: outliers = {} takes them out", disc.display(), told(spikes), Spikes::LIMIT));
@@ -54,7 +66,8 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
             lines.push(line("extend_seed", 1, "another seed is another ring of the same kind"));
         }
     }
-    if let Some(rms) = rms_height(&measured, spikes.as_ref()) {
+    let rms = condition.map(|condition| condition.rms_height());
+    if let Some(rms) = rms.filter(|rms| *rms > 0.0 && rms.is_finite()) {
         let cutoff = format!("cutoff = \"{}\"", rounded(rms));
         lines.push(format!(
             "{:40}# <- cuts peaks at this height above the mean, here one rms height",
@@ -69,16 +82,6 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
     Ok((lines.join("\n"), notes))
 }
 
-/// The rms height of what is measured, m, after its levelling and without spikes; none where all heights are the same.
-fn rms_height(measured: &Measured, spikes: Option<&Spikes>) -> Option<f64> {
-    let rms = spikes.map(|spikes| spikes.rms[1]).or_else(|| {
-        let mut heights = measured.heights.clone();
-        level(&mut heights, measured.rows, Level::Plane, false);
-        HeightParameters::of(&heights).map(|of| of.root_mean_square_height)
-    });
-    rms.filter(|rms| *rms > 0.0 && rms.is_finite())
-}
-
 /// A length of two digits, as a scene has it.
 fn rounded(length: f64) -> String {
     if length < 1e-6 {
@@ -88,11 +91,16 @@ fn rounded(length: f64) -> String {
     }
 }
 
-/// The spikes of a patch; of a profile they are not looked for.
-fn spikes(measured: &Measured) -> Option<Spikes> {
-    let Measured { columns, rows, ref heights, profile_lay: None, .. } = *measured else { return None };
-    // To tell spikes the pitch does not matter.
-    Spikes::of(&Patch { columns, rows, column_pitch: 1.0, row_pitch: 1.0, heights: heights.clone() })
+/// Form, spikes and rms height of a patch; of a profile neither bow nor spikes are looked for.
+fn condition(measured: &Measured) -> Option<Condition> {
+    let Measured { rows, ref heights, .. } = *measured;
+    if measured.profile_lay.is_none() {
+        return Condition::of(heights, rows);
+    }
+    let mut heights = heights.clone();
+    level(&mut heights, rows, Level::Plane, false);
+    let rms = HeightParameters::of(&heights)?.root_mean_square_height;
+    Some(Condition { form: Level::Plane, rms_of_forms: [rms; 2], spikes: None })
 }
 
 /// What there is of spikes, in words.

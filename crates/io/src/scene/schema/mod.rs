@@ -65,6 +65,11 @@ impl Key {
         GROUPS.iter().find(|group| group.section == self.section && group.has(self.name))
     }
 
+    /// Whether it is a step of a preparation that "none" takes out of a scene, as if the key were absent there and in what it extends.
+    pub fn may_be_none(&self) -> bool {
+        self.section.ends_with(".prepare") && self.need == Need::Optional && !self.name.contains('.')
+    }
+
     /// Path of the inline table that holds the key, if it is in one.
     pub fn inline_table(&self) -> Option<String> {
         self.name.rsplit_once('.').map(|(table, _)| join(self.section, table))

@@ -19,13 +19,15 @@ pub enum TextError {
     /// A line before the numbers that says nothing.
     #[error(
         "line {line}: found \"{found}\", expected numbers, a comment (#), \"name = value\", or the names of columns \
-         x, y, z: skip = {line} beside file leaves out the lines up to this one"
+         x, y, z: {}", advice(*skip)
     )]
     Line {
         /// Where.
         line: usize,
         /// The line.
         found: String,
+        /// Lines to leave out so that the table is left; none where no table is seen.
+        skip: Option<usize>,
     },
     /// A cell that is no number.
     #[error(
@@ -302,6 +304,14 @@ pub enum TextError {
         /// Smallest and largest distance of neighbours.
         gaps: [f64; 2],
     },
+}
+
+/// How to leave out lines that are not understood.
+fn advice(skip: Option<usize>) -> String {
+    match skip {
+        Some(lines) => format!("skip = {lines} beside file leaves out the lines before the table"),
+        None => "no lines of equally many numbers are seen below; skip = 12 beside file, for example, leaves out the first twelve lines".to_owned(),
+    }
 }
 
 /// A number with six digits, which is enough for a message.

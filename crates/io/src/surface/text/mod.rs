@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `decode.rs` | from bytes to lines |
 //! | `cells.rs`, `dialect.rs` | the numbers of a line; what parts them, and their decimal mark |
+//! | `beginning.rs` | how many lines stand before the table, where they are not understood |
 //! | `header.rs`, `names.rs`, `numbers.rs` | what stands before the numbers, the names of columns, the whole table |
 //! | `matrix.rs`, `list.rs`, `profile.rs`, `spacing.rs` | what becomes of the table |
 //! | `instrument/` | exports of instruments that have a form of their own |
@@ -12,6 +13,7 @@
 //! file's ending .xyz, or by three columns of which the first two make a grid. A profile is what the scene takes as one.
 //! A separator that ends every line is no empty cell.
 
+mod beginning;
 mod cells;
 mod decode;
 mod dialect;

@@ -1,5 +1,6 @@
 //! The numbers of a file as they stand in it.
 
+use super::beginning::lines_before;
 use super::cells::{Fault, Separator, number, shown};
 use super::dialect::Dialect;
 use super::error::TextError;
@@ -30,17 +31,22 @@ impl Numbers {
         let mut header = Header::default();
         for (line, text) in header_lines.clone() {
             if !header.read(line, text, Decimal::Point) && !is_comment(text) {
-                return Err(TextError::Line { line, found: shown(text.trim()) });
+                return Err(TextError::Line { line, found: shown(text.trim()), skip: lines_before(lines) });
             }
         }
-        let numbers = lines.skip_while(|(_, text)| in_header(text)).filter(|(_, text)| !is_comment(text));
+        let numbers = lines.clone().skip_while(|(_, text)| in_header(text)).filter(|(_, text)| !is_comment(text));
         let named = header.names.as_ref().map(|names| names.count);
         let dialect = Dialect::find(numbers.clone(), options.decimal, named)?;
         if dialect.decimal == Decimal::Comma {
             header = Header::default();
             header_lines.for_each(|(line, text)| _ = header.read(line, text, Decimal::Comma));
         }
-        Self::table(header, numbers, dialect)
+        Self::table(header, numbers.clone(), dialect).map_err(|error| match (&error, odd_beginning(numbers)) {
+            (TextError::Number { line, .. }, Some((first, text))) if *line == first => {
+                TextError::Line { line: first, found: shown(text.trim()), skip: lines_before(lines) }
+            }
+            _ => error,
+        })
     }
 
     /// Reads lines of numbers, each as long as the first.
@@ -129,12 +135,19 @@ pub(super) fn scale(heights: &mut [f64], unit: f64, line: usize) -> Result<(), T
     }
 }
 
-fn is_comment(line: &str) -> bool {
+/// The first line, if it has another number of cells than the one below: a line of a header may begin with a number, as "800 points" does.
+fn odd_beginning<'a>(mut lines: impl Iterator<Item = (usize, &'a str)>) -> Option<(usize, &'a str)> {
+    let (first, second) = (lines.next()?, lines.next()?);
+    let cells = |text: &str| Separator::of(text).cells(text, false).count();
+    (cells(first.1) != cells(second.1)).then_some(first)
+}
+
+pub(super) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(['#', '%'])
 }
 
 /// Whether a line has numbers: a number in its first cell that is not empty, or nothing but missing points.
-fn starts_numbers(line: &str) -> bool {
+pub(super) fn starts_numbers(line: &str) -> bool {
     let separator = Separator::of(line);
     let mut cells = separator.cells(line, false).filter(|cell| !cell.is_empty());
     // An infinite number and the like are told as such.

@@ -143,9 +143,12 @@ fn the_scene_says_what_the_file_does_not() {
     assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Point), None).unwrap(), "1 2/3 4");
     assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Comma), None).unwrap(), "1/3");
     let text = "Sample 7\n12 3 4\nanything\n1 2\n3 4\n";
-    assert!(
-        shape_of(text, None, None).unwrap_err().contains("skip = 1 beside file leaves out the lines up to this one")
-    );
+    let advice = "skip = 3 beside file leaves out the lines before the table";
+    assert!(shape_of(text, None, None).unwrap_err().ends_with(advice));
+    // A header that begins with a number is told as one; a mistyped first line of a table is not.
+    let told = shape_of("2 points each\n1 2\n3 4\n", None, None).unwrap_err();
+    assert!(told.starts_with("line 1: found \"2 points each\"") && told.ends_with(&advice.replace('3', "1")), "{told}");
+    assert!(shape_of("1 2x\n3 4\n5 6\n", None, None).unwrap_err().starts_with("line 1, column 2: found \"2x\""));
     assert_eq!(shape_of(text, None, Some(3)).unwrap(), "1 2/3 4");
     assert_eq!(shape_of(text, None, Some(4)).unwrap(), "3 4");
     assert!(shape_of(text, None, Some(2)).unwrap_err().starts_with("line 3: found \"anything\""));

@@ -93,9 +93,7 @@ impl MapSection<'_> {
             let wide = inner.min(inner.min(MOST_HEIGHT) / proportion(&window)).max(LEAST_HEIGHT).round();
             let frame = Frame { x: [begin.round(), begin.round() + wide], y: [y_top, y_top + height] };
             let frame_end = frame.x[1];
-            let label = if number == last { self.shape.x_label() } else { String::new() };
-            // A narrow map has no room for where the arc is measured.
-            let label = if text_width(&label, TEXT) > wide { label.replace(" at the mean radius", "") } else { label };
+            let label = if number == last { self.shape.x_label(wide) } else { String::new() };
             let x = Axis::linear(window.x.clone(), label);
             let y = Axis { label: String::new(), ..y.clone() };
             let picture =

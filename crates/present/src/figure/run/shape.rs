@@ -6,6 +6,8 @@ use std::ops::{Range, RangeInclusive};
 use plateau_core::model::mesh::Mesh;
 use plotters::style::RGBColor;
 
+use crate::figure::canvas::TEXT;
+use crate::figure::font::text_width;
 use crate::figure::picture::Picture;
 
 /// Length of a window of an unrolled ring over its height, about.
@@ -40,13 +42,24 @@ impl Shape {
         if mesh.is_rectangle() { Self::Unrolled } else { Self::Arcs }
     }
 
-    /// What the axis below measures.
-    pub fn x_label(self) -> String {
-        match self {
-            Self::Unrolled => "arc length at the mean radius, mm".to_owned(),
-            Self::Polar => "x, mm".to_owned(),
-            Self::Arcs => "arc length from the middle, mm".to_owned(),
-        }
+    /// What the axis below measures, and where the disc moves, toward higher columns (model 1), in words of which the first fit into so many
+    /// pixels.
+    pub fn x_label(self, room: f64) -> String {
+        let labels = match self {
+            Self::Unrolled => [
+                "arc length at the mean radius, mm; the disc moves \u{2192}",
+                "arc length, mm; the disc moves \u{2192}",
+                "arc length, mm",
+            ],
+            Self::Polar => ["x, mm; the disc turns against the clock", "x, mm; turns against the clock", "x, mm"],
+            Self::Arcs => [
+                "arc length from the middle, mm; the disc moves \u{2192}",
+                "arc length, mm; the disc moves \u{2192}",
+                "arc length from the middle, mm",
+            ],
+        };
+        let fitting = labels.into_iter().find(|label| text_width(label, TEXT) <= room);
+        fitting.unwrap_or(labels[2]).to_owned()
     }
 
     /// What the axis to the left measures.
@@ -156,6 +169,26 @@ mod tests {
     use super::*;
 
     const PALETTE: [RGBColor; 9] = [RGBColor(0, 0, 0); 9];
+
+    #[test]
+    fn maps_say_where_the_disc_moves_as_far_as_there_is_room() {
+        // Model 1: in step n the pin's column j lies over the disc's column j - n, so what is under 2 comes from under 1.
+        let mesh = Mesh::new(1, 12, 3, 1.0, 2.0).unwrap();
+        let under = |step: usize, column: usize| (column + mesh.disc_columns() - step) % mesh.disc_columns();
+        assert_eq!(under(1, 2), under(0, 1));
+        // Higher columns are on the right, and come later round the ring against the clock.
+        let window = &Shape::Unrolled.windows(&mesh, 12, 1.0)[0];
+        let cells: Vec<u8> = (0..12).collect();
+        let picture = Shape::Unrolled.picture(&mesh, window, &cells, &PALETTE, [12, 1]);
+        assert!(picture.indices.is_sorted(), "{:?}", picture.indices);
+        for (shape, moves) in
+            [(Shape::Unrolled, "\u{2192}"), (Shape::Arcs, "\u{2192}"), (Shape::Polar, "against the clock")]
+        {
+            let labels = [2000.0, 600.0, 100.0].map(|room| shape.x_label(room));
+            assert_eq!(labels.each_ref().map(|label| label.contains(moves)), [true, true, false], "{labels:?}");
+            assert!(text_width(&labels[1], TEXT) <= 600.0);
+        }
+    }
 
     #[test]
     fn windows_hold_every_column_once() {

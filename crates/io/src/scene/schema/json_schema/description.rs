@@ -51,6 +51,7 @@ fn absent(key: &Key) -> Option<String> {
             let but = unless.map(|choose| format!(", but for {} = \"{}\"", choose.key, choose.value));
             Some(format!("Required with the keys beside which it stands{}", but.unwrap_or_default()))
         }
+        Need::Optional if key.may_be_none() => Some("With \"none\" it is not done, as without the key".to_owned()),
         Need::Optional => None,
     }
 }

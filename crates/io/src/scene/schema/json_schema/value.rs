@@ -12,7 +12,9 @@ use crate::units::pattern::{self, Sign};
 pub(super) fn key(key: &Key) -> Map<String, Value> {
     let mut schema = Map::new();
     schema.insert("description".into(), description::of(key).into());
-    if let Value::Object(kind) = kind(key.kind) {
+    let one = kind(key.kind);
+    let kind = if key.may_be_none() { json!({ "anyOf": [one, { "const": "none" }] }) } else { one };
+    if let Value::Object(kind) = kind {
         schema.extend(kind);
     }
     if key.path() == "version" {
