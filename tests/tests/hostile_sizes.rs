@@ -139,7 +139,7 @@ fn what_can_be_read_and_not_described_is_refused_with_both_numbers() {
     // A step at a time from what does not read it to what describes it.
     for mebibytes in (60..260).step_by(10) {
         let limit = format!("ulimit -c 0; ulimit -v {}", mebibytes << 10);
-        let outcome = run(directory.command_after(&limit, &["surface", "flat.npy", "--pitch", "1 um"]));
+        let outcome = run(directory.command_after(&limit, ["surface", "flat.npy", "--pitch", "1 um"]));
         let one_line = outcome.stderr.starts_with("plateau: ") && outcome.stderr.lines().count() == 1;
         let described = outcome.stderr.contains("4 x 500000 points can be read, but to describe them needs ");
         let kind = match outcome.status {

@@ -28,7 +28,7 @@ pub(super) fn lines_before<'a>(lines: impl Iterator<Item = (usize, &'a str)> + C
 
 /// Lines of equally many numbers that follow each other.
 #[derive(Clone, Copy)]
-struct Run {
+struct Block {
     /// Its first line.
     first: usize,
     separator: Separator,
@@ -37,18 +37,18 @@ struct Run {
     numbers: usize,
 }
 
-/// The run with the most numbers, the first of those.
-fn largest<'a>(lines: impl Iterator<Item = (usize, &'a str, Separator)>) -> Option<Run> {
-    let (mut largest, mut run): (Option<Run>, Option<Run>) = (None, None);
+/// The block with the most numbers, the first of those.
+fn largest<'a>(lines: impl Iterator<Item = (usize, &'a str, Separator)>) -> Option<Block> {
+    let (mut largest, mut block): (Option<Block>, Option<Block>) = (None, None);
     for (line, text, separator) in lines.filter(|(_, text, _)| !is_comment(text)) {
-        run = count(text, separator).map(|columns| match run {
-            Some(run) if (run.separator, run.columns) == (separator, columns) => {
-                Run { numbers: run.numbers + columns, ..run }
+        block = count(text, separator).map(|columns| match block {
+            Some(block) if (block.separator, block.columns) == (separator, columns) => {
+                Block { numbers: block.numbers + columns, ..block }
             }
-            _ => Run { first: line, separator, columns, numbers: columns },
+            _ => Block { first: line, separator, columns, numbers: columns },
         });
-        if let Some(run) = run.filter(|run| largest.is_none_or(|largest| run.numbers > largest.numbers)) {
-            largest = Some(run);
+        if let Some(block) = block.filter(|block| largest.is_none_or(|largest| block.numbers > largest.numbers)) {
+            largest = Some(block);
         }
     }
     largest
