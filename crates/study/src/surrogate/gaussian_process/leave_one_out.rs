@@ -26,7 +26,7 @@ impl GaussianProcess {
 
     /// The same with other equations.
     pub(super) fn left_out_with(&self, solved: &Solved) -> Vec<LeftOut> {
-        let diagonals = solved.factor.inverse_diagonal();
+        let diagonals = solved.factor.inverse().diagonal();
         let each = |(at, mean): (usize, &f64)| {
             let trend = solved.inverse_trend.row(at);
             let spread = (trend * &solved.trend_inverse).dot(&trend);

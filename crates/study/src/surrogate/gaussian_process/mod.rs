@@ -13,7 +13,6 @@
 //! | settings as coordinates | `inputs` |
 //! | from runs to a mean for each point, with its noise | `averages` |
 //! | the correlation | `kernel` |
-//! | symmetric matrices and what is solved with them | `cholesky` |
 //! | likelihood and equations with given lengths | `solved` |
 //! | the most likely lengths | `likelihood` |
 //! | what it costs that they are not known | `likely_lengths` |
@@ -21,7 +20,6 @@
 //! | each point as the others forecast it | `leave_one_out` |
 
 mod averages;
-mod cholesky;
 mod inputs;
 mod kernel;
 mod leave_one_out;

@@ -4,11 +4,13 @@
 //! β is that of generalised least squares, and both it and σ² are the most likely ones for C, so that the likelihood depends
 //! on lengths and g alone. Where there are replicates, their sum of squares S with ν degrees of freedom tells the noise g·σ²,
 //! too: the likelihood is that of means and replicates together.
+//!
+//! Forecasts decide which runs are made, so their bits are to be the same on every processor. Factors and what is solved with them are
+//! sums in one order in nalgebra; products of two matrices are not, for they use what the processor has, and are dot products here.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::averages::Averages;
-use super::cholesky::{Cholesky, Symmetric};
 use super::kernel::{self, Axis};
 use super::{Hyperparameters, Trend};
 
@@ -19,7 +21,7 @@ const LOG_TWO_PI: f64 = 1.837_877_066_409_345_3;
 #[derive(Debug, Clone)]
 pub(super) struct Solved {
     /// L of C = LLᵀ: what is nearly known loses fewer digits by it than by C⁻¹.
-    pub factor: Cholesky,
+    pub factor: Cholesky<f64, Dyn>,
     /// C⁻¹F.
     pub inverse_trend: DMatrix<f64>,
     /// (FᵀC⁻¹F)⁻¹.
@@ -38,13 +40,13 @@ impl Solved {
     /// Solves the equations; none where lengths and noise leave C without an inverse in floating point.
     pub fn new(axes: &[Axis], trend: Trend, averages: &Averages, hyperparameters: &Hyperparameters) -> Option<Self> {
         let correlation = correlation(axes, &averages.points, &averages.weights, hyperparameters);
-        let factor = correlation.cholesky()?;
-        let log_determinant = factor.log_determinant();
+        let factor = Cholesky::new(correlation)?;
+        let log_determinant = 2.0 * factor.l_dirty().diagonal().map(libm::log).sum();
         let basis = trend.matrix(axes, &averages.points);
         let means = DVector::from_column_slice(&averages.means);
-        let inverse_trend = factor.solve_columns(&basis);
-        let trend_factor = nalgebra::Cholesky::new(basis.transpose() * &inverse_trend)?;
-        let coefficients = trend_factor.solve(&(inverse_trend.transpose() * &means));
+        let inverse_trend = factor.solve(&basis);
+        let trend_factor = Cholesky::new(basis.tr_mul(&inverse_trend))?;
+        let coefficients = trend_factor.solve(&inverse_trend.tr_mul(&means));
         let left = &means - &basis * &coefficients;
         let weights = factor.solve(&left);
         let (noise, freedom) = (hyperparameters.noise, averages.freedom as f64);
@@ -70,7 +72,8 @@ impl Solved {
 
     /// 1 − rᵀC⁻¹r for correlations r with the points: what a point leaves open, as a part of the variance.
     pub fn left_open(&self, known: &DVector<f64>) -> f64 {
-        1.0 - self.factor.half_solve(known).norm_squared()
+        let half = self.factor.l_dirty().solve_lower_triangular(known);
+        half.map_or(f64::NAN, |half| 1.0 - half.norm_squared())
     }
 
     /// Derivatives of the likelihood's logarithm by the logarithms of the lengths, and of the noise.
@@ -80,14 +83,14 @@ impl Solved {
         let inverse = self.factor.inverse();
         for (row, one) in points.iter().enumerate() {
             for (column, other) in points[..row].iter().enumerate() {
-                let pull = self.weights[row] * self.weights[column] / self.variance - inverse.at(row, column);
+                let pull = self.weights[row] * self.weights[column] / self.variance - inverse[(row, column)];
                 // Once for each of the two places that the pair has in C, times the half in front.
                 let share = pull * kernel::between(axes, lengths, one, other);
                 for at in 0..lengths.len() {
                     gradient[at] += share * kernel::slope(axes[at].distance(one[at], other[at]) / lengths[at]);
                 }
             }
-            let pull = self.weights[row] * self.weights[row] / self.variance - inverse.at(row, row);
+            let pull = self.weights[row] * self.weights[row] / self.variance - inverse[(row, row)];
             gradient[lengths.len()] += 0.5 * noise * averages.weights[row] * pull;
         }
         if averages.freedom > 0 {
@@ -98,14 +101,21 @@ impl Solved {
     }
 }
 
-/// C: correlations, with the noise of each mean on the diagonal.
-fn correlation(axes: &[Axis], points: &[Vec<f64>], weights: &[f64], hyperparameters: &Hyperparameters) -> Symmetric {
-    Symmetric::from_fn(points.len(), |row, column| {
-        if row == column {
-            return 1.0 + hyperparameters.noise * weights[row];
+/// The lower triangle of C: correlations, with the noise of each mean on the diagonal.
+fn correlation(axes: &[Axis], points: &[Vec<f64>], weights: &[f64], hyperparameters: &Hyperparameters) -> DMatrix<f64> {
+    let count = points.len();
+    let mut correlation = DMatrix::zeros(count, count);
+    // The rest is not looked at by what factors it.
+    for column in 0..count {
+        for row in column..count {
+            correlation[(row, column)] = if row == column {
+                1.0 + hyperparameters.noise * weights[row]
+            } else {
+                kernel::between(axes, &hyperparameters.lengths, &points[row], &points[column])
+            };
         }
-        kernel::between(axes, &hyperparameters.lengths, &points[row], &points[column])
-    })
+    }
+    correlation
 }
 
 impl Trend {
