@@ -23,7 +23,7 @@ use thiserror::Error;
 use crate::process::{Life, Process};
 use crate::random;
 use crate::temporary::{Temporary, folder};
-use crate::text::short;
+use crate::text::{is_plain, short};
 use crate::timestamp::iso_8601;
 
 /// Version of the format.
@@ -71,7 +71,7 @@ struct Version {
 #[derive(Debug, Error)]
 pub enum ClaimError {
     /// A living process of this machine has it.
-    #[error("{} is being written by process {process}, since {since}; stop that first, or write elsewhere", path.display())]
+    #[error("{} is being written by process {process}, since {since}; stop that first, or write elsewhere", path.display(), since = short(since))]
     Here {
         /// What was to be claimed.
         path: PathBuf,
@@ -225,6 +225,12 @@ impl Owner {
         }
     }
 
+    /// Whether it may be what this program wrote; it is shown in messages.
+    fn is_whole(&self) -> bool {
+        let shown = [&self.writer.machine.host, &self.since];
+        random::is_word(&self.number) && shown.iter().all(|text| text.chars().all(is_plain))
+    }
+
     fn refusal(self, path: &Path, lock: &Path) -> ClaimError {
         let (path, lock, since) = (path.to_owned(), lock.to_owned(), self.since);
         let process = self.writer.number;
@@ -297,7 +303,7 @@ fn read(path: &Path, lock: &Path) -> Result<Option<Owner>, ClaimError> {
             if found != VERSION {
                 return Err(ClaimError::OtherVersion { path: path.to_owned(), lock: lock.to_owned(), found });
             }
-            let owner = serde_json::from_str::<Owner>(&text).ok().filter(|owner| random::is_word(&owner.number));
+            let owner = serde_json::from_str::<Owner>(&text).ok().filter(Owner::is_whole);
             return owner.map(Some).ok_or_else(foreign);
         }
         thread::sleep(PAUSE);

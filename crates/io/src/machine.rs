@@ -33,6 +33,8 @@ pub enum Relation {
 
 /// More network devices say nothing more.
 const DEVICES: usize = 8;
+/// The address that virtual machines of QEMU have unless they are given another one.
+const SHARED: &str = "52:54:00:12:34:56";
 
 impl Machine {
     /// This machine.
@@ -79,8 +81,9 @@ fn hardware(number: &Path, devices: &Path) -> Vec<String> {
     let Ok(entries) = fs::read_dir(devices) else { return Vec::new() };
     let devices = entries.flatten().map(|entry| entry.path()).filter(|device| device.join("device").exists());
     let addresses = devices.map(|device| first_line(&device.join("address")));
-    let mut addresses: Vec<_> =
-        addresses.filter(|address| address.bytes().any(|byte| byte != b'0' && byte.is_ascii_hexdigit())).collect();
+    let is_own =
+        |address: &str| address != SHARED && address.bytes().any(|byte| byte != b'0' && byte.is_ascii_hexdigit());
+    let mut addresses: Vec<_> = addresses.filter(|address| is_own(address)).collect();
     addresses.sort();
     addresses.dedup();
     addresses.truncate(DEVICES);
@@ -143,6 +146,7 @@ mod tests {
             ("eth0", "02:00:00:00:00:01", true),
             ("veth", "02:00:00:00:00:03", false),
             ("ib", "00:00", true),
+            ("qemu", SHARED, true),
         ] {
             let device = devices.join(name);
             fs::create_dir_all(if has_hardware { device.join("device") } else { device.clone() }).unwrap();

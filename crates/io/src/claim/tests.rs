@@ -141,6 +141,11 @@ fn what_is_no_lock_is_named_and_stays() {
         assert!(matches!(refused, ClaimError::Foreign { .. }), "{refused}");
         assert_eq!(fs::read(&lock).unwrap(), content);
     }
+    for odd in ["x\n\nplateau: fine", "\u{202e}"] {
+        let owner = Owner { since: odd.into(), ..Owner::this() };
+        fs::write(&lock, serde_json::to_string(&owner).unwrap() + "\n").unwrap();
+        assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })), "{odd:?}");
+    }
     fs::remove_file(&lock).unwrap();
     assert!(Command::new("mkfifo").arg(&lock).status().unwrap().success());
     assert!(matches!(Claim::of(&path), Err(ClaimError::Foreign { .. })));
