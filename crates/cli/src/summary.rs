@@ -32,8 +32,9 @@ pub fn text(summary: &RunSummary) -> String {
         Some(window) => format!("{}; {of_last_step}", contact_area(window)),
         None => of_last_step,
     };
+    let steps = if summary.steps == 1 { "step" } else { "steps" };
     let mut rows = vec![
-        ("simulated time", format!("{} s in {} steps", number::short(summary.time), number::grouped(summary.steps))),
+        ("simulated time", format!("{} s in {} {steps}", number::short(summary.time), number::grouped(summary.steps))),
         (
             "wall time",
             format!(

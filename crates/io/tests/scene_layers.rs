@@ -1,6 +1,7 @@
 //! How layers of a scene combine: files that extend others, `--set`, alternatives, and the resolved scene.
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use plateau_core::model::material::Material;
 use plateau_core::model::state::Base;
@@ -182,4 +183,34 @@ fn none_takes_out_a_step_that_is_inherited() {
         scene::load(folder.path().join("kept.toml").as_path(), &["disc.prepare.cutoff=none".to_owned()]).unwrap();
     assert_eq!(none.disc_surface.preparation, Preparation { cutoff: None, ..preparation });
     assert!(set("disc.prepare.cutoff=never").is_err() && set("disc.surface.unit=none").is_err());
+}
+
+#[test]
+fn a_constant_beside_an_inherited_cycle_is_told_to_change_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let base = std::path::absolute(good("minimal.toml")).unwrap();
+    let write = |name: &str, text: String| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    write("loads.csv", "time [s],normal_force [N]\n0,4\n9,6\n".to_owned());
+    let cycle = "cycle.file = \"loads.csv\"";
+    let stop = write(
+        "stop.toml",
+        format!("extends = {}\n[operation]\n{cycle}\n", toml::Value::from(&*base.to_string_lossy())),
+    );
+    let own = |constant: &str| write("own.toml", format!("extends = \"stop.toml\"\n[operation]\n{constant}\n"));
+    let warned = |path: &Path| {
+        let scene = scene::load(path, &[]).unwrap();
+        let warnings = scene.warnings.iter().map(ToString::to_string);
+        warnings.filter(|warning| warning.contains("beside a cycle that has a column of its own")).collect::<Vec<_>>()
+    };
+    // The constant that the cycle was laid over is there in every scene with a cycle.
+    assert_eq!(warned(&stop), [""; 0]);
+    let said = warned(&own("normal_force = \"40 N\""));
+    assert!(said.len() == 1 && said[0].contains("own.toml:3:16: operation.normal_force"), "{said:?}");
+    // There is no column of speed.
+    assert_eq!(warned(&own("rotational_speed = \"500 rpm\"")), [""; 0]);
+    assert_eq!(warned(&own(&format!("normal_force = \"40 N\"\n{cycle}"))), [""; 0]);
 }

@@ -1,6 +1,7 @@
 //! What `mean = "last tenth"` is a mean over: more than that where a tenth of the run has fewer than ten simulated revolutions.
 
 use plateau_core::observe::window_mean::LEAST_REVOLUTIONS;
+use plateau_io::brief;
 use plateau_io::study::Study;
 use plateau_io::study::response::Question;
 
@@ -9,10 +10,11 @@ use crate::{message, number};
 
 /// Says of responses that ask for the last tenth over what they are a mean, where that is more.
 pub fn say(study: &Study, lengths: &[RunLength]) {
-    for response in study.responses.iter().filter(|response| response.question == Question::MeanOfLastTenth) {
-        if let Some(what) = longer(lengths) {
-            message::note(format_args!("{}: response \"{}\": {what}", study.path.display(), response.name));
-        }
+    let asks = study.responses.iter().filter(|response| response.question == Question::MeanOfLastTenth);
+    let names: Vec<String> = asks.map(|response| format!("\"{}\"", response.name)).collect();
+    if let (false, Some(what)) = (names.is_empty(), longer(lengths)) {
+        let responses = if names.len() == 1 { "response" } else { "responses" };
+        message::note(format_args!("{}: {responses} {}: {what}", study.path.display(), brief::list(names, ", ")));
     }
 }
 

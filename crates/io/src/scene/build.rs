@@ -34,7 +34,7 @@ pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path
     warnings.extend(debris_by_default(&settings, path));
     if let Some(operation) = &operation {
         refuse_choice(&settings, &operation.cycle, duration)?;
-        warnings.extend(constants_without_effect(&settings, operation));
+        warnings.extend(constants_without_effect(&settings, operation, path));
         warnings.extend(short_events(&settings, &parameters, &operation.cycle, duration));
     }
     files.extend(operation.as_ref().and_then(|operation| operation.file.clone()));

@@ -112,14 +112,17 @@ pub(super) fn refuse_choice(settings: &Settings, cycle: &Cycle, until: f64) -> R
     Err(Problem::new(&settings.origin(&tolerance), &tolerance, message))
 }
 
-/// A word to a constant load or speed that is set on the command line, or varied by a study, beside a cycle that has its own.
-pub(super) fn constants_without_effect(settings: &Settings, operation: &OperationCycle) -> Vec<Warning> {
+/// A word to a constant load or speed beside a cycle that has its own: where it is set on the command line, varied by a study, or given
+/// by the scene at `path`, which takes its cycle from one that it extends.
+pub(super) fn constants_without_effect(settings: &Settings, operation: &OperationCycle, path: &Path) -> Vec<Warning> {
     let keys = [
         ("operation.normal_force", operation.has_load, "force_scale"),
         ("operation.rotational_speed", operation.has_speed, "speed_scale"),
         ("operation.sliding_speed", operation.has_speed, "speed_scale"),
     ];
-    let is_set = |key: &str| matches!(settings.origin(key), Origin::Set(_));
+    let is_own = |key: &str| matches!(settings.origin(key), Origin::Place { file, .. } if *file == *path);
+    let has_own_cycle = ["points", "file"].iter().any(|name| is_own(&format!("{CYCLE}.{name}")));
+    let is_set = |key: &str| matches!(settings.origin(key), Origin::Set(_)) || is_own(key) && !has_own_cycle;
     keys.into_iter()
         .filter(|(key, has_own, _)| *has_own && is_set(key))
         .map(|(key, _, scale)| Warning {
