@@ -1,5 +1,10 @@
-# A clean Debian in a folder, to try what users have there. Sourced after packages.sh; only root can make one.
+# A clean Debian or Ubuntu in a folder, to try what users have there. Sourced after packages.sh; only root can make one.
 # shellcheck shell=sh
+
+# The keys of Ubuntu's archive: Debian has no package of them. What they are is known by the digest.
+UBUNTU=http://archive.ubuntu.com/ubuntu
+UBUNTU_KEYS=$UBUNTU/pool/main/u/ubuntu-keyring/ubuntu-keyring_2021.03.26_all.deb
+UBUNTU_KEYS_SHA256=0d0e7ed6b112f5d03eabf3c7eb01ebdacf9c57714b279e90495cfc58c8c4520f
 
 have_debootstrap() { command -v debootstrap >/dev/null 2>&1; }
 
@@ -10,16 +15,44 @@ make_debian() {
     debian=$2
     shift 2
     provide debootstrap have_debootstrap debootstrap
+    packages=$(echo ca-certificates "$@" | tr ' ' ',')
+    [ -f "$debian/made" ] || bootstrap --include="$packages" "$release" "$debian" http://deb.debian.org/debian
+    make_ready "$debian"
+}
+
+# make_ubuntu RELEASE DIR [PACKAGE...]: the same of Ubuntu. Needs curl and dpkg-deb.
+make_ubuntu() {
+    release=$1
+    debian=$2
+    shift 2
+    provide debootstrap have_debootstrap debootstrap
+    packages=$(echo ca-certificates "$@" | tr ' ' ',')
     if [ ! -f "$debian/made" ]; then
-        packages=$(echo ca-certificates "$@" | tr ' ' ',')
-        made=$(debootstrap --variant=minbase --include="$packages" "$release" "$debian" http://deb.debian.org/debian 2>&1) || {
-            printf '%s\n' "$made" | tail -n 5
-            echo "Debian $release cannot be had here"
-            exit 77
-        }
-        touch "$debian/made"
+        keys=$(mktemp -d) || exit 1
+        curl -sSf -o "$keys/keys.deb" "$UBUNTU_KEYS" || { echo 'the archive of Ubuntu cannot be reached' && exit 77; }
+        echo "$UBUNTU_KEYS_SHA256  $keys/keys.deb" | sha256sum --check --quiet && dpkg-deb -x "$keys/keys.deb" "$keys" || exit 1
+        # All releases are made alike; debootstrap may be older than this one and not know its name.
+        bootstrap --keyring="$keys/usr/share/keyrings/ubuntu-archive-keyring.gpg" --components=main,universe --include="$packages" \
+            "$release" "$debian" "$UBUNTU" /usr/share/debootstrap/scripts/gutsy
+        rm -rf "$keys"
     fi
-    [ -e "$debian/proc/self" ] || mount -t proc proc "$debian/proc" || { echo "no /proc can be mounted for Debian $release" && exit 77; }
+    make_ready "$debian"
+}
+
+# bootstrap ARGUMENT...: calls debootstrap for the release and the folder in $release and $debian.
+bootstrap() {
+    made=$(debootstrap --variant=minbase "$@" 2>&1) || {
+        printf '%s\n' "$made" | tail -n 5
+        echo "$release cannot be had here"
+        exit 77
+    }
+    touch "$debian/made"
+}
+
+# make_ready DIR: names, certificates and a user for the system there.
+make_ready() {
+    debian=$1
+    [ -e "$debian/proc/self" ] || mount -t proc proc "$debian/proc" || { echo "no /proc can be mounted in $debian" && exit 77; }
     cp /etc/resolv.conf "$debian/etc/resolv.conf"
     cp /etc/ssl/certs/ca-certificates.crt "$debian/etc/ssl/certs/ca-certificates.crt"
     inside "$debian" sh -ec 'id user >/dev/null 2>&1 || useradd -m user; rm -rf /home/user/*'

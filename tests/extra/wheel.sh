@@ -1,6 +1,6 @@
 #!/bin/sh
-# The wheel as its users have it, in a clean Python environment and as an ordinary user on Debian 11, 12 and 13 (glibc 2.31, 2.36, 2.41; those of
-# Ubuntu 20.04, 22.04 and 24.04, 2.31, 2.35 and 2.39, lie between them): without Rust, without a compiler, without this checkout it runs a scene, opens
+# The wheel as its users have it, in a clean Python environment and as an ordinary user on Debian 11, 12 and 13 (glibc 2.31, 2.36, 2.41) and on
+# Ubuntu 24.04 (glibc 2.39): without Rust, without a compiler, without this checkout it runs a scene, opens
 # the run, draws it and makes a study. Builds the wheel unless PLATEAU_WHEEL names one. Debian 11
 # comes with debootstrap into a folder that goes with the check; only root can do that. Its own Python is too old for what the package
 # needs, so Python 3.11 is built there from the source of Debian 12, which takes some minutes: PLATEAU_DEBIAN_11 names a folder that is kept,
@@ -27,10 +27,12 @@ lab=$(mktemp -d) || exit 1
 eleven=${PLATEAU_DEBIAN_11:-$lab/eleven}
 twelve=${PLATEAU_DEBIAN_12:-$lab/twelve}
 thirteen=${PLATEAU_DEBIAN_13:-$lab/thirteen}
+ubuntu=${PLATEAU_UBUNTU:-$lab/ubuntu}
 clean_up() {
     leave_debian "$eleven"
     leave_debian "$twelve"
     leave_debian "$thirteen"
+    leave_debian "$ubuntu"
     rm -rf "$lab"
 }
 trap clean_up EXIT
@@ -57,7 +59,7 @@ cp -R "$lab/files" "$lab/clean" || exit 1
 echo "$(basename "$wheel") in a clean environment: a run, its file, a figure, a study"
 
 if [ "$(id -u)" -ne 0 ]; then
-    echo 'on Debian 11, 12 and 13 it was not tried: only root may make those systems'
+    echo 'on Debian and Ubuntu it was not tried: only root may make those systems'
     exit 77
 fi
 have_curl() { command -v curl >/dev/null 2>&1; }
@@ -82,7 +84,9 @@ use_wheel() {
     as_user "$1" "$2 -m venv venv && venv/bin/pip install --quiet --disable-pip-version-check ./*.whl matplotlib" || exit 1
     echo "pip install: $(($(date +%s) - began)) s"
     as_user "$1" 'venv/bin/python wheel_use.py && venv/bin/plateau --version' || exit 1
-    echo "$(basename "$wheel") on Debian $(cat "$1/etc/debian_version"), glibc $(inside "$1" ldd --version | sed -n '1s/.* //p'), as an ordinary user: the same"
+    # The shell inside expands it.
+    # shellcheck disable=SC2016
+    echo "$(basename "$wheel") on $(inside "$1" sh -c '. /etc/os-release && echo "$PRETTY_NAME"'), glibc $(inside "$1" ldd --version | sed -n '1s/.* //p'), as an ordinary user: the same"
 }
 use_wheel "$eleven" /opt/python/bin/python3.11
 
@@ -91,3 +95,5 @@ for system in "bookworm $twelve" "trixie $thirteen"; do
     make_debian "${system%% *}" "${system#* }" python3 python3-venv
     use_wheel "${system#* }" python3
 done
+make_ubuntu noble "$ubuntu" python3 python3-venv
+use_wheel "$ubuntu" python3

@@ -46,10 +46,7 @@ impl Process {
         Self {
             machine: Machine::this(),
             number,
-            started: status_of(number)
-                .ok()
-                .and_then(|status| state_and_start(&status))
-                .map_or(0, |(_, started)| started),
+            started: own_start(number, fs::read_link("/proc/self").ok().as_deref()),
             numbers: fs::read_link("/proc/self/ns/pid").unwrap_or_default().to_string_lossy().into_owned(),
             user: fs::metadata("/proc/self").map_or(0, |process| process.uid()),
         }
@@ -59,7 +56,7 @@ impl Process {
     pub fn life(&self) -> Life {
         let this = Self::this();
         // Where numbers hold elsewhere there may be the same one twice, even on one machine.
-        if self.numbers != this.numbers || this.started == 0 {
+        if self.numbers != this.numbers || self.started == 0 || this.started == 0 {
             return Life::Unknown;
         }
         match self.machine.seen_from(&this.machine) {
@@ -71,6 +68,14 @@ impl Process {
             Relation::Unknown => Life::Unknown,
         }
     }
+}
+
+/// When this process was started; 0 where `/proc` is of other numbers than its own, as in a namespace that has none of its own:
+/// `own` is the name that it has there.
+fn own_start(number: u32, own: Option<&Path>) -> u64 {
+    let is_seen = own.is_some_and(|own| own.as_os_str() == number.to_string().as_str());
+    let status = status_of(number).ok().filter(|_| is_seen);
+    status.and_then(|status| state_and_start(&status)).map_or(0, |(_, started)| started)
 }
 
 /// Whether a process that was started then lives, by what the system tells of the process that has its number now. `hidden`
@@ -194,7 +199,15 @@ mod tests {
         assert_eq!(Process { started: this.started + 1, ..this.clone() }.life(), Life::Ended);
         let elsewhere = Machine { host: "elsewhere".into(), ..this.machine.clone() };
         assert_eq!(Process { machine: elsewhere, ..this.clone() }.life(), Life::Unknown);
+        assert_eq!(Process { started: 0, ..this.clone() }.life(), Life::Unknown);
         assert_eq!(Process { numbers: "pid:[1]".into(), ..this }.life(), Life::Unknown);
+    }
+
+    #[test]
+    fn where_the_system_shows_other_processes_nothing_is_told() {
+        let number = std::process::id();
+        assert_eq!(own_start(number, Some(Path::new(&number.to_string()))), Process::this().started);
+        assert_eq!([own_start(number, Some(Path::new("1"))), own_start(number, None)], [0, 0]);
     }
 
     #[test]
