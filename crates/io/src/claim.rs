@@ -20,7 +20,7 @@ use std::time::{Duration, SystemTime};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::process::{Life, Process};
+use crate::process::{Life, Process, Writer, writer_of};
 use crate::random;
 use crate::temporary::{Temporary, folder};
 use crate::text::{is_plain, short};
@@ -177,6 +177,12 @@ impl Claim {
             let Some(there) = read(path, lock)? else { continue };
             if there.writer.life() != Life::Ended || depth == DEPTH {
                 return Err(there.refusal(path, lock));
+            }
+            // Whoever writes the file on this machine lives, whatever the lock says.
+            if depth == 0
+                && let Writer::Process(process) = writer_of(path)
+            {
+                return Err(ClaimError::Here { path: path.to_owned(), process, since: there.since });
             }
             let _right = Self::take(path, &right_to(lock, &there.number), depth + 1)?;
             // Only who has the right replaces that lock, and nobody else would remove it.

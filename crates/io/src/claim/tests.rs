@@ -117,6 +117,21 @@ fn the_lock_of_a_living_process_on_another_machine_of_the_same_name_stays() {
 }
 
 #[test]
+fn a_lock_left_over_of_a_file_that_is_written_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    leave(&lock_of(&path));
+    let text = fs::read_to_string(lock_of(&path)).unwrap();
+    let mut writer = Command::new("sleep").arg("60").stdout(File::create(&path).unwrap()).spawn().unwrap();
+    let refused = Claim::of(&path).unwrap_err();
+    assert!(matches!(refused, ClaimError::Here { process, .. } if process == writer.id()), "{refused:?}");
+    assert_eq!(fs::read_to_string(lock_of(&path)).unwrap(), text);
+    writer.kill().unwrap();
+    writer.wait().unwrap();
+    drop(Claim::of(&path).unwrap());
+}
+
+#[test]
 fn a_lock_of_another_version_is_named_and_stays() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run.h5");
