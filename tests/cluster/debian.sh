@@ -11,47 +11,41 @@ have_debootstrap() { command -v debootstrap >/dev/null 2>&1; }
 # make_debian RELEASE DIR [PACKAGE...]: a minimal system with these packages, if it is not in DIR yet, with the names and certificates of this
 # machine. Ends the script with 77 where there can be none.
 make_debian() {
-    release=$1
-    debian=$2
-    shift 2
-    provide debootstrap have_debootstrap debootstrap
-    packages=$(echo ca-certificates "$@" | tr ' ' ',')
-    [ -f "$debian/made" ] || bootstrap --include="$packages" "$release" "$debian" http://deb.debian.org/debian
-    make_ready "$debian"
+    keys=
+    make_system "$@"
 }
 
 # make_ubuntu RELEASE DIR [PACKAGE...]: the same of Ubuntu. Needs curl and dpkg-deb.
 make_ubuntu() {
+    keys=$(mktemp -d) || exit 1
+    curl -sSf -o "$keys/keys.deb" "$UBUNTU_KEYS" || { echo 'the archive of Ubuntu cannot be reached' && exit 77; }
+    echo "$UBUNTU_KEYS_SHA256  $keys/keys.deb" | sha256sum --check --quiet && dpkg-deb -x "$keys/keys.deb" "$keys" || exit 1
+    make_system "$@"
+    rm -rf "$keys"
+}
+
+# make_system RELEASE DIR [PACKAGE...]: that of Ubuntu if its keys are in the folder $keys, of Debian if that is empty.
+make_system() {
     release=$1
     debian=$2
     shift 2
     provide debootstrap have_debootstrap debootstrap
-    packages=$(echo ca-certificates "$@" | tr ' ' ',')
     if [ ! -f "$debian/made" ]; then
-        keys=$(mktemp -d) || exit 1
-        curl -sSf -o "$keys/keys.deb" "$UBUNTU_KEYS" || { echo 'the archive of Ubuntu cannot be reached' && exit 77; }
-        echo "$UBUNTU_KEYS_SHA256  $keys/keys.deb" | sha256sum --check --quiet && dpkg-deb -x "$keys/keys.deb" "$keys" || exit 1
-        # All releases are made alike; debootstrap may be older than this one and not know its name.
-        bootstrap --keyring="$keys/usr/share/keyrings/ubuntu-archive-keyring.gpg" --components=main,universe --include="$packages" \
-            "$release" "$debian" "$UBUNTU" /usr/share/debootstrap/scripts/gutsy
-        rm -rf "$keys"
+        set -- --variant=minbase --include="$(echo ca-certificates "$@" | tr ' ' ',')"
+        if [ -n "$keys" ]; then
+            # All releases are made alike; debootstrap may be older than this one and not know its name.
+            set -- "$@" --keyring="$keys/usr/share/keyrings/ubuntu-archive-keyring.gpg" --components=main,universe "$release" "$debian" \
+                "$UBUNTU" /usr/share/debootstrap/scripts/gutsy
+        else
+            set -- "$@" "$release" "$debian" http://deb.debian.org/debian
+        fi
+        made=$(debootstrap "$@" 2>&1) || {
+            printf '%s\n' "$made" | tail -n 5
+            echo "$release cannot be had here"
+            exit 77
+        }
+        touch "$debian/made"
     fi
-    make_ready "$debian"
-}
-
-# bootstrap ARGUMENT...: calls debootstrap for the release and the folder in $release and $debian.
-bootstrap() {
-    made=$(debootstrap --variant=minbase "$@" 2>&1) || {
-        printf '%s\n' "$made" | tail -n 5
-        echo "$release cannot be had here"
-        exit 77
-    }
-    touch "$debian/made"
-}
-
-# make_ready DIR: names, certificates and a user for the system there.
-make_ready() {
-    debian=$1
     [ -e "$debian/proc/self" ] || mount -t proc proc "$debian/proc" || { echo "no /proc can be mounted in $debian" && exit 77; }
     cp /etc/resolv.conf "$debian/etc/resolv.conf"
     cp /etc/ssl/certs/ca-certificates.crt "$debian/etc/ssl/certs/ca-certificates.crt"

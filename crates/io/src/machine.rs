@@ -5,6 +5,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -37,13 +38,14 @@ const DEVICES: usize = 8;
 const SHARED: &str = "52:54:00:12:34:56";
 
 impl Machine {
-    /// This machine.
+    /// This machine, as it was when it was first asked for: each checkpoint says where it was written.
     pub fn this() -> Self {
-        Self {
+        static THIS: LazyLock<Machine> = LazyLock::new(|| Machine {
             host: host(),
             boot: first_line(Path::new("/proc/sys/kernel/random/boot_id")),
             hardware: hardware(Path::new("/etc/machine-id"), Path::new("/sys/class/net")),
-        }
+        });
+        THIS.clone()
     }
 
     /// What it is to `this` one.

@@ -11,7 +11,6 @@ use hdf5::File;
 use hdf5::types::VarLenUnicode;
 use sha2::{Digest, Sha256};
 
-use super::attribute_digests;
 use crate::hdf5_file::writing::write_text;
 
 /// Attribute of a dataset.
@@ -42,7 +41,7 @@ impl Digests {
         self.maps.values().map(Vec::len).sum()
     }
 
-    /// Writes the digests of all that was appended, and those of the attributes. No attribute may be written afterwards.
+    /// Writes the digests of all that was appended.
     pub(super) fn write(&self, file: &File) -> hdf5::Result<()> {
         for (path, hasher) in &self.columns {
             write_text(&*file.dataset(path)?, DIGEST, &format!("{:x}", hasher.clone().finalize()))?;
@@ -52,7 +51,7 @@ impl Digests {
             let texts = texts.map_err(|error| hdf5::Error::from(error.to_string()))?;
             file.dataset(path)?.new_attr_builder().with_data(&texts).create(DIGEST)?;
         }
-        attribute_digests::write(file)
+        Ok(())
     }
 }
 

@@ -11,6 +11,7 @@ use plateau_core::observe::{EXTRAS, Map, MapValues, quantities};
 use super::error::ReadError;
 use super::header::InputFile;
 use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
+use super::state::State;
 use super::status::Statuses;
 use crate::hdf5_file::{self, OpenError};
 use crate::number;
@@ -19,37 +20,6 @@ use crate::scene::schema::choices::{SHAPE, Shape};
 use crate::text::{short, shown_title};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
-
-/// What a run file says of how its run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum State {
-    /// The run goes on, or it was killed.
-    Running,
-    /// All steps are done.
-    Finished,
-    /// The user stopped the run.
-    Interrupted,
-    /// The run failed; the attribute `error` says why.
-    Failed,
-}
-
-impl State {
-    /// Its name in run files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Running => "running",
-            Self::Finished => "finished",
-            Self::Interrupted => "interrupted",
-            Self::Failed => "failed",
-        }
-    }
-
-    const ALL: [Self; 4] = [Self::Running, Self::Finished, Self::Interrupted, Self::Failed];
-
-    fn of(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|state| state.name() == name)
-    }
-}
 
 /// A series of a run file.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -8,6 +8,7 @@ use std::time::{Duration, SystemTime};
 use hdf5::File;
 use plateau_core::observe::event::EventRecord;
 
+use super::attribute_digests;
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
 use super::error::{failed, not_anew};
@@ -71,6 +72,7 @@ impl Seal<'_> {
         write_text(&file, "state", self.end.state())?;
         file.link_soft(&format!("/{TIME}"), TIME_OF_SERIES)?;
         self.digests.write(&file)?;
+        attribute_digests::write(&file)?;
         file.flush()?;
         file.close()
     }

@@ -5,13 +5,16 @@ use std::ops::{Range, RangeInclusive};
 use plateau_core::surface::describe::Grid;
 
 use super::picture::Picture;
-use super::surface_map::windows;
 use crate::colour::{COLOURS, MISSING, colour_index, colour_map};
 
 /// Number of the colour of points that were not measured.
 const NOT_MEASURED: u8 = COLOURS as u8;
 /// Points along a side that are kept for a picture, at most; along x for each of its windows.
 const MOST_POINTS: usize = 1500;
+
+/// Length of a window over its height, about, and windows of a map, at most.
+const ELONGATION: f64 = 8.6;
+const MOST_WINDOWS: usize = 6;
 
 /// Heights on a coarser grid where the grid has more points than a picture: the mean of the measured points of a block.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,6 +84,11 @@ impl Raster {
             palette: colour_map().into_iter().chain([MISSING]).collect(),
         }
     }
+}
+
+/// Windows in which a surface is shown that is so much longer along x than along y.
+pub fn windows(elongation: f64) -> usize {
+    ((elongation / ELONGATION).round() as usize).clamp(1, MOST_WINDOWS)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::chart::MARGIN;
 use super::colour_bar::ColourBar;
 use super::font::text_width;
 use super::page::{Content, Page, Panel};
-use super::raster::Raster;
+use super::raster::{Raster, windows};
 use super::surface_charts::{height_axis, scaled};
 use crate::quantity::Unit;
 
@@ -19,9 +19,6 @@ const MAP: [f64; 2] = [700.0, 495.0];
 const LEAST_HEIGHT: f64 = 32.0;
 /// Distance of the windows of one map below each other, with the numbers of an axis.
 const BELOW: f64 = 68.0;
-/// Length of a window over its height, about, and windows of a map, at most.
-const ELONGATION: f64 = 8.6;
-const MOST_WINDOWS: usize = 6;
 /// A map that is longer upward than this many times its width is stretched, or nothing could be seen on it.
 const MOST_UPRIGHT: f64 = 5.0;
 /// Distance of the colour bar, its width, and its length at least: it has three numbers.
@@ -37,11 +34,6 @@ pub struct SurfaceMap<'a> {
     pub extent: [f64; 2],
     /// Whether the extent is in m.
     pub has_lengths: bool,
-}
-
-/// Windows in which a surface is shown that is so much longer along x than along y.
-pub fn windows(elongation: f64) -> usize {
-    ((elongation / ELONGATION).round() as usize).clamp(1, MOST_WINDOWS)
 }
 
 impl SurfaceMap<'_> {

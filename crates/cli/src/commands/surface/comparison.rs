@@ -5,7 +5,7 @@ use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, 
 use plateau_core::surface::{Body, Level, Patch, level};
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
-use super::subject::describe;
+use super::describe::describe;
 use crate::failure::Failure;
 
 /// A prepared patch, described at its own pitch and averaged over cells of the mesh, as the heights of the body are.

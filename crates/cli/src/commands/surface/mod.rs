@@ -1,6 +1,7 @@
 //! `plateau surface`: what measured and prepared surfaces are like.
 
 mod comparison;
+mod describe;
 mod document;
 mod subject;
 mod text;

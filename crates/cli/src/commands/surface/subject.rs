@@ -6,11 +6,11 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, level};
-use plateau_io::memory::refuse_beyond;
 use plateau_io::surface::Measured;
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
 use super::comparison::Comparison;
+use super::describe::describe;
 use super::named;
 use crate::failure::Failure;
 
@@ -124,20 +124,6 @@ impl Subject {
         });
         self.comparison.as_ref().and_then(Comparison::described).into_iter().chain(own)
     }
-}
-
-/// Describes the heights of a surface of that name; none if no point has one.
-///
-/// # Errors
-/// [`Failure`] where that needs more memory than there is.
-pub(super) fn describe(name: &str, grid: &Grid) -> Result<Option<Description>, Failure> {
-    let Grid { columns, rows, .. } = *grid;
-    refuse_beyond(Description::memory_needed(columns, rows)).map_err(|no_room| {
-        Failure::input(format_args!(
-            "{name}: its {columns} x {rows} points can be read, but to describe them needs {no_room}; give a coarser surface, or a part of it"
-        ))
-    })?;
-    Ok(Description::of(grid))
 }
 
 /// The form that is taken out of a surface, or of one that closes round the ring.

@@ -1,8 +1,7 @@
 //! Where the table of a text begins whose first lines no header has.
 
-use super::cells::{Fault, Separator, number};
+use super::cells::{Fault, Separator, is_comment, number, starts_numbers};
 use super::header::Header;
-use super::numbers::{is_comment, starts_numbers};
 use crate::surface::decimal::Decimal;
 
 /// Lines that are looked at: no header of an instrument is nearly as long.

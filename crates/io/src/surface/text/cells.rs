@@ -169,6 +169,19 @@ pub(super) fn shown(text: &str) -> String {
     shown
 }
 
+/// Whether a line is a comment.
+pub(super) fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with(['#', '%'])
+}
+
+/// Whether a line has numbers: a number in its first cell that is not empty, or nothing but missing points.
+pub(super) fn starts_numbers(line: &str) -> bool {
+    let separator = Separator::of(line);
+    let mut cells = separator.cells(line, false).filter(|cell| !cell.is_empty());
+    // An infinite number and the like are told as such.
+    cells.next().is_none_or(|cell| !matches!(number(cell, Decimal::Point), Err(Fault::NotANumber)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,7 @@
 //! The numbers of a file as they stand in it.
 
 use super::beginning::lines_before;
-use super::cells::{Fault, Separator, number, shown};
+use super::cells::{Separator, is_comment, number, shown, starts_numbers};
 use super::dialect::Dialect;
 use super::error::TextError;
 use super::header::Header;
@@ -140,16 +140,4 @@ fn odd_beginning<'a>(mut lines: impl Iterator<Item = (usize, &'a str)>) -> Optio
     let (first, second) = (lines.next()?, lines.next()?);
     let cells = |text: &str| Separator::of(text).cells(text, false).count();
     (cells(first.1) != cells(second.1)).then_some(first)
-}
-
-pub(super) fn is_comment(line: &str) -> bool {
-    line.trim_start().starts_with(['#', '%'])
-}
-
-/// Whether a line has numbers: a number in its first cell that is not empty, or nothing but missing points.
-pub(super) fn starts_numbers(line: &str) -> bool {
-    let separator = Separator::of(line);
-    let mut cells = separator.cells(line, false).filter(|cell| !cell.is_empty());
-    // An infinite number and the like are told as such.
-    cells.next().is_none_or(|cell| !matches!(number(cell, Decimal::Point), Err(Fault::NotANumber)))
 }
