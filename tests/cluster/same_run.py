@@ -8,8 +8,8 @@ import sys
 import h5py
 from content import content, differences
 
-# What differs from one making of a run to the next.
-ATTRIBUTES = ["start_time", "end_time", "wall_time"]
+# What differs from one making of a run to the next, and the digest of that.
+ATTRIBUTES = ["start_time", "end_time", "wall_time", "execution_sha256"]
 
 
 def result(path: str) -> dict[str, object]:
