@@ -182,6 +182,6 @@ class MapAccessor:
         >>> import plateau
         >>> axes = plateau.open_run("quick.h5")["disc/height"].plateau.plot()
         >>> axes.get_xlabel()
-        'arc length, mm'
+        'arc length, mm; the disc moves →'
         """
         return plots.draw_map(self.at_time(time), self.status_names, polar=polar, ax=ax, **options)

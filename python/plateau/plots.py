@@ -110,11 +110,12 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     bar = last.figure.colorbar(picture, ax=panels, label=look.label, extend="neither" if names else look.extend)
     if names:
         bar.set_ticks(list(names), labels=list(names.values()))
-    labels = ("x, mm", "y, mm") if polar else ("arc length, mm", "radius, mm")
+    # Where the disc moves, toward higher columns (model 1), is said as in the figures of the program.
+    across = "x, mm; the disc turns against the clock" if polar else "arc length, mm; the disc moves \N{RIGHTWARDS ARROW}"
     moment = f", {float(cells['map_time']):.6g} s" if "map_time" in cells.coords else ""
     grey = f"; grey: {look.apart}" if look.apart else ""
-    last.set_xlabel(labels[0] + (" (stretched)" if stretched else ""))
-    panels[len(panels) // 2].set_ylabel(labels[1])
+    last.set_xlabel(across.replace(";", " (stretched);") if stretched else across)
+    panels[len(panels) // 2].set_ylabel("y, mm" if polar else "radius, mm")
     panels[0].set_title(str(cells.attrs.get("long_name", cells.name)) + moment + grey)
     return last
 

@@ -231,7 +231,8 @@ class Runs(InFolder):
         # A ring in one box is stretched, or it would be a line; a pin is in proportion.
         self.assertGreater(two[1].bbox.height, 100)
         self.assertEqual([panel.get_aspect() for panel in two], [1, "auto"])
-        self.assertEqual(two[1].get_xlabel(), "arc length, mm (stretched)")
+        self.assertEqual(two[1].get_xlabel(), "arc length, mm (stretched); the disc moves →")
+        self.assertEqual(height.plateau.plot(polar=True).get_xlabel(), "x, mm; the disc turns against the clock")
 
     def test_colours_are_those_of_the_program(self):
         command = [os.environ["PLATEAU_PROGRAM"], "plot", "quick.h5", "--format", "svg", "-o", "svg", "-q", "--force"]

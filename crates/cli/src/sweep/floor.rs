@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use plateau_io::dataset_file::now;
+use plateau_io::memory::AtWork;
 use plateau_io::scene::Scene;
 use plateau_io::study::journal::Shard;
 use plateau_io::study::plan::Plan;
@@ -119,6 +120,7 @@ impl<'a> Floor<'a> {
         if self.interrupt.signal().is_some() {
             return PieceEnd::Stopped;
         }
+        let _at_work = AtWork::begin();
         let start = Instant::now();
         let run = self.plan.run(number);
         let (study, identity) = (self.plan.study(), &self.resolved.identities[number - 1]);

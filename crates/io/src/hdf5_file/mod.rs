@@ -4,7 +4,6 @@
 mod blocks;
 mod elsewhere;
 mod global_heap;
-mod memory;
 pub(crate) mod writing;
 
 use std::fs::{self, File};
@@ -17,6 +16,7 @@ use hdf5::types::{FixedAscii, FixedUnicode, TypeDescriptor, VarLenAscii, VarLenU
 use hdf5::{Attribute, Dataset, H5Type, Location, OpenMode};
 use thiserror::Error;
 
+use crate::memory::bounded;
 use crate::regular;
 
 /// How often the library tries to read an object of a file that is being written and is not whole yet. It waits 1 ns, then
@@ -108,7 +108,7 @@ pub(crate) fn refuse_hollow(dataset: &Dataset) -> hdf5::Result<()> {
 /// 10 kB takes ten seconds and all that memory to refuse.
 pub(crate) fn guarded<T>(data: usize, work: impl FnOnce() -> T) -> T {
     // Twice, for a chunk as large as all the data.
-    memory::limited(STRUCTURE.saturating_add((data as u64).saturating_mul(2)), work)
+    bounded(STRUCTURE.saturating_add((data as u64).saturating_mul(2)), work)
 }
 
 /// Whether a file has a superblock, which is where an HDF5 file begins.

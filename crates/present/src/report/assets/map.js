@@ -10,6 +10,9 @@ const absent = 3;
 /** Height over width of a strip of the unrolled ring: it is cut into pieces that are not flatter. */
 const flattest = () => (document.documentElement.clientWidth < 640 ? 1 / 7 : 1 / 12);
 
+/** What is written below a map, by length. */
+const labelsBelow = ["arc length at the mean radius, mm; the disc moves \u2192", "arc length, mm; the disc moves \u2192", "arc length, mm"];
+
 /** One map of one run on a canvas. */
 class MapView {
     constructor(run, map, codes, several) {
@@ -139,7 +142,10 @@ class MapView {
         context.textAlign = "center";
         context.textBaseline = "top";
         const middle = left + inner / 2;
-        context.fillText(inner < 320 ? "arc length, mm" : "arc length at the mean radius, mm", middle, 6 + (pieces - 1) * (high + gap) + high + 3);
+        // The numbers of both ends stand beside it.
+        const fits = (label) => context.measureText(label).width < inner - 100;
+        const label = labelsBelow.find(fits) ?? labelsBelow.at(-1);
+        context.fillText(label, middle, 6 + (pieces - 1) * (high + gap) + high + 3);
         context.save();
         context.translate(2, 6 + high / 2);
         context.rotate(-Math.PI / 2);
