@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 
 use plateau_io::number;
 use plateau_io::study::collected::{Collected, CollectedRun};
-use plateau_io::study::factor::Level;
 use plateau_io::study::journal::Entry;
+use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
 use plateau_present::study::analysis::Analysis;

@@ -7,7 +7,8 @@ use plateau_study::design::{Alpha, Fraction, Kind};
 use toml::Spanned;
 
 use super::document::{self, Document};
-use super::factor::{Factor, Level, Values};
+use super::factor::{Factor, Values};
+use super::level::Level;
 use super::place::{Place, unseen};
 use super::response::Response;
 use super::response_keys::{responses, series_name};

@@ -4,9 +4,9 @@ use std::fmt;
 
 use plateau_study::design::Setting;
 
+use super::level::{Level, dimension, one_unit};
 use crate::number;
 use crate::scene::schema::{self, Kind};
-use crate::units::{self, Dimension, UnitError};
 
 /// Keys of a scene that a study varies together.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,71 +35,6 @@ pub enum Values {
         /// Whether equal steps are equal ratios.
         logarithmic: bool,
     },
-}
-
-/// A value of a factor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Level {
-    /// As it stands in a scene, in TOML.
-    pub text: String,
-    /// For people.
-    pub label: String,
-    /// In SI units; none for words.
-    pub number: Option<f64>,
-}
-
-impl Level {
-    /// What a value means for a key; where the key is empty, a number is taken in the unit in which it is stated.
-    pub fn new(key: &str, value: &toml::Value) -> Self {
-        let label = match value {
-            toml::Value::String(text) => text.clone(),
-            other => other.to_string(),
-        };
-        Self { text: value.to_string(), number: si_number(key, value), label }
-    }
-
-    /// What a text means for a key: a value in TOML, or a plain number in percent; what is none is a text. A minus may be that of
-    /// print, as the program writes it.
-    pub fn parse(key: &str, text: &str) -> Self {
-        let text = &text.replace('\u{2212}', "-");
-        let percent = text.strip_suffix('%').and_then(|number| number.trim().parse::<f64>().ok());
-        match percent {
-            // Of a factor without a key it is a unit as any other.
-            Some(percent) if key.is_empty() => return Self::new(key, &toml::Value::String(format!("{percent} %"))),
-            Some(percent) if dimension(key).is_none() => return Self::new(key, &toml::Value::Float(percent / 100.0)),
-            _ => {}
-        }
-        let table: Result<toml::Table, _> = format!("value = {text}").parse();
-        let value = table.ok().filter(|table| table.len() == 1).and_then(|mut table| table.remove("value"));
-        Self::new(key, &value.unwrap_or_else(|| toml::Value::String(text.to_owned())))
-    }
-
-    /// A value of a key as an end of a range, in SI units.
-    ///
-    /// # Errors
-    /// Why it cannot be one, in words.
-    pub fn end_of_range(key: &str, value: &toml::Value) -> Result<f64, String> {
-        match (dimension(key), value) {
-            (None, toml::Value::String(_)) if key.is_empty() => {
-                si_number(key, value).ok_or_else(|| format!("{value} is no number with a unit"))
-            }
-            (Some(expected), toml::Value::String(text)) => {
-                units::parse(text, expected).map_err(|error| error.to_string())
-            }
-            (Some(expected), toml::Value::Integer(_) | toml::Value::Float(_)) => {
-                Err(UnitError::NoUnit { text: value.to_string(), expected }.to_string())
-            }
-            (None, toml::Value::Integer(integer)) => Ok(*integer as f64),
-            (None, toml::Value::Float(number)) if number.is_finite() => Ok(*number),
-            (_, other) => Err(format!("{other} is no number, as a range has at its ends; words are levels")),
-        }
-    }
-
-    /// The number before the unit, and the unit; none of a word.
-    pub fn split(&self) -> Option<(f64, &str)> {
-        let (number, unit) = self.label.trim().split_once(' ').unwrap_or((self.label.trim(), ""));
-        Some((number.parse().ok()?, unit.trim()))
-    }
 }
 
 impl Factor {
@@ -262,36 +197,6 @@ impl fmt::Display for Factor {
     }
 }
 
-/// The numbers of two ends and the unit that both have; none of words and of two units, between which nothing lies.
-fn one_unit<'a>(low: &'a Level, high: &'a Level) -> Option<(f64, f64, &'a str)> {
-    let ((from, unit), (to, other)) = (low.split()?, high.split()?);
-    (unit == other).then_some((from, to, unit))
-}
-
-/// What a key's quantity measures.
-fn dimension(key: &str) -> Option<Dimension> {
-    match schema::find(key)?.kind {
-        Kind::Quantity { dimension, .. } => Some(dimension),
-        Kind::LengthUnit | Kind::Lengths { .. } => Some(Dimension::Length),
-        _ => None,
-    }
-}
-
-/// A value in SI units, if it is a number; without a key in the unit in which it is stated.
-fn si_number(key: &str, value: &toml::Value) -> Option<f64> {
-    match value {
-        // A plain number in quotes is a number as one with a unit is, which needs them: of a rig nobody says otherwise.
-        toml::Value::String(text) if key.is_empty() => {
-            let (number, _) = text.trim().split_once(' ').unwrap_or((text.trim(), ""));
-            number.parse().ok().filter(|number: &f64| number.is_finite())
-        }
-        toml::Value::String(text) => units::parse(text, dimension(key)?).ok(),
-        toml::Value::Integer(integer) => Some(*integer as f64),
-        toml::Value::Float(number) => Some(*number),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -358,22 +263,6 @@ mod tests {
         let rate = factor("materials.pin_primary.specific_wear_rate", ["\"1e-14 1/Pa\"", "\"9e-14 1/Pa\""], false);
         assert_eq!(rate.at(Setting::Coded(0.0)).unwrap().label, "5e-14 1/Pa");
         assert_eq!(rate.at(Setting::Coded(0.0)).unwrap().number, Some(5e-14));
-    }
-
-    #[test]
-    fn percent_and_the_minus_of_print_are_understood() {
-        let fraction = Level::parse("pin.base.synthetic.fibre_fraction", "30%");
-        assert_eq!((fraction.number, fraction.text.as_str()), (Some(0.3), "0.3"));
-        assert_eq!(Level::parse("pin.base.synthetic.fibre_fraction", "30 %").number, Some(0.3));
-        let rate = Level::parse("materials.pin_primary.specific_wear_rate", "5e\u{2212}14 1/Pa");
-        assert_eq!(rate.number, Some(5e-14));
-        // Without a key it is the unit in which the factor is stated.
-        for text in ["30 %", "30%"] {
-            let humidity = Level::parse("", text);
-            assert_eq!((humidity.number, humidity.label.as_str()), (Some(30.0), "30 %"));
-        }
-        // Not of quantities: of what?
-        assert_eq!(Level::parse("operation.normal_force", "30%").number, None);
     }
 
     #[test]

@@ -22,6 +22,7 @@ pub mod factor;
 pub mod identity;
 pub mod imported;
 pub mod journal;
+pub mod level;
 pub mod measured;
 pub mod measured_series;
 mod place;

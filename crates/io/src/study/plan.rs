@@ -5,7 +5,7 @@ use std::path::Path;
 use plateau_study::design::{self, Aliases, Design, Setting};
 use plateau_study::shuffle::shuffle;
 
-use super::factor::Level;
+use super::level::Level;
 use super::{DesignSource, Order, Study, StudyError};
 use crate::scene::{self, Origin, Problem, Scene, SceneError};
 

@@ -3,7 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use super::factor::{Factor, Level, Values};
+use super::factor::{Factor, Values};
+use super::level::Level;
 use super::value_table::{Row, ValueTable};
 use crate::text::short;
 

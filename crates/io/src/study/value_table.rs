@@ -5,7 +5,8 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use super::factor::{Factor, Level};
+use super::factor::Factor;
+use super::level::Level;
 use crate::text::{odd_character, short, text_of_cell, too_long};
 use crate::units::parse_as;
 use crate::{limits, regular};

@@ -1,6 +1,7 @@
 //! A factor as the analysis sees it: along a range, its logarithm, or level by level.
 
-use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::study::factor::{Factor, Values};
+use plateau_io::study::level::Level;
 use plateau_study::design::Setting;
 use plateau_study::effects::{self, FactorKind};
 

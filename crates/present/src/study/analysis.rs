@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use plateau_io::study::bounds::Bounds;
 use plateau_io::study::collected::{Collected, unit_of};
-use plateau_io::study::factor::Level;
+use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Study};
 use plateau_study::design::{Kind, Setting};

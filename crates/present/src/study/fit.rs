@@ -250,7 +250,7 @@ pub fn notes(result: &FitResult, names: &[&str], of_series: &[&str], has_no_gain
 #[cfg(test)]
 mod tests {
     use super::*;
-    use plateau_io::study::factor::Level;
+    use plateau_io::study::level::Level;
 
     fn key(name: &str, ends: [&str; 2]) -> FittedKey {
         let level = |text: &str| Level::new("operation.normal_force", &toml::Value::String(text.to_owned()));

@@ -1,7 +1,8 @@
 //! A place among the factors of a study: named in words, set in a scene, foretold by a surrogate.
 
 use plateau_io::study::Study;
-use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::study::factor::{Factor, Values};
+use plateau_io::study::level::Level;
 use plateau_io::text::short;
 use plateau_io::{brief, number};
 use plateau_study::design::Setting;

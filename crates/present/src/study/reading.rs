@@ -1,6 +1,7 @@
 //! The unit in which a study states a factor, in which people read it, too.
 
-use plateau_io::study::factor::{Factor, Level};
+use plateau_io::study::factor::Factor;
+use plateau_io::study::level::Level;
 use plateau_io::units;
 
 /// A unit, how many of it there are in the SI unit, and where it begins to count; for ranges of equal ratios of the values'

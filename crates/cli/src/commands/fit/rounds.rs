@@ -5,8 +5,9 @@ use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 use plateau_io::study::collected::Collected;
-use plateau_io::study::factor::{Factor, Level};
+use plateau_io::study::factor::Factor;
 use plateau_io::study::journal::{Entry, Journal};
+use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
 use plateau_present::study::place::shortened;

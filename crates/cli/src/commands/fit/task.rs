@@ -3,7 +3,8 @@
 use plateau_io::brief;
 use plateau_io::study::Study;
 use plateau_io::study::collected::{Collected, CollectedRun, unit_of};
-use plateau_io::study::factor::{Factor, Level, Values};
+use plateau_io::study::factor::{Factor, Values};
+use plateau_io::study::level::Level;
 use plateau_io::study::measured::Measured;
 use plateau_io::study::plan::Plan;
 use plateau_study::design::Setting;

@@ -1,7 +1,8 @@
 //! Predictions as a table in CSV: a line for each place, numbers in SI units as in results.csv.
 
-use plateau_io::study::factor::{Factor, Level};
+use plateau_io::study::factor::Factor;
 use plateau_io::study::imported::with_unit;
+use plateau_io::study::level::Level;
 use plateau_present::study::place::Place;
 use plateau_study::surrogate::Forecast;
 

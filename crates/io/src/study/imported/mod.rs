@@ -16,7 +16,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::Study;
-use super::factor::{Factor, Level};
+use super::factor::Factor;
+use super::level::Level;
 use super::plan::Plan;
 use super::value_table::ValueTable;
 use crate::claim::{Claim, ClaimError};

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use crate::study::factor::Level;
+use crate::study::level::Level;
 use crate::study::plan::Plan;
 
 /// Numbers of a table and of the design are the same if they differ by less than this part of the factor's largest one: tables

@@ -250,7 +250,7 @@ mod tests {
     fn small_numbers_have_a_power_of_ten_beside_the_unit() {
         let name = format!("{LOGARITHM}wear rate");
         let levels = ["2e-14 1/Pa", "1e-13 1/Pa"].map(|text| {
-            plateau_io::study::factor::Level::new(
+            plateau_io::study::level::Level::new(
                 "materials.pin_primary.specific_wear_rate",
                 &toml::Value::String(text.into()),
             )
