@@ -29,16 +29,16 @@ runs = {pathlib.Path(path).stem: plateau.open_run(path) for path in arguments.ru
 rows = {}
 for name, run in runs.items():
     area, end = run.plateau.mean("contact_area"), run.plateau.series.iloc[-1]
-    means = {"time (s)": end.name, "contact_area (m2)": area.value, "standard_error (m2)": area.error}
-    means["mean_pressure (Pa)"] = run.plateau.mean("mean_pressure").value
-    rows[name] = means | {f"{series} ({run[f'series/{series}'].attrs['units']})": end[series] for series in AT_END}
+    means = {"time [s]": end.name, "contact_area [m2]": area.value, "standard_error [m2]": area.error}
+    means["mean_pressure [Pa]"] = run.plateau.mean("mean_pressure").value
+    rows[name] = means | {f"{series} [{run[f'series/{series}'].attrs['units']}]": end[series] for series in AT_END}
 print(pandas.DataFrame.from_dict(rows, orient="index").to_string(float_format="{:.6g}".format))
 
 axes = new_axes(figsize=(7, 4))
-span = min(row["time (s)"] for row in rows.values()) / 20
+span = min(row["time [s]"] for row in rows.values()) / 20
 for name, run in runs.items():
     run.plateau.plot(arguments.series, ax=axes)
-    line, samples = axes.lines[-1], max(round(len(run["time"]) * span / rows[name]["time (s)"]), 1)
+    line, samples = axes.lines[-1], max(round(len(run["time"]) * span / rows[name]["time [s]"]), 1)
     # A running mean of a running mean has such weights.
     drawn = pandas.Series(line.get_ydata()).rolling(samples, center=True).mean().rolling(samples, center=True).mean()
     line.set(ydata=drawn, label=name)

@@ -21,5 +21,5 @@ edges = [table.index[-1] * part / arguments.parts for part in range(arguments.pa
 parts = table.groupby(pandas.cut(table.index, edges), observed=True)
 columns = ["contact_area_mean", "mean_pressure", "filled_fraction"]
 print(f"{len(table)} samples of {len(table.columns)} series")
-means = parts[columns].mean().rename(columns={name: f"{name} ({run['series'][name].attrs['units']})" for name in columns})
-print(means.rename_axis(columns="time (s)").to_string(float_format="{:.6g}".format))
+means = parts[columns].mean().rename(columns={name: f"{name} [{run['series'][name].attrs['units']}]" for name in columns})
+print(means.rename_axis(columns="time [s]").to_string(float_format="{:.6g}".format))

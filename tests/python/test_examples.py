@@ -103,7 +103,7 @@ class Examples(unittest.TestCase):
     def test_compare_runs(self):
         lines = self.example("compare_runs.py", "quick.h5", "strong.h5", "--series", "filled_fraction", "-o", "compare.png")
         self.assertEqual(len(lines), 3)
-        names, units = zip(*re.findall(r"(\S+) \((\S+)\)", lines[0]))
+        names, units = zip(*re.findall(r"(\S+) \[(\S+)\]", lines[0]))
         for name, line in zip(["quick", "strong"], lines[1:]):
             with netCDF4.Dataset(self.folder / f"{name}.h5") as run:
                 time, series = run["time"][:], {name: run["series"][name][:] for name in names[3:]}
@@ -178,7 +178,7 @@ class Examples(unittest.TestCase):
             # Beside the series there is their time.
             self.assertEqual(lines[0], f"{len(time)} samples of {len(run['series'].variables) - 1} series")
         units = {"time": "s", "contact_area_mean": "m2", "mean_pressure": "Pa", "filled_fraction": "1"}
-        self.assertEqual(dict(re.findall(r"(\S+) \((\S+)\)", lines[1])), units)
+        self.assertEqual(dict(re.findall(r"(\S+) \[(\S+)\]", lines[1])), units)
         first = time <= time[-1] / 2
         for line, part in zip(lines[2:], [first, ~first]):
             found = [float(word) for word in line.split("]")[1].split()]

@@ -81,9 +81,9 @@ class Export(unittest.TestCase):
         with self.short_run() as run:
             self.assertEqual(self.export("run.h5", "--to", "csv", "--maps").returncode, 0)
             table = pandas.read_csv(self.folder / "run.csv")
-            names = {f"{name} ({series.attrs['units']})": series for name, series in run["series"].items()}
-            self.assertEqual(set(table.columns), {"time (s)", *names})
-            self.same(table["time (s)"], run["time"][:])
+            names = {f"{name} [{series.attrs['units']}]": series for name, series in run["series"].items()}
+            self.assertEqual(set(table.columns), {"time [s]", *names})
+            self.same(table["time [s]"], run["time"][:])
             for name, series in names.items():
                 self.same(table[name], series[:])
             for body in ("disc", "pin"):
@@ -91,12 +91,12 @@ class Export(unittest.TestCase):
                 for index, moment in enumerate(run["map_time"][:]):
                     path = self.folder / f"run-{body}-{index:04}.csv"
                     table = pandas.read_csv(path)
-                    self.same(table["angle (rad)"], angle.ravel())
-                    self.same(table["radius (m)"], radius.ravel())
-                    self.assertEqual(set(table["time (s)"]), {moment})
+                    self.same(table["angle [rad]"], angle.ravel())
+                    self.same(table["radius [m]"], radius.ravel())
+                    self.assertEqual(set(table["time [s]"]), {moment})
                     for name, maps in run[body].items():
                         values = maps[:] if name == "base" else maps[index]
-                        self.same(table[f"{name} ({maps.attrs['units']})"].astype(values.dtype), values.ravel())
+                        self.same(table[f"{name} [{maps.attrs['units']}]"].astype(values.dtype), values.ravel())
                     self.assertEqual(len(table.columns), 3 + len(run[body]))
 
     def test_npz(self):

@@ -315,7 +315,7 @@ fn events_are_exported_reported_and_plotted() {
     directory.plateau(["export", "run.h5", "--to", "csv"]).quiet_success();
     let table = fs::read_to_string(directory.path("run-events.csv")).unwrap();
     let lines: Vec<&str> = table.lines().collect();
-    assert!(lines.len() == 7 && lines[0].starts_with("event,start (s),end (s),initial_speed (rad s-1)"), "{table}");
+    assert!(lines.len() == 7 && lines[0].starts_with("event,start [s],end [s],initial_speed [rad s-1]"), "{table}");
     assert!(lines[2].starts_with("2,14.0,17.0,"), "{table}");
     let said = directory.plateau(["check", &scene("stops.toml")]).quiet_success();
     assert!(said.contains("6 events: 25.00 s of 60.00 s with load and speed, 22.27 m"), "{said}");

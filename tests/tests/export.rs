@@ -41,17 +41,17 @@ fn a_table_has_the_numbers_of_the_run_file() {
     let series = columns(&directory, "run.csv");
     assert_eq!(series.len(), 24);
     for (column, values) in &series {
-        let name = column.split_once(" (").unwrap().0;
+        let name = column.split_once(" [").unwrap().0;
         let path = if name == "time" { "/time".to_owned() } else { format!("/series/{name}") };
         assert!(bits(values) == bits(&run.floats(&path)), "{column}");
     }
-    assert!(series.iter().any(|(column, _)| column == "contact_area_integral (m2 s)"));
+    assert!(series.iter().any(|(column, _)| column == "contact_area_integral [m2 s]"));
     for index in 0..2 {
         let pin = columns(&directory, &format!("run-pin-000{index}.csv"));
-        let pressure = pin.iter().find(|(column, _)| column == "pressure (Pa)").unwrap();
+        let pressure = pin.iter().find(|(column, _)| column == "pressure [Pa]").unwrap();
         assert!(bits(&pressure.1) == bits(&run.map("/pin/pressure", index)));
         let disc = columns(&directory, &format!("run-disc-000{index}.csv"));
-        let height = disc.iter().find(|(column, _)| column == "height (m)").unwrap();
+        let height = disc.iter().find(|(column, _)| column == "height [m]").unwrap();
         assert!(bits(&height.1) == bits(&run.map("/disc/height", index)));
     }
     assert_eq!(said.lines().count(), 6, "{said}");

@@ -207,7 +207,7 @@ fn a_study_asks_friction_and_events_are_exported() {
     let events = fs::read_to_string(directory.path("run-events.csv")).unwrap();
     let head = events.lines().next().unwrap();
     assert!(
-        head.contains("work (J)") && head.contains("temperature_peak (K)") && head.contains("pm10_mass (kg)"),
+        head.contains("work [J]") && head.contains("temperature_peak [K]") && head.contains("pm10_mass [kg]"),
         "{head}"
     );
     let run = RunFile::open(directory.path("run.h5"));

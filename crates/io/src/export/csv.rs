@@ -18,10 +18,10 @@ use crate::text::cell;
 pub fn write_series(run: &RunFile, out: impl Write) -> Result<(), ExportError> {
     let mut table = Table::new(out);
     let mut columns = vec![run.time().to_vec()];
-    table.text("time (s)")?;
+    table.text("time [s]")?;
     for series in run.series() {
         if let Some(values) = run.values(&series.name)? {
-            table.text(&format!("{} ({})", series.name, series.unit))?;
+            table.text(&format!("{} [{}]", series.name, series.unit))?;
             columns.push(values);
         }
     }
@@ -43,7 +43,7 @@ pub fn write_events(run: &RunFile, out: impl Write) -> Result<(), ExportError> {
     let (mut table, events) = (Table::new(out), run.events()?);
     table.text("event")?;
     for (quantity, _) in &events {
-        table.text(&format!("{} ({})", quantity.name, quantity.unit))?;
+        table.text(&format!("{} [{}]", quantity.name, quantity.unit))?;
     }
     table.end_line()?;
     for event in 0..events.first().map_or(0, |(_, values)| values.len()) {
@@ -63,17 +63,17 @@ pub fn write_events(run: &RunFile, out: impl Write) -> Result<(), ExportError> {
 /// [`ExportError`] when a map cannot be read or the output takes no more.
 pub fn write_maps(run: &RunFile, body: Body, index: usize, out: impl Write) -> Result<(), ExportError> {
     let mut table = Table::new(out);
-    for heading in ["time (s)", "angle (rad)", "radius (m)"] {
+    for heading in ["time [s]", "angle [rad]", "radius [m]"] {
         table.text(heading)?;
     }
     let mut fields = Vec::new();
     for map in maps_of(run, body) {
         fields.extend(run.map(map, index)?);
-        table.text(&format!("{} ({})", name(map), map_unit(map)))?;
+        table.text(&format!("{} [{}]", name(map), map_unit(map)))?;
     }
     if let (Body::Pin, Some(base)) = (body, run.pin_base()?) {
         fields.push(MapValues::Status(base));
-        table.text(&format!("base ({})", map_unit(Map::PinStatus)))?;
+        table.text(&format!("base [{}]", map_unit(Map::PinStatus)))?;
     }
     table.end_line()?;
     let mesh = run.mesh();

@@ -10,7 +10,7 @@ use plateau_core::observe::Map;
 use plateau_core::observe::extra::Extra;
 use serde::{Deserialize, Serialize};
 
-use super::RunFileError;
+use super::{RunFileError, State};
 use crate::regular::sha256;
 
 /// What is fixed before the first step of a run: its mesh, the maps it records, and where it comes from.
@@ -113,12 +113,12 @@ pub enum End {
 }
 
 impl End {
-    /// Value of the attribute `state`.
-    pub(super) fn state(&self) -> &'static str {
+    /// What the run file says of it.
+    pub(super) fn state(&self) -> State {
         match self {
-            Self::Finished => "finished",
-            Self::Interrupted => "interrupted",
-            Self::Failed(_) => "failed",
+            Self::Finished => State::Finished,
+            Self::Interrupted => State::Interrupted,
+            Self::Failed(_) => State::Failed,
         }
     }
 }

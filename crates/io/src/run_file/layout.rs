@@ -10,10 +10,10 @@ use plateau_core::observe::extra::Extra;
 use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{Map, quantities};
 
-use super::Header;
 use super::digest::{self, DIGEST};
 use super::dimension::{DIMENSION_LIST, Dimensions};
 use super::status::{Statuses, stored_base};
+use super::{Header, State};
 use crate::hdf5_file::writing::{write_number, write_text};
 use crate::timestamp::iso_8601;
 
@@ -156,7 +156,7 @@ fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Re
     write_number(file, "workers", header.workers as i64)?;
     write_text(file, "instruction_set", &header.instruction_set)?;
     write_text(file, "start_time", &iso_8601(start))?;
-    write_text(file, "state", "running")
+    write_text(file, "state", State::Running.name())
 }
 
 /// The datasets of a file while they are made.

@@ -69,7 +69,7 @@ impl Seal<'_> {
         if let End::Failed(message) = self.end {
             write_text(&file, "error", message)?;
         }
-        write_text(&file, "state", self.end.state())?;
+        write_text(&file, "state", self.end.state().name())?;
         file.link_soft(&format!("/{TIME}"), TIME_OF_SERIES)?;
         self.digests.write(&file)?;
         attribute_digests::write(&file)?;
