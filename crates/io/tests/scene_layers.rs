@@ -164,9 +164,11 @@ fn none_takes_out_a_step_that_is_inherited() {
         std::fs::write(&path, text).unwrap();
         path
     };
-    let steps = "cutoff = \"3 um\"\noutliers = 6\nfill = \"level\"\nl_filter = \"1 mm\"\nextend = \"statistics\"\nextend_seed = 3";
+    let steps = "cutoff = \"3 um\"\noutliers = 6\nfill = \"level\"\nl_filter = \"1 mm\"\nextend = \"statistics\"\nextend_seed = 3\n\
+        crop = { along = [\"1 mm\", \"9 mm\"] }\nunroll = { centre = [\"4 mm\", \"-20 mm\"] }";
     write("base.toml", &base.to_string_lossy(), steps);
-    let none = ["cutoff", "outliers", "fill", "l_filter", "extend"].map(|step| format!("{step} = \"none\"")).join("\n");
+    let all = ["cutoff", "outliers", "fill", "l_filter", "extend", "crop", "unroll"];
+    let none = all.map(|step| format!("{step} = \"none\"")).join("\n");
     let kept = scene::load(&write("kept.toml", "base.toml", "cutoff = \"4 um\""), &[]).unwrap();
     let preparation = kept.disc_surface.preparation;
     assert_eq!((preparation.cutoff, preparation.outliers, preparation.l_filter), (Some(4e-6), Some(6.0), Some(1e-3)));
@@ -175,14 +177,20 @@ fn none_takes_out_a_step_that_is_inherited() {
     assert_eq!(taken_out.disc_surface.preparation, Preparation::NONE);
     // What is stored with a run is as if there had never been such steps, so that any reader of scenes takes it.
     assert_eq!(taken_out.resolved.matches("cutoff").count(), kept.resolved.matches("cutoff").count() - 1);
-    assert!(!taken_out.resolved.contains("fill = ") && !taken_out.resolved.contains("extend_seed"));
+    assert!(["fill = ", "extend_seed", "crop", "unroll"].iter().all(|step| !taken_out.resolved.contains(step)));
     // Later layers count, here --set; and a word that is not known is refused.
     let set = |argument: &str| scene::load(&path, &[argument.to_owned()]);
     assert_eq!(set("disc.prepare.cutoff=5 um").unwrap().disc_surface.preparation.cutoff, Some(5e-6));
     let none =
         scene::load(folder.path().join("kept.toml").as_path(), &["disc.prepare.cutoff=none".to_owned()]).unwrap();
     assert_eq!(none.disc_surface.preparation, Preparation { cutoff: None, ..preparation });
-    assert!(set("disc.prepare.cutoff=never").is_err() && set("disc.surface.unit=none").is_err());
+    for unknown in ["cutoff=never", "crop=never", "crop.along=never"] {
+        assert!(set(&format!("disc.prepare.{unknown}")).is_err(), "{unknown}");
+    }
+    assert!(set("disc.surface.unit=none").is_err() && set("disc.surface.synthetic=none").is_err());
+    let uncropped = ["disc.prepare.crop=none", "disc.prepare.unroll=none"].map(str::to_owned);
+    let kept = scene::load(&folder.path().join("kept.toml"), &uncropped).unwrap();
+    assert_eq!(kept.disc_surface.preparation, Preparation { crop: None, unroll: None, ..preparation });
 }
 
 #[test]

@@ -215,7 +215,7 @@ fn steps_replaced(scene: &Entries, set: &Entries) -> Vec<Warning> {
 /// Removes the steps of a preparation that a layer says are not done, from it and from what is below.
 fn take_out_steps(layer: &mut Entries, below: &mut Entries) {
     let is_none = |(path, entry): (&String, &document::Entry)| {
-        entry.value == Value::Text("none".to_owned()) && schema::find(path).is_some_and(schema::Key::may_be_none)
+        entry.value == Value::Text("none".to_owned()) && schema::may_be_none(path)
     };
     let steps: Vec<String> = layer.iter().filter(|entry| is_none(*entry)).map(|(path, _)| path.clone()).collect();
     for step in steps {

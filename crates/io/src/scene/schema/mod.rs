@@ -311,6 +311,12 @@ pub fn is_table(path: &str) -> bool {
     path.is_empty() || BY_PATH.keys().any(|key| is_below(key, path))
 }
 
+/// Whether "none" takes what has this path out of a scene: a step of a preparation, be it a key or a table such as `crop`.
+pub(crate) fn may_be_none(path: &str) -> bool {
+    let is_step = |path: &str| path.rsplit_once('.').is_some_and(|(above, _)| above.ends_with(".prepare"));
+    find(path).map_or_else(|| is_table(path) && is_step(path), Key::may_be_none)
+}
+
 /// Every table that directly holds keys, in the order of docs/scenes.md; the first is the top, with an empty name.
 pub(crate) fn sections() -> Vec<&'static str> {
     let mut sections: Vec<_> = keys().iter().map(|key| key.section).collect();

@@ -12,7 +12,7 @@ mod value;
 use serde_json::{Map, Value, json};
 
 use super::suggest::children;
-use super::{find, is_table, join, table_meaning};
+use super::{find, is_table, join, may_be_none, table_meaning};
 
 /// The JSON Schema (draft 7, the one that TOML plug-ins of editors read) of scene files.
 pub fn document() -> Value {
@@ -53,6 +53,7 @@ fn property(path: &str) -> Value {
     match key {
         Some(key) if is_table(path) => json!({ "anyOf": [key, table(path)] }),
         Some(key) => key.into(),
+        None if may_be_none(path) => json!({ "anyOf": [table(path), { "const": "none" }] }),
         None => table(path).into(),
     }
 }
