@@ -361,4 +361,20 @@ fn the_exit_status_does_not_depend_on_standard_error() {
     let outcome = run(directory.command_after("exec >/dev/full", ["check", "scene.toml"]));
     assert_eq!(outcome.status, Some(1));
     assert!(outcome.stderr.contains("cannot write to standard output: "), "{}", outcome.stderr);
+    for asked in [&["--help"][..], &["-h"], &["--version"], &["help", "run"], &["sweep", "run", "--help"]] {
+        let outcome = run(directory.command_after("exec >/dev/full", asked));
+        assert_eq!(outcome.status, Some(1), "{asked:?}");
+        assert!(outcome.stderr.contains("cannot write to standard output: "), "{asked:?}: {}", outcome.stderr);
+    }
+}
+
+#[test]
+fn how_the_environment_would_have_hdf5_read_files_has_no_effect() {
+    let directory = WorkingDirectory::new();
+    directory.write("scene.toml", quick_scene_with(&[("duration = \"60 s\"", "steps = 3")]));
+    assert_eq!(directory.plateau(["run", "scene.toml", "-o", "run.h5"]).status, Some(0));
+    for variables in ["HDF5_DRIVER=nonsense", "HDF5_DRIVER=family", "HDF5_DRIVER=split HDF5_VOL_CONNECTOR=nonsense"] {
+        let outcome = run(directory.command_after(&format!("export {variables}"), ["verify", "run.h5"]));
+        assert_eq!((outcome.status, outcome.stderr.as_str()), (Some(0), ""), "{variables}");
+    }
 }

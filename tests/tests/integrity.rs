@@ -77,6 +77,20 @@ fn what_is_damaged_is_named() {
     let (status, document) = verdict(&directory, "value.h5");
     assert_eq!((status, &document["damage"][0]["place"]), (Some(1), &"/series/pool".into()), "{document}");
 
+    // Values and maps behind those that have a time.
+    for path in ["series/pool", "pin/pressure", "disc/status"] {
+        directory.write("longer.h5", &whole);
+        let file = changed(directory.path("longer.h5"));
+        let dataset = file.dataset(path).unwrap();
+        let mut shape = dataset.shape();
+        shape[0] += 1;
+        dataset.resize(shape).unwrap();
+        file.close().unwrap();
+        let (status, document) = verdict(&directory, "longer.h5");
+        assert_eq!((status, &document["damage"][0]["place"]), (Some(1), &format!("/{path}").into()), "{document}");
+        assert_eq!(document["damage"].as_array().map(Vec::len), Some(1), "{document}");
+    }
+
     // A link that leads elsewhere.
     directory.write("link.h5", &whole);
     let file = changed(directory.path("link.h5"));

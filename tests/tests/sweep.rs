@@ -115,6 +115,17 @@ fn records(directory: &WorkingDirectory) -> Vec<String> {
 }
 
 #[test]
+fn a_folder_that_cannot_be_written_is_named_before_a_run_is_made() {
+    let directory = WorkingDirectory::new();
+    // No user may make anything there.
+    directory.write("study.toml", study().replace("\"results\"", "\"/proc/nowhere\""));
+    let outcome = directory.plateau(["sweep", "run", "study.toml", "-q"]);
+    assert_eq!(outcome.status, Some(2), "{outcome:?}");
+    assert!(outcome.stderr.starts_with("plateau: cannot write to /proc/nowhere/journal: "), "{outcome:?}");
+    assert!(outcome.stderr.contains("name another folder with `directory` in study.toml"), "{outcome:?}");
+}
+
+#[test]
 fn a_study_is_planned_run_and_collected() {
     let directory = directory();
     let planned = json(&directory.plateau(["sweep", "plan", "study.toml", "--json"]));

@@ -8,13 +8,15 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use crate::arguments::Arguments;
 use crate::called;
 use crate::failure::Failure;
+use crate::table::printed;
 
 /// Gives what clap answers instead of arguments: help and version as they are, errors as every other wrong input.
 pub fn answered(mut answer: clap::Error) -> ExitCode {
     if !answer.use_stderr() || answer.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        // Nobody is left to tell when help cannot be written.
-        let _ = answer.print();
-        return ExitCode::from(answer.exit_code() as u8);
+        return match printed(answer.print()) {
+            Ok(()) => ExitCode::from(answer.exit_code() as u8),
+            Err(failure) => failure.report(),
+        };
     }
     if let Some(tip) = tip(&answer) {
         answer.remove(ContextKind::SuggestedSubcommand);

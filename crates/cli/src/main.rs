@@ -5,6 +5,7 @@ mod answer;
 mod arguments;
 mod called;
 mod commands;
+mod environment;
 mod excerpt;
 mod failure;
 mod interrupt;
@@ -30,6 +31,7 @@ use plateau_present::csv_table;
 use plateau_run::machine;
 
 fn main() -> ExitCode {
+    environment::fit();
     if let Err(failure) = little_memory::begin() {
         return failure.report();
     }

@@ -13,7 +13,15 @@ pub use plateau_present::table::{columns, list, table};
 /// # Errors
 /// [`Failure::Run`] when standard output takes no more, unless the reader simply went away.
 pub fn print(text: &str) -> Result<(), Failure> {
-    match io::stdout().lock().write_all(shown(text).as_bytes()) {
+    printed(io::stdout().lock().write_all(shown(text).as_bytes()))
+}
+
+/// What comes of writing to standard output.
+///
+/// # Errors
+/// As [`print`].
+pub fn printed(written: io::Result<()>) -> Result<(), Failure> {
+    match written {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Failure::run(format_args!("cannot write to standard output: {error}")))
         }

@@ -17,9 +17,9 @@ use plateau_study::surrogate::Forecast;
 use serde::Serialize;
 
 use super::floor::Floor;
-use super::journal;
 use super::progress::Progress;
 use super::resolved::Resolved;
+use super::{journal, refuse_unwritable};
 use crate::arguments::CoresArguments;
 use crate::failure::{Failure, in_job};
 use crate::interrupt::Interrupt;
@@ -87,6 +87,7 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
     if pending.is_empty() {
         return Ok(());
     }
+    refuse_unwritable(plan.study())?;
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     interrupt.listen_for_save().map_err(Failure::run)?;
     let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();

@@ -29,11 +29,13 @@ pub mod surfaces;
 pub mod under_way;
 pub mod watcher;
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use plateau_io::study::Study;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
+use plateau_io::temporary::Temporary;
 
 use crate::failure::Failure;
 use crate::machine;
@@ -63,6 +65,22 @@ fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
 /// Folder of the study's journal.
 pub fn journal_folder(study: &Study) -> PathBuf {
     study.directory.join("journal")
+}
+
+/// Refuses a study whose results could not be kept, before a run is made. Makes the folder of the journal.
+///
+/// # Errors
+/// [`Failure::Input`].
+pub fn refuse_unwritable(study: &Study) -> Result<(), Failure> {
+    let folder = journal_folder(study);
+    let probed = fs::create_dir_all(&folder).and_then(|()| Temporary::create(&folder.join("probe")));
+    probed.map(drop).map_err(|error| {
+        Failure::input(format_args!(
+            "cannot write to {}: {error}; make it writable, or name another folder with `directory` in {}",
+            folder.display(),
+            study.path.display()
+        ))
+    })
 }
 
 /// The journal of a study, after many small files of it were made few.

@@ -100,7 +100,9 @@ impl Check<'_> {
     fn series(&mut self, name: &str) {
         let path = series_path(name);
         let values = self.run.values(name).map(Option::unwrap_or_default).map_err(in_short);
-        self.compare(&path, values.map(|values| of_floats(&values)));
+        let all = |values: Vec<f64>| self.no_more_than(&path, self.run.time().len()).map(|()| of_floats(&values));
+        let found = values.and_then(all);
+        self.compare(&path, found);
     }
 
     fn pin_base(&mut self) {
@@ -111,6 +113,9 @@ impl Check<'_> {
     /// Every moment has its own digest.
     fn map(&mut self, map: Map) {
         let path = map_path(map);
+        if let Err(problem) = self.no_more_than(path, self.run.map_time().len()) {
+            self.found.damage.push(Damage { place: format!("/{path}"), problem });
+        }
         let written = self.written(path);
         for (moment, time) in self.run.map_time().iter().enumerate() {
             let found = match self.run.map(map, moment) {
@@ -144,6 +149,16 @@ impl Check<'_> {
         let found = hdf5_file::guarded(0, || digest(file)).map_err(|error| reason(&error));
         let written = hdf5_file::text_attribute(file, attribute).map_err(|error| reason(&error));
         self.judge(place.to_owned(), found, written);
+    }
+
+    /// That a dataset of a closed file goes no further than its times; before, what comes last may have none yet.
+    fn no_more_than(&self, path: &str, times: usize) -> Result<(), String> {
+        let rows = self.guarded(path, |dataset| Ok(dataset.shape().first().copied().unwrap_or(0)));
+        let rows = rows.map_err(|error| reason(&error))?;
+        if self.found.digested && rows > times {
+            return Err(format!("it is longer than what was written: {rows} in place of {times}"));
+        }
+        Ok(())
     }
 
     /// A dataset that has one digest.

@@ -23,7 +23,7 @@ use crate::interrupt::Interrupt;
 use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{journal, journal_folder};
+use crate::sweep::{journal, journal_folder, refuse_unwritable};
 use crate::{message, number};
 
 /// Points that are added before the next fit: as many runs can be made at a time, each with all seeds.
@@ -176,6 +176,9 @@ fn made(
         tried.extend(pending.iter().map(|number| resolved.identities[number - 1].clone()));
         let (jobs, workers) = (arguments.cores.runs_at_a_time(), arguments.cores.workers());
         let steps = pending.iter().map(|number| resolved.steps[number - 1]).sum();
+        if !pending.is_empty() {
+            refuse_unwritable(plan.study())?;
+        }
         let own = Interrupt::listen().map_err(Failure::run)?;
         let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, job.leads()));
         let shared = job.share(&pending, jobs, None, &|number| floor.make(number));

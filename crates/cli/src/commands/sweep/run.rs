@@ -16,7 +16,7 @@ use crate::interrupt::Interrupt;
 use crate::sweep::floor::Floor;
 use crate::sweep::progress::Progress;
 use crate::sweep::resolved::Resolved;
-use crate::sweep::{self, journal, journal_folder, short_tenth, under_way};
+use crate::sweep::{self, journal, journal_folder, refuse_unwritable, short_tenth, under_way};
 use crate::table::{print, table};
 use crate::{message, number};
 
@@ -60,6 +60,9 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     }
     if job.leads() {
         tidy(&plan, &resolved, &journal);
+    }
+    if !pending.is_empty() {
+        refuse_unwritable(plan.study())?;
     }
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
