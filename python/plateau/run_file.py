@@ -52,15 +52,19 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     except FileNotFoundError:
         raise MissingFileError(f"{os.fspath(path)}: there is no such run file") from None
     except OSError:
-        ended = False
+        # In a file that nobody writes, HDF5 would look again and again for what is not there. It may have ended meanwhile.
+        ended = not _is_marked(path)
     if ended:
-        return xarray.open_datatree(path, engine="h5netcdf")
+        try:
+            return xarray.open_datatree(path, engine="h5netcdf")
+        except OSError as error:
+            raise _unreadable(path, error) from error
     try:
         with h5py.File(path, "r", swmr=True) as file:
             _state(file, path)
             return _complete_part(file)
     except OSError as error:
-        raise InputError(f"{os.fspath(path)}: cannot be read as a run file: {error}") from error
+        raise _unreadable(path, error) from error
 
 
 def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
@@ -92,6 +96,17 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
     if not isinstance(found, xarray.DataArray):
         raise UnknownNameError(f"{path} is a group of the run: expected a variable")
     return found
+
+
+def _unreadable(path: str | os.PathLike[str], error: OSError) -> InputError:
+    return InputError(f"{os.fspath(path)}: cannot be read as a run file: {error}")
+
+
+def _is_marked(path: str | os.PathLike[str]) -> bool:
+    """Whether the superblock of an HDF5 file says that it is being written, or was when its writer was killed."""
+    with open(path, "rb") as file:
+        superblock = file.read(12)
+    return superblock.startswith(b"\x89HDF\r\n\x1a\n") and len(superblock) == 12 and superblock[8] >= 3 and superblock[11] != 0
 
 
 def _state(file: Any, path: str | os.PathLike[str]) -> Any:

@@ -266,6 +266,14 @@ class Runs(InFolder):
 
 
 class Unfinished(InFolder):
+    def test_a_file_that_was_cut_short_is_refused(self):
+        plateau.run("quick.toml", "whole.h5", set={"operation.duration": "5 s"})
+        whole = pathlib.Path("whole.h5").read_bytes()
+        for length in (0, 11, 30000, len(whole) // 2, len(whole) - 1):
+            pathlib.Path("short.h5").write_bytes(whole[:length])
+            with self.assertRaisesRegex(plateau.InputError, "short.h5: cannot be read as a run file"):
+                plateau.open_run("short.h5")
+
     def test_a_run_that_goes_on_and_one_that_was_killed(self):
         changes = ['operation.duration="100000 s"', 'output.maps_at=["0 s"]']
         sets = [argument for change in changes for argument in ("--set", change)]

@@ -85,6 +85,8 @@ fn what_is_damaged_is_named() {
         let mut shape = dataset.shape();
         shape[0] += 1;
         dataset.resize(shape).unwrap();
+        // While it is there the file stays open.
+        drop(dataset);
         file.close().unwrap();
         let (status, document) = verdict(&directory, "longer.h5");
         assert_eq!((status, &document["damage"][0]["place"]), (Some(1), &format!("/{path}").into()), "{document}");

@@ -89,7 +89,7 @@ fn a_signal_during_the_preparation_is_heard() {
         let mut command =
             directory.command_with_hangup(arguments.iter().map(String::as_str).chain(sets.iter().copied()));
         let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-        assert!(wait_until(|| catches_save(child.id())), "no handler of SIGUSR1");
+        assert!(wait_until(|| catches_stops(child.id())), "no handler of SIGXCPU");
         send("USR1", child.id());
         send(signal, child.id());
         let mut ended = None;
@@ -105,11 +105,11 @@ fn a_signal_during_the_preparation_is_heard() {
     }
 }
 
-/// Whether a process has the last of the handlers that it sets up first: in the mask, 1 is SIGHUP's bit.
-fn catches_save(process: u32) -> bool {
+/// Whether a process has the last of the handlers of signals that stop it, that of SIGXCPU: in the mask, 1 is SIGHUP's bit.
+fn catches_stops(process: u32) -> bool {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigCgt:").map(str::trim));
-    mask.and_then(|mask| u64::from_str_radix(mask, 16).ok()).is_some_and(|mask| mask >> (10 - 1) & 1 == 1)
+    mask.and_then(|mask| u64::from_str_radix(mask, 16).ok()).is_some_and(|mask| mask >> (24 - 1) & 1 == 1)
 }
 
 fn send(signal: &str, process: u32) {

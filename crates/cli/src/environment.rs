@@ -27,7 +27,9 @@ pub fn fit() {
     // The file of this process, even where another one has its name by now.
     let mut anew = Command::new("/proc/self/exe");
     anew.arg0(name).args(arguments);
-    drivers.for_each(|name| drop(anew.env_remove(name)));
+    for name in drivers {
+        anew.env_remove(name);
+    }
     if one_pool {
         anew.env(POOLS, "1");
     }

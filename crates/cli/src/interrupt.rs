@@ -69,6 +69,12 @@ impl Interrupt {
         Preparation { goes_on }
     }
 
+    /// From now on SIGUSR1 ends no command: what keeps no state has none to save, and what does has none yet. Where the system takes no
+    /// handler, all is as before.
+    pub fn pass_over_saves() {
+        let _ = signal_hook::flag::register(SIGUSR1, Arc::default());
+    }
+
     /// From now on SIGUSR1, with which batch systems announce the end, asks for a checkpoint.
     ///
     /// # Errors

@@ -32,6 +32,7 @@ use plateau_run::machine;
 
 fn main() -> ExitCode {
     environment::fit();
+    interrupt::Interrupt::pass_over_saves();
     if let Err(failure) = little_memory::begin() {
         return failure.report();
     }
