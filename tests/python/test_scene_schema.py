@@ -74,10 +74,15 @@ VALIDATOR = jsonschema.Draft7Validator(SCHEMA)
 def keys(node=SCHEMA, path=()):
     """Path and schema of every key that has a value."""
     for name, key in node["properties"].items():
-        if "properties" in key:
-            yield from keys(key, (*path, name))
-        elif name != "extends":
-            yield ".".join((*path, name)), key
+        match key:
+            case {"properties": _}:
+                yield from keys(key, (*path, name))
+            # A step of a preparation, which may be "none" as a whole.
+            case {"anyOf": [{"properties": _} as table, {"const": "none"} as none]}:
+                yield from keys(table, (*path, name))
+                yield ".".join((*path, name)), none
+            case _ if name != "extends":
+                yield ".".join((*path, name)), key
 
 
 def document(text):
