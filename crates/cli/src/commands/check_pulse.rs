@@ -49,7 +49,7 @@ impl PulseReport {
         );
         if !enough(pulses, WANTED) {
             let wanted = seconds(10.0 * WANTED * pulse_time);
-            text += &format!(": a mean needs {WANTED} or more of them, a run of {wanted} or more");
+            text += &format!(": a mean needs {WANTED} or more of them, which no run shorter than {wanted} has");
         } else if !enough(revolutions, LEAST_REVOLUTIONS) {
             let found = number::rounded(revolutions, 2);
             text += &format!(
@@ -69,7 +69,7 @@ mod tests {
         let of = |last_tenth: f64, revolutions: f64| PulseReport { pulse_time: 27.0, last_tenth, revolutions }.text();
         assert_eq!(
             of(6.0, 8.5),
-            "one in 27 s or more, at most 0.22 in the last tenth of the run (6 s): a mean needs 5 or more of them, a run of 1350 s or more"
+            "one in 27 s or more, at most 0.22 in the last tenth of the run (6 s): a mean needs 5 or more of them, which no run shorter than 1350 s has"
         );
         assert_eq!(of(270.0, 380.0), "one in 27 s or more, at most 10 in the last tenth of the run (270 s)");
         assert!(
