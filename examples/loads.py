@@ -16,7 +16,7 @@ parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("loads")
 arguments = parser.parse_args()
 
 arguments.folder.mkdir(exist_ok=True)
-print("load (N)   contact area (mm2)   standard error (mm2)")
+print("load [N]   contact area [mm2]   standard error [mm2]")
 for load in arguments.loads:
     file = arguments.folder / f"{load:g}-N.h5"
     # What is there is not run again; what was stopped goes on.

@@ -208,12 +208,8 @@ impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
         }
         let content = match value.get_ref() {
             DeValue::Table(content) if schema::is_table(&path) => content,
-            DeValue::String(text) if text == "none" && schema::may_be_none(&path) => {
-                let entry = Entry { value: Value::Text("none".to_owned()), origin: (self.locate)(value.span()) };
-                self.entries.insert(path, entry);
-                return;
-            }
-            _ if schema::find(&path).is_some() => {
+            // A step of a preparation that is a table may be "none" in its place.
+            other if schema::find(&path).is_some() || other.as_str() == Some("none") && schema::may_be_none(&path) => {
                 if let Some(entry) = self.entry(&path, value) {
                     self.entries.insert(path, entry);
                 }
