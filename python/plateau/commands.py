@@ -299,6 +299,8 @@ def _output_of(scene: Path, changes: Mapping[str, Any] | None) -> str:
 
 def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | None) -> list[Path]:
     arguments: list[Path] = []
+    if changes is not None and not isinstance(changes, Mapping):
+        raise InputTypeError(f'set = {changes!r}: expected a dictionary, such as set={{"operation.normal_force": "20 N"}}')
     for key, value in (changes or {}).items():
         arguments += ["--set", f"{key}={_toml(value)}"]
     if workers is not None:
@@ -320,4 +322,4 @@ def _toml(value: Any) -> str:
         return "{ " + ", ".join(f"{dumps(key)} = {_toml(part)}" for key, part in value.items()) + " }"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(map(_toml, value)) + "]"
-    raise InputTypeError(f"{value!r} is no value of a scene: expected text, a number, True or False, a list or a dictionary")
+    raise InputTypeError(f"{value!r} is not a value of a scene: expected text, a number, True or False, a list or a dictionary")

@@ -31,6 +31,8 @@ class Look:
     extend: str = "neither"
     # What grey cells are; empty where there are none.
     apart: str = ""
+    # What the map is, where it is drawn in another way than it is recorded.
+    title: str = ""
     # Those of pcolormesh.
     options: dict[str, Any] = field(default_factory=dict)
 
@@ -84,7 +86,9 @@ def look_of(cells: xarray.DataArray, names: dict[int, str]) -> Look:
         # The z of the pin grows away from the disc, and its peaks are to be high.
         with_ground = np.isfinite(values)
         values = values[with_ground].mean() - values if with_ground.any() else values
-        return spanning(values, f"height toward the disc, {unit}")
+        look = spanning(values, f"height toward the disc, {unit}")
+        look.title = what.removesuffix(", positive away from the disc")
+        return look
     return spanning(values, ", ".join(filter(None, [str(cells.name or ""), unit])))
 
 
@@ -133,7 +137,7 @@ def from_zero(values: Any, label: str, apart: str, most_linear: float = np.inf) 
         options = {"cmap": colours("viridis", APART), "norm": LogNorm(low, high)}
         # A logarithm has no place for zero, which lies below all others then.
         values = np.where(values == 0, 1e-3 * above.min(), np.where(values > 0, np.maximum(values, low), values))
-    return Look(values, label, "max", apart if above.size < np.isfinite(values).sum() else "", options)
+    return Look(values, label, "max", apart if above.size < np.isfinite(values).sum() else "", options=options)
 
 
 def colours(name: str, under: str | None = None) -> Any:

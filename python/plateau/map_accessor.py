@@ -37,7 +37,10 @@ class MapAccessor:
         for name in ANGLES:
             if name in self._cells.dims and "radius" in self._cells.coords:
                 return name
-        raise InputError(f"dimensions {self._cells.dims}: no map; expected disc_angle or pin_angle, and radius")
+        if self._cells.dims == ("time",) and self._cells.name is not None:
+            name = str(self._cells.name)
+            raise InputError(f"{name} is a series, and this is for maps; draw a series with run.plateau.plot({name!r})")
+        raise InputError(f"dimensions {self._cells.dims}: this is not a map; expected disc_angle or pin_angle, and radius")
 
     def area_mean(self) -> xarray.DataArray:
         """Mean over all cells, each counted with its area; cells beyond a round pin are left out.
@@ -184,4 +187,7 @@ class MapAccessor:
         >>> axes.get_xlabel()
         'arc length, mm; the disc moves →'
         """
-        return plots.draw_map(self.at_time(time), self.status_names, polar=polar, ax=ax, **options)
+        cells = self.at_time(time)
+        if set(cells.dims) != {self._angle, "radius"}:
+            raise InputError(f"dimensions {cells.dims}: expected a map at one moment, with an angle and the radius")
+        return plots.draw_map(cells, self.status_names, polar=polar, ax=ax, **options)

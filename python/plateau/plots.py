@@ -59,17 +59,38 @@ def draw_series(run: xarray.DataTree, series: Sequence[str], *, ax: Any = None) 
         for name in series:
             drawn = array(run, f"series/{name}")
             values, unit = in_drawn_unit(drawn)
-            ax.plot(time, values, label=drawn.attrs.get("long_name", name))
+            ax.plot(time, while_rubbing(run, values) if name.endswith("_mean") else values, label=drawn.attrs.get("long_name", name))
         label = series[0].replace("_", " ") if len(series) == 1 else ""
         ax.set_ylabel(", ".join(filter(None, [label, unit])))
     else:
         single, unit = in_drawn_unit(array(run, "series/contact_area"))
-        ax.plot(time, single, ".", color="0.7", markersize=2, label="single steps")
-        ax.plot(time, in_drawn_unit(array(run, "series/contact_area_mean"))[0], label="mean of a revolution")
+        ax.plot(time, while_rubbing(run, single), ".", color="0.7", markersize=2, label="single steps")
+        mean = while_rubbing(run, in_drawn_unit(array(run, "series/contact_area_mean"))[0])
+        ax.plot(time, mean, label="mean of a simulated revolution")
         ax.set(ylabel=f"contact area, {unit}", ylim=(0, None))
     ax.set(xlabel="time, s", title=run.attrs.get("title", ""))
     ax.legend(markerscale=4)
     return ax
+
+
+def while_rubbing(run: xarray.DataTree, values: Any) -> Any:
+    """Values of a contact, NaN where the pin is lifted or the disc stands still: means of a revolution are those of before then.
+
+    Parameters
+    ----------
+    run : xarray.DataTree
+        As `plateau.open_run` gives it.
+    values : array, shape (samples,)
+        One for every sample.
+
+    Returns
+    -------
+    array, shape (samples,)
+    """
+    # Runs without a cycle have neither, and no pauses.
+    varied = [name for name in ("normal_force", "rotational_speed") if name in run["series"]]
+    rubs = np.all([array(run, f"series/{name}").values != 0 for name in varied], axis=0) if varied else True
+    return np.where(rubs, values, np.nan)
 
 
 def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
@@ -116,7 +137,7 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     grey = f"; grey: {look.apart}" if look.apart else ""
     last.set_xlabel(across.replace(";", " (stretched);") if stretched else across)
     panels[len(panels) // 2].set_ylabel("y, mm" if polar else "radius, mm")
-    panels[0].set_title(str(cells.attrs.get("long_name", cells.name)) + moment + grey)
+    panels[0].set_title((look.title or str(cells.attrs.get("long_name", cells.name))) + moment + grey)
     return last
 
 

@@ -35,7 +35,7 @@ class RunAccessor:
 
     def __init__(self, run: xarray.DataTree) -> None:
         if "series" not in run.children:
-            raise InputError("this tree is no run: expected the tree that plateau.open_run gives, with the group series")
+            raise InputError("this tree is not a run: expected the tree that plateau.open_run gives, with the group series")
         self._run = run
 
     @property

@@ -1,14 +1,17 @@
 """Run files as trees of xarray, also of runs that go on or were killed."""
 
 import difflib
+import importlib.util
 import os
 from typing import Any
 
 import h5py
 import xarray
 
-from plateau.errors import InputError, MissingFileError, UnknownNameError
+from plateau.errors import InputError, MissingFileError, MissingPackageError, UnknownNameError
 
+# What every HDF5 file begins with.
+SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # What HDF5 and netCDF keep in attributes for themselves.
 INTERNAL = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
 
@@ -35,7 +38,9 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     MissingFileError
         If there is no such file; it is a `FileNotFoundError`, too.
     InputError
-        If it is no run file.
+        If it is not a run file.
+    MissingPackageError
+        If h5netcdf is not installed, with which xarray reads run files.
 
     Examples
     --------
@@ -55,6 +60,8 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
         # In a file that nobody writes, HDF5 would look again and again for what is not there. It may have ended meanwhile.
         ended = not _is_marked(path)
     if ended:
+        if importlib.util.find_spec("h5netcdf") is None:
+            raise MissingPackageError("run files are read with h5netcdf: pip install h5netcdf")
         try:
             return xarray.open_datatree(path, engine="h5netcdf")
         except OSError as error:
@@ -99,6 +106,12 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
 
 
 def _unreadable(path: str | os.PathLike[str], error: OSError) -> InputError:
+    if os.path.isfile(path) and os.access(path, os.R_OK):
+        with open(path, "rb") as file:
+            is_hdf5 = file.read(len(SIGNATURE)) == SIGNATURE
+        if not is_hdf5:
+            advice = "plateau.run(scene) makes the run file of a scene"
+            return InputError(f"{os.fspath(path)}: cannot be read as a run file: it is not an HDF5 file; {advice}")
     return InputError(f"{os.fspath(path)}: cannot be read as a run file: {error}")
 
 
@@ -106,12 +119,12 @@ def _is_marked(path: str | os.PathLike[str]) -> bool:
     """Whether the superblock of an HDF5 file says that it is being written, or was when its writer was killed."""
     with open(path, "rb") as file:
         superblock = file.read(12)
-    return superblock.startswith(b"\x89HDF\r\n\x1a\n") and len(superblock) == 12 and superblock[8] >= 3 and superblock[11] != 0
+    return superblock.startswith(SIGNATURE) and len(superblock) == 12 and superblock[8] >= 3 and superblock[11] != 0
 
 
 def _state(file: Any, path: str | os.PathLike[str]) -> Any:
     if "state" not in file.attrs or "series" not in file:
-        raise InputError(f"{os.fspath(path)}: this HDF5 file is no run file: it has no state, or no series")
+        raise InputError(f"{os.fspath(path)}: this HDF5 file is not a run file: it has no state, or no series")
     return file.attrs["state"]
 
 

@@ -109,9 +109,14 @@ class Runs(InFolder):
             self.assertEqual((type(found), found), (type(expected), expected))
         self.assertEqual(tomllib.loads(f"value = {commands._toml(np.array([1.5, 2.0]))}")["value"], [1.5, 2.0])
         self.assertEqual(commands._toml(np.float64(0.1)), "0.1")
-        with self.assertRaisesRegex(TypeError, "no value of a scene") as caught:
+        with self.assertRaisesRegex(TypeError, "not a value of a scene") as caught:
             commands._toml(object())
         self.assertIsInstance(caught.exception, plateau.PlateauError)
+
+    def test_arguments_of_a_wrong_type(self):
+        for call in (plateau.run, plateau.check):
+            with self.assertRaisesRegex(plateau.InputTypeError, "set = 'operation.normal_force=10 N': expected a dictionary"):
+                call("quick.toml", set="operation.normal_force=10 N")
 
     def test_errors_are_those_of_the_exit_status(self):
         kinds = {1: plateau.RunFailed, 2: plateau.InputError, 143: plateau.RunStopped, 7: plateau.PlateauError}

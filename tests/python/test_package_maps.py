@@ -7,6 +7,7 @@ import signal
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -93,9 +94,9 @@ class MadeUpMaps(unittest.TestCase):
         np.testing.assert_allclose(plane["y"], 0.0, atol=1e-15)
 
     def test_what_is_no_map(self):
-        with self.assertRaisesRegex(ValueError, "no map; expected disc_angle or pin_angle"):
+        with self.assertRaisesRegex(ValueError, "not a map; expected disc_angle or pin_angle"):
             xarray.DataArray([1.0], dims="time").plateau.area_mean()
-        with self.assertRaisesRegex(plateau.InputError, "this tree is no run"):
+        with self.assertRaisesRegex(plateau.InputError, "this tree is not a run"):
             xarray.DataTree().plateau.mean()
 
 
@@ -257,12 +258,61 @@ class Runs(InFolder):
         height = self.run_["pin/height"].plateau.plot().collections[0].get_array()
         z = self.run_["pin/height"].values[-1].T
         np.testing.assert_allclose(height, (z.mean() - z) * 1e6, atol=1e-9)
+        self.assertEqual(self.run_["pin/height"].plateau.plot(0).get_title(), "surface height of the pin, 0 s")
         # What lies below the range has its lowest colour, not that of cells without contact.
         disc = self.run_["disc/height"].plateau.plot().collections[0]
         self.assertEqual(hex_of(disc, -1e3), hex_of(disc, disc.norm.vmin))
         # What the user says holds.
         cmap = self.run_["disc/height"].plateau.plot(cmap="magma", vmin=-5).collections[0]
         self.assertEqual((cmap.cmap.name, cmap.norm.vmin), ("magma", -5))
+
+
+class Wrong(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        plateau.run("quick.toml", "short.h5", set=SHORT).close()
+
+    def test_a_series_is_not_drawn_as_a_map(self):
+        run = plateau.open_run("short.h5")
+        for call in ("plot", "area_mean"):
+            with self.assertRaisesRegex(plateau.InputError, r"contact_area is a series, .* run.plateau.plot\('contact_area'\)"):
+                getattr(run["series/contact_area"].plateau, call)()
+        with self.assertRaisesRegex(plateau.InputError, "expected a map at one moment"):
+            run["disc/height"].isel(radius=0).plateau.plot()
+
+    def test_what_is_not_a_run_file(self):
+        with self.assertRaisesRegex(plateau.InputError, "quick.toml: cannot be read as a run file: it is not an HDF5 file; plateau.run"):
+            plateau.open_run("quick.toml")
+
+    def test_a_package_that_is_missing(self):
+        with unittest.mock.patch("importlib.util.find_spec", lambda name: None):
+            with self.assertRaisesRegex(plateau.MissingPackageError, "pip install h5netcdf") as caught:
+                plateau.open_run("short.h5")
+        self.assertIsInstance(caught.exception, ImportError)
+
+
+class Pauses(InFolder):
+    def test_means_have_a_gap_while_nothing_rubs(self):
+        # Between 2 s and 4 s the pin is lifted, from 6 s on the disc stands still.
+        table = [("0", 5, 850), ("2", 0, 850), ("4", 5, 850), ("6", 5, 0), ("8", 5, 0)]
+        lines = ["time [s],normal_force [N],rotational_speed [rpm]"]
+        lines += [f"{time},{force},{speed}" for time, force, speed in table]
+        pathlib.Path("cycle.csv").write_text("\n".join(lines) + "\n")
+        pathlib.Path("city.toml").write_text(
+            'extends = "quick.toml"\n[operation]\nduration = "8 s"\n[numerics]\ntime_acceleration = 2\n[operation.cycle]\nfile = "cycle.csv"\ninterpolation = "hold"\n'
+        )
+        run = plateau.run("city.toml")
+        axes = run.plateau.plot()
+        rubs = (run["series/normal_force"].values != 0) & (run["series/rotational_speed"].values != 0)
+        self.assertTrue(rubs.any() and not rubs.all())
+        for line in axes.lines:
+            np.testing.assert_array_equal(np.isfinite(line.get_ydata()), rubs)
+        [mean] = run.plateau.plot("contact_area_mean").lines
+        np.testing.assert_array_equal(np.isfinite(mean.get_ydata()), rubs)
+        # A series itself is drawn as it is.
+        [single] = run.plateau.plot("contact_area").lines
+        self.assertTrue(np.isfinite(single.get_ydata()).all())
 
 
 class Unfinished(InFolder):
@@ -323,7 +373,7 @@ class Unfinished(InFolder):
             plateau.open_run("text.h5")
         with h5py.File("other.h5", "w") as file:
             file["values"] = [1, 2]
-        with self.assertRaisesRegex(plateau.InputError, "other.h5: this HDF5 file is no run file"):
+        with self.assertRaisesRegex(plateau.InputError, "other.h5: this HDF5 file is not a run file"):
             plateau.open_run("other.h5")
 
 

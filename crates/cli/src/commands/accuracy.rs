@@ -126,8 +126,8 @@ fn figure(report: &Report) -> Figure {
     let rung = |row: &Row| {
         let value = row.rung.value();
         let label = match row.rung.ladder {
-            Ladder::TimeAcceleration => format!("{value}"),
-            Ladder::Tolerance => format!("tolerance {value}"),
+            // The legend says what the numbers of a colour are.
+            Ladder::TimeAcceleration | Ladder::Tolerance => format!("{value}"),
             Ladder::Mesh => format!("{value}\u{d7} coarser"),
             Ladder::Integrator => integrator_name(row.rung.numerics.integrator).to_owned(),
             Ladder::Perturbation => format!("heights times 1 + {value:e}"),

@@ -124,14 +124,15 @@ impl Labels {
         let middles =
             [(beside, -above), (beside, above), (-beside, above), (-beside, -above), (beside, 0.0), (-beside, 0.0)];
         let mut frames = middles.into_iter().take(most).map(|(right, down)| around((x + right, y + down), size));
-        let others = || self.points.iter().filter(|other| (other.0 - x).hypot(other.1 - y) >= SAME);
-        frames.find(|frame| {
-            let is_clear = others().all(|other| {
-                let [right, down] = [(frame.x, other.0), (frame.y, other.1)]
-                    .map(|([low, high], at)| (low - at).max(at - high).max(0.0));
-                right.hypot(down) >= DOT + OTHERS
-            });
-            is_clear && self.is_free(frame, off_lines)
+        frames.find(|frame| self.is_clear(frame, (x, y)) && self.is_free(frame, off_lines))
+    }
+
+    /// Whether a label is so far from all points but its own that it is clear whose it is.
+    fn is_clear(&self, frame: &Frame, (x, y): Place) -> bool {
+        self.points.iter().filter(|other| (other.0 - x).hypot(other.1 - y) >= SAME).all(|other| {
+            let [right, down] =
+                [(frame.x, other.0), (frame.y, other.1)].map(|([low, high], at)| (low - at).max(at - high).max(0.0));
+            right.hypot(down) >= DOT + OTHERS
         })
     }
 
@@ -177,7 +178,8 @@ impl Labels {
                 self.taken.iter().any(|other| overlap(&step, other) && !is_own(other)) || !is_within(&step, &self.whole)
             });
             let crosses = crosses || self.leaders.iter().any(|other| cross(&leader, other));
-            (!crosses && self.is_free(&frame, off_lines)).then_some((frame, Some(leader)))
+            (!crosses && self.is_clear(&frame, (x, y)) && self.is_free(&frame, off_lines))
+                .then_some((frame, Some(leader)))
         })
     }
 

@@ -49,9 +49,12 @@ impl SurfaceCharts<'_> {
         contents.push(Content::Line { points, stroke: Stroke::solid(DATA, LINE) });
         page.panels.push(Panel { axes: Axes { frame, x, y: height_axis(range, unit) }, contents });
         let (heights, outside) = (&self.description.heights, self.histogram.outside);
+        // Spikes are beyond the axis, and single points of the map: the farthest one tells how far they go.
+        let (peak, pit) = (heights.maximum_peak_height, heights.maximum_pit_depth);
+        let farthest = if peak >= pit { ("Sp", peak) } else { ("Sv", pit) };
         let mut lines = vec![
-            format!("Sq {}", height_text(heights.root_mean_square_height, unit)),
-            format!("Ssk {}   Sku {}", number(heights.skewness), number(heights.kurtosis)),
+            format!("Sq {}   Ssk {}", height_text(heights.root_mean_square_height, unit), number(heights.skewness)),
+            format!("Sku {}   {} {}", number(heights.kurtosis), farthest.0, height_text(farthest.1, unit)),
         ];
         if outside > 0.0 {
             lines.push(format!("beyond the axis: {} %", percent(outside)));

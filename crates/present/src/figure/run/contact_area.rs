@@ -39,8 +39,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let time = Unit::for_size("s", end);
     let mut charts = operation::charts(subjects, &time, end)?;
     let with_operation = !charts.is_empty();
-    // The ups and downs of load and speed are to be seen.
-    let spans = match with_operation {
+    let spans = match subjects.iter().any(operation::has_cycle) {
         true => Spans::FINEST,
         false => Spans::calm(runs.iter().map(|(_, subject, _, mean)| (subject.run.time(), &mean[..]))),
     };

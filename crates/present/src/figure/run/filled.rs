@@ -4,7 +4,7 @@ use plateau_io::run_file::ReadError;
 
 use super::legend::{meanings, only_stroke, with_names};
 use super::spans::{MOST_BANDS, Spans};
-use super::{Figures, Subject};
+use super::{Figures, Subject, operation};
 use crate::figure::axes::Axis;
 use crate::figure::chart::{Chart, TWO_COLUMNS, page, up_from_zero};
 use crate::figure::page::Content;
@@ -37,8 +37,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     // All charts have lines of one kind; those of a run alone cross no others.
     let calm = |(_, runs): &(_, Vec<Course>)| Spans::calm(runs.iter().map(|(_, times, values)| (*times, &values[..])));
-    let spans = match subjects.len() {
-        1 => Spans::FINEST,
+    let spans = match subjects {
+        [_] => Spans::FINEST,
+        _ if subjects.iter().any(operation::has_cycle) => Spans::FINEST,
         _ => courses.iter().map(calm).min().unwrap_or(Spans::FINEST),
     };
     let mut charts = Vec::new();
@@ -97,14 +98,18 @@ mod tests {
 
     #[test]
     fn series_that_pulse_have_means_that_the_legend_states() {
-        let texts = |values: fn(f64) -> f64| {
-            let run = |title| Written::new(title, &[], move |_, time| values(time));
+        let texts = |more: &[&'static str], values: fn(f64) -> f64| {
+            let run = |title| Written::new(title, more, move |_, time| values(time));
             let figures = Written::figures(&[run("one"), run("two")]);
             let page = &figures.figures.iter().find(|figure| figure.name == NAME).unwrap().page;
             page.texts.iter().map(|words| words.text.clone()).collect::<Vec<_>>()
         };
         let stated = "lines: weighted mean over 4 s".to_owned();
-        assert!(texts(|time| 0.5 + 0.1 * (time % 2.0)).contains(&stated));
-        assert!(!texts(|time| 0.01 * time).iter().any(|text| text.starts_with("lines")));
+        let pulsing = |time: f64| 0.5 + 0.1 * (time % 2.0);
+        assert!(texts(&[], pulsing).contains(&stated));
+        let says_lines = |texts: Vec<String>| texts.iter().any(|text| text.starts_with("lines"));
+        assert!(!says_lines(texts(&[], |time| 0.01 * time)));
+        // Means over longer times would rise in a pause, before the braking in which they do.
+        assert!(!says_lines(texts(&["normal_force"], pulsing)));
     }
 }

@@ -48,9 +48,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let y = Axis::linear(around(coefficients), SeriesLook::of("friction_coefficient").title);
     let (x, pressure) = pressure_axis(steps().map(|[pressure, _]| *pressure));
     let times = || courses.iter().map(|course| course.subject.run.time());
-    // The ups and downs of load and speed are to be seen.
-    let has_cycle = |course: &Course| course.subject.run.series().iter().any(|series| series.name == "normal_force");
-    let spans = match courses.iter().any(has_cycle) {
+    let spans = match courses.iter().any(|course| operation::has_cycle(course.subject)) {
         true => Spans::FINEST,
         false => Spans::calm(times().zip(courses.iter().map(|course| &course.means[..]))),
     };

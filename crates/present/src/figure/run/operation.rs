@@ -47,6 +47,11 @@ pub fn charts(subjects: &[Subject], time: &Unit, end: f64) -> Result<Vec<Chart>,
     Ok(charts)
 }
 
+/// Whether a run has a cycle: its ups and downs of load and speed are to be seen, so nothing is put together over longer spans.
+pub fn has_cycle(subject: &Subject) -> bool {
+    subject.run.series().iter().any(|series| series.name == "normal_force")
+}
+
 /// Values of a contact without those of moments in which nothing rubs: the pin is lifted then, or the disc stands still, and these are
 /// of the last step before.
 pub fn while_rubbing(run: &RunFile, mut values: Vec<f64>) -> Result<Vec<f64>, ReadError> {

@@ -56,7 +56,8 @@ impl Spans {
     }
 
     /// The lines through means: as many as a figure distinguishes, each, where spans are coarser, with those beside it, whose weights fall
-    /// to nothing a span away. A line through means of single spans would go up and down where ups and downs are about as long.
+    /// to nothing a span away. A line through means of single spans would go up and down where ups and downs are about as long. Such a line
+    /// ends a span before the last sample.
     pub fn course(self, times: &[f64], values: &[f64]) -> Vec<Vec<[f64; 2]>> {
         let beside = Self::FINEST.most / self.most;
         let mut lines = pieces(&Self::FINEST.means(times, values));
@@ -154,18 +155,21 @@ pub fn pieces(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     points.split(|point| !is_number(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
 }
 
-/// Means of every value and those beside it, with weights that fall to nothing at so many places from it; near the begin, where most
-/// happens, of as few as there are before it, near the end of those before it.
+/// Means of every value and those beside it, with weights that fall to nothing at so many places from it. Near the begin, where most
+/// happens, there are as many before it as behind it. The last places have too few behind them and are left out: a mean of those before
+/// would go up and down with the values. A line shorter than twice the width goes to its end, as it goes from its begin.
 fn weighted(points: &[[f64; 2]], beside: usize) -> Vec<[f64; 2]> {
+    let is_short = points.len() < 2 * beside;
+    let count = if is_short { points.len() } else { points.len() + 1 - beside };
     let mean = |at: usize| {
-        let reach = (beside - 1).min(at);
+        let reach = (beside - 1).min(at).min(points.len() - 1 - at);
         let part = |other: usize| (reach + 1 - at.abs_diff(other)) as f64;
-        let around = at - reach..=(at + reach).min(points.len() - 1);
+        let around = at - reach..=at + reach;
         let (sum, weights) = around
             .fold((0.0, 0.0), |(sum, weights), other| (sum + part(other) * points[other][1], weights + part(other)));
         [points[at][0], sum / weights]
     };
-    (0..points.len()).map(mean).collect()
+    (0..count).map(mean).collect()
 }
 
 #[cfg(test)]
@@ -226,10 +230,11 @@ mod tests {
         // Eight spans of 16 s on both sides.
         assert_eq!((coarse, coarse.duration(&times)), (Spans { most: 31 }, 256.0));
         let [course] = &coarse.course(&times, &pulsing)[..] else { panic!("one line") };
-        assert!(course[8..242].iter().all(|[_, value]| value.abs() < 3.0), "{course:?}");
+        assert_eq!(course.len(), 250 - 7);
+        assert!(course[8..].iter().all(|[_, value]| value.abs() < 3.0), "{course:?}");
         // What does not pulse stays as it is.
         let [straight] = &coarse.course(&times, &times)[..] else { panic!("one line") };
-        assert!(straight[..242].iter().all(|[time, value]| (time - value).abs() < 1e-9));
+        assert!(straight.iter().all(|[time, value]| (time - value).abs() < 1e-9));
         let constant = vec![2.0; times.len()];
         assert_eq!(spans_of(&[&constant]), Spans::FINEST);
     }
@@ -265,9 +270,13 @@ mod tests {
 
     #[test]
     fn weights_fall_with_distance() {
-        // By hand: 1, 2, 3, 2, 1 in the middle, 1, 2, 1 behind the begin; 1, 2, 3, 2 and 1, 2, 3 at the end.
-        let points = [0.0, 0.0, 9.0, 0.0, 0.0].map(|value| [1.0, value]);
-        let means: Vec<f64> = weighted(&points, 3).iter().map(|point| point[1]).collect();
-        assert_eq!(means, [0.0, 2.25, 3.0, 2.25, 1.5]);
+        let means = |values: &[f64], beside| -> Vec<f64> {
+            let points: Vec<[f64; 2]> = values.iter().map(|value| [1.0, *value]).collect();
+            weighted(&points, beside).iter().map(|point| point[1]).collect()
+        };
+        // By hand: 1, 2, 1 behind the begin, 1, 2, 3, 2, 1 from there on; the last two places have fewer behind them.
+        assert_eq!(means(&[0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 9.0, 0.0], 3), [0.0, 2.25, 3.0, 2.0, 2.0, 2.0]);
+        // A short line goes to its end.
+        assert_eq!(means(&[0.0, 0.0, 9.0, 0.0, 0.0], 3), [0.0, 2.25, 3.0, 2.25, 0.0]);
     }
 }
