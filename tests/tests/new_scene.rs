@@ -45,7 +45,9 @@ fn the_path_of_the_surface_is_relative_to_the_scene() {
     directory.plateau(["new", "scenes/mine.toml", "--disc", "scenes/patch.sdf", "--diameter=10 mm"]).quiet_success();
     let text = fs::read_to_string(directory.path("scenes/mine.toml")).unwrap();
     assert!(text.contains("file = \"patch.sdf\"") && text.contains("shape = \"disc\""), "{text}");
-    directory.plateau(["check", "scenes/mine.toml"]).quiet_success();
+    // The scan is too small for such a ring, which is a warning.
+    let checked = directory.plateau(["check", "scenes/mine.toml"]);
+    assert_eq!(checked.status, Some(0), "{}", checked.stderr);
 }
 
 #[test]
@@ -117,7 +119,64 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     assert!(RunFile::open(directory.path("mine.h5")).text("scene").contains("sliding_speed"), "{}", outcome.stdout);
     fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("afm.sdf")).unwrap();
     let said = directory.plateau(["new", "afm.toml", "--disc", "afm.sdf"]).quiet_success();
-    assert!(said.contains("is read as 12.8 mm wide"), "{said}");
+    assert!(said.contains("is read as 12.8 mm by 12.8 mm"), "{said}");
+}
+
+#[test]
+fn a_unit_that_can_hardly_be_meant_is_told_at_once() {
+    let directory = WorkingDirectory::new();
+    // A list as instruments write it: 60 x 60 points 25 um apart, x and y in mm, z in um, a wave of 1 um; no line says so.
+    let line = |point: u32| {
+        let (x, y) = (f64::from(point % 60), f64::from(point / 60));
+        format!("{:.3};{:.3};{:.4}\n", 0.025 * x, 0.025 * y, ((x + 2.0 * y) / 5.0).sin())
+    };
+    directory.write("probe.xyz", (0..3600).map(line).collect::<String>());
+    let refused = directory.plateau(["new", "mine.toml", "--disc", "probe.xyz", "--unit", "um"]);
+    assert_eq!(refused.status, Some(2), "{}", refused.stdout);
+    let advice =
+        r#"points 25 nm by 25 nm apart, 1.5 um by 1.5 um in all; if they are in mm, say pitch = ["25 um", "25 um"]"#;
+    assert!(refused.stderr.contains(advice) && refused.stderr.contains("(here: --pitch)"), "{}", refused.stderr);
+    let described = directory.plateau(["surface", "probe.xyz", "--unit", "um"]);
+    assert!(described.status == Some(0) && described.stderr.contains(advice), "{}", described.stderr);
+    // In a scene that tiles it: the first warning names the cause.
+    directory.write(
+        "tiled.toml",
+        "extends = \"mine.toml\"\n[disc.surface]\nfile = \"probe.xyz\"\nunit = \"um\"\n[disc.prepare]\nlevel = \"plane\"\nrepeat = true\n",
+    );
+    directory.plateau(["new", "mine.toml", "--duration", "1 s"]).quiet_success();
+    let ran = directory.plateau(["run", "tiled.toml"]);
+    let first = ran.stderr.lines().next().unwrap_or_default();
+    assert!(ran.status == Some(0) && first.starts_with("plateau: warning: disc.surface: "), "{}", ran.stderr);
+    assert!(first.contains(advice), "{first}");
+    assert!(ran.stderr.contains("the patch of 1.5 um by 1.5 um is smaller than a cell of"), "{}", ran.stderr);
+    // Heights of 0.7 um rms, read as mm and as nm: by hand 1/sqrt(2) of the unit.
+    for (unit, rms, bound) in
+        [("mm", "0.7", "at most 1 mm"), ("m", "70", "at most 1 mm"), ("nm", "0.70", "at least 5 nm")]
+    {
+        let pitch = ["--pitch", "25 um", "--unit", unit];
+        for command in [&["surface", "probe.xyz"][..], &["new", "odd.toml", "--force", "--disc", "probe.xyz"]] {
+            let told = directory.plateau([command, &pitch].concat());
+            let is_told = told.stderr.contains("the heights have an rms of") && told.stderr.contains(bound);
+            // 0.7 mm is a surface that is scored deeply.
+            assert_eq!((told.status, is_told), (Some(0), unit != "mm"), "{unit}: {}", told.stderr);
+        }
+    }
+    // What programs write where there is no height.
+    let row = |row: u32| {
+        let cell = |column: u32| {
+            if (row * 60 + column) % 97 == 5 {
+                "-9999".to_owned()
+            } else {
+                format!("{:.3}", (f64::from(row + 2 * column) / 5.0).sin())
+            }
+        };
+        (0..60).map(cell).collect::<Vec<_>>().join(",") + "\n"
+    };
+    directory.write("gaps.csv", format!("unit: um\npitch: 25 um\n{}", (0..60).map(row).collect::<String>()));
+    let told = directory.plateau(["surface", "gaps.csv"]);
+    // 5, 102, ... up to 3599: 38 of them.
+    let expected = "gaps.csv: 38 points have the height -9.999 mm, far from all others";
+    assert!(told.status == Some(0) && told.stderr.contains(expected), "{}", told.stderr);
 }
 
 #[test]

@@ -33,6 +33,12 @@ fn json(outcome: Outcome) -> Value {
     serde_json::from_str(&outcome.quiet_success()).expect("one JSON document")
 }
 
+/// What a command printed that may have warned: of small patches, and of those with few heights.
+fn done(outcome: Outcome) -> String {
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    outcome.stdout
+}
+
 fn refused(outcome: &Outcome, reason: &str) {
     let Outcome { status, stdout, stderr } = outcome;
     assert_eq!((*status, stdout.as_str()), (Some(2), ""), "{stderr}");
@@ -136,7 +142,7 @@ fn heights_that_are_unrelated_from_point_to_point_have_no_length() {
     let directory = WorkingDirectory::new();
     // Multiplication by a large prime scatters the numbers of the points: r at the next point is of the order of
     // 1/√(60 · 50).
-    let noise = |point: u64| point.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_mul(point | 1) >> 52;
+    let noise = |point: u64| point.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_mul(point | 1) >> 54;
     let heights: Vec<String> = (1..=60 * 50).map(|point| noise(point).to_string()).collect();
     let sizes = ("NumPoints = 4\nNumProfiles = 3", "NumPoints = 60\nNumProfiles = 50");
     let sdf = small_sdf().replace(sizes.0, sizes.1).replace("0 1 2 3\n0 1 BAD 3\n0 1 2 3", &heights.join("\n"));
@@ -281,7 +287,8 @@ fn a_patch_is_shown_beside_what_a_scene_makes_of_it() {
     let prepare = |way: &str| format!("level = \"plane\"\npixel = \"3 um\"\nscale = 300\n{way}");
     for way in ["repeat = true", "extend = \"statistics\"\nextend_seed = 5"] {
         directory.write("scene.toml", quick_scene_with(&[(source, &file), ("cutoff = \"3 um\"", &prepare(way))]));
-        let bodies = json(directory.plateau(["surface", "--prepare", "scene.toml", "--json"]));
+        let bodies = done(directory.plateau(["surface", "--prepare", "scene.toml", "--json"]));
+        let bodies: Value = serde_json::from_str(&bodies).expect("one JSON document");
         let [disc, comparison] = [&bodies[0], &bodies[0]["comparison"]];
         assert!(bodies[1].get("comparison").is_none(), "the pin is of no patch");
         // 0.768 mm hold 4 cells of 186.7 um along (128.8 mm of ring have 690) and 15 of 50 um.
@@ -300,7 +307,7 @@ fn a_patch_is_shown_beside_what_a_scene_makes_of_it() {
         // Means over cells are within the heights of the patch.
         assert!(disc["Sz"].as_f64().unwrap() < of("patch", "Sz"));
         let picture = ["surface", "--prepare", "scene.toml", "--plot", "both.png", "--force"];
-        let table = directory.plateau(picture).quiet_success();
+        let table = done(directory.plateau(picture));
         assert!(table.contains("averaged over 4 x 15 cells of 186.7 um x 50 um"), "{table}");
         let header = ["patch", "in", "cells", "+-", "disc", "difference"];
         assert!(table.lines().any(|line| line.split_whitespace().eq(header)), "{table}");

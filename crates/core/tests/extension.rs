@@ -190,7 +190,9 @@ fn what_a_patch_cannot_tell_is_said() {
     let mesh = ring(200, 30, 20);
     let report = |patch: &Patch, body| {
         let prepared = statistics(1).apply(RawHeights::Patch(patch.clone()), false, body, &mesh).unwrap();
-        prepared.report.into_iter().filter(|line| line.starts_with("warning: ")).collect::<Vec<_>>()
+        let mut lines = prepared.report;
+        lines.retain(|line| line.starts_with("warning: ") || line.starts_with("waves"));
+        lines
     };
     let large = gaussian_patch(200, 60, [1.5; 2], 1);
     assert_eq!(report(&large, Body::Pin), [""; 0]);
@@ -198,6 +200,17 @@ fn what_a_patch_cannot_tell_is_said() {
     let warnings = report(&small, Body::Disc);
     // ρ falls to 0.2 at ℓ √(ln 5) = 1.9 cells: 32 of them along, about 10.5 across.
     assert!(warnings[0].contains("waves longer than the patch, 60 mm along and 20 mm across sliding"), "{warnings:?}");
+    // Of a wave as long as the patch, lowest in its middle, the tapers take out the mean -1/2 and 0: a quarter and none of its mean square
+    // 1/2. Of short waves they take out hardly any.
+    let wave = |length: f64| {
+        let height = |point: usize| 1e-6 * (std::f64::consts::TAU * (point / 20) as f64 / length).cos();
+        Patch { heights: (0..1200).map(height).collect(), ..small.clone() }
+    };
+    for (length, is_warning) in [(60.0, true), (6.0, false)] {
+        let lines = report(&wave(length), Body::Disc);
+        let line = lines.iter().find(|line| line.contains("waves longer than the patch")).unwrap();
+        assert_eq!(line.starts_with("warning: "), is_warning, "{lines:?}");
+    }
     let short = report(&gaussian_patch(60, 20, [10.0, 1.0], 1), Body::Disc);
     assert!(short.iter().any(|line| line.contains("along sliding, the patch is only")), "{short:?}");
     let lay = Patch { heights: (0..1200).map(|n| ((n / 20 * 7) % 11) as f64 * 1e-6).collect(), ..small };

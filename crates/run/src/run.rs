@@ -78,6 +78,8 @@ impl Prepared {
         // Large surfaces take long enough to be told to stop meanwhile.
         stop_if_asked(observer, job)?;
         refuse_to_replace_inputs(&path, &scene, &loaded)?;
+        // A wrong unit of a surface is the cause of what the scene is warned of then.
+        loaded.warnings().for_each(|warning| observer.warning(&warning));
         let implausible = plausibility::of_surfaces(&scene, &loaded);
         warn_of_scene(&mut scene, implausible, observer);
         let Loaded { surfaces, inputs, report, .. } = loaded;

@@ -17,6 +17,7 @@ use super::load_scene;
 use crate::accuracy::{Making, csv, json, text};
 use crate::arguments::AccuracyArguments;
 use crate::failure::Failure;
+use crate::message;
 use crate::output;
 use crate::table::print;
 use crate::terminal::{Messages, Terminal};
@@ -32,6 +33,7 @@ const FILES: [&str; 5] = ["accuracy.csv", "accuracy.json", "accuracy.png", "accu
 pub fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
     let scene = load_scene(&arguments.scene)?;
     let loaded = surface::load(&scene).map_err(Failure::input)?;
+    loaded.warnings().for_each(message::warning);
     let path = arguments.reference.as_deref();
     let reference =
         path.map(|path| read_reference(path, &scene, &loaded.inputs)).transpose().map_err(Failure::input)?;

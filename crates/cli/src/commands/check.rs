@@ -40,6 +40,7 @@ pub fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let start = Instant::now();
     let loaded = surface::load(&scene).map_err(Failure::input)?;
     let preparing = start.elapsed().as_secs_f64();
+    loaded.warnings().for_each(message::warning);
     let implausible = plausibility::of_surfaces(&scene, &loaded);
     implausible.iter().for_each(message::warning);
     scene.warnings.extend(implausible);

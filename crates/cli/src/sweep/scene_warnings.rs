@@ -10,8 +10,6 @@ use crate::message;
 
 /// Kinds of warnings that are said.
 const SHOWN: usize = 10;
-/// With what a line of a surface's report begins that is a warning, behind the table of the scene.
-const MARK: &str = ": warning: ";
 
 /// A kind of warning: what it says but for its numbers, as it was said first, and of how many runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,10 +38,7 @@ pub fn of_scene(scene: &Scene) -> Vec<Found> {
 /// What its surfaces add.
 pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Found> {
     let own = plausibility::of_surfaces(scene, loaded).into_iter().map(of_key);
-    let of_report = loaded.report.iter().filter(|line| line.contains(MARK)).map(|line| {
-        let line = line.replacen(MARK, ": ", 1);
-        (without_numbers(&line), line)
-    });
+    let of_report = loaded.warnings().map(|line| (without_numbers(&line), line));
     own.chain(of_report).collect()
 }
 

@@ -13,6 +13,7 @@ mod fft_lines;
 mod fibre;
 mod flip;
 mod gaussian_filter;
+pub mod implausible;
 mod interpolation;
 mod length;
 mod level;

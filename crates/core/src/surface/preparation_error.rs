@@ -173,7 +173,7 @@ pub enum PreparationError {
     /// The patch has too few cells for statistics.
     #[error(
         "{} by {} whole cells lie in the patch of {} by {}, expected at least {least} by {least} for its statistics: check its \
-         pixel, measure a larger patch, take smaller cells, or tile it with repeat = true in place of extend",
+         pitch or pixel, measure a larger patch, take smaller cells, or tile it with repeat = true in place of extend",
         cells[0], cells[1], Length(patch[0]), Length(patch[1])
     )]
     FewCells {
@@ -187,7 +187,7 @@ pub enum PreparationError {
     /// The field from which the heights are taken would be too large.
     #[error(
         "the patch of {} by {} has {} by {} cells, whose statistics ask for a field of {} by {} cells, more than there is room \
-         for: check its pixel, crop it, or tile it with repeat = true in place of extend",
+         for: check its pitch or pixel, crop it, or tile it with repeat = true in place of extend",
         Length(patch[0]), Length(patch[1]), cells[0], cells[1], field[0], field[1]
     )]
     LargeField {

@@ -6,6 +6,7 @@ use super::crop::Crop;
 use super::extend::{Extension, extend, take_out_plane};
 use super::flip::{Flip, reverse_along};
 use super::gaussian_filter::filter;
+use super::implausible::{odd_rms, stand_in};
 use super::level::{Level, level, mean, rms};
 use super::missing::{Fill, fill, remove_outliers};
 use super::preparation_error::PreparationError;
@@ -131,6 +132,7 @@ impl Preparation {
         beyond.iter().for_each(|cell| patch.heights[*cell] = f64::NAN);
         // Missing points are told and filled; what is infinite was never measured.
         self.refuse_heights(&patch.heights, |height| height.is_infinite())?;
+        report.extend(stand_in(&patch.heights).map(|warning| format!("warning: {warning}")));
         let largest = patch.heights.iter().fold(0.0, |largest: f64, height| largest.max(height.abs()));
         let closed = on_mesh && body == Body::Disc;
         if mirror {
@@ -160,9 +162,10 @@ impl Preparation {
             cut
         });
         let (mut heights, patch) = if on_mesh {
+            report.extend(odd_rms(rms(&patch.heights) * self.scale.abs()).map(|warning| format!("warning: {warning}")));
             (patch.heights, None)
         } else {
-            report.extend(warnings(&patch, missing, body, mesh));
+            report.extend(warnings(&patch, missing, self.scale, body, mesh));
             let heights = self.onto_mesh(&patch, body, mesh, &mut report)?;
             report.extend(flat(&heights, largest, &patch, body));
             (heights, Some(patch))
@@ -197,10 +200,12 @@ impl Preparation {
         // A profile has no width of its own.
         let narrow = patch.height() < mesh.row_height() && !matches!(self.extend, Some(Extension::Isotropic { .. }));
         if patch.length() < mesh.column_width() || narrow {
-            report.push(
-                "warning: the patch is smaller than a cell, which leaves nothing of its roughness; take smaller cells"
-                    .to_owned(),
-            );
+            let [patch, cell] = [[patch.length(), patch.height()], [mesh.column_width(), mesh.row_height()]]
+                .map(|[length, height]| format!("{} by {}", Length(length), Length(height)));
+            report.push(format!(
+                "warning: the patch of {patch} is smaller than a cell of {cell}, which leaves nothing of its roughness: check the \
+                 unit of its pitch (of a list, that of x and y), or take smaller cells"
+            ));
         }
         report.push(format!("{step}: {}", change(rms(&patch.heights), &heights)));
         Ok(heights)
@@ -264,7 +269,8 @@ impl Preparation {
         report: &mut Vec<String>,
     ) -> Result<usize, PreparationError> {
         let points = patch.heights.len() - beyond.len();
-        if patch.missing() - beyond.len() == points {
+        let measured = patch.heights.len() - patch.missing();
+        if measured == 0 {
             return Err(PreparationError::AllMissing { points });
         }
         self.level(patch, closed, report);
@@ -273,7 +279,7 @@ impl Preparation {
             let before = rms(&patch.heights);
             outliers = remove_slope_outliers(patch, limit, closed);
             report.push(format!(
-                "outliers by slope: {outliers} of {points} points are on spikes or in pits with slopes above {limit}: {}",
+                "outliers by slope: {outliers} of {measured} points are on spikes or in pits with slopes above {limit}: {}",
                 change(before, &patch.heights)
             ));
             if outliers > 0 {
@@ -285,7 +291,7 @@ impl Preparation {
             let (count, distance) = remove_outliers(&mut patch.heights, limit).ok_or(PreparationError::NoDeviation)?;
             outliers += count;
             report.push(format!(
-                "outliers: {count} of {points} points lie more than {} from the median ({limit} robust standard \
+                "outliers: {count} of {measured} points lie more than {} from the median ({limit} robust standard \
                  deviations): {}",
                 Length(distance),
                 change(before, &patch.heights)

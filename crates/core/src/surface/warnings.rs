@@ -1,13 +1,10 @@
 //! What of a patch can hardly be meant, or is too little to go by.
 
+use super::implausible::{odd_pitch, odd_rms};
 use super::level::rms;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
 
-/// Distances of points that are not wondered at, m: of atoms, and of what a coordinate measuring machine probes.
-const PITCHES: [f64; 2] = [0.1e-9, 1e-3];
-/// Rms height that is not wondered at, m: that of a disc which is scored deeply is a tenth of it.
-const LARGEST_RMS: f64 = 1e-3;
 /// Fewest points that are not warned of: of so many the rms height is known to 7 % at best.
 const FEW: usize = 100;
 /// Heights that differ by less than this part of the largest differ by rounding.
@@ -16,48 +13,19 @@ const ROUNDING: f64 = 1e-12;
 /// How many times the rms height before the filling it may be afterwards: a membrane is smooth, so gaps that it fills take rms away.
 const MOST_BY_FILLING: f64 = 1.2;
 
-/// What a patch that is to become heights of `body` is warned of; `missing` of its points had no height before they were filled.
-pub(super) fn warnings(patch: &Patch, missing: usize, body: Body, mesh: &Mesh) -> Vec<String> {
+/// What a patch that is to become heights of `body`, times `scale`, is warned of; `missing` of its points had no height before they were
+/// filled.
+pub(super) fn warnings(patch: &Patch, missing: usize, scale: f64, body: Body, mesh: &Mesh) -> Vec<String> {
     let few = few_points(patch, missing);
-    odd_pitch(patch, body, mesh)
+    // Of a line of points the pitch across it is nobody's measure.
+    let axes = [(patch.columns, patch.column_pitch), (patch.rows, patch.row_pitch)];
+    let pitches: Vec<f64> = axes.into_iter().filter(|(points, _)| *points > 1).map(|(_, pitch)| pitch).collect();
+    odd_pitch(&pitches, Some((body.name(), body.length(mesh))))
         .into_iter()
-        .chain(odd_heights(patch))
+        .chain(odd_rms(rms(&patch.heights) * scale.abs()))
         .chain(few)
         .map(|warning| format!("warning: {warning}"))
         .collect()
-}
-
-/// Of a line of points the pitch across it is nobody's measure.
-fn odd_pitch(patch: &Patch, body: Body, mesh: &Mesh) -> Option<String> {
-    let axes = [(patch.columns, patch.column_pitch), (patch.rows, patch.row_pitch)];
-    let pitches = axes.into_iter().filter(|(points, _)| *points > 1).map(|(_, pitch)| pitch);
-    let (least, largest) = pitches
-        .fold((f64::INFINITY, 0.0), |(least, largest): (f64, f64), pitch| (least.min(pitch), largest.max(pitch)));
-    let (pitch, bound) = if largest > body.length(mesh) {
-        (largest, format!("the whole {} is {} long", body.name(), Length(body.length(mesh))))
-    } else if largest > PITCHES[1] {
-        (largest, format!("expected at most {}", Length(PITCHES[1])))
-    } else if least < PITCHES[0] {
-        (least, format!("expected at least {}", Length(PITCHES[0])))
-    } else {
-        return None;
-    };
-    Some(format!(
-        "the points are {} apart, {bound}: check the unit of pixel or pitch, or that of the file",
-        Length(pitch)
-    ))
-}
-
-/// Heights that no friction surface has are in another unit.
-fn odd_heights(patch: &Patch) -> Option<String> {
-    let rms = rms(&patch.heights);
-    (rms > LARGEST_RMS).then(|| {
-        format!(
-            "the heights have an rms of {} about their mean, expected at most {}: check their unit (key unit)",
-            Length(rms),
-            Length(LARGEST_RMS)
-        )
-    })
 }
 
 /// The rms height of N unrelated normal heights has the relative standard error 1/√(2N); related ones tell less.
@@ -117,7 +85,7 @@ mod tests {
     /// A ring of 138.2 mm by 4 mm with a pin of 8 mm.
     fn of(patch: &Patch, missing: usize, body: Body) -> Vec<String> {
         let mesh = Mesh::new(80, 2765, 160, 20e-3, 24e-3).unwrap();
-        warnings(patch, missing, body, &mesh)
+        warnings(patch, missing, 1.0, body, &mesh)
     }
 
     #[test]

@@ -13,6 +13,7 @@ use plateau_core::surface::{
 
 use super::error::{FileError, SurfaceError};
 use super::format::Format;
+use super::loaded::{Loaded, Patches};
 use super::measured::{detect, read};
 use super::options::ReadOptions;
 use super::stylus_profile::{Lay, ProfileError};
@@ -20,21 +21,6 @@ use super::{hdf5, image};
 use crate::regular::sha256;
 use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
 use crate::{limits, regular};
-
-/// The surfaces of a scene, ready for the first step.
-#[derive(Debug, Clone)]
-pub struct Loaded {
-    /// Heights and bases of every cell.
-    pub surfaces: InitialSurfaces,
-    /// Fraction of the points that `disc.prepare.cutoff` cut; none without it.
-    pub disc_cut: Option<f64>,
-    /// The same of `pin.prepare.cutoff`.
-    pub pin_cut: Option<f64>,
-    /// Every surface file read, each once, with its SHA-256 in hexadecimal digits.
-    pub inputs: Vec<(PathBuf, String)>,
-    /// What was read, made and done, one step a line, for people.
-    pub report: Vec<String>,
-}
 
 /// Reads or makes the initial surfaces of a scene and prepares them.
 ///
@@ -57,15 +43,6 @@ pub fn load_with_patches(scene: &Scene) -> Result<(Loaded, Patches), SurfaceErro
     let mut loader = Loader { patches: Some(Patches::default()), ..Loader::new(scene) };
     let loaded = loader.load(scene)?;
     Ok((loaded, loader.patches.unwrap_or_default()))
-}
-
-/// The patches from which the heights of a scene come.
-#[derive(Debug, Clone, Default)]
-pub struct Patches {
-    /// That of the disc.
-    pub disc: Option<Patch>,
-    /// That of the pin.
-    pub pin: Option<Patch>,
 }
 
 /// Table of the scene that says where a body's heights come from.

@@ -34,6 +34,8 @@ pub struct Measured {
     pub rows: usize,
     /// Distance of neighbouring points along x and y, m; none if neither file nor user tell it.
     pub pitch: Option<[f64; 2]>,
+    /// The file does not say in which unit its distances are, and they were taken in that of its heights.
+    pub is_pitch_assumed: bool,
     /// Heights, m, column by column: the point (column x, row y) is at `x * rows + y`; NaN where there is none.
     pub heights: Vec<f64>,
     /// Peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
@@ -137,6 +139,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
                 columns,
                 rows,
                 pitch,
+                is_pitch_assumed: false,
                 heights,
                 instrument: false,
                 profile_lay: None,
@@ -173,13 +176,36 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             let image::HeightMap { columns, rows, heights, notes, warnings } =
                 image::heights(&regular::read(path, limits::SURFACE)?, format, options)?;
             let pitch = options.pitch;
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings })
+            Ok(Measured {
+                format,
+                columns,
+                rows,
+                pitch,
+                is_pitch_assumed: false,
+                heights,
+                instrument: true,
+                profile_lay: None,
+                notes,
+                warnings,
+            })
         }
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
-            let text::Table { columns, rows, pitch, heights, notes, warnings } =
+            let text::Table { columns, rows, pitch, is_pitch_assumed, heights, notes, warnings } =
                 text::read(&regular::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
-            Ok(Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings })
+            let (instrument, profile_lay) = (true, None);
+            Ok(Measured {
+                format,
+                columns,
+                rows,
+                pitch,
+                is_pitch_assumed,
+                heights,
+                instrument,
+                profile_lay,
+                notes,
+                warnings,
+            })
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
@@ -189,7 +215,18 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
 fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: Vec<String>) -> Measured {
     let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
     let pitch = Some([column_pitch, row_pitch]);
-    Measured { format, columns, rows, pitch, heights, instrument: true, profile_lay: None, notes, warnings }
+    Measured {
+        format,
+        columns,
+        rows,
+        pitch,
+        is_pitch_assumed: false,
+        heights,
+        instrument: true,
+        profile_lay: None,
+        notes,
+        warnings,
+    }
 }
 
 /// A NumPy array: heights of the model, as those of an HDF5 file.
@@ -200,7 +237,18 @@ fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
         warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
     }
     let (pitch, notes) = (options.pitch, vec![format!("type {descr}")]);
-    Measured { format, columns, rows, pitch, heights, instrument: false, profile_lay: None, notes, warnings }
+    Measured {
+        format,
+        columns,
+        rows,
+        pitch,
+        is_pitch_assumed: false,
+        heights,
+        instrument: false,
+        profile_lay: None,
+        notes,
+        warnings,
+    }
 }
 
 /// Refuses what would silently not be used.

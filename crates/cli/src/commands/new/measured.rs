@@ -4,19 +4,23 @@ use std::fmt;
 use std::path::Path;
 
 use plateau_core::surface::describe::HeightParameters;
-use plateau_core::surface::{Condition, Extension, Length, Level, Spikes, level};
+use plateau_core::surface::{Condition, Extension, Length, Level, Spikes, implausible, level};
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 
 use super::{CELL, line};
 use crate::arguments::{ReadArguments, as_options};
 use crate::failure::Failure;
-use crate::number;
+use crate::{message, number};
 
 /// The tables of the disc: the file read as it is, levelled, without spikes, filled where points are missing, and extended by its
 /// statistics; of the profile of a surface with grooves, tiled. Besides, what should be known of them.
 pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(String, Vec<String>), Failure> {
     let named = |reason: &dyn fmt::Display| Failure::input(format_args!("{}: {reason}", disc.display()));
     let measured = read(disc, reading).map_err(|reason| named(&reason))?;
+    let too_small = smaller_than_cells(&measured);
+    if let (Some(_), true, [warning, ..]) = (&too_small, measured.is_pitch_assumed, &measured.warnings[..]) {
+        return Err(named(&format_args!("{warning}{}", as_options(warning))));
+    }
     let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| named(&reason))?, "<-")];
     lines.extend(reading.keys().into_iter().map(|(key, value)| line(key, value, "<-")));
     if measured.pitch.is_none() {
@@ -46,7 +50,7 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
         lines.push(line("outliers", Spikes::LIMIT as i64, &format!("<- {}", told(spikes))));
         notes.push(format!("{}: {}: outliers = {} takes them out", disc.display(), told(spikes), Spikes::LIMIT));
     }
-    if let Some((pixel, note)) = smaller_than_cells(&measured) {
+    if let Some((pixel, note)) = too_small {
         lines.extend(pixel);
         notes.push(format!("{}: {note}", disc.display()));
     }
@@ -67,6 +71,7 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
         }
     }
     let rms = condition.map(|condition| condition.rms_height());
+    warn(disc, &measured, rms);
     if let Some(rms) = rms.filter(|rms| *rms > 0.0 && rms.is_finite()) {
         let cutoff = format!("cutoff = \"{}\"", rounded(rms));
         lines.push(format!(
@@ -80,6 +85,16 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
         ));
     }
     Ok((lines.join("\n"), notes))
+}
+
+/// Says what of the file can hardly be meant.
+fn warn(disc: &Path, measured: &Measured, rms: Option<f64>) {
+    let pitch = measured.pitch.and_then(|pitch| implausible::odd_pitch(&pitch, None));
+    let stand_in = implausible::stand_in(&measured.heights);
+    let found = stand_in.into_iter().chain(pitch).chain(rms.and_then(implausible::odd_rms));
+    for warning in measured.warnings.iter().cloned().chain(found) {
+        message::warning(format_args!("{}: {warning}", disc.display()));
+    }
 }
 
 /// A length of two digits, as a scene has it.
@@ -148,16 +163,20 @@ fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
         return None;
     }
     let cells = if fewest == 1 { "a cell".to_owned() } else { format!("{fewest} cells") };
-    let remark = format!("<- the patch is {} wide, less than {cells}: read it as larger,", Length(least));
+    let size = |x: f64, y: f64| match profile_lay {
+        Some(_) => format!("{} long", Length(columns as f64 * x)),
+        None => format!("{} by {}", Length(columns as f64 * x), Length(rows as f64 * y)),
+    };
+    let (is, read_as) = (size(x, y), size(CELL * 1e-6, CELL * 1e-6));
+    let remark = format!("<- the patch is {is}, less than {cells}: read it as larger,");
     let lines = vec![
         line("pixel", format!("{CELL} um"), &remark),
         format!("{:40}# or leave this out and take smaller cells", ""),
     ];
-    let read_as = Length(columns.max(rows) as f64 * CELL * 1e-6);
     let note = format!(
-        "it is {} wide, less than {cells} of {CELL} um, and is read as {read_as} wide (pixel = \"{CELL} um\") with the heights as \
-         they are: a much smoother disc than the measured one. At its own size it needs smaller cells, or a larger area",
-        Length(least)
+        "it is {is}, less than {cells} of {CELL} um, and is read as {read_as} (pixel = \"{CELL} um\") with the heights as \
+         they are: a much smoother disc than the measured one. At its own size it needs smaller cells, or a larger area. If this is \
+         not its size, correct the pitch"
     );
     Some((lines, note))
 }

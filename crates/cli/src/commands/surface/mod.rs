@@ -76,12 +76,8 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
 
 /// Reads a file as the arguments say.
 fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> {
-    let measured = surface::read(path, &arguments.reading.options())
-        .map_err(|reason| named(path, format_args!("{reason}{}", as_options(&reason.to_string()))))?;
-    for warning in &measured.warnings {
-        message::warning(format_args!("{}: {warning}", path.display()));
-    }
-    Ok(measured)
+    surface::read(path, &arguments.reading.options())
+        .map_err(|reason| named(path, format_args!("{reason}{}", as_options(&reason.to_string()))))
 }
 
 /// Writes the heights of a file into another.
@@ -105,8 +101,9 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
     for warning in &scene.warnings {
         message::warning(warning);
     }
-    let (Loaded { surfaces, report, inputs, .. }, patches) =
-        surface::load_with_patches(&scene).map_err(Failure::input)?;
+    let (loaded, patches) = surface::load_with_patches(&scene).map_err(Failure::input)?;
+    loaded.warnings().for_each(message::warning);
+    let Loaded { surfaces, report, inputs, .. } = loaded;
     let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
     for picture in arguments.plot.iter().chain(&arguments.preview) {
         output::check(picture, arguments.force, &inputs)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
-use plateau_core::surface::{Body, Level, level};
+use plateau_core::surface::{Body, Level, implausible, level};
 use plateau_io::surface::Measured;
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
@@ -13,6 +13,7 @@ use super::comparison::Comparison;
 use super::describe::describe;
 use super::named;
 use crate::failure::Failure;
+use crate::message;
 
 /// A surface that was read or prepared, described.
 pub struct Subject {
@@ -43,12 +44,18 @@ pub struct Subject {
 impl Subject {
     /// A file, with the form taken out.
     pub fn of_file(path: &Path, measured: Measured, form: Level, draws: bool) -> Result<Self, Failure> {
-        let Measured { format, columns, rows, pitch, mut heights, notes, warnings, .. } = measured;
+        let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
+        warnings.extend(implausible::stand_in(&heights));
         level(&mut heights, rows, form, false);
         let grid = Grid { columns, rows, pitch, heights: &heights };
         let points = heights.len();
         let none = || named(path, format_args!("none of its {points} points has a height"));
         let description = describe(&path.display().to_string(), &grid)?.ok_or_else(none)?;
+        warnings.extend(implausible::odd_pitch(&pitch.unwrap_or_default(), None).filter(|_| pitch.is_some()));
+        warnings.extend(implausible::odd_rms(description.heights.root_mean_square_height));
+        for warning in &warnings {
+            message::warning(format_args!("{}: {warning}", path.display()));
+        }
         Ok(Self {
             name: path.display().to_string(),
             origin: format.to_string(),

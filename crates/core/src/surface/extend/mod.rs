@@ -120,6 +120,7 @@ fn statistics_of_patch(
         return Ok(None);
     }
     let spectrum = Spectrum::of(&cells, &grid);
+    let long_waves = spectrum.long_waves;
     report.push(format!(
         "extend: heights with the statistics of the patch of {} by {}, averaged over {} by {} cells, seed {seed}; \
          {:.2} % of its mean square height has wavelengths as long as the patch{}",
@@ -127,12 +128,12 @@ fn statistics_of_patch(
         Length(patch.height()),
         cells.columns,
         cells.rows,
-        100.0 * spectrum.long_waves,
-        if spectrum.long_waves > MUCH { ": measure a larger area" } else { "" }
+        100.0 * long_waves,
+        if long_waves > MUCH { ": measure a larger area" } else { "" }
     ));
     report.extend(few_heights(&cells));
     let correlation = autocorrelation(spectrum.power, &mut Plane::new(&grid));
-    report.extend(Reach::of(&correlation, &grid, &cells).warnings(patch, body, mesh));
+    report.extend(Reach::of(&correlation, &grid, &cells).remarks(long_waves > MUCH, patch, body, mesh));
     Ok(Some(Statistics { grid, correlation, quantiles }))
 }
 

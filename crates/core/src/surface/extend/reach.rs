@@ -38,14 +38,15 @@ impl Reach {
         Self { lengths, error: (0.5 * squares / cells.heights.len() as f64).sqrt() }
     }
 
-    /// What is to be warned of.
-    pub(super) fn warnings(&self, patch: &Patch, body: Body, mesh: &Mesh) -> Vec<String> {
-        let mut warnings = Vec::new();
+    /// What is to be said of it. That longer waves are missing is a warning where those as long as the patch have much of the height.
+    pub(super) fn remarks(&self, misses_much: bool, patch: &Patch, body: Body, mesh: &Mesh) -> Vec<String> {
+        let mut remarks = Vec::new();
         let sizes = [patch.length(), patch.height()];
         let body_sizes = [body.length(mesh), mesh.rows() as f64 * mesh.row_height()];
         if sizes[0] < body_sizes[0] || sizes[1] < body_sizes[1] {
-            warnings.push(format!(
-                "warning: waves longer than the patch, {} along and {} across sliding, are not known from it; the {} of \
+            let mark = if misses_much { "warning: " } else { "" };
+            remarks.push(format!(
+                "{mark}waves longer than the patch, {} along and {} across sliding, are not known from it; the {} of \
                  {} by {} gets none",
                 Length(sizes[0]),
                 Length(sizes[1]),
@@ -66,12 +67,12 @@ impl Reach {
                 }
                 Some(_) => continue,
             };
-            warnings.push(format!(
+            remarks.push(format!(
                 "warning: {few}, expected some {FEW} correlation lengths: its rms height is known to {:.0} %, its texture less",
                 100.0 * self.error
             ));
         }
-        warnings
+        remarks
     }
 }
 

@@ -42,6 +42,17 @@ pub enum TextError {
         /// The cell.
         found: String,
     },
+    /// A point without a place.
+    #[error(
+        "line {line}, column {column}: a coordinate is missing, expected a number: only heights may be missing; are the columns in another \
+         order than x, y, z? Names above them say which is which, such as x z y"
+    )]
+    NoCoordinate {
+        /// Where.
+        line: usize,
+        /// Which cell, counted from 1.
+        column: usize,
+    },
     /// A comma where a point should be.
     #[error(
         "line {line}, column {column}: \"{found}\" has a decimal comma, but numbers of this file have a decimal point (as \

@@ -1,5 +1,7 @@
 //! Lists of points: x, y and z of one point a line, in any order, on a regular grid.
 
+use plateau_core::surface::Length;
+
 use super::error::TextError;
 use super::names::{Columns, Names};
 use super::numbers::Numbers;
@@ -33,6 +35,21 @@ struct Gridded {
     heights: Vec<f64>,
 }
 
+impl Gridded {
+    /// Says that x and y were taken in the unit of the heights, m, and what to give if they are in mm.
+    fn assumed(&self, unit: f64) -> String {
+        let pitch = |unit: f64| self.steps.map(|step| Length(step * unit));
+        let ([x, y], [x_in_mm, y_in_mm]) = (pitch(unit), pitch(1e-3));
+        format!(
+            "the file does not say the unit of x and y, and they are taken in that of the heights: points {x} by {y} apart, {} by {} in \
+             all; if they are in mm, say pitch = [\"{x_in_mm}\", \"{y_in_mm}\"], else give the right pitch, or name the columns, such as \
+             x [mm], y [mm], z [um]",
+            Length(self.steps[0] * unit * self.columns as f64),
+            Length(self.steps[1] * unit * self.rows as f64),
+        )
+    }
+}
+
 /// The heights of a list, m, on its grid.
 pub(super) fn read(
     numbers: &Numbers,
@@ -44,23 +61,31 @@ pub(super) fn read(
     let header = &numbers.header;
     let [x_unit, y_unit, z_unit] = columns.map(|column| names.units[column]);
     let unit = numbers.unit(z_unit.or(header.unit), options)?;
-    // A pitch that is given says what x and y of an unstated unit are; else they have that of the heights.
+    // A pitch that is given says what x and y of an unstated unit are; else they have that of the heights. Where that is not the unit
+    // that the file states for all its numbers, nor m, they may well be in mm, as of many instruments.
+    let (mut is_pitch_assumed, mut warnings) = (false, Vec::new());
     let pitch = match (x_unit.or(header.lateral_unit), y_unit.or(header.lateral_unit), options.pitch) {
         (Some(x), Some(y), given) => agreed_pitch(Some([gridded.steps[0] * x, gridded.steps[1] * y]), given)?,
         (_, _, Some(given)) => Some(given),
-        _ => Some(gridded.steps.map(|step| step * unit)),
+        _ => {
+            is_pitch_assumed = unit != 1.0 && header.unit != Some(unit);
+            Some(gridded.steps.map(|step| step * unit))
+        }
     };
+    if is_pitch_assumed {
+        warnings.push(gridded.assumed(unit));
+    }
     let mut heights = gridded.heights;
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("list of {} points, 1 stands for {unit:e} m", numbers.lines.len())];
-    Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, heights, notes, warnings: Vec::new() })
+    Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, is_pitch_assumed, heights, notes, warnings })
 }
 
 /// Whether the first three columns look like a list of points without names.
 pub(super) fn is_likely(numbers: &Numbers) -> bool {
     let columns = [0, 1, 2];
-    let names = Names::first(numbers.first_line(), 3, Columns::Points(columns));
-    numbers.columns == 3 && Points::of(numbers, &names, columns).is_ok_and(|points| points.look_gridded())
+    let names = Names::first(numbers.first_line(), numbers.columns, Columns::Points(columns));
+    numbers.columns >= 3 && Points::of(numbers, &names, columns).is_ok_and(|points| points.look_gridded())
 }
 
 impl Points {

@@ -40,6 +40,9 @@ use super::options::ReadOptions;
 /// A matrix of three columns or fewer and more lines than this is more likely a list of points off a grid, or a profile.
 const NARROW: usize = 100;
 
+/// Columns of a list of points, at most, that is no matrix: coordinates, height, and what else an instrument knows of a point.
+const WIDEST: usize = 8;
+
 /// Reads the whole content of a text file. `xyz` says that it is named as a list of points.
 ///
 /// # Errors
@@ -72,7 +75,8 @@ fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, T
             Columns::Profile(_) => Err(TextError::IsProfile { columns, lines }),
         };
     }
-    if xyz || list::is_likely(numbers) {
+    let is_list = list::is_likely(numbers);
+    if xyz || is_list && columns == 3 {
         let three = Columns::Points([0, 1, 2]);
         let names = Names::first(numbers.first_line(), if xyz { columns.max(3) } else { 3 }, three);
         return list::read(numbers, &names, [0, 1, 2], options);
@@ -86,6 +90,12 @@ fn table(numbers: &Numbers, xyz: bool, options: &ReadOptions) -> Result<Table, T
     let mut table = matrix::read(numbers, options)?;
     if columns == 3 {
         table.warnings.push("three columns on no grid: read as a matrix, not as a list x, y, z".to_owned());
+    }
+    if is_list && columns <= WIDEST {
+        table.warnings.push(format!(
+            "the first two of {columns} columns make a grid, but the file is read as a matrix of {columns} by {lines} heights: if it is a list of \
+             points, name the columns in a line before them, such as x y z quality"
+        ));
     }
     Ok(table)
 }

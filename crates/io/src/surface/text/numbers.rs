@@ -91,7 +91,7 @@ impl Numbers {
         let values = self.column(place);
         match values.iter().position(|value| value.is_nan()) {
             None => Ok(values),
-            Some(at) => Err(TextError::Number { line: self.lines[at], column: place + 1, found: "NaN".to_owned() }),
+            Some(at) => Err(TextError::NoCoordinate { line: self.lines[at], column: place + 1 }),
         }
     }
 

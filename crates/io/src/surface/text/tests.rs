@@ -98,6 +98,36 @@ fn a_list_in_any_order_with_holes() {
 }
 
 #[test]
+fn a_list_without_a_unit_of_x_and_y_is_warned_of() {
+    // 20 x 12 points 12.5 um apart, in mm, with heights in um.
+    let place = |point: usize| (0.0125 * (point % 20) as f64, 0.0125 * (point / 20) as f64);
+    let lines: Vec<String> =
+        (0..240).map(|point| (place(point), point)).map(|((x, y), z)| format!("{x} {y} {z}")).collect();
+    let list = lines.join("\n");
+    for text in [list.clone(), format!("x y z [um]\n{list}")] {
+        let table = um(&text).unwrap();
+        assert!(table.is_pitch_assumed);
+        let [warning] = &table.warnings[..] else { panic!("{:?}", table.warnings) };
+        assert!(warning.contains("12.5 nm by 12.5 nm apart, 250 nm by 150 nm in all"), "{warning}");
+        assert!(warning.contains(r#"say pitch = ["12.5 um", "12.5 um"]"#), "{warning}");
+    }
+    // What is said is not wondered at: by the names, by the whole file, by the user; nor are heights in m.
+    for (text, options) in [
+        (format!("x [mm] y [mm] z [um]\n{list}"), options(None, None)),
+        (format!("unit: um\n{list}"), options(None, None)),
+        (list.clone(), options(Some(1e-6), Some([1e-3, 2e-3]))),
+        (list.clone(), options(Some(1.0), None)),
+    ] {
+        let table = read(text.as_bytes(), false, &options).unwrap();
+        assert!(!table.is_pitch_assumed && table.warnings.is_empty(), "{:?}", table.warnings);
+    }
+    // With one more column it is read as a matrix, which can hardly be meant.
+    let table = um(&lines.iter().map(|line| format!("{line} 100")).collect::<Vec<_>>().join("\n")).unwrap();
+    assert_eq!((table.columns, table.rows), (4, 240));
+    assert!(table.warnings[0].starts_with("the first two of 4 columns make a grid"), "{:?}", table.warnings);
+}
+
+#[test]
 fn three_columns_that_are_no_grid_are_a_matrix_if_they_are_few() {
     let table = um("1 2 3\n4 5 6\n7 8 9\n10 11 12").unwrap();
     assert_eq!(shape(&table), "1 2 3/4 5 6/7 8 9/10 11 12");
@@ -192,7 +222,9 @@ fn what_is_wrong_is_told_with_its_line() {
         Some("all points have the same y, expected a surface")
     );
     assert_eq!(error("x y z\n0 0 1\n1 0 1\n0 1 1\n1 0 1\n"), "line 5 has the same x and y as line 3");
-    assert!(error("x y z\n0 0 1\nNaN 0 1\n").starts_with("line 3, column 1: found \"NaN\", expected a number"));
+    assert!(
+        error("x y z\n0 0 1\nNaN 0 1\n").starts_with("line 3, column 1: a coordinate is missing, expected a number")
+    );
     assert_eq!(
         error("x y z\n0 0 1\n1 0 1\n2.3 0 1\n3 0 1\n0 1 1\n1 1 1\n2.3 1 1\n3 1 1"),
         "line 4: x = 2.3 lies off the regular grid from 0 in steps of 1"
@@ -285,7 +317,7 @@ fn what_is_no_profile_is_refused() {
     ));
     let found = profile("x [mm],z [um]\n0.0,1\n0.5,1\n", None, Some(1e-3)).unwrap_err().to_string();
     assert!(found.starts_with("the file states a pitch of 500 um, the scene 1 mm"), "{found}");
-    assert!(error("0 1\nNaN 1\n").starts_with("line 2, column 1: found \"NaN\", expected a number"));
+    assert!(error("0 1\nNaN 1\n").starts_with("line 2, column 1: a coordinate is missing, expected a number"));
 }
 
 #[test]
