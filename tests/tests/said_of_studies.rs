@@ -195,3 +195,52 @@ fn a_plan_of_very_many_runs_says_that_it_has_not_looked_at_all() {
     said(&study(20_001), 0, "20 001 runs are more than 20 000, so that their scenes are not looked at here");
     assert!(!study(8).stderr.contains("not looked at"));
 }
+
+/// A study of two loads with one response; the base scene is that of a quick run of two seconds.
+fn loads(response: &str) -> WorkingDirectory {
+    let directory = WorkingDirectory::new();
+    fs::copy(scene("quick.toml"), directory.path("quick.toml")).unwrap();
+    let head = "version = 1\nbase = \"quick.toml\"\ndesign = \"full-factorial\"\nset = [\"operation.duration = \\\"2 s\\\"\"]\n";
+    let factor = "[[factor]]\nname = \"load\"\nkey = \"operation.normal_force\"\nlevels = [\"5 N\", \"10 N\"]\n";
+    directory.write("study.toml", format!("{head}{factor}[[response]]\nname = \"y\"\n{response}\n"));
+    directory
+}
+
+#[test]
+fn a_series_that_no_run_records_is_refused_before_the_first_run() {
+    for (response, lacking) in [
+        ("dataset = \"/series/disc_sq\"\nat = \"end\"", "output.roughness = true"),
+        ("dataset = \"/series/friction_coefficient\"\nmean = \"last tenth\"", "a law of friction, table [friction]"),
+        ("dataset = \"/event/worn\"\nevent = \"last\"", "a cycle, table [operation.cycle]"),
+    ] {
+        let directory = loads(response);
+        for command in [&["plan"][..], &["run"]] {
+            let outcome = ask(&directory, command);
+            said(&outcome, 2, &format!("response \"y\": /{}", response.split(['/', '"']).nth(2).unwrap()));
+            said(&outcome, 2, &format!("is recorded only with {lacking}; add it to the base scene, or to `set`"));
+        }
+        assert_eq!(directory.names(), ["quick.toml", "study.toml"]);
+    }
+    // Where some runs have it the others give no value.
+    let directory = loads("dataset = \"/series/disc_sq\"\nat = \"end\"");
+    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
+    let switch = "[[factor]]\nname = \"told\"\nkey = \"output.roughness\"\nlevels = [false, true]\n[[response]]";
+    directory.write("study.toml", text.replace("[[response]]", switch));
+    said(&ask(&directory, &["run"]), 0, "output.roughness = true, which 2 of 4 runs do not have: they give no value");
+}
+
+#[test]
+fn a_wrong_level_and_a_base_that_is_not_there_are_told_at_their_place() {
+    let directory = loads("dataset = \"/series/contact_area\"\nat = \"end\"");
+    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
+    for (found, given, told) in [
+        ("\"10 N\"]", "10]", "study.toml:8:18: factor.levels: 10 has no unit, expected a force"),
+        ("\"10 N\"]", "\"10 Nm\"]", "study.toml:8:18: factor.levels: \"10 Nm\" is an energy, expected a force"),
+        ("quick.toml", "quik.toml", "study.toml:2:8: base: quik.toml: cannot read the scene"),
+    ] {
+        directory.write("study.toml", text.replace(found, given));
+        for command in ["plan", "run"] {
+            said(&ask(&directory, &[command]), 2, told);
+        }
+    }
+}

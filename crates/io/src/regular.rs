@@ -43,7 +43,7 @@ pub fn is_one_of(path: &Path, files: &[PathBuf]) -> bool {
 const LOOKED_AT: usize = 10_000;
 
 /// The error of a file that is not there, with the name beside it that is most like its own.
-pub(crate) fn not_there(path: &Path, error: io::Error) -> io::Error {
+pub fn not_there(path: &Path, error: io::Error) -> io::Error {
     if error.kind() != ErrorKind::NotFound {
         return error;
     }
@@ -57,6 +57,11 @@ pub(crate) fn not_there(path: &Path, error: io::Error) -> io::Error {
             ErrorKind::NotFound,
             format!("{error}; did you mean {}?", path.with_file_name(like).display()),
         ),
+        // Who gave a relative path may be somewhere else than it was meant from.
+        None if path.is_relative() => match std::path::absolute(path) {
+            Ok(absolute) => io::Error::new(ErrorKind::NotFound, format!("{error}; looked for {}", absolute.display())),
+            Err(_) => error,
+        },
         None => error,
     }
 }

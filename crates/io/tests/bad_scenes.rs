@@ -12,6 +12,7 @@ fn message(path: &Path, sets: &[&str]) -> String {
         Ok(scene) => panic!("{} was accepted:\n{}", path.display(), scene.resolved),
         Err(error) => error.problems().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
     };
+    let message = message.replace(env!("CARGO_MANIFEST_DIR"), "[crate]");
     match (message.find("of memory and "), message.find(" are available")) {
         (Some(start), Some(end)) => format!("{}of memory and [memory]{}", &message[..start], &message[end..]),
         _ => message,

@@ -32,6 +32,7 @@ pub mod watcher;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use plateau_io::regular;
 use plateau_io::study::Study;
 use plateau_io::study::journal::Journal;
 use plateau_io::study::plan::Plan;
@@ -54,8 +55,11 @@ pub fn plan(path: &Path) -> Result<Plan, Failure> {
 /// [`Failure::Input`].
 fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
     let path = plan.study().path.display();
-    match plan.study().base {
-        Some(_) => Ok(()),
+    match &plan.study().base {
+        Some(base) => fs::metadata(base).map(drop).map_err(|error| {
+            let problem = format!("{}: cannot read the scene: {}", base.display(), regular::not_there(base, error));
+            Failure::input(format_args!("{}: base: {problem}", plan.study().base_place))
+        }),
         None => Err(Failure::input(format_args!(
             "{path}: no base scene, so there is nothing to run; `plateau sweep import` takes in its responses"
         ))),

@@ -1,12 +1,15 @@
 //! The scenes of all runs of a study: whether they can be built, and what their results are told by.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use plateau_io::brief;
 use plateau_io::study::Study;
 use plateau_io::study::identity::{Digests, firsts, identity};
 use plateau_io::study::plan::Plan;
+use plateau_io::study::record::EVENT;
+use plateau_io::study::response::Response;
+use plateau_io::study::unrecorded::lacking;
 use rayon::prelude::*;
 
 use super::run_length::{RunLength, seconds};
@@ -17,8 +20,14 @@ use crate::{message, version};
 /// Problems that are shown.
 const SHOWN: usize = 10;
 
-/// Identity of a run, with its steps, how long it is, and its warnings.
-type Known = (String, (u64, RunLength, Vec<Found>));
+/// What a scene tells of its run.
+struct KnownScene {
+    steps: u64,
+    length: RunLength,
+    warnings: Vec<Found>,
+    /// For each response what it lacks to record its series, if anything.
+    lacking: Vec<Option<String>>,
+}
 
 /// What is known of every run before it is made, in the order of the design.
 #[derive(Debug, Clone)]
@@ -35,6 +44,8 @@ pub struct Resolved {
     pub warnings: SceneWarnings,
     /// The files of the scenes, and those that they read.
     pub files: BTreeSet<PathBuf>,
+    /// Of every response that some runs do not record: its place, how many, and what their scenes lack.
+    unrecorded: BTreeMap<usize, (usize, String)>,
 }
 
 impl Resolved {
@@ -64,6 +75,27 @@ impl Resolved {
         }
     }
 
+    /// Refuses responses to series that no run records, before any is made, and warns of those that some do not.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] with what the scenes lack.
+    pub fn refuse_unrecorded(&self, study: &Study) -> Result<(), Failure> {
+        let file = study.path.display();
+        let mut refused = Vec::new();
+        for (place, (runs, lacking)) in &self.unrecorded {
+            let Response { name, series, .. } = &study.responses[*place];
+            let dataset = if series.starts_with(EVENT) { format!("/{series}") } else { format!("/series/{series}") };
+            let told = format!("{file}: response \"{name}\": {dataset} is recorded only with {lacking}");
+            if *runs == self.identities.len() {
+                refused.push(format!("{told}; add it to the base scene, or to `set` in the study"));
+            } else {
+                let all = self.identities.len();
+                message::warning(format_args!("{told}, which {runs} of {all} runs do not have: they give no value"));
+            }
+        }
+        if refused.is_empty() { Ok(()) } else { Err(Failure::input(brief::list(refused, "\n"))) }
+    }
+
     /// Builds the scene of every run.
     ///
     /// # Errors
@@ -71,29 +103,41 @@ impl Resolved {
     pub fn of(plan: &Plan) -> Result<Self, Failure> {
         super::refuse_without_scene(plan)?;
         let (digests, program) = (Digests::default(), version::this().build());
+        // What is imported asks no series.
+        let asked: Vec<&str> = plan.study().responses.iter().map(|response| response.series.as_str()).collect();
         let resolve = |number: usize| {
             let run = plan.run(number);
             let scene = plan.scene(&run).map_err(|error| error.to_string())?;
             let identity = identity(&scene, &digests, &program)
                 .map_err(|(path, error)| format!("cannot read {}: {error}", path.display()))?;
-            let length = RunLength::of(&scene);
-            Ok(((identity, (scene.steps, length, of_scene(&scene))), scene.files))
+            let known = KnownScene {
+                steps: scene.steps,
+                length: RunLength::of(&scene),
+                warnings: of_scene(&scene),
+                lacking: asked.iter().map(|series| lacking(&scene, series)).collect(),
+            };
+            Ok(((identity, known), scene.files))
         };
         let all: Vec<Result<_, String>> = (1..=plan.runs()).into_par_iter().map(resolve).collect();
         let problems: Vec<(usize, &String)> =
             (1..).zip(&all).filter_map(|(number, result)| Some((number, result.as_ref().err()?))).collect();
         if problems.is_empty() {
-            let (known, files): (Vec<Known>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
+            let (known, files): (Vec<(String, KnownScene)>, Vec<Vec<PathBuf>>) = all.into_iter().flatten().unzip();
             let files = files.into_iter().flatten().chain(digests.files()).collect();
             let (mut identities, mut steps, mut lengths) = (Vec::new(), Vec::new(), Vec::new());
-            let mut warnings = SceneWarnings::default();
-            for (identity, (count, length, found)) in known {
+            let (mut warnings, mut unrecorded) = (SceneWarnings::default(), BTreeMap::new());
+            for (identity, scene) in known {
                 identities.push(identity);
-                steps.push(count);
-                lengths.push(length);
-                warnings.add(found);
+                steps.push(scene.steps);
+                lengths.push(scene.length);
+                warnings.add(scene.warnings);
+                for (place, lacking) in scene.lacking.into_iter().enumerate() {
+                    if let Some(lacking) = lacking {
+                        unrecorded.entry(place).or_insert((0, lacking)).0 += 1;
+                    }
+                }
             }
-            return Ok(Self { firsts: firsts(&identities), identities, steps, lengths, warnings, files });
+            return Ok(Self { firsts: firsts(&identities), identities, steps, lengths, warnings, files, unrecorded });
         }
         // The same mistake shows in many runs.
         let mut said: Vec<&String> = Vec::new();

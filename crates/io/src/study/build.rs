@@ -103,6 +103,7 @@ pub(super) fn build(document: Document, path: &Path, place: &Place<'_>) -> Resul
         files,
         title: document.title.unwrap_or(stem),
         path: path.to_owned(),
+        base_place: document.base.as_ref().map_or_else(file, |base| place.at(base.span().start)),
         base: document.base.map(|base| folder.join(base.get_ref())),
         directory: folder.join(directory),
         design: document.design.into_inner(),
@@ -223,6 +224,12 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
                     "factor.levels",
                     format!("{}: expected all in the same unit", other.text),
                 ));
+            }
+            let unfit = levels.get_ref().iter().enumerate();
+            if let Some((at, why)) =
+                unfit.filter_map(|(at, level)| Some((at, Level::unfit(key, level.get_ref())?))).next()
+            {
+                return refuse(at, why);
             }
             let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));
             if let Some((at, found)) = odd {

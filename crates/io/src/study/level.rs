@@ -61,6 +61,17 @@ impl Level {
         }
     }
 
+    /// Why a value can be no level of a key that holds a quantity, in words; of other keys the scenes of the runs tell.
+    pub fn unfit(key: &str, value: &toml::Value) -> Option<String> {
+        let found = schema::find(key)?;
+        let Kind::Quantity { dimension, .. } = found.kind else { return None };
+        match value {
+            toml::Value::String(word) if found.may_be_none() && word == "none" => None,
+            toml::Value::String(text) => units::parse(text, dimension).err().map(|error| error.to_string()),
+            other => Some(UnitError::NoUnit { text: other.to_string(), expected: dimension }.to_string()),
+        }
+    }
+
     /// The number before the unit, and the unit; none of a word.
     pub fn split(&self) -> Option<(f64, &str)> {
         let (number, unit) = self.label.trim().split_once(' ').unwrap_or((self.label.trim(), ""));

@@ -5,6 +5,7 @@
 //!                build          what its keys say together -> Study
 //!                measured       what was measured of the responses
 //!                measured_series  a series of it, from a table
+//!                unrecorded     series that no run would record
 //!                plan           the design, its points and replicates -> the runs, each a list of --set arguments
 //! results        identity       what a result is the result of
 //!                record         what is kept of a run
@@ -34,6 +35,7 @@ pub mod response;
 mod response_keys;
 pub mod results_table;
 mod unknown_key;
+pub mod unrecorded;
 pub mod value_table;
 
 use std::path::{Path, PathBuf};
@@ -62,6 +64,8 @@ pub struct Study {
     pub files: Vec<PathBuf>,
     /// The scene that is varied; none of a study whose responses are all imported.
     pub base: Option<PathBuf>,
+    /// Where the study names it.
+    pub base_place: Origin,
     /// Where results are kept.
     pub directory: PathBuf,
     /// Name of the design.

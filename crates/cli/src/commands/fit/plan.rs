@@ -35,7 +35,9 @@ pub fn say(plan: &Plan, task: &Task, arguments: &FitArguments) -> Result<(), Fai
     let study = plan.study();
     let estimate = Estimate::of(plan)?;
     estimate.warnings.say("runs whose surfaces were made to try");
-    Resolved::of(plan)?.warnings.say("runs to begin with");
+    let resolved = Resolved::of(plan)?;
+    resolved.refuse_unrecorded(study)?;
+    resolved.warnings.say("runs to begin with");
     let most = study.fit.runs.max(plan.runs());
     let jobs = arguments.cores.runs_at_a_time();
     let time = estimate.mean_time * most as f64 / jobs as f64;

@@ -155,6 +155,9 @@ fn made(
 ) -> Result<Option<(Collected, BTreeSet<PathBuf>)>, Failure> {
     let resolved = Resolved::of(plan)?;
     let warns = are_first && job.leads();
+    if are_first {
+        resolved.refuse_unrecorded(plan.study())?;
+    }
     if warns {
         resolved.warnings.say("runs to begin with");
     }

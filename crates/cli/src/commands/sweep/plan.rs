@@ -38,6 +38,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     if plan.runs() <= RESOLVED && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
+        resolved.refuse_unrecorded(plan.study())?;
         resolved.warn_of_late_questions(plan.study());
         short_tenth::say(plan.study(), &resolved.lengths);
         resolved.warnings.say("runs");

@@ -31,6 +31,7 @@ pub fn run(arguments: &SweepRunArguments) -> Result<(), Failure> {
 fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
     let resolved = Resolved::of(&plan)?;
+    resolved.refuse_unrecorded(plan.study())?;
     resolved.warn_of_late_questions(plan.study());
     short_tenth::say(plan.study(), &resolved.lengths);
     resolved.warnings.say("runs");
