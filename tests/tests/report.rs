@@ -335,7 +335,7 @@ fn what_is_no_run_file_is_refused() {
     let before = directory.content();
     for (arguments, message) in [
         (&["missing.h5"][..], "cannot read missing.h5"),
-        (&["text.h5"], "text.h5 is no HDF5 file"),
+        (&["text.h5"], "text.h5 is not an HDF5 file"),
         (&["run.h5", "foreign.h5"], "foreign.h5 is no run file of plateau: it has no root attribute format_version"),
         (&["cut.h5"], "cut.h5 is damaged"),
         (&["run.h5", "-o", "taken.html"], "taken.html exists; give --force to replace it"),

@@ -138,6 +138,16 @@ fn signals_leave_a_checkpoint_of_the_moment() {
             Some(status) => assert_eq!(child.wait().unwrap().code(), Some(status)),
         }
     }
+    // Who gives the same command again is told that there is something to go on with, and of a run that is finished is not.
+    for (file, is_offered) in [("run.h5", true), ("whole.h5", false)] {
+        let again = run(&directory, file, &rarely);
+        assert_eq!(
+            (again.status, again.stderr.contains("--resume goes on with it")),
+            (Some(2), is_offered),
+            "{again:?}"
+        );
+        assert!(again.stderr.contains(&format!("{file} exists")), "{again:?}");
+    }
     assert_eq!(run(&directory, "run.h5", &[&rarely[..], &["--resume"]].concat()).status, Some(0));
     let content = |name| RunFile::open(directory.path(name)).content();
     assert_eq!(differences(&content("whole.h5"), &content("run.h5")), [""; 0]);

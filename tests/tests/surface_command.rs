@@ -4,7 +4,7 @@ mod pictures;
 
 use std::fs;
 
-use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository};
+use plateau_tests::program::{Outcome, WorkingDirectory, quick_scene_with, repository, scene};
 use plateau_tests::run_file::{RunFile, created};
 use serde_json::Value;
 
@@ -358,4 +358,50 @@ fn roughness_is_in_the_run_file_on_request() {
     let check = json(directory.plateau(["check", "scene.toml", "--json"]));
     let reason = check["needed"].as_array().unwrap().iter().find(|part| part["part"] == "roughness with every sample");
     assert_eq!(reason.expect("the part")["reason"], "output.roughness = true");
+}
+
+#[test]
+fn heights_of_a_run_are_described_before_and_after() {
+    let directory = WorkingDirectory::new();
+    let maps = "output.maps_at=[\"0 s\", \"1 s\", \"2 s\"]";
+    let quick = scene("quick.toml");
+    let sets = ["--set", "operation.duration=2 s", "--set", maps];
+    directory.plateau([&["run", &quick, "-o", "run.h5"][..], &sets].concat()).quiet_success();
+    let run = RunFile::open(directory.path("run.h5"));
+    let all = json(directory.plateau(["surface", "run.h5", "--level", "mean", "--json"]));
+    let names: Vec<&str> = all.as_array().unwrap().iter().map(|surface| surface["name"].as_str().unwrap()).collect();
+    // Maps are those of the first step at or after their time.
+    let expected = ["disc height, 0 s", "disc height, 2.00", "pin height, 0 s", "pin height, 2.00"];
+    assert!(
+        names.len() == 4
+            && names.iter().zip(expected).all(|(name, begin)| name.starts_with(&format!("run.h5 {begin}")))
+    );
+    // Sq about the mean by its formula, in um, from the maps as another library reads them; the pin's peaks are at its least z.
+    for (at, (map, moment)) in
+        [("disc/height", 0), ("disc/height", 2), ("pin/height", 0), ("pin/height", 2)].into_iter().enumerate()
+    {
+        let heights = run.map(map, moment);
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        let square = heights.iter().map(|height| (height - mean).powi(2)).sum::<f64>() / heights.len() as f64;
+        assert!((all[at]["Sq"].as_f64().unwrap() / (1e6 * square.sqrt()) - 1.0).abs() < 1e-9, "{map} {moment}");
+        let sign = if map.starts_with("pin") { -1.0 } else { 1.0 };
+        let peak = heights.iter().map(|height| sign * (height - mean)).fold(0.0, f64::max);
+        assert!((all[at]["Sp"].as_f64().unwrap() / (1e6 * peak) - 1.0).abs() < 1e-9, "{map} {moment}");
+    }
+    // One of them, drawn and written for other programs.
+    let one = ["--dataset", "disc/height", "--at", "0.9 s", "--to", "worn.sdf", "--plot", "worn.png"];
+    let told = directory.plateau([&["surface", "run.h5"][..], &one].concat()).quiet_success();
+    assert!(told.contains("wrote worn.sdf") && directory.path("worn.png").exists(), "{told}");
+    let worn = json(directory.plateau(["surface", "worn.sdf", "--level", "mean", "--json"]));
+    let recorded = ["surface", "run.h5", "--dataset", "disc/height", "--at", "1 s", "--level", "mean", "--json"];
+    let recorded = json(directory.plateau(recorded));
+    assert!((worn["Sq"].as_f64().unwrap() / recorded["Sq"].as_f64().unwrap() - 1.0).abs() < 1e-9);
+    for (more, reason) in [
+        (&["--unit", "um"][..], "a run file says what its heights are: leave out --unit"),
+        (&["--dataset", "disc/status"], "this run file has no disc/status; it has disc/height, pin/height"),
+        (&["--to", "all.sdf"], "--to converts one surface, and these are 4: say which with --dataset"),
+    ] {
+        refused(&directory.plateau([&["surface", "run.h5"][..], more].concat()), reason);
+    }
+    refused(&directory.plateau(["surface", &afm(), "--at", "1 s"]), "this is not a run file");
 }

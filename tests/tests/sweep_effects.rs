@@ -119,7 +119,10 @@ fn a_design_with_as_many_terms_as_runs_says_what_would_tell_an_error() {
     let levels = "[[factor]]\nname = \"pin\"\nkey = \"pin.base.synthetic.fibre_fraction\"\nlevels = [0.2, 0.5, 0.7]\n";
     let directory = studied("design = \"full-factorial\"", &[POOL, levels, AREA]);
     let said = effects(&directory, &["--model", "interactions"]).stdout;
-    assert!(said.contains("give [replicates], or a smaller model such as --model main"), "{said}");
+    assert!(
+        said.contains("give [replicates] of seeds, such as those of the disc, or a smaller model such as --model main"),
+        "{said}"
+    );
     // Levels have no units: one equation says it.
     assert_eq!(said.matches("contact area [mm²] =").count(), 1, "{said}");
     assert!(said.contains("by levels: [factor level] is 1 at this level, else 0"), "{said}");

@@ -150,7 +150,7 @@ fn what_is_no_run_file_is_refused() {
         assert_eq!((outcome.status, outcome.stdout.as_str()), (Some(2), ""));
         assert_eq!(
             outcome.stderr,
-            "plateau: notes.txt is no HDF5 file, expected a run file of plateau, which `plateau run` writes\n"
+            "plateau: notes.txt is not an HDF5 file, expected a run file of plateau, which `plateau run` writes\n"
         );
     }
     assert_eq!(fs::read(file).unwrap(), b"precious");

@@ -290,6 +290,16 @@ pub struct WatchArguments {
     pub timeout: Option<u64>,
 }
 
+/// A time of the run, s.
+fn run_time(text: &str) -> Result<f64, String> {
+    let time = quantity(text, Dimension::Time)?;
+    if time >= 0.0 {
+        Ok(time)
+    } else {
+        Err(format!("{text} is before the start of a run, expected a time such as \"100 s\""))
+    }
+}
+
 /// A quantity of this dimension, SI.
 fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
     units::parse(text.trim(), dimension).map_err(|error| error.to_string())

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use std::{fs, io, thread};
 
+use plateau_run::signal_in_words;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU};
 use signal_hook::low_level::exit;
 
@@ -56,7 +57,7 @@ impl Interrupt {
                     return;
                 }
                 if let Some(signal) = noted(&signal) {
-                    let message = || format!("stopped by signal {signal} before the first step");
+                    let message = || format!("stopped by {} before the first step", signal_in_words(signal));
                     let stopped = Failure::Stopped { signal, message: speaks.then(message) };
                     stopped.say();
                     exit(stopped.status().into());

@@ -132,5 +132,5 @@ fn directory(path: &Path) -> &Path {
 }
 
 fn exists(path: &Path) -> Failure {
-    Failure::input(format_args!("{} exists; give --force to replace it, or name another file", path.display()))
+    Failure::input(format_args!("{} exists; give --force to replace it, or write elsewhere", path.display()))
 }

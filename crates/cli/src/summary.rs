@@ -54,7 +54,7 @@ pub fn text(summary: &RunSummary) -> String {
         ),
         ("disc filled", percent(summary.filled_fraction)),
         (
-            "with any build-up",
+            "secondary plateaus",
             format!("{} of the disc, {} of the pin", percent(summary.disc_secondary), percent(summary.pin_secondary)),
         ),
         (

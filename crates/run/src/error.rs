@@ -38,6 +38,15 @@ pub enum InputError {
     /// No run file can be made there.
     #[error(transparent)]
     RunFile(RunFileError),
+    /// There is a run file, whose run has not come to its end.
+    #[error(
+        "{} exists, and its run was stopped before its end; --resume goes on with it, --force begins again, -o FILE writes elsewhere",
+        path.display()
+    )]
+    Unfinished {
+        /// The run file.
+        path: PathBuf,
+    },
     /// Another process writes it.
     #[error(transparent)]
     Claim(Box<ClaimError>),
@@ -160,8 +169,8 @@ pub enum RunFailure {
 }
 
 /// A signal, or whatever the observer took for one, stopped the run.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("stopped by signal {signal}{progress}")]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("stopped by {}{progress}", signal_in_words(*signal))]
 pub struct Stopped {
     /// What [`Observer::asked_to_stop`](crate::Observer::asked_to_stop) gave.
     pub signal: u8,
@@ -169,13 +178,23 @@ pub struct Stopped {
     pub progress: Progress,
 }
 
+/// A signal as its sender knows it.
+pub fn signal_in_words(signal: u8) -> String {
+    match signal {
+        2 => "signal 2 (Ctrl-C)".to_owned(),
+        other => format!("signal {other}"),
+    }
+}
+
 /// How far a run had come when it was stopped.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Progress {
     /// Before the first step.
     NotStarted,
     /// The run file has what was done, and a checkpoint is beside it.
     Saved {
+        /// Physical time that was reached, and at which the run ends, s.
+        times: [f64; 2],
         /// Steps.
         steps: u64,
         /// The run file.
@@ -191,9 +210,12 @@ impl std::fmt::Display for Progress {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NotStarted => write!(f, " before the first step"),
-            Self::Saved { steps, file, samples } => {
-                let file = file.display();
-                write!(f, " after {steps} steps; {file} holds {samples} samples, --resume goes on from here")
+            Self::Saved { times, steps, file, samples } => {
+                let ([reached, end], file) = (times.map(number::short), file.display());
+                write!(
+                    f,
+                    " after {steps} steps, at {reached} s of {end} s; {file} holds {samples} samples, --resume goes on from here"
+                )
             }
             Self::Elsewhere => Ok(()),
         }

@@ -46,7 +46,7 @@ mod time_loop;
 mod warnings;
 
 pub use assembly::Assembly;
-pub use error::{InputError, Progress, RunError, RunFailure, Stopped};
+pub use error::{InputError, Progress, RunError, RunFailure, Stopped, signal_in_words};
 pub use header::input_files;
 pub use job::Job;
 pub use observer::Observer;

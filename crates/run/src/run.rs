@@ -7,7 +7,7 @@ use plateau_io::checkpoint::{self, RunState};
 use plateau_io::claim::Claim;
 use plateau_io::number;
 use plateau_io::plausibility::{self, Recorded};
-use plateau_io::run_file::{End, Header, RunFile, RunWriter, Synced, WriterReport, check_place};
+use plateau_io::run_file::{End, Header, RunFile, RunFileError, RunWriter, State, Synced, WriterReport, check_place};
 use plateau_io::scene::Scene;
 use plateau_io::scene::Warning;
 use plateau_io::surface::{self, Loaded};
@@ -70,7 +70,8 @@ impl Prepared {
         // What a link points to is what is written, and its checkpoints lie beside it.
         let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
         if job.leads() {
-            check_place(&path, options.replace || options.mode.resumes())?;
+            check_place(&path, options.replace || options.mode.resumes())
+                .map_err(|error| if_unfinished(error, &path))?;
             Claim::check(&path)?;
         }
         stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
@@ -158,13 +159,26 @@ fn close(
     };
     match (result, writer.finish(&end, assembly.events())) {
         (Err(Interruption::Stopped(signal)), Ok(report)) => {
-            let steps = assembly.simulation.steps_done();
-            let progress = Progress::Saved { steps, file: path.to_owned(), samples: report.samples };
+            let (steps, times) =
+                (assembly.simulation.steps_done(), [assembly.simulation.time(), assembly.schedule.end_time()]);
+            let progress = Progress::Saved { times, steps, file: path.to_owned(), samples: report.samples };
             Err(Stopped { signal, progress }.into())
         }
         (Ok(()) | Err(Interruption::Stopped(_)), closed) => Ok(closed.map_err(RunFailure::RunFile)?),
         // The first error is the one to report; a writer that failed has nothing more to say.
         (Err(failure), _) => Err(without_file(failure)),
+    }
+}
+
+/// The refusal of a run file that is there, with what is known of it: it may be one to go on with.
+fn if_unfinished(error: RunFileError, path: &Path) -> InputError {
+    let is_stopped = || RunFile::open(path).is_ok_and(|run| run.state() == State::Interrupted);
+    let has_checkpoint = || checkpoint::paths(path).iter().any(|checkpoint| checkpoint.exists());
+    match error {
+        RunFileError::Exists { .. } if has_checkpoint() && is_stopped() => {
+            InputError::Unfinished { path: path.to_owned() }
+        }
+        other => InputError::RunFile(other),
     }
 }
 

@@ -289,8 +289,9 @@ fn margins_of_effects_without_error() {
     assert_eq!(seven.pseudo_standard_error, 6.0);
     assert!((seven.margin / 6.0 - 3.76412307208258).abs() < 1e-12);
     assert!((seven.simultaneous_margin / 6.0 - 9.00830711394499).abs() < 1e-12, "{}", seven.simultaneous_margin / 6.0);
-    assert_eq!(Lenth::new(&[1.0, 2.0], 0.95), None);
-    assert_eq!(Lenth::new(&[0.0, 0.0, 0.0, 1.0], 0.95), None);
+    // Of three effects, those of two factors, it would have one degree of freedom, and 12.7 times the error for a margin.
+    assert_eq!(Lenth::new(&[1.0, -2.0, 3.0, -4.0, 5.0], 0.95), None);
+    assert_eq!(Lenth::new(&[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], 0.95), None);
 }
 
 #[test]

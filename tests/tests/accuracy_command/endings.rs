@@ -49,7 +49,7 @@ fn bad_input_is_refused() {
             &["too small", "the scene's own run, which is the reference, and one to hold against it take about"],
         ),
         (&["missing.toml"], &["missing.toml"]),
-        (&["scene.toml", "--reference", "scene.toml"], &["scene.toml is no HDF5 file"]),
+        (&["scene.toml", "--reference", "scene.toml"], &["scene.toml is not an HDF5 file"]),
         (
             &["scene.toml", "--reference", "other.h5"],
             &["other.h5 is a run of another scene", "operation.normal_force: \"6 N\" there, \"5 N\" here"],
@@ -93,7 +93,9 @@ fn a_signal_ends_it_in_good_order() {
     assert!(started && sent.success());
     assert_eq!(outcome.status.code(), Some(130), "{message}");
     assert!(
-        message.contains("stopped by signal 2 during the reference run with time_acceleration = 1; nothing is written"),
+        message.contains(
+            "stopped by signal 2 (Ctrl-C) during the reference run with time_acceleration = 1; nothing is written"
+        ),
         "{message}"
     );
     assert_eq!(directory.names(), ["scene.toml"]);

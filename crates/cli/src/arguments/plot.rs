@@ -7,7 +7,7 @@ use plateau_io::units::Dimension;
 use plateau_present::figure::run::NAMES;
 use plateau_present::figure::{ColourMap, Format};
 
-use super::quantity;
+use super::{quantity, run_time};
 
 /// Arguments of `plateau plot`.
 #[derive(Debug, Args)]
@@ -25,7 +25,7 @@ pub struct PlotArguments {
     #[arg(long = "figure", value_name = "NAME", value_parser = NAMES)]
     pub figures: Vec<String>,
     /// Time of the maps to show, the nearest that was recorded ("100 s"); may be repeated. Unless given, the first and the last map
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = run_time)]
     pub at: Vec<f64>,
     /// Width of the figures in millimetres ("120 mm"), with letters of the same size; unless given, 88 mm or 180 mm. Those of 180 mm are made at least 120 mm wide
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = width)]
@@ -89,16 +89,6 @@ impl From<Colours> for ColourMap {
             Colours::Plasma => Self::Plasma,
             Colours::Greys => Self::Greys,
         }
-    }
-}
-
-/// A time of the run, s.
-fn time(text: &str) -> Result<f64, String> {
-    let time = quantity(text, Dimension::Time)?;
-    if time >= 0.0 {
-        Ok(time)
-    } else {
-        Err(format!("{text} is before the start of a run, expected a time such as \"100 s\""))
     }
 }
 

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use plateau_core::surface::Level;
 
-use super::ReadArguments;
+use super::{ReadArguments, run_time};
 
 /// Arguments of `plateau surface`.
 #[derive(Debug, Args)]
 pub struct SurfaceArguments {
-    /// Surface files, told by their content
+    /// Surface files, told by their content; of a run file the heights of disc and pin, or the map that --dataset names
     #[arg(value_name = "FILE", required_unless_present = "prepare")]
     pub files: Vec<PathBuf>,
     /// Print one JSON document instead of a table: an object for one surface, an array for several; heights in um
@@ -26,6 +26,9 @@ pub struct SurfaceArguments {
     /// Write the heights as they are, not levelled, in the format of the ending
     #[arg(long, value_name = "FILE")]
     pub to: Option<PathBuf>,
+    /// Time of the maps of a run file, the nearest that was recorded ("100 s"); may be repeated. Unless given, the first and the last map
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = run_time)]
+    pub at: Vec<f64>,
     /// Describe what a scene makes of its disc and pin surfaces, too, beside the patches that they are made of
     #[arg(long, value_name = "SCENE")]
     pub prepare: Option<PathBuf>,

@@ -11,7 +11,7 @@ use plateau_run::accuracy::{
     AccuracyError, Found, Ladder, ReadReference, Report, Row, Wish, integrator_name, read_reference, search,
 };
 use plateau_run::execution::decide;
-use plateau_run::input_files;
+use plateau_run::{input_files, signal_in_words};
 
 use super::load_scene;
 use crate::accuracy::{Making, csv, json, text};
@@ -93,7 +93,8 @@ fn measure_into(
         None => Ok(()),
         Some(signal) => {
             let (runs, folder) = (report.rows.len(), arguments.output.display());
-            let message = format!("stopped by signal {signal}; {folder} has the {runs} runs that were done");
+            let message =
+                format!("stopped by {}; {folder} has the {runs} runs that were done", signal_in_words(signal));
             Err(Failure::Stopped { signal, message: Some(message) })
         }
     }
@@ -109,7 +110,8 @@ fn places(
     inputs.extend(surfaces.iter().map(|(path, _)| path.clone()));
     inputs.extend(arguments.reference.clone());
     let places = FILES.map(|name| arguments.output.join(name));
-    places.iter().try_for_each(|path| output::check(path, arguments.force, &inputs))?;
+    let check = |path: &PathBuf| output::check(path, arguments.force, &inputs);
+    places.iter().try_for_each(check).map_err(|failure| failure.but("-o DIR names another folder"))?;
     Ok(places)
 }
 

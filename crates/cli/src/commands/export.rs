@@ -127,7 +127,7 @@ impl Job<'_> {
     }
 
     fn check(&self, path: &Path) -> Result<(), Failure> {
-        output::check(path, self.force, &self.inputs)
+        output::check(path, self.force, &self.inputs).map_err(|failure| failure.but("-o names another place"))
     }
 
     fn series(&self) -> String {

@@ -26,7 +26,8 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let place = |figure: &Figure| directory.join(format!("{}.{}", figure.name, format.ending()));
     // Before the first is written: either all are, or none.
     let inputs = super::runs::inputs_of(&runs);
-    figures.figures.iter().try_for_each(|figure| output::check(&place(figure), *force, &inputs))?;
+    let check = |figure: &Figure| output::check(&place(figure), *force, &inputs);
+    figures.figures.iter().try_for_each(check).map_err(|failure| failure.but("-o DIR names another folder"))?;
     for figure in &figures.figures {
         let path = place(figure);
         output::write_in_folder(&path, &figure.draw(format).map_err(Failure::run)?, *force)?;

@@ -9,6 +9,7 @@ use plateau_io::claim::Claim;
 use plateau_io::process::{Writer, writer_of};
 use plateau_io::run_file::{self, LeftOut, Repair, RepairError, RunFile};
 use plateau_io::units::{self, Dimension};
+use plateau_run::signal_in_words;
 
 use crate::arguments::RepairArguments;
 use crate::failure::Failure;
@@ -34,7 +35,7 @@ pub fn repair(arguments: &RepairArguments) -> Result<(), Failure> {
             }
         }
         if let Some(signal) = interrupt.signal() {
-            let message = format!("stopped by signal {signal} after {}", path.display());
+            let message = format!("stopped by {} after {}", signal_in_words(signal), path.display());
             return Err(Failure::Stopped { signal, message: Some(message) });
         }
     }

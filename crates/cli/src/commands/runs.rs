@@ -15,14 +15,19 @@ use crate::message;
 /// [`Failure::Input`] when it cannot be read.
 pub fn open_run(path: &Path) -> Result<RunFile, Failure> {
     let run = RunFile::open(path).map_err(Failure::input)?;
+    warn_of_unfinished(&run);
+    Ok(run)
+}
+
+/// Warns of a run that is not finished.
+pub fn warn_of_unfinished(run: &RunFile) {
     let samples = number::count(run.time().len(), "sample");
     let state = match run.state() {
-        State::Finished => return Ok(run),
+        State::Finished => return,
         State::Running => "running (or it was killed)".to_owned(),
         state => state.name().to_owned(),
     };
-    message::warning(format_args!("{} is not finished: its state is {state}, with {samples}", path.display()));
-    Ok(run)
+    message::warning(format_args!("{} is not finished: its state is {state}, with {samples}", run.path().display()));
 }
 
 /// Opens run files that are shown together; warns of those that are not finished or named twice.

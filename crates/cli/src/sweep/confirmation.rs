@@ -12,7 +12,7 @@ use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
 use plateau_present::study::analysis::Analysis;
-use plateau_run::Job;
+use plateau_run::{Job, signal_in_words};
 use plateau_study::surrogate::Forecast;
 use serde::Serialize;
 
@@ -97,7 +97,7 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
     floor.warn_of_surfaces();
     let made = floor.end(shared.map_err(Failure::run))?;
     if let Some(signal) = floor.signal() {
-        let message = format!("stopped by signal {signal}; the same command goes on");
+        let message = format!("stopped by {}; the same command goes on", signal_in_words(signal));
         return Err(Failure::Stopped { signal, message: Some(message) });
     }
     if made.failed > 0 {

@@ -27,7 +27,7 @@ fn longer(lengths: &[RunLength]) -> Option<String> {
     let over = if most.part() < 1.0 { format!("the last {part} of {whole}") } else { format!("all of the {whole}") };
     Some(format!(
         "a tenth of a run has fewer than {LEAST_REVOLUTIONS} simulated revolutions in {count} of {}, so the mean is over more: with \
-         {} revolutions in all it is over {over}; take longer runs or a smaller time_acceleration for less",
+         {} revolutions in all it is over {over}; for a mean over a tenth take longer runs, or a smaller time_acceleration",
         number::count(lengths.len(), "run"),
         number::rounded(turns, 2)
     ))

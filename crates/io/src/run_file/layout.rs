@@ -68,7 +68,7 @@ pub(super) fn series_path(name: &str) -> String {
 }
 
 /// Path of a map.
-pub(crate) fn map_path(map: Map) -> &'static str {
+pub fn map_path(map: Map) -> &'static str {
     match map {
         Map::DiscHeight => "disc/height",
         Map::DiscSubstrate => "disc/substrate",

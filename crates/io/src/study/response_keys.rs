@@ -99,7 +99,12 @@ fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
     }
     match (&table.at, &table.mean, &table.reaches) {
         (Some(at), None, None) if at.get_ref() == "end" => Ok(Question::End),
-        (Some(at), None, None) => Ok(Question::At(time(at, "response.at")?)),
+        (Some(at), None, None) => match time(at, "response.at") {
+            Ok(time) => Ok(Question::At(time)),
+            Err(Problem { message, .. }) => {
+                Err(place.problem(at, "response.at", format!("{message}; \"end\" is the end of the run")))
+            }
+        },
         (None, Some(mean), None) => {
             let Mean::Between([from, to]) = mean.get_ref() else { return Ok(Question::MeanOfLastTenth) };
             let (start, end) = (time(from, "response.mean")?, time(to, "response.mean")?);

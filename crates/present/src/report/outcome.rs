@@ -64,18 +64,22 @@ pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Me
         error: contact_area.and_then(|window| window.standard_error),
         ..shown("contact_area")
     };
-    let mut measures = vec![shown("sliding_distance"), mean, part("contact_area", "of the last step")];
-    let contact = ["contact_ratio", "mean_pressure", "max_pressure", "filled_fraction"];
+    let mut measures = vec![
+        shown("sliding_distance"),
+        mean,
+        part("contact_area", "of the last step"),
+        part("contact_ratio", "of the last step, as a part of the area of the pin"),
+    ];
+    let contact = ["mean_pressure", "max_pressure", "filled_fraction"];
     measures.extend(contact.map(shown));
     measures.extend(["disc_secondary", "pin_secondary", "pin_primary", "pin_none"].map(shown));
     measures.push(measure("Worn volume", Unit::MM3, all_worn));
     measures.extend(worn.map(|(name, of)| part(name, of)));
     measures.extend(["emitted", "deposited_pin", "deposited_disc", "pool"].map(shown));
     let residuals = [("load_residual", "load"), ("balance_residual", "debris")];
-    measures.extend(
-        residuals
-            .map(|(name, of)| measure(&format!("Largest residual of the {of} balance"), Unit::NUMBER, largest(name))),
-    );
+    measures.extend(residuals.map(|(name, of)| {
+        measure(&format!("Largest residual of the {of} balance in the samples"), Unit::NUMBER, largest(name))
+    }));
     measures
 }
 

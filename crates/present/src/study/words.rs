@@ -47,7 +47,8 @@ pub fn quality(effects: &Effects, shown: impl Fn(f64) -> String) -> String {
         // It has as many terms as runs.
         let advice = match effects.error {
             ErrorSource::Saturated => {
-                ", so no interval can be told: give [replicates], or a smaller model such as --model main"
+                ", so no interval can be told: give [replicates] of seeds, such as those of the disc, or a smaller model such as \
+                 --model main"
             }
             _ => "",
         };

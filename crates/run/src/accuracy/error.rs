@@ -9,6 +9,8 @@ use plateau_io::number;
 use plateau_io::run_file::ReadError;
 use thiserror::Error;
 
+use crate::error::signal_in_words;
+
 use crate::error::RunError;
 
 /// Why errors cannot be measured.
@@ -32,7 +34,7 @@ pub enum AccuracyError {
         error: Unfinished,
     },
     /// A signal came before anything could be compared.
-    #[error("stopped by signal {signal} {moment}; nothing is written")]
+    #[error("stopped by {} {moment}; nothing is written", signal_in_words(*signal))]
     Stopped {
         /// The signal.
         signal: u8,
@@ -54,7 +56,7 @@ pub enum Unfinished {
         step: u64,
     },
     /// This signal asked to stop.
-    #[error("stopped by signal {0}")]
+    #[error("stopped by {}", signal_in_words(*.0))]
     Stopped(u8),
 }
 

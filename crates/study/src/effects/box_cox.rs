@@ -11,6 +11,9 @@ use super::distribution::half_normal_quantile;
 use super::result::Effects;
 use super::transform::Transform;
 
+/// Degrees of freedom of the error, at least: the interval takes its scatter for known, and would be a point.
+const LEAST_FREEDOM: usize = 3;
+
 /// Powers that are looked at.
 const POWERS: [f64; 2] = [-5.0, 5.0];
 /// Distance of the powers at which the search begins.
@@ -122,7 +125,7 @@ impl Powers {
 
 impl Effects {
     /// The power of the response that this model fits best; `fitted` is what the responses of this analysis were transformed
-    /// by. None where a response is not above 0, or there is no error.
+    /// by. None where a response is not above 0, or the error has fewer than three degrees of freedom.
     pub fn box_cox(&self, fitted: Option<Transform>) -> Option<BoxCox> {
         self.residual_standard_deviation?;
         let inner = &self.inner;
@@ -135,6 +138,9 @@ impl Effects {
         let mean = logarithms.mean();
         logarithms.add_scalar_mut(-mean);
         let basis = self.basis()?;
+        if basis.nrows() < basis.ncols() + LEAST_FREEDOM {
+            return None;
+        }
         let powers = Powers { logarithms, basis };
         let power = powers.best();
         let least = powers.log_likelihood(power) - 0.5 * half_normal_quantile(self.confidence).powi(2);

@@ -5,8 +5,8 @@
 
 use super::distribution::{half_normal_quantile, t_quantile};
 
-/// Fewest effects that show an error.
-const FEWEST_EFFECTS: usize = 3;
+/// Fewest effects that show an error: of fewer the method has less than two degrees of freedom, and margins of many times the error.
+const FEWEST_EFFECTS: usize = 6;
 /// Effects that are this small beside the largest are rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -22,7 +22,7 @@ pub struct Lenth {
 }
 
 impl Lenth {
-    /// Judges effects that have equal errors, such as all of a design with two levels; none for fewer than three, and
+    /// Judges effects that have equal errors, such as all of a design with two levels; none for fewer than six, and
     /// where more than half of them are zero.
     pub fn new(effects: &[f64], confidence: f64) -> Option<Self> {
         let mut sizes: Vec<f64> = effects.iter().map(|effect| effect.abs()).collect();

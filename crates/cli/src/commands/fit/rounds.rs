@@ -11,8 +11,8 @@ use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
 use plateau_present::study::place::shortened;
-use plateau_run::Job;
 use plateau_run::job::Agreement;
+use plateau_run::{Job, signal_in_words};
 use plateau_study::design::Setting;
 use plateau_study::fit::{Fit, Key};
 
@@ -192,7 +192,7 @@ fn made(
         // Every result is on the disk when all have come here.
         let own = Agreement { signal: interrupt.signal(), ..Agreement::default() };
         if let Some(signal) = job.agree(own).map_err(Failure::run)?.signal {
-            let message = || format!("stopped by signal {signal}; the same command goes on");
+            let message = || format!("stopped by {}; the same command goes on", signal_in_words(signal));
             return Err(Failure::Stopped { signal, message: job.leads().then(message) });
         }
         if job.leads() { journal(plan.study())? } else { Journal::default() }

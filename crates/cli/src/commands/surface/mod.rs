@@ -3,6 +3,7 @@
 mod comparison;
 mod describe;
 mod document;
+mod recorded;
 mod subject;
 mod text;
 
@@ -21,6 +22,7 @@ use crate::message;
 use crate::output;
 use crate::table::print;
 use comparison::Comparison;
+use recorded::RecordedHeights;
 use subject::Subject;
 
 /// More surfaces make no legible picture.
@@ -30,17 +32,37 @@ const MOST_PLOTTED: usize = 12;
 pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     refuse_impossible(arguments)?;
     let mut subjects = Vec::new();
+    let level = arguments.level.unwrap_or(Level::Plane);
     for path in &arguments.files {
-        let mut measured = read(path, arguments)?;
+        let mut found = match recorded::of(path, arguments)? {
+            Some(found) => found,
+            None => {
+                vec![RecordedHeights { name: path.display().to_string(), body: None, measured: read(path, arguments)? }]
+            }
+        };
         if let Some(to) = &arguments.to {
-            convert(path, &mut measured, to, arguments.force)?;
+            let [one] = &mut found[..] else { return Err(several(path, &found)) };
+            convert(path, &mut one.measured, to, arguments.force)?;
         }
-        subjects.push(Subject::of_file(path, measured, arguments.level.unwrap_or(Level::Plane), draws(arguments))?);
+        for RecordedHeights { name, body, measured } in found {
+            subjects.push(Subject::of_file(name, measured, level, body == Some(Body::Disc), draws(arguments))?);
+        }
     }
     if let Some(path) = &arguments.prepare {
         subjects.extend(prepared(path, arguments)?);
     }
     tell(&subjects, arguments)
+}
+
+/// Refuses to convert several maps of a run into one file.
+fn several(path: &Path, found: &[RecordedHeights]) -> Failure {
+    let count = found.len();
+    named(
+        path,
+        format_args!(
+            "--to converts one surface, and these are {count}: say which with --dataset disc/height and --at TIME"
+        ),
+    )
 }
 
 fn draws(arguments: &SurfaceArguments) -> bool {
@@ -54,8 +76,8 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
         return Err(Failure::input("--to converts one FILE: leave out the others and --prepare"));
     }
     let surfaces = files.len() + 2 * usize::from(prepare.is_some());
-    if plot.is_some() && surfaces > MOST_PLOTTED {
-        return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
+    if plot.is_some() {
+        refuse_many(surfaces)?;
     }
     for (option, picture) in [("--plot", plot), ("--preview", preview)] {
         let Some(picture) = picture else { continue };
@@ -136,9 +158,19 @@ fn draw(figure: &Figure, path: &Path, force: bool) -> Result<(), Failure> {
     output::write(path, &content, force)
 }
 
+/// Refuses to draw more than can be told apart.
+fn refuse_many(surfaces: usize) -> Result<(), Failure> {
+    if surfaces > MOST_PLOTTED {
+        return Err(Failure::input(format_args!("--plot draws {MOST_PLOTTED} surfaces at most, these are {surfaces}")));
+    }
+    Ok(())
+}
+
 /// Draws and prints.
 fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failure> {
     if let Some(plot) = &arguments.plot {
+        // A run file has several.
+        refuse_many(subjects.len())?;
         let described: Vec<DescribedSurface> = subjects.iter().flat_map(Subject::described).collect();
         draw(&surface_description::figure(&described), plot, arguments.force)?;
     }

@@ -11,7 +11,6 @@ use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
 use super::comparison::Comparison;
 use super::describe::describe;
-use super::named;
 use crate::failure::Failure;
 use crate::message;
 
@@ -42,27 +41,27 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// A file, with the form taken out.
-    pub fn of_file(path: &Path, measured: Measured, form: Level, draws: bool) -> Result<Self, Failure> {
+    /// What a file has, with the form taken out; `closed` if it closes round the ring.
+    pub fn of_file(name: String, measured: Measured, form: Level, closed: bool, draws: bool) -> Result<Self, Failure> {
         let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
         warnings.extend(implausible::stand_in(&heights));
-        level(&mut heights, rows, form, false);
+        level(&mut heights, rows, form, closed);
         let grid = Grid { columns, rows, pitch, heights: &heights };
         let points = heights.len();
-        let none = || named(path, format_args!("none of its {points} points has a height"));
-        let description = describe(&path.display().to_string(), &grid)?.ok_or_else(none)?;
+        let none = || Failure::input(format_args!("{name}: none of its {points} points has a height"));
+        let description = describe(&name, &grid)?.ok_or_else(none)?;
         warnings.extend(implausible::odd_pitch(&pitch.unwrap_or_default(), None).filter(|_| pitch.is_some()));
         warnings.extend(implausible::odd_rms(description.heights.root_mean_square_height));
         for warning in &warnings {
-            message::warning(format_args!("{}: {warning}", path.display()));
+            message::warning(format_args!("{name}: {warning}"));
         }
         Ok(Self {
-            name: path.display().to_string(),
+            name,
             origin: format.to_string(),
             columns,
             rows,
             pitch,
-            level: level_name(form, false),
+            level: level_name(form, closed),
             notes,
             warnings,
             comparison: None,

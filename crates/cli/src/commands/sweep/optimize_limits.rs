@@ -48,8 +48,7 @@ impl Limited<'_> {
         }
         let ends = self.at_ends(best);
         if !ends.is_empty() {
-            lines
-                .push(format!("at an end of the range: {}; what lies beyond the study does not know", ends.join(", ")));
+            lines.push(format!("at an end of the range: {}; the study knows nothing beyond it", ends.join(", ")));
         }
         Ok(lines.into_iter().map(|line| format!("  {line}\n")).collect())
     }

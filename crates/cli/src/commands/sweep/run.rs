@@ -6,8 +6,8 @@ use std::time::Instant;
 use plateau_io::study::journal::{Entry, Journal};
 use plateau_io::study::plan::Plan;
 use plateau_io::text::shown_on_one_line;
-use plateau_run::Job;
 use plateau_run::job::Agreement;
+use plateau_run::{Job, signal_in_words};
 use serde::Serialize;
 
 use crate::arguments::SweepRunArguments;
@@ -99,8 +99,9 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let own = Agreement { signal: floor.signal(), ..Agreement::default() };
     let signal = job.agree(own).map_err(Failure::run)?.signal;
     if let Some(signal) = signal {
-        let message =
-            || format!("stopped by signal {signal}; {} runs are left, the same command goes on", summary.left);
+        let message = || {
+            format!("stopped by {}; {} runs are left, the same command goes on", signal_in_words(signal), summary.left)
+        };
         return Err(Failure::Stopped { signal, message: job.leads().then(message) });
     }
     match summary.failed + summary.failed_before {

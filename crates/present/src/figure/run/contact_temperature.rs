@@ -5,7 +5,7 @@ use plateau_io::run_file::ReadError;
 
 use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
 use super::map_rows::{Painted, having, rows};
-use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment};
+use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment, without_contact};
 use super::shape::Shape;
 use super::{Figures, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -30,7 +30,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for subject in having(figures, NAME, subjects, Map::Temperature) {
         let moments = moments(subject)?;
         if moments.is_empty() {
-            figures.leave_out(NAME, subject, "no map temperature with a contact after the start");
+            figures.leave_out(NAME, subject, &without_contact(subject.run, "temperature"));
         } else {
             shown.push(subject);
             chosen.push(moments);

@@ -49,6 +49,8 @@ mod topography;
 #[cfg(test)]
 mod written;
 
+pub use moments::{moment, nearest};
+
 use std::fmt;
 use std::path::PathBuf;
 
@@ -58,7 +60,6 @@ use super::format::Figure;
 use super::page::{PER_MILLIMETRE, Page};
 use crate::colour::ColourMap;
 use crate::label::labels;
-use moments::nearest;
 use shape::Shape;
 
 /// More runs make no legible figure, and have no colours of their own.

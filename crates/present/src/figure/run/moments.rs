@@ -1,7 +1,7 @@
 //! Maps at the moments that figures show: the first and the last that were recorded, or those that are asked for.
 
 use plateau_core::observe::{Map, MapValues};
-use plateau_io::run_file::{ReadError, RunFile};
+use plateau_io::run_file::{ReadError, RunFile, State};
 
 use super::Subject;
 use crate::figure::chart::Meaning;
@@ -39,6 +39,19 @@ pub fn ends_with_contact(subject: &Subject, map: Map, of_contact: fn(f64) -> boo
     let Some(first) = first_of(&mut after_the_start(subject.run))? else { return Ok(Vec::new()) };
     let last = first_of(&mut after_the_start(subject.run).rev())?.unwrap_or(first);
     Ok(if first == last { vec![last] } else { vec![first, last] })
+}
+
+/// Why a run has no map with a contact after the start, of a map of this name.
+pub fn without_contact(run: &RunFile, name: &str) -> String {
+    let first =
+        run.time().last().filter(|_| run.state() == State::Interrupted && after_the_start(run).next().is_none());
+    match first {
+        Some(time) => format!(
+            "no map {name} after the start: the run was stopped at {}, before its first one",
+            Unit::usual("s").with_symbol(&number::rounded(*time, 4))
+        ),
+        None => format!("no map {name} with a contact after the start"),
+    }
 }
 
 /// What was chosen for a run, of those that are shown.

@@ -142,8 +142,10 @@ class Chart {
         const index = chart.cursor.idx ?? times.length - 1;
         this.when.textContent = times.length ? `at ${readable(times[index], 6)} s` : "";
         this.lines.forEach((line, at) => {
+            // A run that ended before has no value there.
+            const ended = times[index] > (line.points.times.at(-1) ?? -Infinity) * (1 + 1e-9);
             const value = chart.data[at + 1][nearest(chart, at + 1, index)];
-            this.cells[at].textContent = `${readable(value)} ${line.series.unit.symbol}`.trim();
+            this.cells[at].textContent = ended ? "–" : `${readable(value)} ${line.series.unit.symbol}`.trim();
         });
     }
 
