@@ -50,6 +50,8 @@ class MapAccessor:
         xarray.DataArray
             In the unit of the map; the dimensions of the map without angle and radius.
         """
+        if self.status_names:
+            raise InputError("this is a map of statuses, whose numbers have no mean: area_fraction(name) gives the part of the area with one")
         over = [self._angle, "radius"]
         return self._cells.weighted(self._cells["radius"]).mean(over, keep_attrs=True)
 

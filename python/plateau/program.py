@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from plateau.errors import PlateauError, PlateauWarning, error_of, in_python
+from plateau.errors import InputError, PlateauError, PlateauWarning, error_of, in_python
 from plateau.progress import Follow, follow_pipe, follow_terminal, shower
 
 # What every message of the program begins with.
@@ -44,7 +44,7 @@ def find_program() -> str:
     if given:
         found = shutil.which(given)
         if found is None:
-            raise PlateauError(f"PLATEAU_PROGRAM is {given!r}, which is no program: correct it or unset it")
+            raise PlateauError(f"PLATEAU_PROGRAM is {given!r}, which is not a program: correct it or unset it")
         return found
     # Two folders up are site-packages, or the folder `python` of a checkout with its launcher beside it.
     package = Path(__file__).resolve().parent
@@ -116,6 +116,9 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
         With the message of the program. Its warnings are given as `PlateauWarning`.
     """
     command = [find_program(), *[os.fspath(argument) for argument in arguments]]
+    for argument in command:
+        if (b"\0" if isinstance(argument, bytes) else "\0") in argument:
+            raise InputError(f"{argument!r} has a character 0, which no argument of a program can have: take it out")
     show = shower(progress)
     with tempfile.TemporaryFile() as output:
         status, said = _wait(command, output, follow_pipe if show is None else follow_terminal, show)

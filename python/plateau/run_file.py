@@ -8,7 +8,7 @@ from typing import Any
 import h5py
 import xarray
 
-from plateau.errors import InputError, MissingFileError, MissingPackageError, UnknownNameError
+from plateau.errors import InputError, InputTypeError, MissingFileError, MissingPackageError, PlateauError, UnknownNameError
 
 # What every HDF5 file begins with.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -51,12 +51,23 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     '1'
     """
     try:
+        path = os.fsdecode(path)
+    except TypeError as error:
+        raise InputTypeError(f"{path!r}: expected the path of a run file") from error
+    if os.path.isdir(path):
+        raise InputError(f"{path}: this is a folder, expected a run file; plateau.open_study opens the results of a study")
+    # To open a pipe would wait for whoever writes into it.
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise InputError(f"{path}: this is not a regular file, expected a run file")
+    try:
         # Refused while the file is being written, and after a kill.
         with h5py.File(path, "r") as file:
             ended = _state(file, path) != "running"
+    except PlateauError:
+        raise
     except FileNotFoundError:
-        raise MissingFileError(f"{os.fspath(path)}: there is no such run file") from None
-    except OSError:
+        raise MissingFileError(f"{path}: there is no such run file") from None
+    except (OSError, KeyError, RuntimeError):
         # In a file that nobody writes, HDF5 would look again and again for what is not there. It may have ended meanwhile.
         ended = not _is_marked(path)
     if ended:
@@ -64,13 +75,15 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
             raise MissingPackageError("run files are read with h5netcdf: pip install h5netcdf")
         try:
             return xarray.open_datatree(path, engine="h5netcdf")
-        except OSError as error:
+        except (OSError, KeyError, RuntimeError) as error:
             raise _unreadable(path, error) from error
     try:
         with h5py.File(path, "r", swmr=True) as file:
             _state(file, path)
             return _complete_part(file)
-    except OSError as error:
+    except PlateauError:
+        raise
+    except (OSError, KeyError, RuntimeError) as error:
         raise _unreadable(path, error) from error
 
 
@@ -105,7 +118,7 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
     return found
 
 
-def _unreadable(path: str | os.PathLike[str], error: OSError) -> InputError:
+def _unreadable(path: str | os.PathLike[str], error: Exception) -> InputError:
     if os.path.isfile(path) and os.access(path, os.R_OK):
         with open(path, "rb") as file:
             is_hdf5 = file.read(len(SIGNATURE)) == SIGNATURE

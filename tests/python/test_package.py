@@ -117,6 +117,8 @@ class Runs(InFolder):
         for call in (plateau.run, plateau.check):
             with self.assertRaisesRegex(plateau.InputTypeError, "set = 'operation.normal_force=10 N': expected a dictionary"):
                 call("quick.toml", set="operation.normal_force=10 N")
+            with self.assertRaisesRegex(plateau.InputError, "has a character 0"):
+                call("quick\0.toml")
 
     def test_errors_are_those_of_the_exit_status(self):
         kinds = {1: plateau.RunFailed, 2: plateau.InputError, 143: plateau.RunStopped, 7: plateau.PlateauError}

@@ -282,8 +282,18 @@ class Wrong(InFolder):
             run["disc/height"].isel(radius=0).plateau.plot()
 
     def test_what_is_not_a_run_file(self):
+        os.mkfifo("pipe.h5")
+        for path, told in ((".", "this is a folder"), ("pipe.h5", "not a regular file"), (None, "expected the path of a run file"), (3.5, "expected the path")):
+            with self.assertRaisesRegex(plateau.InputError, told):
+                plateau.open_run(path)
         with self.assertRaisesRegex(plateau.InputError, "quick.toml: cannot be read as a run file: it is not an HDF5 file; plateau.run"):
             plateau.open_run("quick.toml")
+
+    def test_a_mean_of_statuses_is_refused(self):
+        run = plateau.open_run("short.h5")
+        with self.assertRaisesRegex(plateau.InputError, "area_fraction"):
+            run["disc/status"].plateau.area_mean()
+        self.assertEqual(run["disc/height"].plateau.area_mean().dims, ("map_time",))
 
     def test_a_package_that_is_missing(self):
         with unittest.mock.patch("importlib.util.find_spec", lambda name: None):

@@ -57,10 +57,10 @@ fn of_many_mistakes_in_a_study_the_first_are_told() {
     assert!(said.contains("has a blank at an end"), "{said}");
     let long = "w".repeat(100_000);
     for (line, expected) in [
-        (format!("{long} = 1\n"), "unknown field `www"),
+        (format!("{long} = 1\n"), "unknown key `www"),
         (format!("order = \"{long}\"\n"), "expected \"random\""),
         (format!("version = \"{long}\"\n"), "version"),
-        (format!("series = [\"{long}\"]\n"), "is no series"),
+        (format!("series = [\"{long}\"]\n"), "is not a series"),
     ] {
         directory.write("study.toml", format!("{head}{line}{}", factor("f")));
         refused(&directory, &["sweep", "plan", "study.toml"], expected);

@@ -189,7 +189,7 @@ fn what_another_user_may_be_writing_is_not_repaired() {
     kill(child);
     let lock = fs::read(directory.path("run.h5.lock")).unwrap();
     if fs::metadata(directory.path("run.h5")).unwrap().uid() != 0 {
-        println!("not tried: this is no superuser");
+        println!("not tried: this is not a superuser");
         return;
     }
     let as_nobody = |arguments: &[&str]| {

@@ -85,7 +85,7 @@ fn files_that_are_there_are_replaced_only_by_force_and_never_the_run_file() {
     assert_eq!(refused.status, Some(2));
     assert!(refused.stderr.starts_with("plateau: cannot make the folder run.h5"), "{}", refused.stderr);
     let refused = directory.plateau(["export", "run.h5", "--to", "csv", "-o", "nowhere/table.csv"]);
-    assert!(refused.stderr.contains("nowhere is no directory; make it first"), "{}", refused.stderr);
+    assert!(refused.stderr.contains("nowhere is not a directory; make it first"), "{}", refused.stderr);
     assert!(fs::read(directory.path("run.h5")).unwrap() == run);
 }
 

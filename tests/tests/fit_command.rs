@@ -291,7 +291,7 @@ fn what_cannot_be_fitted_is_refused() {
     refused(&[LOAD, plain, "measured = \"much\"\nuncertainty = 1e-13\n"], "it does not start with a number");
     refused(&[LOAD, plain, "measured = 2e-12\nuncertainty = 0\n"], "expected more than 0");
     refused(&[LOAD, &worn(7.0, 0.02), "[fit]\nconfidence = 1.0\n"], "more than 0 and less than 1");
-    refused(&[LOAD, &worn(7.0, 0.02), "[fit]\nrun = 9\n"], "unknown field `run`");
+    refused(&[LOAD, &worn(7.0, 0.02), "[fit]\nrun = 9\n"], "unknown key `run`");
 }
 
 /// Numbers that look like chance, the same each time: a linear congruential generator (D. E. Knuth's MMIX), even in (0, 1).

@@ -83,9 +83,9 @@ fn tables_of_many_columns_take_no_longer_than_to_read_them() {
     directory.write("design.toml", design);
     let start = Instant::now();
     for (arguments, said) in [
-        (&["sweep", "import", "study.toml", "wide.csv"][..], "column \"c0\" is no factor and no response"),
+        (&["sweep", "import", "study.toml", "wide.csv"][..], "column \"c0\" is neither a factor nor a response"),
         (&["sweep", "import", "study.toml", "twice.csv"], "column \"c7\" is there twice"),
-        (&["sweep", "plan", "design.toml"], "column \"c0\" is no factor of the study"),
+        (&["sweep", "plan", "design.toml"], "column \"c0\" is not a factor of the study"),
     ] {
         let refused = directory.plateau(arguments);
         assert_eq!(refused.status, Some(2), "{arguments:?}: {refused:?}");

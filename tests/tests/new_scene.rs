@@ -192,7 +192,11 @@ fn a_bowed_surface_with_few_spikes_is_put_right() {
     directory.write("bowed.txt", format!("{head}{}", (0..100).map(row).collect::<String>()));
     // One step to where the table is understood: what the header says right above it is kept.
     let refused = directory.plateau(["new", "mine.toml", "--disc", "bowed.txt"]);
-    assert!(refused.stderr.contains("skip = 2 beside file") && refused.stderr.contains("--skip"), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("skip = 2 below file in the scene") && refused.stderr.contains("--skip"),
+        "{}",
+        refused.stderr
+    );
     let said = directory.plateau(["new", "mine.toml", "--disc", "bowed.txt", "--skip", "2"]).quiet_success();
     for note in ["level = \"quadratic\"", "7 of 10000 points are spikes", "outliers = 6", "With cutoff = \"1 um\""] {
         assert!(said.contains(note), "{note} in {said}");

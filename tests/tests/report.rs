@@ -336,11 +336,11 @@ fn what_is_no_run_file_is_refused() {
     for (arguments, message) in [
         (&["missing.h5"][..], "cannot read missing.h5"),
         (&["text.h5"], "text.h5 is not an HDF5 file"),
-        (&["run.h5", "foreign.h5"], "foreign.h5 is no run file of plateau: it has no root attribute format_version"),
+        (&["run.h5", "foreign.h5"], "foreign.h5 is not a run file of plateau: it has no root attribute format_version"),
         (&["cut.h5"], "cut.h5 is damaged"),
         (&["run.h5", "-o", "taken.html"], "taken.html exists; give --force to replace it"),
         (&["run.h5", "-o", "run.h5", "--force"], "run.h5 is an input and is not replaced"),
-        (&["run.h5", "-o", "nowhere/report.html"], "nowhere is no directory"),
+        (&["run.h5", "-o", "nowhere/report.html"], "nowhere is not a directory"),
         (&["run.h5"; 9], "9 runs: expected at most 8"),
         (&[], "<RUN>..."),
     ] {

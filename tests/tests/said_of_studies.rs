@@ -52,7 +52,7 @@ fn names_with_signs_are_goals_as_others() {
         let outcome = ask(&directory, &[&["optimize", "--force"], goal].concat());
         assert_eq!(outcome.status, Some(0), "{goal:?}: {outcome:?}");
     }
-    said(&ask(&directory, &["optimize", "--force", "--maximize", "e=1..2"]), 2, "\"e\" is no response of the study");
+    said(&ask(&directory, &["optimize", "--force", "--maximize", "e=1..2"]), 2, "\"e\" is not a response of the study");
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn keys_and_names_that_nobody_would_find_again_are_told() {
     let directory = lab(&["y"], "", |load, fibres| load * fibres);
     let text = fs::read_to_string(directory.path("study.toml")).unwrap();
     for (from, to, words) in [
-        ("[[factor]]", "[[factors]]", "unknown field `factors`, expected one of `version`"),
+        ("[[factor]]", "[[factors]]", "unknown key `factors`, expected one of `version`"),
         ("[[factor]]", "[[factors]]", "; did you mean \"factor\"?"),
         ("\"load\"", "\" load\"", "factor.name: \" load\" has a blank at an end"),
         ("\"y\"", "\"y\u{feff}\"", "response.name: \"y\\u{feff}\" has the character U+FEFF"),
@@ -243,4 +243,32 @@ fn a_wrong_level_and_a_base_that_is_not_there_are_told_at_their_place() {
             said(&ask(&directory, &[command]), 2, told);
         }
     }
+}
+
+#[test]
+fn a_time_after_the_end_of_every_run_is_refused_before_the_first() {
+    let directory = loads("dataset = \"/series/contact_area\"\nat = \"3 s\"");
+    for command in ["plan", "run"] {
+        said(&ask(&directory, &[command]), 2, "response \"y\" asks for 3 s, and every run ends at 2 s or before");
+    }
+    assert_eq!(directory.names(), ["quick.toml", "study.toml"]);
+    // Where some runs last that long it is a warning.
+    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
+    let text = text.replace("set = [\"operation.duration = \\\"2 s\\\"\"]\n", "");
+    let longer = "[[factor]]\nname = \"time\"\nkey = \"operation.duration\"\nlevels = [\"2 s\", \"4 s\"]\n[[response]]";
+    directory.write("study.toml", text.replace("[[response]]", longer));
+    said(&ask(&directory, &["plan"]), 0, "and the shortest run ends at 2 s: runs that end before have no value of it");
+}
+
+#[test]
+fn a_place_that_is_a_point_of_the_study_confirms_nothing() {
+    let directory = loads("dataset = \"/series/contact_area\"\nat = \"end\"");
+    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
+    directory.write("study.toml", text.replace("levels = [\"5 N\", \"10 N\"]", "range = [\"5 N\", \"10 N\"]"));
+    said(&ask(&directory, &["run"]), 0, "finished now");
+    let known = ask(&directory, &["predict", "--at", "load=10 N", "--confirm"]);
+    said(&known, 0, "the fit has used them, so they confirm nothing");
+    said(&known, 0, "Compared with one extra run, which tells no error");
+    let between = ask(&directory, &["predict", "--at", "load=7 N", "--confirm"]);
+    assert!(between.status == Some(0) && !between.stderr.contains("confirm nothing"), "{between:?}");
 }

@@ -142,7 +142,7 @@ fn heights_that_are_unrelated_from_point_to_point_have_no_length() {
     let directory = WorkingDirectory::new();
     // Multiplication by a large prime scatters the numbers of the points: r at the next point is of the order of
     // 1/√(60 · 50).
-    let noise = |point: u64| point.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_mul(point | 1) >> 54;
+    let noise = |point: u64| point.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_mul(point | 1) >> 61;
     let heights: Vec<String> = (1..=60 * 50).map(|point| noise(point).to_string()).collect();
     let sizes = ("NumPoints = 4\nNumProfiles = 3", "NumPoints = 60\nNumProfiles = 50");
     let sdf = small_sdf().replace(sizes.0, sizes.1).replace("0 1 2 3\n0 1 BAD 3\n0 1 2 3", &heights.join("\n"));
@@ -159,7 +159,7 @@ fn heights_that_are_unrelated_from_point_to_point_have_no_length() {
 #[test]
 fn without_a_pitch_what_needs_none_is_given() {
     let directory = WorkingDirectory::new();
-    let heights: Vec<f64> = (0..12 * 10).map(|point| 1e-6 * f64::from(point * point % 17)).collect();
+    let heights: Vec<f64> = (0..12 * 10).map(|point| 0.2e-6 * f64::from(point * point % 17)).collect();
     let file = created(directory.path("heights.h5"));
     let heights = ndarray::ArrayView2::from_shape((12, 10), &heights).unwrap();
     file.new_dataset_builder().with_data(heights).create("height").unwrap();
@@ -227,7 +227,7 @@ fn files_are_replaced_only_on_demand() {
     fs::rename(directory.path("small.sdf"), directory.path("small.png")).unwrap();
     let itself = ["surface", "small.png", "--plot", "./small.png", "--force"];
     refused(&directory.plateau(itself), "small.png is an input and is not replaced");
-    refused(&directory.plateau(["surface", "small.png", "--plot", "nowhere/a.png"]), "nowhere is no directory");
+    refused(&directory.plateau(["surface", "small.png", "--plot", "nowhere/a.png"]), "nowhere is not a directory");
     refused(&directory.plateau(["surface", "small.png", "--plot", "a.jpg"]), "expected the ending .png");
     refused(&directory.plateau(["surface", "small.png", "--to", "a.bmp"]), "a.bmp");
     refused(&directory.plateau(["surface", "small.png", &afm(), "--to", "a.sdf"]), "--to converts one FILE");
@@ -243,7 +243,7 @@ fn what_is_no_surface_is_refused() {
     for (file, reason) in [
         ("absent.sdf", "cannot be read"),
         (".", "this is a folder"),
-        ("not.sdf", "no surface file that is known"),
+        ("not.sdf", "not a surface file that is known"),
         ("all-missing.sdf", "none of its 12 points has a height"),
     ] {
         refused(&directory.plateau(["surface", file]), &format!("{file}: "));
@@ -398,10 +398,13 @@ fn heights_of_a_run_are_described_before_and_after() {
     assert!((worn["Sq"].as_f64().unwrap() / recorded["Sq"].as_f64().unwrap() - 1.0).abs() < 1e-9);
     for (more, reason) in [
         (&["--unit", "um"][..], "a run file says what its heights are: leave out --unit"),
-        (&["--dataset", "disc/status"], "this run file has no disc/status; it has disc/height, pin/height"),
+        (
+            &["--dataset", "disc/status"],
+            "--dataset \"disc/status\": expected a map of heights: disc/height, pin/height",
+        ),
         (&["--to", "all.sdf"], "--to converts one surface, and these are 4: say which with --dataset"),
     ] {
         refused(&directory.plateau([&["surface", "run.h5"][..], more].concat()), reason);
     }
-    refused(&directory.plateau(["surface", &afm(), "--at", "1 s"]), "this is not a run file");
+    refused(&directory.plateau(["surface", &afm(), "--at", "1 s"]), "--at is a time of a run");
 }

@@ -126,7 +126,7 @@ fn predictions_are_those_of_the_equations() {
     let lines: Vec<&str> = outcome.stdout.lines().filter(|line| line.ends_with("load is beyond 8 to 20 N")).collect();
     assert_eq!(lines.len(), 2, "{outcome:?}");
     for (given, message) in [
-        ("lood=10 N", "\"lood\" is no factor of the study, expected one of load, fibres"),
+        ("lood=10 N", "\"lood\" is not a factor of the study, expected one of load, fibres"),
         ("load=10", "load = 10: expected a quantity such as \"8 N\""),
         ("load=10 kg", "load = 10 kg: expected a quantity such as \"8 N\""),
         ("fibres=many", "fibres = many: expected a plain number"),
@@ -230,7 +230,7 @@ fn names_and_words_may_have_an_equals_sign_or_a_comma_in_them() {
     assert_eq!(at("F=N=14 N")["number"].as_f64(), Some(14.0));
     assert_eq!(at(" F=N = 14 N ")["given"].as_bool(), Some(true));
     let unknown = directory.plateau(["sweep", "predict", "study.toml", "--at", "F=14 N"]);
-    assert!(unknown.status == Some(2) && unknown.stderr.contains("\"F\" is no factor"), "{unknown:?}");
+    assert!(unknown.status == Some(2) && unknown.stderr.contains("\"F\" is not a factor"), "{unknown:?}");
 
     directory.write("study.toml", study.replace("name = \"load\"", "name = \"load, total\""));
     for contour in ["fibres,load, total", "load, total, fibres"] {
@@ -284,7 +284,7 @@ fn an_optimum_keeps_limits_and_what_is_held() {
     for (arguments, message) in [
         (
             &["--maximize", "area"][..],
-            "\"area\" is no response of the study, expected one of \"contact area\", \"worn\"",
+            "\"area\" is not a response of the study, expected one of \"contact area\", \"worn\"",
         ),
         (&["--maximize", "contact area=1..2"], "expected a unit of"),
         (&["--maximize", "contact area=2 mm2..1 mm2"], "expected values that ascend"),

@@ -23,7 +23,9 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
     let directory = directory(path);
     if !directory.is_dir() {
         let directory = directory.display();
-        return Err(Failure::input(format_args!("cannot write {shown}: {directory} is no directory; make it first")));
+        return Err(Failure::input(format_args!(
+            "cannot write {shown}: {directory} is not a directory; make it first"
+        )));
     }
     let Ok(there) = fs::symlink_metadata(path) else { return Ok(()) };
     let real = fs::metadata(path);
@@ -35,7 +37,9 @@ pub fn check(path: &Path, force: bool, inputs: &[PathBuf]) -> Result<(), Failure
         return Err(Failure::input(what));
     }
     if there.is_dir() || real.is_ok_and(|real| !real.is_file()) {
-        return Err(Failure::input(format_args!("{shown} is no regular file and is not replaced; name another file")));
+        return Err(Failure::input(format_args!(
+            "{shown} is not a regular file and is not replaced; name another file"
+        )));
     }
     if regular::is_one_of(path, inputs) {
         return Err(Failure::input(format_args!("{shown} is an input and is not replaced; name another file")));

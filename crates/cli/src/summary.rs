@@ -50,7 +50,11 @@ pub fn text(summary: &RunSummary) -> String {
     rows.extend([
         (
             "contact pressure",
-            format!("mean {}, largest {}", megapascal(summary.mean_pressure), megapascal(summary.max_pressure)),
+            format!(
+                "last step: mean {}, largest {}",
+                megapascal(summary.mean_pressure),
+                megapascal(summary.max_pressure)
+            ),
         ),
         ("disc filled", percent(summary.filled_fraction)),
         (

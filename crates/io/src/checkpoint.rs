@@ -91,7 +91,7 @@ pub enum CheckpointError {
         error: io::Error,
     },
     /// It is damaged, or something else.
-    #[error("{} is no complete checkpoint: {reason}", path.display())]
+    #[error("{} is not a complete checkpoint: {reason}", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -99,7 +99,7 @@ pub enum CheckpointError {
         reason: &'static str,
     },
     /// Something that no run left has its name.
-    #[error("{} is no checkpoint of plateau, but is where one would be; move it away, or write elsewhere with -o FILE", path.display())]
+    #[error("{} is not a checkpoint of plateau, but is where one would be; move it away, or write elsewhere with -o FILE", path.display())]
     Foreign {
         /// What is there.
         path: PathBuf,

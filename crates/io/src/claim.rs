@@ -100,7 +100,7 @@ pub enum ClaimError {
     },
     /// Something else has the name of the lock.
     #[error(
-        "{} is no complete lock of plateau, but is where that of {} would be; move it away, or write elsewhere",
+        "{} is not a complete lock of plateau, but is where that of {} would be; move it away, or write elsewhere",
         lock.display(), path.display()
     )]
     Foreign {

@@ -43,7 +43,7 @@ pub fn is_one_of(path: &Path, files: &[PathBuf]) -> bool {
 const LOOKED_AT: usize = 10_000;
 
 /// The error of a file that is not there, with the name beside it that is most like its own.
-pub fn not_there(path: &Path, error: io::Error) -> io::Error {
+pub(crate) fn not_there(path: &Path, error: io::Error) -> io::Error {
     if error.kind() != ErrorKind::NotFound {
         return error;
     }

@@ -10,6 +10,10 @@ pub(crate) fn problem(text: &str, error: &Error) -> String {
     // The parser points at the second of two equal keys, and does not name it.
     let twice = error.span().filter(|_| message == "duplicate key").and_then(|span| text.get(span));
     match twice {
+        // Of these a study has several.
+        Some(key) if ["factor", "response"].contains(&key) => {
+            format!("[{key}] is there already: write [[{key}]], with two brackets, for each")
+        }
         Some(key) => format!("{} is there already in this table, further up: keep one of them", short(key)),
         None => match error.span().and_then(|span| with_comma(text, span.start)) {
             Some(found) => format!("{} has a comma, write {}", short(found), short(&found.replacen(',', ".", 1))),

@@ -107,7 +107,7 @@ fn what_is_no_run_file_is_told() {
     hdf5::File::create(&foreign).unwrap().new_dataset::<f64>().shape(3).create("time").unwrap();
     assert_eq!(
         refused(&foreign).to_string(),
-        format!("{} is no run file of plateau: it has no root attribute format_version", foreign.display())
+        format!("{} is not a run file of plateau: it has no root attribute format_version", foreign.display())
     );
 }
 

@@ -244,7 +244,7 @@ fn a_damaged_binary_header_is_an_error_that_says_where() {
         (
             7,
             b"1".to_vec(),
-            "this is no SDF file: starts with \"bISO-1.1\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same with \"b\"",
+            "this is not an SDF file: starts with \"bISO-1.1\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same with \"b\"",
         ),
         (42, vec![0, 0], "byte 42: NumPoints is 0, expected at least 1"),
         (44, vec![0, 0], "byte 44: NumProfiles is 0, expected at least 1"),
@@ -277,7 +277,7 @@ fn a_damaged_text_is_an_error_that_says_where() {
     let content = String::from_utf8(fs::read(sample("iso1_surface_ascii.sdf")).unwrap()).unwrap();
     let first = content.lines().nth(14).unwrap();
     for (from, to, message) in [
-        ("aISO-1.0", "aISO-1.00", "this is no SDF file: starts with \"aISO-1.00\", expected"),
+        ("aISO-1.0", "aISO-1.00", "this is not an SDF file: starts with \"aISO-1.00\", expected"),
         ("NumPoints = 48", "NumPoints = 48.5", "line 5: NumPoints is \"48.5\", expected a whole number"),
         ("NumPoints = 48", "NumPoints = -1", "line 5: NumPoints is -1, expected at least 1"),
         ("NumPoints = 48", "NumPoints: 48", "line 5: found \"NumPoints: 48\", expected a header field"),

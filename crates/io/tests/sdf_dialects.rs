@@ -104,7 +104,7 @@ fn bytes_after_the_heights_that_are_no_text_are_a_warning() {
     assert_eq!(warnings("Operator = Jörg\r\n\0\0\0".as_bytes()), [""; 0]);
     assert_eq!(
         warnings(b"a\x01\x02"),
-        ["the 3 bytes after the heights are no text (byte 94): do NumPoints, NumProfiles and DataType fit the data?"]
+        ["the 3 bytes after the heights are not text (byte 94): do NumPoints, NumProfiles and DataType fit the data?"]
     );
 }
 

@@ -350,11 +350,11 @@ fn files_that_are_not_read_are_named() {
         (folder.path().join("absent.sdf"), "cannot be read: No such file or directory".to_owned()),
         (folder.path().to_owned(), "this is a folder, expected a surface file: name one in it".to_owned()),
         (PathBuf::from("/dev/null"), "this is not a regular file".to_owned()),
-        (write("empty.sdf", b""), format!("this is no surface file that is known (it is empty); {advice}")),
+        (write("empty.sdf", b""), format!("this is not a surface file that is known (it is empty); {advice}")),
         (
             write("a.jpg", b"\xff\xd8\xff\xe0\0\x10JFIF"),
             format!(
-                "this is no surface file that is known (it starts with \"\\xff\\xd8\\xff\\xe0\\x00\\x10JF\"); {advice}"
+                "this is not a surface file that is known (it starts with \"\\xff\\xd8\\xff\\xe0\\x00\\x10JF\"); {advice}"
             ),
         ),
         (write("a.x3p", b"PK\x03\x04"), "this is a damaged zip archive: ".to_owned()),

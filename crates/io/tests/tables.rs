@@ -307,7 +307,7 @@ fn images_that_are_no_heights() {
         read(&path, &black_to_white(1.0)).map_err(|error| error.to_string())
     };
     use png::{BitDepth, ColorType};
-    let expected = "expected grey pixels without transparency: colours are no heights, save the image as grey levels";
+    let expected = "expected grey pixels without transparency: colours are not heights, save the image as grey levels";
     for (colour, data, found) in [
         (ColorType::Rgb, &[0; 6][..], "colours"),
         (ColorType::Rgba, &[0; 8], "colours"),

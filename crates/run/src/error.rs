@@ -40,7 +40,8 @@ pub enum InputError {
     RunFile(RunFileError),
     /// There is a run file, whose run has not come to its end.
     #[error(
-        "{} exists, and its run was stopped before its end; --resume goes on with it, --force begins again, -o FILE writes elsewhere",
+        "{} exists, and its run was stopped before its end; --resume goes on with it if the scene is the same, --force begins again, \
+         -o FILE writes elsewhere",
         path.display()
     )]
     Unfinished {

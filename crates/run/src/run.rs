@@ -70,8 +70,9 @@ impl Prepared {
         // What a link points to is what is written, and its checkpoints lie beside it.
         let path = if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path };
         if job.leads() {
-            check_place(&path, options.replace || options.mode.resumes())
-                .map_err(|error| if_unfinished(error, &path))?;
+            if let Err(error) = check_place(&path, options.replace || options.mode.resumes()) {
+                return Err(if_unfinished(error, &path)?.into());
+            }
             Claim::check(&path)?;
         }
         stiffness_warning(&scene.parameters).iter().for_each(|warning| observer.warning(warning));
@@ -171,14 +172,20 @@ fn close(
 }
 
 /// The refusal of a run file that is there, with what is known of it: it may be one to go on with.
-fn if_unfinished(error: RunFileError, path: &Path) -> InputError {
-    let is_stopped = || RunFile::open(path).is_ok_and(|run| run.state() == State::Interrupted);
-    let has_checkpoint = || checkpoint::paths(path).iter().any(|checkpoint| checkpoint.exists());
-    match error {
-        RunFileError::Exists { .. } if has_checkpoint() && is_stopped() => {
-            InputError::Unfinished { path: path.to_owned() }
-        }
-        other => InputError::RunFile(other),
+///
+/// # Errors
+/// [`RunError`] where another process writes it.
+fn if_unfinished(error: RunFileError, path: &Path) -> Result<InputError, RunError> {
+    if !matches!(error, RunFileError::Exists { .. }) {
+        return Ok(InputError::RunFile(error));
+    }
+    Claim::check(path)?;
+    // Of a run that was killed the file says that it is running, and nobody has the claim.
+    let is_stopped = RunFile::open(path).is_ok_and(|run| run.state() != State::Finished);
+    let has_checkpoint = checkpoint::paths(path).iter().any(|checkpoint| checkpoint.exists());
+    match is_stopped && has_checkpoint {
+        true => Ok(InputError::Unfinished { path: path.to_owned() }),
+        false => Ok(InputError::RunFile(error)),
     }
 }
 

@@ -76,7 +76,7 @@ fn the_stack_of_debris_reaches_what_was_worn() {
     let kept: Vec<&str> = all.iter().copied().filter(|name| *name != "emitted").collect();
     assert_eq!(bands.len(), all.len() + kept.len());
     let own = figure.panel(figure.boxes()[1]);
-    let kept_unit = if figure.texts.iter().any(|text| text.text == "debris in the contact, mm³") { 1e9 } else { 1e18 };
+    let kept_unit = if figure.texts.iter().any(|text| text.text == "laid down so far, mm³") { 1e9 } else { 1e18 };
     let mut sums = [0.0; 2];
     let places = [(0, &panel, &all[..], 1.0), (1, &own, &kept[..], kept_unit / unit)];
     let placed = places

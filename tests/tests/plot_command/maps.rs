@@ -188,7 +188,7 @@ fn the_moment_the_width_and_the_colours_can_be_asked_for() {
     for (option, value, reason) in [
         ("--at", "-1 s", "-1 s is before the start of a run"),
         ("--at", "4", "\"4\" has no unit"),
-        ("--width", "3 mm", "3 mm is no width from 60 mm to 1000 mm"),
+        ("--width", "3 mm", "3 mm is not a width from 60 mm to 1000 mm"),
         ("--cmap", "jet", "possible values: viridis"),
     ] {
         let outcome = directory.plateau(["plot", "run.h5", option, value]);

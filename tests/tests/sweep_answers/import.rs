@@ -247,7 +247,10 @@ fn tables_that_fit_no_point_are_refused_by_line() {
     }
     for (head, message) in [
         ("silica,silane,abrasion", "no column of the factor \"sulphur\""),
-        ("silica,silane,sulphur,abrasian", "column \"abrasian\" is no factor and no response with imported = true"),
+        (
+            "silica,silane,sulphur,abrasian",
+            "column \"abrasian\" is neither a factor nor a response with imported = true",
+        ),
         ("silica,silane,sulphur", "no column of a response with imported = true"),
         ("silica,silane,sulphur,abrasion [mm2]", "expected \"abrasion\", for the study gives it no unit"),
     ] {

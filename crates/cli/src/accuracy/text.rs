@@ -84,7 +84,8 @@ fn errors(rows: &[Row]) -> String {
             if row.on_front { "*" } else { "" }.to_owned(),
         ]
     };
-    let heading = "Errors against the reference (* no other run is as quick and as exact)";
+    let heading =
+        "Errors against the reference (* no other run is both quicker and more exact; filled: percentage points)";
     columns(heading, &names, &lines(rows, line)) + &remarks(rows)
 }
 
@@ -143,7 +144,11 @@ fn ends(rows: &[Row]) -> String {
             signed(found.pin_secondary),
         ]
     };
-    columns("Differences from the reference at the end (heights: rms)", &names, &lines(rows, line))
+    columns(
+        "Differences from the reference at the end (heights: rms; filled, ratio and secondary: percentage points)",
+        &names,
+        &lines(rows, line),
+    )
 }
 
 /// A line for every row, with its name; a failed run has no numbers.

@@ -60,7 +60,11 @@ fn force(text: &str) -> Result<String, String> {
 }
 
 fn speed(text: &str) -> Result<String, String> {
-    of(text, if is_sliding_speed(text) { Dimension::Speed } else { Dimension::RotationalSpeed })
+    let dimension = if is_sliding_speed(text) { Dimension::Speed } else { Dimension::RotationalSpeed };
+    of(text, dimension).map_err(|error| match dimension {
+        Dimension::Speed => error,
+        _ => format!("{error}, or a sliding speed such as \"3 m/s\""),
+    })
 }
 
 /// Whether a speed is a length over a time.

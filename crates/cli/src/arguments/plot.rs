@@ -99,5 +99,5 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 60.0..=1000.0;
 fn width(text: &str) -> Result<f64, String> {
     let width = 1e3 * quantity(text, Dimension::Length)?;
     let (least, most) = (WIDTHS.start(), WIDTHS.end());
-    if WIDTHS.contains(&width) { Ok(width) } else { Err(format!("{text} is no width from {least} mm to {most} mm")) }
+    if WIDTHS.contains(&width) { Ok(width) } else { Err(format!("{text} is not a width from {least} mm to {most} mm")) }
 }

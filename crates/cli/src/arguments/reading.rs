@@ -144,8 +144,8 @@ mod tests {
 
     #[test]
     fn a_key_that_a_message_names_is_told_as_its_option() {
-        assert_eq!(as_options("unit = \"um\" beside file does"), " (here: --unit)");
-        assert_eq!(as_options("say profile_lay = \"along\" beside file"), " (here: --profile-lay)");
+        assert_eq!(as_options("unit = \"um\" below file in the scene does"), " (here: --unit)");
+        assert_eq!(as_options("say profile_lay = \"along\" below file in the scene"), " (here: --profile-lay)");
         assert_eq!(as_options("the file has no line of numbers"), "");
         assert_eq!(as_options("sub_unit = 3"), "");
     }

@@ -271,7 +271,7 @@ impl Check {
     }
 
     fn to_text(&self) -> String {
-        let micrometres = |length: f64| format!("{} µm", number::short(length * 1e6));
+        let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
         let stiffness = format!(
             "Π = {}{}",
             number::short(self.stiffness_number),

@@ -42,14 +42,14 @@ impl PulseReport {
         let seconds = |time: f64| format!("{} s", number::rounded(time, 3));
         let pulses = last_tenth / pulse_time;
         let mut text = format!(
-            "one in {} or more, at most {} in the last tenth of the run ({})",
+            "the shortest pulse takes {}; the last tenth of the run, {}, has at most {}",
             seconds(pulse_time),
-            number::rounded(pulses, 2),
-            seconds(last_tenth)
+            seconds(last_tenth),
+            number::rounded(pulses, 2)
         );
         if !enough(pulses, WANTED) {
             let wanted = seconds(10.0 * WANTED * pulse_time);
-            text += &format!(": a mean needs {WANTED} or more of them, which no run shorter than {wanted} has");
+            text += &format!(", and a mean needs at least {WANTED}: the run must be {wanted} long or longer");
         } else if !enough(revolutions, LEAST_REVOLUTIONS) {
             let found = number::rounded(revolutions, 2);
             text += &format!(
@@ -69,9 +69,9 @@ mod tests {
         let of = |last_tenth: f64, revolutions: f64| PulseReport { pulse_time: 27.0, last_tenth, revolutions }.text();
         assert_eq!(
             of(6.0, 8.5),
-            "one in 27 s or more, at most 0.22 in the last tenth of the run (6 s): a mean needs 5 or more of them, which no run shorter than 1350 s has"
+            "the shortest pulse takes 27 s; the last tenth of the run, 6 s, has at most 0.22, and a mean needs at least 5: the run must be 1350 s long or longer"
         );
-        assert_eq!(of(270.0, 380.0), "one in 27 s or more, at most 10 in the last tenth of the run (270 s)");
+        assert_eq!(of(270.0, 380.0), "the shortest pulse takes 27 s; the last tenth of the run, 270 s, has at most 10");
         assert!(
             of(270.0, 3.8).ends_with("these are 3.8: a smaller time_acceleration gives more"),
             "{}",

@@ -24,7 +24,6 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     let check = |inputs: &[PathBuf]| {
         output::check(page, *force, inputs).map_err(|failure| failure.but("-o FILE names another one"))
     };
-    check(paths)?;
     let runs = super::open_runs(paths)?;
     check(&super::runs::inputs_of(&runs))?;
     let figures = super::figures(&runs, &Options::default())?;

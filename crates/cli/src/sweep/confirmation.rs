@@ -5,12 +5,12 @@
 
 use std::collections::BTreeSet;
 
-use plateau_io::number;
 use plateau_io::study::collected::{Collected, CollectedRun};
 use plateau_io::study::journal::Entry;
 use plateau_io::study::level::Level;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::{DesignSource, Order, Study};
+use plateau_io::{brief, number};
 use plateau_present::study::analysis::Analysis;
 use plateau_run::{Job, signal_in_words};
 use plateau_study::surrogate::Forecast;
@@ -59,6 +59,7 @@ pub fn confirm(
     let extra = Plan::new(study).map_err(Failure::input)?;
     let resolved = Resolved::of(&extra)?;
     resolved.warnings.say("confirming runs");
+    warn_of_known(plan, &resolved)?;
     in_job(|job| make(&extra, &resolved, cores, job))?;
     let journal = journal(extra.study())?;
     let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
@@ -72,6 +73,22 @@ pub fn confirm(
         each.map(|(response, expected)| Confirmed::of(&runs, response, *expected)).collect()
     };
     Ok(places.iter().enumerate().map(of_place).collect())
+}
+
+/// Warns of confirming runs that are runs of the study: the fit has used them.
+fn warn_of_known(plan: &Plan, extra: &Resolved) -> Result<(), Failure> {
+    let known = Resolved::of(plan)?;
+    let number = |identity: &String| known.identities.iter().position(|other| other == identity).map(|at| at + 1);
+    let numbers: BTreeSet<usize> = extra.identities.iter().filter_map(number).collect();
+    if !numbers.is_empty() {
+        let runs = if numbers.len() == 1 { "run" } else { "runs" };
+        let list = brief::list(numbers.iter().map(ToString::to_string), ", ");
+        message::warning(format_args!(
+            "a point of the study is at this place, and its {runs} {list} with the same seeds would be the confirming ones: the fit has used \
+             them, so they confirm nothing; ask for another place, or give a study of this place with other seeds"
+        ));
+    }
+    Ok(())
 }
 
 fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job) -> Result<(), Failure> {

@@ -56,8 +56,8 @@ pub fn plan(path: &Path) -> Result<Plan, Failure> {
 fn refuse_without_scene(plan: &Plan) -> Result<(), Failure> {
     let path = plan.study().path.display();
     match &plan.study().base {
-        Some(base) => fs::metadata(base).map(drop).map_err(|error| {
-            let problem = format!("{}: cannot read the scene: {}", base.display(), regular::not_there(base, error));
+        Some(base) => regular::open(base).map(drop).map_err(|error| {
+            let problem = format!("{}: cannot read the scene: {error}", base.display());
             Failure::input(format_args!("{}: base: {problem}", plan.study().base_place))
         }),
         None => Err(Failure::input(format_args!(

@@ -49,6 +49,9 @@ pub struct Resolved {
 }
 
 impl Resolved {
+    /// Runs up to which every scene is built where no run is made, to see what there is to know of them.
+    pub const MOST_AT_ONCE: usize = 20_000;
+
     /// Whether a run, by its place in the design, repeats another one, so that it has its result.
     pub fn is_repeat(&self, place: usize) -> bool {
         self.firsts.get(place).is_some_and(|first| *first != place)
@@ -59,20 +62,29 @@ impl Resolved {
         (0..self.firsts.len()).filter(|place| self.is_repeat(*place)).count()
     }
 
-    /// Warns of responses that ask for a time after the end of some run, which then gives none.
-    pub fn warn_of_late_questions(&self, study: &Study) {
+    /// Refuses responses that ask for a time after the end of every run, and warns of those after the end of some, which then give no value.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] with the times.
+    pub fn refuse_late_questions(&self, study: &Study) -> Result<(), Failure> {
+        let ends = || self.lengths.iter().map(|length| length.duration * (1.0 + 1e-9));
+        let (shortest, longest) = (ends().fold(f64::INFINITY, f64::min), ends().fold(0.0, f64::max));
+        let file = study.path.display();
         for response in &study.responses {
-            let shortest = self.lengths.iter().map(|length| length.duration).fold(f64::INFINITY, f64::min);
-            if let Some(time) = response.latest_time().filter(|time| *time > shortest * (1.0 + 1e-9)) {
-                message::warning(format_args!(
-                    "{}: response \"{}\" asks for {}, and the shortest run ends at {}: runs that end before have no value of it",
-                    study.path.display(),
-                    response.name,
-                    seconds(time),
-                    seconds(shortest)
-                ));
+            let Some(time) = response.latest_time().filter(|time| *time > shortest) else { continue };
+            let asks = format!("{file}: response \"{}\" asks for {}", response.name, seconds(time));
+            if time > longest {
+                let end = seconds(longest);
+                return Err(Failure::input(format_args!(
+                    "{asks}, and every run ends at {end} or before: ask for an earlier time, or \"end\", or make the runs longer"
+                )));
             }
+            message::warning(format_args!(
+                "{asks}, and the shortest run ends at {}: runs that end before have no value of it",
+                seconds(shortest)
+            ));
         }
+        Ok(())
     }
 
     /// Refuses responses to series that no run records, before any is made, and warns of those that some do not.

@@ -69,7 +69,7 @@ pub const CONTACT_TEMPERATURE: Extra = Extra {
         ),
     ],
     request: Some(Request {
-        what: "temperatures of the contact with every sample, and their map",
+        what: "contact temperatures and their map",
         meaning: "whether the temperature of every cell of the contact is reckoned with every sample, and written with the maps; needs [thermal]",
         maps: &[Map::Pressure, Map::Temperature],
         measure: heated_and_largest,

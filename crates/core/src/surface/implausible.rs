@@ -6,8 +6,12 @@ use super::Length;
 const PITCHES: [f64; 2] = [0.1e-9, 1e-3];
 /// Rms heights that are not wondered at, m: of a polished mirror, and ten times that of a disc which is scored deeply.
 const RMS_HEIGHTS: [f64; 2] = [5e-9, 1e-3];
+/// Rms slope that is not wondered at: that of a surface which stands at 79 degrees.
+const STEEPEST: f64 = 5.0;
 /// Fewest points with one height that may stand for points without a height.
 const FEWEST: usize = 5;
+/// Heights that tell the quartiles of all, about.
+const MOST_LOOKED_AT: usize = 100_000;
 /// Times the interquartile range of all others that this height is from them at least.
 const FAR: f64 = 10.0;
 
@@ -48,6 +52,27 @@ pub fn odd_rms(rms: f64) -> Option<String> {
     ))
 }
 
+/// Slopes, in rms over neighbours along x and along y, that heights and distances of different units give. Heights are m, in columns of so
+/// many rows, NaN where there is none; `pitch` along x and y, m.
+pub fn odd_slope(heights: &[f64], rows: usize, pitch: [f64; 2]) -> Option<String> {
+    let along = heights.iter().zip(heights.iter().skip(rows)).map(|(one, next)| (next - one) / pitch[0]);
+    let columns = heights.chunks(rows.max(1));
+    let across = columns.flat_map(|column| column.windows(2).map(|pair| (pair[1] - pair[0]) / pitch[1]));
+    let rms = |slopes: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = slopes
+            .filter(|slope| slope.is_finite())
+            .fold((0.0, 0), |(sum, count), slope| (sum + slope * slope, count + 1));
+        if count == 0 { 0.0 } else { (sum / f64::from(count)).sqrt() }
+    };
+    let largest = rms(&mut along.into_iter()).max(rms(&mut across.into_iter()));
+    (largest > STEEPEST).then(|| {
+        format!(
+            "heights of neighbours differ by {largest:.2} times their distance (rms), expected at most {STEEPEST}: check the units of distances and \
+             heights, many instruments write mm beside um"
+        )
+    })
+}
+
 /// Many points with one height far from all others, m: programs write a number such as -9999 where there is no height.
 ///
 /// The others are told by their quartiles, so that neither a tilt nor spikes count.
@@ -61,9 +86,10 @@ pub fn stand_in(heights: &[f64]) -> Option<String> {
         if count < FEWEST {
             return None;
         }
-        let mut others: Vec<f64> =
-            heights.iter().copied().filter(|height| height.is_finite() && *height != end).collect();
-        if others.len() <= count {
+        // Quartiles of a part of them are near enough, and take no memory to speak of.
+        let others = heights.iter().copied().filter(|height| height.is_finite() && *height != end);
+        let mut others: Vec<f64> = others.step_by(heights.len() / MOST_LOOKED_AT + 1).collect();
+        if others.len() < FEWEST {
             return None;
         }
         let quarter = others.len() / 4;
@@ -106,6 +132,15 @@ mod tests {
     }
 
     #[test]
+    fn slopes_of_another_unit_are_told() {
+        // 3 x 4 points, 2 um up from column to column and level along them: 2 um over 12.5 um, or over 12.5 nm.
+        let heights: Vec<f64> = (0..12).map(|point| 2e-6 * f64::from(point / 4)).collect();
+        assert_eq!(odd_slope(&heights, 4, [12.5e-6; 2]), None);
+        assert!(odd_slope(&heights, 4, [12.5e-9; 2]).unwrap().contains("differ by 160.00 times their distance"));
+        assert_eq!((odd_slope(&[], 4, [1.0; 2]), odd_slope(&[f64::NAN; 4], 2, [1.0; 2])), (None, None));
+    }
+
+    #[test]
     fn a_number_that_stands_for_no_height_is_told() {
         // A tilt of 50 um in 1000 points, 40 of which are -9999 um.
         let tilted = |number: usize| 0.05e-6 * number as f64;
@@ -114,6 +149,10 @@ mod tests {
         heights.iter_mut().step_by(25).for_each(|height| *height = -9999e-6);
         let told = stand_in(&heights).unwrap();
         assert!(told.starts_with("40 points have the height -9.999 mm, far from all others"), "{told}");
+        // More than half of them.
+        let mut mostly: Vec<f64> = (0..1000).map(tilted).collect();
+        mostly.iter_mut().enumerate().filter(|(at, _)| at % 5 != 0).for_each(|(_, height)| *height = -9999e-6);
+        assert!(stand_in(&mostly).unwrap().starts_with("800 points have the height"));
         // A detector that is cut off, two spikes, and a surface of two levels are none.
         let cut: Vec<f64> = (0..1000).map(|number| tilted(number).min(45e-6)).collect();
         let mut spikes: Vec<f64> = (0..1000).map(tilted).collect();

@@ -20,7 +20,7 @@ pub enum RunFileError {
         path: PathBuf,
     },
     /// What is at the output path is a directory, a device or the like.
-    #[error("the output {} is a folder or another thing that is no regular file, and is not replaced; name a file with -o FILE", path.display())]
+    #[error("the output {} is a folder or another thing that is not a regular file, and is not replaced; name a file with -o FILE", path.display())]
     NotAFile {
         /// The output path.
         path: PathBuf,
@@ -34,7 +34,7 @@ pub enum RunFileError {
         to: PathBuf,
     },
     /// The directory of the output file does not exist or is no directory.
-    #[error("cannot write {}: {} is no directory; make it, or write elsewhere with -o FILE", path.display(), directory.display())]
+    #[error("cannot write {}: {} is not a directory; make it, or write elsewhere with -o FILE", path.display(), directory.display())]
     NoDirectory {
         /// The output path.
         path: PathBuf,
@@ -210,7 +210,7 @@ pub enum ReadError {
         path: PathBuf,
     },
     /// It is an HDF5 file that no run wrote.
-    #[error("{} is no run file of plateau: it has no {missing}", path.display())]
+    #[error("{} is not a run file of plateau: it has no {missing}", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -230,7 +230,7 @@ pub enum ReadError {
         expected: i32,
     },
     /// Some of it is in other files.
-    #[error("{} is no run file of plateau: {reason}; such a file is read only when all of it is in it", path.display())]
+    #[error("{} is not a run file of plateau: {reason}; such a file is read only when all of it is in it", path.display())]
     Elsewhere {
         /// The file.
         path: PathBuf,

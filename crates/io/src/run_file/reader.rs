@@ -187,7 +187,7 @@ impl RunFile {
             let values = opening.level::<u8>(map_path(map), index, shape)?;
             let largest = Statuses::of(&self.mesh).largest(map);
             match values.iter().find(|value| **value > largest) {
-                Some(value) => Err(opening.damaged(format!("{} has {value}, which is no status", map_path(map)))),
+                Some(value) => Err(opening.damaged(format!("{} has {value}, which is not a status", map_path(map)))),
                 None => Ok(Some(MapValues::Status(values))),
             }
         } else {
@@ -235,7 +235,7 @@ impl Opening<'_> {
         })?;
         let scene: toml::Table = text("scene")?.parse().map_err(|error: toml::de::Error| {
             // The line of TOML that it shows may be all of a text that somebody else has made.
-            self.damaged(format!("its scene is no TOML: {}", shown_title(error.message())))
+            self.damaged(format!("its scene is not TOML: {}", shown_title(error.message())))
         })?;
         let mesh = self.mesh(&scene)?;
         let time = self.all(TIME)?;

@@ -17,7 +17,7 @@ trait Stored: H5Type + Copy {
     /// All of these.
     fn all(values: &[u8]) -> hdf5::Result<Vec<Self>> {
         let all: Option<Vec<Self>> = values.iter().map(|value| Self::of(*value)).collect();
-        all.ok_or_else(|| "a value is no status".into())
+        all.ok_or_else(|| "a value is not a status".into())
     }
 }
 

@@ -234,7 +234,7 @@ impl<L: Fn(Range<usize>) -> Origin> Flattening<'_, L> {
         let is_table = !path.is_empty() && schema::is_table(&path);
         if !is_table {
             let message = match schema::find(&path) {
-                Some(_) => "this key is no table".to_owned(),
+                Some(_) => "this key is not a table".to_owned(),
                 None => schema::unknown(table, name),
             };
             self.problems.push(Problem::new(origin, &path, message));

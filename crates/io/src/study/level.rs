@@ -47,7 +47,7 @@ impl Level {
     pub fn end_of_range(key: &str, value: &toml::Value) -> Result<f64, String> {
         match (dimension(key), value) {
             (None, toml::Value::String(_)) if key.is_empty() => {
-                si_number(key, value).ok_or_else(|| format!("{value} is no number with a unit"))
+                si_number(key, value).ok_or_else(|| format!("{value} is not a number with a unit"))
             }
             (Some(expected), toml::Value::String(text)) => {
                 units::parse(text, expected).map_err(|error| error.to_string())
@@ -57,7 +57,7 @@ impl Level {
             }
             (None, toml::Value::Integer(integer)) => Ok(*integer as f64),
             (None, toml::Value::Float(number)) if number.is_finite() => Ok(*number),
-            (_, other) => Err(format!("{other} is no number, as a range has at its ends; words are levels")),
+            (_, other) => Err(format!("{other} is not a number, as a range has at its ends; words are levels")),
         }
     }
 

@@ -28,7 +28,7 @@ pub fn read(path: &Path, factors: &[Factor], others: &[&str]) -> Result<Points, 
         (columns.iter().copied().collect(), others.iter().copied().collect());
     let is_other = |at: usize| others.contains(table.heads()[at].as_str()) || others.contains(table.named(at).0);
     if let Some(unknown) = (0..table.heads().len()).find(|at| !known.contains(at) && !is_other(*at)) {
-        return Err(format!("{shown}: column \"{}\" is no factor of the study", short(&table.heads()[unknown])));
+        return Err(format!("{shown}: column \"{}\" is not a factor of the study", short(&table.heads()[unknown])));
     }
     let mut known: Vec<Spellings> = factors.iter().map(Spellings::of).collect();
     let point = |row: &Row| {
@@ -121,7 +121,7 @@ mod tests {
         assert_eq!(read_text("load\n5 N\n").unwrap_err(), "./points.csv: no column \"rows\"; it has load");
         assert_eq!(
             read_text("load,rows,x\n5 N,1,2\n").unwrap_err(),
-            "./points.csv: column \"x\" is no factor of the study"
+            "./points.csv: column \"x\" is not a factor of the study"
         );
         assert_eq!(read_text("load,rows\n5 N,\n").unwrap_err(), "./points.csv:2: \"rows\" is empty");
         assert_eq!(read_text("load,rows\n").unwrap_err(), "./points.csv: no points, expected a line for each");

@@ -14,7 +14,7 @@ pub(super) fn of(given: &document::Replicates, place: &Place<'_>, problems: &mut
     for key in given.keys.get_ref() {
         if !is_seed(key.get_ref()) {
             let message = format!(
-                "\"{}\" is no seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
+                "\"{}\" is not a seed; expected keys such as disc.surface.synthetic.seed, or disc.prepare.extend_seed of a \
                      measured patch",
                 short(key.get_ref())
             );

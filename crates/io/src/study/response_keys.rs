@@ -201,7 +201,11 @@ pub(super) fn series_name(
         || format!("; the series are {}", known().collect::<Vec<_>>().join(", ")),
         |nearest| format!("; did you mean /series/{nearest}?"),
     );
-    problems.push(place.problem(found, key, format!("\"{}\" is no series of a run{nearest}", short(found.get_ref()))));
+    problems.push(place.problem(
+        found,
+        key,
+        format!("\"{}\" is not a series of a run{nearest}", short(found.get_ref())),
+    ));
     None
 }
 

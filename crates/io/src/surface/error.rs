@@ -72,7 +72,7 @@ pub enum FileError {
     #[error("this is not a regular file")]
     NotAFile,
     /// Nobody knows what it is.
-    #[error("this is no surface file that is known ({found}); {READABLE}")]
+    #[error("this is not a surface file that is known ({found}); {READABLE}")]
     Unknown {
         /// What the file starts with.
         found: String,
@@ -123,12 +123,14 @@ pub enum FileError {
     #[error(transparent)]
     Disagree(#[from] Disagreement),
     /// The pitch of measured heights is unknown.
-    #[error("the file does not say the distance of its points: pitch = \"50 um\" beside file does, for example")]
+    #[error(
+        "the file does not say the distance of its points: pitch = \"50 um\" below file in the scene does, for example"
+    )]
     NoPitchOfFile,
     /// The shape is not that of the mesh and the pitch is unknown.
     #[error(
         "{what}there are {} columns and {} rows, expected {} and {} for the whole body; as a patch they need a pitch: \
-         pitch = \"50 um\" beside file, for example",
+         pitch = \"50 um\" below file in the scene, for example",
         found.0, found.1, mesh.0, mesh.1
     )]
     NoPitch {

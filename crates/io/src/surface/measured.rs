@@ -277,7 +277,7 @@ const HEAD: u64 = 4096;
 /// Tells what a file is.
 ///
 /// # Errors
-/// [`FileError`] when it cannot be read, is no regular file or is none of the known formats.
+/// [`FileError`] when it cannot be read, is not a regular file or is none of the known formats.
 pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     // Asked before opening: opening a named pipe would wait for its writer.
     let there = std::fs::metadata(path).map_err(|error| regular::not_there(path, error))?;

@@ -39,7 +39,9 @@ pub enum ProfileError {
     #[error("a profile has one pitch, the scene gives two: pitch = \"0.5 um\", for example")]
     TwoPitches,
     /// Nothing says the pitch.
-    #[error("the file does not say the distance of its points: pitch = \"0.5 um\" beside file does, for example")]
+    #[error(
+        "the file does not say the distance of its points: pitch = \"0.5 um\" below file in the scene does, for example"
+    )]
     NoPitch,
     /// Nothing says how the surface is made of the profile.
     #[error(

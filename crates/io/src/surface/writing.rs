@@ -43,7 +43,7 @@ pub enum WriteError {
         path: PathBuf,
     },
     /// A folder, a device or the like.
-    #[error("{} is no regular file and is not replaced", path.display())]
+    #[error("{} is not a regular file and is not replaced", path.display())]
     NotAFile {
         /// The output path.
         path: PathBuf,

@@ -80,7 +80,7 @@ impl Scale {
             return Err("a comma does not separate decimals, write a point".to_owned());
         }
         if text.len() > LONGEST {
-            return Err("this is no unit".to_owned());
+            return Err("this is not a unit".to_owned());
         }
         let mut characters = text.chars().peekable();
         let scale = product(&mut characters)?;
@@ -178,7 +178,7 @@ fn power(characters: &mut Peekable<Chars<'_>>) -> Result<i32, String> {
             Ok(if negative { -digit } else { digit })
         }
         None if !caret && !negative => Ok(1),
-        _ => Err("a power in the unit is no digit from 1 to 9".to_owned()),
+        _ => Err("a power in the unit is not a digit from 1 to 9".to_owned()),
     }
 }
 

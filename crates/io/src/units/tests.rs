@@ -73,7 +73,7 @@ fn a_refusal_says_what_was_found_and_what_is_expected() {
         ("47 N/", "\"47 N/\": the unit is not complete, "),
         ("47 (N", "\"47 (N\": a parenthesis of the unit is not closed, "),
         ("47 N)", "\"47 N)\": unexpected ')' in the unit, "),
-        ("47 N^x", "\"47 N^x\": a power in the unit is no digit from 1 to 9, "),
+        ("47 N^x", "\"47 N^x\": a power in the unit is not a digit from 1 to 9, "),
         ("1.2.3 N", "\"1.2.3 N\": unexpected '.' in the unit, "),
         ("47 1", "\"47 1\" is a plain number, "),
     ] {
@@ -87,7 +87,7 @@ fn a_refusal_says_what_was_found_and_what_is_expected() {
     // Division takes one factor: this is mm³·m/N.
     assert!(message("5e-5 mm^3/N m", SpecificWearRate).contains("a quantity of another kind"));
     let deep = format!("1 {}m", "(".repeat(1_000_000));
-    assert!(message(&deep, Length).contains("this is no unit"));
+    assert!(message(&deep, Length).contains("this is not a unit"));
 }
 
 #[test]

@@ -147,7 +147,7 @@ fn meanings(reference: &Reference, ladders: &[Shown], has_front: bool) -> Vec<Me
         ladders.iter().map(|(ladder, _)| meaning(Stroke::of(ladder.colour, 1).colour, KeyStyle::Area, ladder.name));
     let mut meanings: Vec<Meaning> = ladders.collect();
     if has_front {
-        meanings.push(meaning(APART, KeyStyle::Area, "no other run is as quick and as exact"));
+        meanings.push(meaning(APART, KeyStyle::Area, "no other run is quicker and more exact"));
     }
     if reference.time > 0.0 || reference.error > 0.0 {
         let lines = if reference.error > 0.0 { ", its time and its own error" } else { "" };

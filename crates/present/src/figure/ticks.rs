@@ -15,7 +15,11 @@ pub fn ticks(range: &RangeInclusive<f64>, most: usize) -> Vec<(f64, String)> {
     let count = |step: f64| ((high / step + 1e-9).floor() - (low / step - 1e-9).ceil() + 1.0) as usize;
     let steps = [(1.0, power), (2.0, power), (5.0, power), (1.0, power + 1), (2.0, power + 1)];
     let mut steps = steps.into_iter().map(|(digit, power)| (digit * 10_f64.powi(power), power));
-    let Some((step, power)) = steps.clone().find(|(step, _)| count(*step) <= most) else { return Vec::new() };
+    // By the length alone: windows of one map, which are equally long, have the same steps wherever they begin.
+    let count_at_most = |step: f64| (length / step + 1e-9).floor() as usize + 1;
+    let found = steps.clone().find(|(step, _)| count_at_most(*step) <= most);
+    let found = found.or_else(|| steps.clone().find(|(step, _)| count(*step) <= most));
+    let Some((step, power)) = found else { return Vec::new() };
     // A single number is no scale: there are the first and the last of more instead.
     let finer = if most > 1 && count(step) < 2 { steps.rfind(|(step, _)| count(*step) > 1) } else { None };
     let (step, power) = finer.unwrap_or((step, power));
@@ -116,6 +120,9 @@ mod tests {
             (19.95..=24.05, 2, vec!["20", "24"]),
             (990.0..=1010.0, 5, vec!["990", "995", "1000", "1005", "1010"]),
             (3.0..=3.0, 5, vec![]),
+            // Windows of 32.2 mm: steps of 2 mm would be 17 in the first, and 16 in the last.
+            (0.0..=32.2, 16, vec!["0", "5", "10", "15", "20", "25", "30"]),
+            (96.6..=128.8, 16, vec!["100", "105", "110", "115", "120", "125"]),
         ] {
             let labels: Vec<String> = ticks(&range, most).into_iter().map(|(_, label)| label).collect();
             assert_eq!(labels, expected);

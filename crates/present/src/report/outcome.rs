@@ -70,8 +70,11 @@ pub fn measures(series: &[Recorded], contact_area: Option<WindowMean>) -> Vec<Me
         part("contact_area", "of the last step"),
         part("contact_ratio", "of the last step, as a part of the area of the pin"),
     ];
-    let contact = ["mean_pressure", "max_pressure", "filled_fraction"];
-    measures.extend(contact.map(shown));
+    measures.extend([
+        part("mean_pressure", "of the last step, mean pressure"),
+        part("max_pressure", "of the last step, largest pressure"),
+        shown("filled_fraction"),
+    ]);
     measures.extend(["disc_secondary", "pin_secondary", "pin_primary", "pin_none"].map(shown));
     measures.push(measure("Worn volume", Unit::MM3, all_worn));
     measures.extend(worn.map(|(name, of)| part(name, of)));

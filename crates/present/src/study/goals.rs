@@ -40,7 +40,7 @@ pub fn response(analysis: &Analysis, name: &str) -> Result<usize, String> {
     let name = name.trim();
     analysis.responses.iter().position(|response| response.name == name).ok_or_else(|| {
         let names = brief::list(analysis.responses.iter().map(|response| format!("\"{}\"", response.name)), ", ");
-        format!("\"{}\" is no response of the study, expected one of {names}", short(name))
+        format!("\"{}\" is not a response of the study, expected one of {names}", short(name))
     })
 }
 
@@ -168,7 +168,7 @@ fn value(response: &AnalysedResponse, text: &str) -> Result<f64, String> {
         .extend((!names.contains(&response.unit.to_owned()) && response.unit != "1").then(|| response.unit.to_owned()));
     names.extend((response.unit == "1").then(|| "%".to_owned()));
     let found: Option<f64> = number.parse().ok().filter(|number: &f64| number.is_finite());
-    let Some(number) = found else { return Err(format!("\"{text}\" is no number with a unit")) };
+    let Some(number) = found else { return Err(format!("\"{text}\" is not a number with a unit")) };
     let unit = plain(unit);
     if response.unit == "1" && (unit.is_empty() || unit == "%") {
         return Ok(if unit == "%" { number / 100.0 } else { number });

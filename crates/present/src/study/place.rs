@@ -47,7 +47,7 @@ impl<'a> Space<'a> {
     pub fn factor(&self, name: &str) -> Result<usize, String> {
         self.study.factors.iter().position(|factor| factor.is_called(name)).ok_or_else(|| {
             let names = brief::list(self.study.factors.iter().map(|factor| &factor.name), ", ");
-            format!("\"{}\" is no factor of the study, expected one of {names}", short(name))
+            format!("\"{}\" is not a factor of the study, expected one of {names}", short(name))
         })
     }
 

@@ -115,7 +115,9 @@ fn word_of(word: &str, text: &str, base: usize, factors: usize) -> Result<Genera
             }
             _ => {
                 let range = span(0, base);
-                return error(format!("generator `{text}`: {character} is no factor; expected base factors, {range}"));
+                return error(format!(
+                    "generator `{text}`: {character} is not a factor; expected base factors, {range}"
+                ));
             }
         };
         if set & bit != 0 {
@@ -182,7 +184,7 @@ mod tests {
     #[test]
     fn what_is_wrong_is_said() {
         let message = |factors, texts: &[&str]| parsed(factors, texts).unwrap_err().0;
-        assert_eq!(message(5, &["E = ABCX"]), "generator `E = ABCX`: X is no factor; expected base factors, A to D");
+        assert_eq!(message(5, &["E = ABCX"]), "generator `E = ABCX`: X is not a factor; expected base factors, A to D");
         assert_eq!(message(5, &["I=ABCE"]), "generator `I=ABCE`: expected E before the =, found I");
         assert_eq!(
             message(6, &["E=ABC", "F=ABE"]),

@@ -222,7 +222,7 @@ impl Design {
     ///
     /// # Errors
     ///
-    /// The settings are no whole number of points.
+    /// The settings are not a whole number of points.
     pub fn from_settings(
         factors: usize,
         settings: Vec<Setting>,
@@ -230,7 +230,7 @@ impl Design {
     ) -> Result<Self, DesignError> {
         if factors == 0 || !settings.len().is_multiple_of(factors) {
             let found = settings.len();
-            return Err(DesignError(format!("{found} settings are no whole number of points of {factors} factors")));
+            return Err(DesignError(format!("{found} settings are not a whole number of points of {factors} factors")));
         }
         Ok(Self { factors, settings, aliases })
     }

@@ -26,7 +26,7 @@ pub enum SeriesError {
     #[error("{0} points, expected at least 2")]
     TooFew(usize),
     /// A number that is none.
-    #[error("point {0}, counted from 0: a value is no finite number")]
+    #[error("point {0}, counted from 0: a value is not a finite number")]
     NotFinite(usize),
     /// A time that is not after the one before.
     #[error("point {0}, counted from 0: its time is not after that of the point before")]

@@ -110,7 +110,7 @@ pub enum FitError {
     #[error("series {0}, counted from 0: no run has values at all of its times")]
     NoRun(usize),
     /// The likelihood is no number anywhere.
-    #[error("the likelihood of the measurements is no number anywhere in the ranges")]
+    #[error("the likelihood of the measurements is not a number anywhere in the ranges")]
     NoLikelihood,
 }
 

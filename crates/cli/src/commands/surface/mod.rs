@@ -42,10 +42,10 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         };
         if let Some(to) = &arguments.to {
             let [one] = &mut found[..] else { return Err(several(path, &found)) };
-            convert(path, &mut one.measured, to, arguments.force)?;
+            convert(path, one, to, arguments.force)?;
         }
         for RecordedHeights { name, body, measured } in found {
-            subjects.push(Subject::of_file(name, measured, level, body == Some(Body::Disc), draws(arguments))?);
+            subjects.push(Subject::of_file(name, measured, body, level, draws(arguments))?);
         }
     }
     if let Some(path) = &arguments.prepare {
@@ -102,14 +102,24 @@ fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> 
         .map_err(|reason| named(path, format_args!("{reason}{}", as_options(&reason.to_string()))))
 }
 
-/// Writes the heights of a file into another.
-fn convert(path: &Path, measured: &mut Measured, to: &Path, force: bool) -> Result<(), Failure> {
+/// Writes heights into a file.
+fn convert(path: &Path, from: &mut RecordedHeights, to: &Path, force: bool) -> Result<(), Failure> {
+    let measured = &mut from.measured;
     let Some([column_pitch, row_pitch]) = measured.pitch else {
         return Err(named(path, "the distance of its points is unknown, which --to needs: give --pitch"));
     };
     let heights = std::mem::take(&mut measured.heights);
-    let patch = Patch { columns: measured.columns, rows: measured.rows, column_pitch, row_pitch, heights };
+    let mut patch = Patch { columns: measured.columns, rows: measured.rows, column_pitch, row_pitch, heights };
+    // Formats of heights as the model has them hold the pin's z, which grows away from the disc.
+    let turns = from.body == Some(Body::Pin) && ["npy", "h5"].contains(&output::ending(to).as_str());
+    let turn = |patch: &mut Patch| {
+        if turns {
+            patch.heights.iter_mut().for_each(|height| *height = -*height);
+        }
+    };
+    turn(&mut patch);
     let written = surface::write(to, &patch, &WriteOptions { replace: force, sdf: None });
+    turn(&mut patch);
     measured.heights = patch.heights;
     written.map_err(|error| match error {
         WriteError::System { .. } => Failure::run(error),

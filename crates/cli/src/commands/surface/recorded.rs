@@ -4,7 +4,8 @@ use std::path::Path;
 
 use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::Body;
-use plateau_io::run_file::{RunFile, map_path};
+use plateau_io::memory::refuse_beyond;
+use plateau_io::run_file::{ReadError, RunFile, map_path};
 use plateau_io::surface::{Format, Measured};
 use plateau_present::figure::run::{moment, nearest};
 
@@ -31,38 +32,55 @@ pub struct RecordedHeights {
 /// file.
 ///
 /// # Errors
-/// [`Failure::Input`] when an option has no use for a run file, or it has no such map.
+/// [`Failure::Input`] when it is damaged, an option has no use for it, or it has no such map.
 pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<RecordedHeights>>, Failure> {
-    let Ok(run) = RunFile::open(path) else {
-        return match arguments.at.is_empty() {
-            true => Ok(None),
-            false => Err(named(path, "--at is a time of a run, and this is not a run file: leave it out")),
-        };
+    let run = match RunFile::open(path) {
+        Ok(run) => run,
+        Err(
+            ReadError::NotHdf5 { .. }
+            | ReadError::Foreign { .. }
+            | ReadError::Elsewhere { .. }
+            | ReadError::System { .. },
+        ) if arguments.at.is_empty() => {
+            return Ok(None);
+        }
+        Err(error @ (ReadError::NotHdf5 { .. } | ReadError::Foreign { .. })) => {
+            return Err(Failure::input(format_args!("{error}; --at is a time of a run")));
+        }
+        Err(error) => return Err(Failure::input(error)),
     };
-    let dataset = arguments.reading.dataset.as_deref().map(|name| name.trim_start_matches('/'));
     let keys = arguments.reading.keys();
     if let Some((key, _)) = keys.iter().find(|(key, _)| *key != "dataset") {
         let option = key.replace('_', "-");
         return Err(named(path, format_args!("a run file says what its heights are: leave out --{option}")));
     }
-    let maps: Vec<Map> = match dataset {
-        None => HEIGHTS[..USUAL].iter().copied().filter(|map| run.has_map(*map)).collect(),
-        Some(name) => HEIGHTS.into_iter().filter(|map| map_path(*map) == name && run.has_map(*map)).collect(),
+    let dataset = arguments.reading.dataset.as_deref().map(|name| name.trim_start_matches('/'));
+    let wanted: Vec<Map> = match dataset {
+        None => HEIGHTS[..USUAL].to_vec(),
+        Some(name) => HEIGHTS.into_iter().filter(|map| map_path(*map) == name).collect(),
     };
-    let moments = match arguments.at.as_slice() {
-        [] => [0, run.map_time().len().saturating_sub(1)].into_iter().take(run.map_time().len().min(2)).collect(),
-        times => nearest(&run, times),
-    };
-    if maps.is_empty() || moments.is_empty() {
-        let there: Vec<&str> = HEIGHTS.into_iter().filter(|map| run.has_map(*map)).map(map_path).collect();
-        let wanted = dataset.unwrap_or("disc/height or pin/height");
-        let found = match (moments.is_empty(), there.is_empty()) {
-            (true, _) => "it has no maps yet".to_owned(),
-            (_, true) => "it has no maps of heights: name disc_height in output.maps of the scene".to_owned(),
-            _ => format!("it has {}", there.join(", ")),
-        };
-        return Err(named(path, format_args!("this run file has no {wanted}; {found}")));
+    if wanted.is_empty() {
+        let known = HEIGHTS.map(map_path).join(", ");
+        let found = dataset.unwrap_or_default();
+        return Err(named(path, format_args!("--dataset \"{found}\": expected a map of heights: {known}")));
     }
+    let maps: Vec<Map> = wanted.iter().copied().filter(|map| run.has_map(*map)).collect();
+    let times = run.map_time().len();
+    if maps.is_empty() || times == 0 {
+        let names = wanted.iter().map(|map| map.name()).collect::<Vec<_>>().join(" or ");
+        let what = if times == 0 && !maps.is_empty() { "no map yet".to_owned() } else { format!("no map {names}") };
+        return Err(named(
+            path,
+            format_args!(
+                "this run file has {what}: output.maps of the scene says which are recorded, output.maps_at when"
+            ),
+        ));
+    }
+    let moments = match arguments.at.as_slice() {
+        [] if times == 1 => vec![0],
+        [] => vec![0, times - 1],
+        at => nearest(&run, at),
+    };
     warn_of_unfinished(&run);
     let mut found = Vec::new();
     for map in maps {
@@ -75,9 +93,15 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<Record
 
 /// A map at one moment.
 fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<RecordedHeights>, Failure> {
-    let Some(MapValues::Float(mut heights)) = run.map(map, index).map_err(Failure::input)? else { return Ok(None) };
     let mesh = run.mesh();
     let body = if map.on_disc() { Body::Disc } else { Body::Pin };
+    let cells = body.columns(mesh) * mesh.rows();
+    // As they are stored, as they are read, and as they are described.
+    refuse_beyond(3 * size_of::<f64>() as u64 * cells as u64).map_err(|no_room| {
+        let name = map_path(map);
+        named(run.path(), format_args!("to read {name} needs {no_room}; free memory, or allow this process more of it"))
+    })?;
+    let Some(MapValues::Float(mut heights)) = run.map(map, index).map_err(Failure::input)? else { return Ok(None) };
     if body == Body::Pin {
         // The pin's z grows away from the disc.
         heights.iter_mut().for_each(|height| *height = -*height);

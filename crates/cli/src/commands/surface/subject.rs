@@ -41,17 +41,31 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// What a file has, with the form taken out; `closed` if it closes round the ring.
-    pub fn of_file(name: String, measured: Measured, form: Level, closed: bool, draws: bool) -> Result<Self, Failure> {
+    /// What a file has, with the form taken out; of a run file the heights of a body.
+    pub fn of_file(
+        name: String,
+        measured: Measured,
+        body: Option<Body>,
+        form: Level,
+        draws: bool,
+    ) -> Result<Self, Failure> {
+        let closed = body == Some(Body::Disc);
         let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
-        warnings.extend(implausible::stand_in(&heights));
+        // What a run has made of its surfaces is as it is.
+        let is_measured = body.is_none();
+        if is_measured {
+            warnings.extend(implausible::stand_in(&heights));
+        }
         level(&mut heights, rows, form, closed);
         let grid = Grid { columns, rows, pitch, heights: &heights };
         let points = heights.len();
         let none = || Failure::input(format_args!("{name}: none of its {points} points has a height"));
         let description = describe(&name, &grid)?.ok_or_else(none)?;
-        warnings.extend(implausible::odd_pitch(&pitch.unwrap_or_default(), None).filter(|_| pitch.is_some()));
-        warnings.extend(implausible::odd_rms(description.heights.root_mean_square_height));
+        if is_measured {
+            warnings.extend(pitch.and_then(|pitch| implausible::odd_pitch(&pitch, None)));
+            warnings.extend(pitch.and_then(|pitch| implausible::odd_slope(&heights, rows, pitch)));
+            warnings.extend(implausible::odd_rms(description.heights.root_mean_square_height));
+        }
         for warning in &warnings {
             message::warning(format_args!("{name}: {warning}"));
         }

@@ -21,8 +21,6 @@ use crate::{message, number, output};
 
 /// Runs that are listed; a table in CSV has all.
 const LISTED: usize = 16;
-/// Runs up to which every scene is built, to see which of them are there.
-const RESOLVED: usize = 20_000;
 
 /// Plans a study.
 pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
@@ -35,11 +33,11 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
     estimate.warnings.say("runs whose surfaces were made to try");
     let jobs = arguments.jobs.map_or_else(cores, |jobs| jobs as usize).min(plan.runs().max(1));
     let (mut ended, mut repeats) = (None, None);
-    if plan.runs() <= RESOLVED && has_scene {
+    if plan.runs() <= Resolved::MOST_AT_ONCE && has_scene {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
         resolved.refuse_unrecorded(plan.study())?;
-        resolved.warn_of_late_questions(plan.study());
+        resolved.refuse_late_questions(plan.study())?;
         short_tenth::say(plan.study(), &resolved.lengths);
         resolved.warnings.say("runs");
         let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));
@@ -48,13 +46,13 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         ended = Some(Ended { finished: entries.len() - failed, failed });
         repeats = Some(resolved.repeats());
     }
-    if plan.runs() > RESOLVED && has_scene {
+    if plan.runs() > Resolved::MOST_AT_ONCE && has_scene {
         message::note(format_args!(
             "{}: {} runs are more than {}, so that their scenes are not looked at here, nor which of them are there already; \
              `plateau sweep run` looks at all of them before it makes the first",
             plan.study().path.display(),
             number::grouped(plan.runs() as u64),
-            number::grouped(RESOLVED as u64)
+            number::grouped(Resolved::MOST_AT_ONCE as u64)
         ));
     }
     if let Some(csv) = &arguments.csv {

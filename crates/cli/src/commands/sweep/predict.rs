@@ -128,7 +128,7 @@ fn points(analysed: &Analysed, space: &Space<'_>, given: &Place, path: &Path) ->
     let known: HashSet<usize> = columns.iter().copied().flatten().collect();
     if let Some((_, unknown)) = table.heads().iter().enumerate().find(|(at, _)| !known.contains(at)) {
         let (path, unknown) = (path.display(), short(unknown));
-        return Err(Failure::input(format_args!("{path}: column \"{unknown}\" is no factor of the study")));
+        return Err(Failure::input(format_args!("{path}: column \"{unknown}\" is not a factor of the study")));
     }
     let place = |row: &Row| {
         let each = factors.iter().zip(&columns).zip(&given.levels);
@@ -227,7 +227,12 @@ pub(super) fn confirmed_text(analysed: &Analysed, confirmed: &[Option<Confirmed>
     let rows: Vec<Vec<String>> = rows
         .filter_map(|(response, confirmed)| Some(confirmed.as_ref()?.cells(&analysed.analysis, response)))
         .collect();
-    columns("Confirmed by extra runs, mean ± standard error", &["response", "mean", "runs", ""], &rows)
+    let has_errors = confirmed.iter().flatten().any(|confirmed| confirmed.standard_error.is_some());
+    let heading = match has_errors {
+        true => "Confirmed by extra runs, mean ± standard error",
+        false => "Compared with one extra run, which tells no error",
+    };
+    columns(heading, &["response", "mean", "runs", ""], &rows)
 }
 
 /// What the extra runs gave at many places: how many are within the interval, and how far off the forecast is.

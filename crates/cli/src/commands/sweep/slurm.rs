@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::arguments::SlurmArguments;
 use crate::failure::Failure;
-use crate::sweep::{self, estimate::Estimate};
+use crate::sweep::{self, estimate::Estimate, resolved::Resolved};
 use crate::table::{print, table};
 use crate::{called, number, output};
 
@@ -28,6 +28,9 @@ pub fn slurm(arguments: &SlurmArguments) -> Result<(), Failure> {
     let script = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}.sbatch")));
     output::check(&script, arguments.force, &plan.study().inputs())?;
     let estimate = Estimate::of(&plan)?;
+    if plan.runs() <= Resolved::MOST_AT_ONCE {
+        Resolved::of(&plan)?.refuse_unrecorded(plan.study())?;
+    }
     let cores = arguments.cores as usize;
     let total = estimate.mean_time * plan.runs() as f64 / cores as f64;
     let wanted = arguments

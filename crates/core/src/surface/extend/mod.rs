@@ -181,7 +181,7 @@ fn statistics_of_line(
 const QUADRATURE_STEP: f64 = 1.0 / 128.0;
 
 /// Takes the least-squares plane out of a patch that is to be extended and was not levelled by a plane or a surface of second
-/// order: a tilt is no roughness. The mean height stays. It has to be done before peaks are cut, or those that were cut to one
+/// order: a tilt is not roughness. The mean height stays. It has to be done before peaks are cut, or those that were cut to one
 /// height, which carry the load, would lie at many.
 pub(super) fn take_out_plane(patch: &mut Patch, levelled: Level, report: &mut Vec<String>) {
     if matches!(levelled, Level::Plane | Level::Quadratic) {
@@ -192,7 +192,7 @@ pub(super) fn take_out_plane(patch: &mut Patch, levelled: Level, report: &mut Ve
     patch.heights.iter_mut().for_each(|height| *height += centre);
     let after = rms(&patch.heights);
     if before * before - after * after > SLIGHT * before * before {
-        let plane = "extend: the least-squares plane was taken out, for a tilt is no roughness";
+        let plane = "extend: the least-squares plane was taken out, for a tilt is not roughness";
         report.push(format!("{plane}: rms {} -> {}", Length(before), Length(after)));
     }
 }

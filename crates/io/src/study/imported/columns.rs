@@ -53,7 +53,7 @@ impl Columns {
                     study.responses.iter().filter(|own| own.is_imported()).map(|own| own.name.as_str()).collect();
                 let known = if names.is_empty() { "none".to_owned() } else { brief::list(names, ", ") };
                 return Err(at(format!(
-                    "column \"{}\" is no factor and no response with imported = true; of these the study has {known}",
+                    "column \"{}\" is neither a factor nor a response with imported = true; of these the study has {known}",
                     short(head)
                 )));
             };

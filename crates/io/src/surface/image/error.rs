@@ -59,7 +59,7 @@ pub enum ImageError {
     #[error("the pixels are grey levels, so unit has no meaning: leave it out and give height_range")]
     Unit,
     /// Pixels that are infinite.
-    #[error("{count} of {points} pixels are no finite heights, expected finite numbers, NaN for a missing point")]
+    #[error("{count} of {points} pixels are not finite heights, expected finite numbers, NaN for a missing point")]
     Infinite {
         /// Infinite pixels.
         count: usize,

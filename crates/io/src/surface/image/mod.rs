@@ -37,7 +37,7 @@ fn decode(content: &[u8], format: Format) -> Result<Raster, ImageError> {
 pub(super) fn heights(content: &[u8], format: Format, options: &ReadOptions) -> Result<HeightMap, ImageError> {
     let Raster { width, height, colour, samples, warnings } = decode(content, format)?;
     let refuse = |found: &str| {
-        let expected = "grey pixels without transparency: colours are no heights, save the image as grey levels";
+        let expected = "grey pixels without transparency: colours are not heights, save the image as grey levels";
         Err(ImageError::Pixels { found: found.to_owned(), expected })
     };
     match colour {

@@ -106,7 +106,7 @@ fn trailer_warning(trailer: &[u8], start: u128, length: u64) -> Option<String> {
     let odd = trailer.iter().position(|byte| byte.is_ascii_control() && !byte.is_ascii_whitespace() && *byte != 0)?;
     let after = u128::from(length).saturating_sub(start);
     Some(format!(
-        "the {after} bytes after the heights are no text (byte {}): do NumPoints, NumProfiles and DataType fit the data?",
+        "the {after} bytes after the heights are not text (byte {}): do NumPoints, NumProfiles and DataType fit the data?",
         start + odd as u128
     ))
 }

@@ -31,7 +31,7 @@ pub enum SdfError {
     System(#[from] io::Error),
     /// It does not start as an SDF file does.
     #[error(
-        "this is no SDF file: starts with \"{found}\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same \
+        "this is not an SDF file: starts with \"{found}\", expected \"aISO-1.0\", \"aISO-2.0\", \"aBCR-1.0\" or the same \
          with \"b\""
     )]
     Magic {

@@ -12,7 +12,7 @@ pub enum TextError {
     NoNumbers,
     /// Neither file nor scene say what the numbers are.
     #[error(
-        "the file does not say the unit of its heights: unit = \"um\" beside file does, or \"2.9e-8 m\" for what the \
+        "the file does not say the unit of its heights: unit = \"um\" below file in the scene does, or \"2.9e-8 m\" for what the \
          number 1 stands for"
     )]
     NoUnit,
@@ -94,7 +94,7 @@ pub enum TextError {
     },
     /// A comma that may be a decimal mark or part digits.
     #[error(
-        "line {line}, column {column}: \"{found}\" may be {} or {}: decimal = \",\" beside file says the first; of a file with \
+        "line {line}, column {column}: \"{found}\" may be {} or {}: decimal = \",\" below file in the scene says the first; of a file with \
          thousands separators save one without",
         found.replace(',', "."), found.replace(',', "")
     )]
@@ -108,7 +108,7 @@ pub enum TextError {
     },
     /// A comma that may be a decimal mark or part columns.
     #[error(
-        "line {line}: commas of \"{found}\" may be decimal or may part numbers: decimal = \",\" beside file says \
+        "line {line}: commas of \"{found}\" may be decimal or may part numbers: decimal = \",\" below file in the scene says \
          the first, decimal = \".\" the second"
     )]
     CommaOrColumns {
@@ -177,7 +177,7 @@ pub enum TextError {
     /// All points on a line.
     #[error(
         "all points have the same {axis}, expected a surface; for a profile say profile_lay = \"along\", \"across\" or \
-         \"isotropic\" beside file"
+         \"isotropic\" below file in the scene"
     )]
     Profile {
         /// x or y.
@@ -249,7 +249,7 @@ pub enum TextError {
     },
     /// A profile where a surface is expected.
     #[error(
-        "{lines} lines of {columns} {}: for a profile say profile_lay = \"along\", \"across\" or \"isotropic\" beside file; a \
+        "{lines} lines of {columns} {}: for a profile say profile_lay = \"along\", \"across\" or \"isotropic\" below file in the scene; a \
          surface needs more columns", if *columns == 1 { "number" } else { "numbers" }
     )]
     IsProfile {
@@ -320,8 +320,8 @@ pub enum TextError {
 /// How to leave out lines that are not understood.
 fn advice(skip: Option<usize>) -> String {
     match skip {
-        Some(lines) => format!("skip = {lines} beside file leaves out the lines before the table"),
-        None => "no lines of equally many numbers are seen below; skip = 12 beside file, for example, leaves out the first twelve lines".to_owned(),
+        Some(lines) => format!("skip = {lines} below file in the scene leaves out the lines before the table"),
+        None => "no lines of equally many numbers are seen below; skip = 12 below file in the scene, for example, leaves out the first twelve lines".to_owned(),
     }
 }
 

@@ -60,6 +60,8 @@ pub(super) fn read(
     let gridded = Points::of(numbers, names, columns)?.grid()?;
     let header = &numbers.header;
     let [x_unit, y_unit, z_unit] = columns.map(|column| names.units[column]);
+    // Both are distances: what one of them says holds for the other.
+    let (x_unit, y_unit) = (x_unit.or(y_unit), y_unit.or(x_unit));
     let unit = numbers.unit(z_unit.or(header.unit), options)?;
     // A pitch that is given says what x and y of an unstated unit are; else they have that of the heights. Where that is not the unit
     // that the file states for all its numbers, nor m, they may well be in mm, as of many instruments.
@@ -76,6 +78,7 @@ pub(super) fn read(
         warnings.push(gridded.assumed(unit));
     }
     let mut heights = gridded.heights;
+    warnings.extend(Numbers::stand_in(&heights));
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("list of {} points, 1 stands for {unit:e} m", numbers.lines.len())];
     Ok(Table { columns: gridded.columns, rows: gridded.rows, pitch, is_pitch_assumed, heights, notes, warnings })

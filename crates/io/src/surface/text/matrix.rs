@@ -19,8 +19,9 @@ pub(super) fn read(numbers: &Numbers, options: &ReadOptions) -> Result<Table, Te
     for column in 0..columns {
         heights.extend(numbers.values.iter().skip(column).step_by(columns));
     }
+    let warnings = Numbers::stand_in(&heights).into_iter().collect();
     numbers.scale(&mut heights, unit)?;
     let pitch = agreed_pitch(header.matrix_pitch(columns, rows), options.pitch)?;
     let notes = vec![format!("matrix, 1 stands for {unit:e} m")];
-    Ok(Table { columns, rows, pitch, is_pitch_assumed: false, heights, notes, warnings: Vec::new() })
+    Ok(Table { columns, rows, pitch, is_pitch_assumed: false, heights, notes, warnings })
 }

@@ -9,6 +9,9 @@ use super::names::Names;
 use crate::surface::decimal::Decimal;
 use crate::surface::options::{ReadOptions, agreed};
 
+/// Numbers that stand for no height in files of many programs.
+const STAND_INS: [f64; 4] = [-9999.0, -99_999.0, -32_768.0, 9999.0];
+
 /// The numbers of a file as they stand in it, with what its header states.
 pub(super) struct Numbers {
     pub(super) header: Header,
@@ -113,6 +116,20 @@ impl Numbers {
         }
         let (line, found) = (self.first_line(), self.columns);
         Err(TextError::Ragged { line, found, expected: names.count, first: names.line })
+    }
+
+    /// Says that numbers which programs write where there is no height are among these, which are far from them.
+    pub(super) fn stand_in(heights: &[f64]) -> Option<String> {
+        STAND_INS.into_iter().find_map(|number| {
+            let count = heights.iter().filter(|height| **height == number).count();
+            let beside = |height: &&f64| height.is_finite() && **height != number;
+            let farthest = heights.iter().filter(beside).map(|height| height.abs()).fold(0.0, f64::max);
+            (count > 0 && farthest < 0.5 * number.abs()).then(|| {
+                format!(
+                    "{count} heights are {number}, which many programs write where there is none: if so, write NaN in their place"
+                )
+            })
+        })
     }
 
     /// The unit of heights that file or scene state, m.

@@ -173,7 +173,7 @@ fn the_scene_says_what_the_file_does_not() {
     assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Point), None).unwrap(), "1 2/3 4");
     assert_eq!(shape_of("1,2\n3,4", Some(Decimal::Comma), None).unwrap(), "1/3");
     let text = "Sample 7\n12 3 4\nanything\n1 2\n3 4\n";
-    let advice = "skip = 3 beside file leaves out the lines before the table";
+    let advice = "skip = 3 below file in the scene leaves out the lines before the table";
     assert!(shape_of(text, None, None).unwrap_err().ends_with(advice));
     // A header that begins with a number is told as one; a mistyped first line of a table is not.
     let told = shape_of("2 points each\n1 2\n3 4\n", None, None).unwrap_err();
@@ -202,8 +202,9 @@ fn what_is_wrong_is_told_with_its_line() {
             .starts_with("line 2, column 2: \"4.5\" has a decimal point, but numbers of this file have")
     );
     assert!(
-        error("1;1,234")
-            .starts_with("line 1, column 2: \"1,234\" may be 1.234 or 1234: decimal = \",\" beside file says")
+        error("1;1,234").starts_with(
+            "line 1, column 2: \"1,234\" may be 1.234 or 1234: decimal = \",\" below file in the scene says"
+        )
     );
     assert!(error("1,2\n3,4").starts_with("line 1: commas of \"1,2\" may be decimal or may part numbers: "));
     assert!(error("1;1.234,5").starts_with("line 1, column 2: \"1.234,5\" has digits in groups"));

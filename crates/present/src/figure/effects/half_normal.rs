@@ -48,7 +48,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         let end = x.end().min(y.end() / slope);
         contents
             .push(Content::Line { points: vec![[0.0, 0.0], [end, slope * end]], stroke: Stroke::solid(FAINT, LINE) });
-        let text = "if there were nothing but error".to_owned();
+        let text = "pure chance, no effect".to_owned();
         meanings.push(Meaning { colour: FAINT, style: KeyStyle::Line(SOLID), text });
     }
     let confidence = subject.confidence();

@@ -61,12 +61,13 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             let points = pieces(&Spans::FINEST.means(&times, &single));
             steps.extend(points.into_iter().map(|points| Content::Line { points, stroke }));
         }
-        let mean: Vec<f64> = mean.iter().map(|value| area.value(*value)).collect();
-        lines.extend(spans.course(&times, &mean).into_iter().map(|points| Content::Line { points, stroke }));
+        let in_units = |[at, mean]: [f64; 2]| [time.value(at), area.value(mean)];
+        let means = course(subject, mean).into_iter().map(|points| points.into_iter().map(in_units).collect());
+        lines.extend(means.map(|points| Content::Line { points, stroke }));
     }
     let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
     let only = only_stroke(subjects, runs.iter().map(|(number, ..)| *number));
-    let line = spans.meaning(runs.iter().map(|(_, subject, ..)| subject.run.time()), MEAN);
+    let line = spans.meaning(MEAN);
     let own = match only {
         _ if has_bands => meanings(true, only, &line, "least to greatest of single steps"),
         Some(stroke) => {

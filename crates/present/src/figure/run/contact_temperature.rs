@@ -30,7 +30,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for subject in having(figures, NAME, subjects, Map::Temperature) {
         let moments = moments(subject)?;
         if moments.is_empty() {
-            figures.leave_out(NAME, subject, &without_contact(subject.run, "temperature"));
+            figures.leave_out(NAME, subject, &without_contact(subject, "temperature"));
         } else {
             shown.push(subject);
             chosen.push(moments);

@@ -16,12 +16,13 @@ use crate::quantity::{Unit, title};
 const NAME: &str = "debris";
 /// What debris becomes, from below in the stack.
 const PARTS: [&str; 4] = ["deposited_disc", "deposited_pin", "emitted", "pool"];
-/// Those of them that are in the contact still.
+/// Those of them that did not leave the contact.
 const STAYED: [usize; 3] = [0, 1, 3];
 /// What debris comes from.
-const SOURCES: [&str; 4] = ["worn_pin", "worn_resin", "worn_disc", "returned"];
+const SOURCES: [&str; 4] = ["worn_pin", "worn_resin", "worn_disc", RETURNED];
+const RETURNED: &str = "returned";
 /// What the line of all of them is.
-const SUPPLY: &str = "worn off, or back from plateaus that broke away";
+const SUPPLY: [&str; 2] = ["worn off", "worn off, or back from plateaus that broke away"];
 /// Points along time, at most.
 const MOST_POINTS: usize = 400;
 /// Runs beside each other, at most.
@@ -32,6 +33,8 @@ struct Balance {
     times: Vec<f64>,
     parts: [Vec<f64>; 4],
     supply: Vec<f64>,
+    /// Whether any plateau broke away.
+    has_returned: bool,
 }
 
 /// Adds the figure.
@@ -62,7 +65,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let of_kept = |(_, balance): &(&Subject, Balance)| Chart {
         title: "without what was emitted".to_owned(),
         x: Axis::linear(0.0..=time.value(end), time.label("time")),
-        y: Axis::linear(up_from_zero(kept.value(most)), kept.label("debris in the contact")),
+        y: Axis::linear(up_from_zero(kept.value(most)), kept.label("laid down so far")),
         contents: stack(balance, &STAYED, &time, &kept),
     };
     let across = balances.len().min(MOST_ACROSS);
@@ -75,14 +78,16 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         |part: &usize| balances.iter().any(|(_, balance)| balance.parts[*part].iter().any(|volume| *volume > 0.0));
     let stacked = (0..PARTS.len()).rev().filter(is_there).map(|part| (DEBRIS[part], title(PARTS[part])));
     let mut meanings: Vec<Meaning> = stacked.map(meaning).collect();
-    meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: SUPPLY.to_owned() });
+    let supply = SUPPLY[usize::from(balances.iter().any(|(_, balance)| balance.has_returned))];
+    meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: supply.to_owned() });
     let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
     figures.add(
         NAME,
         "Debris balance",
         "Where the wear debris is, stacked: compacted on disc and pin, out of the contact, or loose in it. The line is what \
          was worn, and what plateaus that lost their support returned: the stack must reach it. Below, the same on an axis of its own \
-         without what was emitted.",
+         without what was emitted. All are sums since the start: debris that was laid down, worn off and laid down again counts twice, so \
+         less of it is there at the end.",
         page(width, 480.0, across, charts, &meanings),
     );
     Ok(())
@@ -99,10 +104,11 @@ fn read(subject: &Subject) -> Result<Balance, ReadError> {
     for name in SOURCES {
         supply.iter_mut().zip(values(name)?).for_each(|(sum, value)| *sum += value);
     }
+    let has_returned = values(RETURNED)?.iter().any(|volume| *volume > 0.0);
     // At the start nothing was worn.
     times.insert(0, 0.0);
     parts.iter_mut().chain([&mut supply]).for_each(|values| values.insert(0, 0.0));
-    Ok(Balance { times, parts, supply })
+    Ok(Balance { times, parts, supply, has_returned })
 }
 
 impl Balance {
@@ -155,6 +161,7 @@ mod tests {
     fn a_balance_that_holds_reaches_its_line() {
         // By hand: 1 + 2 + 3 + 4 = 10 at the second of two times.
         let balance = Balance {
+            has_returned: false,
             times: vec![1.0, 2.0],
             parts: [1.0, 2.0, 3.0, 4.0].map(|value| vec![0.0, value]),
             supply: vec![0.0, 10.0],

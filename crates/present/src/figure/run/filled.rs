@@ -40,7 +40,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let spans = match subjects {
         [_] => Spans::FINEST,
         _ if subjects.iter().any(operation::has_cycle) => Spans::FINEST,
-        _ => courses.iter().map(calm).min().unwrap_or(Spans::FINEST),
+        _ => courses.iter().map(calm).fold(Spans::FINEST, Spans::coarser),
     };
     let mut charts = Vec::new();
     let mut has_bands = false;
@@ -48,6 +48,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         let (mut bands, mut lines) = (Vec::new(), Vec::new());
         let mut largest = 0.0_f64;
         for (number, times, values) in &runs {
+            let course = spans.course(times, values);
             let times: Vec<f64> = times.iter().map(|at| time.value(*at)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
             let stroke = Stroke::of(*number, subjects.len());
@@ -57,7 +58,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             if spans == Spans::FINEST {
                 lines.push(Content::Line { points: spans.means_between_ends(&times, values), stroke });
             } else {
-                lines.extend(spans.course(&times, values).into_iter().map(|points| Content::Line { points, stroke }));
+                let in_units = |[at, value]: [f64; 2]| [time.value(at), value];
+                let course = course.into_iter().map(|points| points.into_iter().map(in_units).collect());
+                lines.extend(course.map(|points| Content::Line { points, stroke }));
             }
         }
         let y = if series == "filled_fraction" { "part of the volume" } else { "part of the area" };
@@ -75,7 +78,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let only = only_stroke(subjects, (0..subjects.len()).filter(|number| shown[*number]));
     let times = || subjects.iter().map(|subject| subject.run.time()).filter(|times| !times.is_empty());
     let is_binned = times().any(|times| spans.has_bands(times)) || spans != Spans::FINEST;
-    let mut own = meanings(is_binned, only, &spans.meaning(times(), "mean of a span of time"), "least to greatest");
+    let mut own = meanings(is_binned, only, &spans.meaning("mean of a span of time"), "least to greatest");
     own.truncate(if has_bands { 2 } else { 1 });
     let meanings = with_names(subjects, |number| shown[number], own);
     let width = figures.width(TWO_COLUMNS);

@@ -55,15 +55,16 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let (mut lines, mut marks) = (Vec::new(), Vec::new());
     for course in &courses {
         let stroke = Stroke::of(course.number, subjects.len());
-        let times: Vec<f64> = course.subject.run.time().iter().map(|at| time.value(*at)).collect();
-        let curve = spans.course(&times, &course.means);
-        lines.extend(curve.into_iter().map(|points| Content::Line { points, stroke }));
+        let in_units = |[at, mean]: [f64; 2]| [time.value(at), mean];
+        let curve = spans.course(course.subject.run.time(), &course.means);
+        let curve = curve.into_iter().map(|points| points.into_iter().map(in_units).collect());
+        lines.extend(curve.map(|points| Content::Line { points, stroke }));
         let points = course.steps.iter().map(|[at, coefficient]| [pressure.value(*at), *coefficient]).collect();
         marks.push(Content::Marks { points, colour: stroke.colour, mark: Mark::Point });
     }
     let mut charts = [
         Chart {
-            title: spans.meaning(times(), "mean of the last simulated revolution"),
+            title: spans.meaning("mean of the last simulated revolution"),
             x: Axis::linear(0.0..=time.value(end), time.label("time")),
             y: y.clone(),
             contents: lines,

@@ -7,7 +7,7 @@ use super::Subject;
 use crate::figure::chart::Meaning;
 use crate::figure::stroke::Stroke;
 use crate::quantity::{MapLook, Unit};
-use plateau_io::number;
+use plateau_io::{brief, number};
 
 /// Indices of the moments of the maps that are asked for; else of the first and the last, one of them if it is both.
 pub fn shown_moments(subject: &Subject) -> Vec<usize> {
@@ -42,12 +42,19 @@ pub fn ends_with_contact(subject: &Subject, map: Map, of_contact: fn(f64) -> boo
 }
 
 /// Why a run has no map with a contact after the start, of a map of this name.
-pub fn without_contact(run: &RunFile, name: &str) -> String {
-    let first =
-        run.time().last().filter(|_| run.state() == State::Interrupted && after_the_start(run).next().is_none());
-    match first {
+pub fn without_contact(subject: &Subject, name: &str) -> String {
+    let run = subject.run;
+    if !subject.chosen.is_empty() {
+        let times: Vec<String> = subject.chosen.iter().map(|index| moment(run, *index)).collect();
+        return format!(
+            "no map {name} with a contact at {}, the nearest times that were recorded",
+            brief::list(times, ", ")
+        );
+    }
+    let last = run.time().last().filter(|_| run.state() != State::Finished && after_the_start(run).next().is_none());
+    match last {
         Some(time) => format!(
-            "no map {name} after the start: the run was stopped at {}, before its first one",
+            "no map {name} after the start: the run has come to {}, and its first one is later",
             Unit::usual("s").with_symbol(&number::rounded(*time, 4))
         ),
         None => format!("no map {name} with a contact after the start"),
@@ -60,14 +67,27 @@ pub fn chosen_for(subject: &Subject, shown: &[&Subject], chosen: &[Vec<usize>]) 
     place.map_or_else(Vec::new, |place| chosen[place].clone())
 }
 
-/// What the lines of the moments are, in the colour of the only run, else in words; nothing where there are only those of the last.
+/// What the lines of the moments are, with their time where all runs have the same; in the colour of the only run, else in words.
 pub fn meanings(subjects: &[Subject], only: Option<Stroke>, has_first: bool) -> Vec<Meaning> {
     let is_chosen = subjects.iter().any(|subject| !subject.chosen.is_empty());
     let [last, first] = if is_chosen { ["last map shown", "earlier maps"] } else { ["last map", "first map"] };
+    let last = last.to_owned() + &common_time(subjects, |moments| moments.last());
+    // Of earlier ones there may be several.
+    let first = first.to_owned() + &common_time(subjects, |moments| moments.first().filter(|_| moments.len() == 2));
     match only {
-        _ if !has_first => Vec::new(),
-        Some(stroke) => vec![Meaning::of_line(stroke, last), Meaning::of_line(stroke.paler(), first)],
-        None => vec![Meaning::in_words(&format!("{last}, paler: {first}"))],
+        Some(stroke) if has_first => vec![Meaning::of_line(stroke, &last), Meaning::of_line(stroke.paler(), &first)],
+        Some(stroke) => vec![Meaning::of_line(stroke, &last)],
+        None if has_first => vec![Meaning::in_words(&format!("{last}, paler: {first}"))],
+        None => vec![Meaning::in_words(&last)],
+    }
+}
+
+/// The time of one of the moments that are shown, in words behind a comma; empty where runs differ in it or have none.
+fn common_time(subjects: &[Subject], of: impl Fn(&[usize]) -> Option<&usize>) -> String {
+    let mut times = subjects.iter().map(|subject| of(&shown_moments(subject)).map(|index| moment(subject.run, *index)));
+    match times.next().flatten() {
+        Some(time) if times.all(|other| other.as_ref() == Some(&time)) => format!(", {time}"),
+        _ => String::new(),
     }
 }
 

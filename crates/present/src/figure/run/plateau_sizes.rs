@@ -3,6 +3,7 @@
 use plateau_core::model::material::Status;
 use plateau_core::observe::Map;
 use plateau_core::observe::plateau_size::plateau_areas;
+use plateau_io::brief;
 use plateau_io::run_file::ReadError;
 
 use super::legend::{only_stroke, with_names};
@@ -71,7 +72,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     if empty.len() == kinds.len() {
         for subject in any_of(subjects, lists.each_ref().map(|list| &list[..])) {
-            figures.leave_out(NAME, subject, "no contact and no plateaus");
+            let times: Vec<String> = shown_moments(subject).iter().map(|index| moment(subject.run, *index)).collect();
+            let at = brief::list(times, ", ");
+            figures.leave_out(NAME, subject, &format!("no contact and no plateaus in the maps that are shown, {at}"));
         }
         return Ok(());
     }

@@ -30,7 +30,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         // Before the first step nothing is pressed.
         let moments = moments(subject)?;
         if moments.is_empty() {
-            figures.leave_out(NAME, subject, &without_contact(subject.run, "pressure"));
+            figures.leave_out(NAME, subject, &without_contact(subject, "pressure"));
         } else {
             shown.push(subject);
             chosen.push(moments);

@@ -15,25 +15,34 @@ pub const MOST_BANDS: usize = 3;
 const MOST_WAY: f64 = 3.0;
 
 /// In how many spans of time, at most, samples are put together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Spans {
     most: usize,
+    /// Over how long a time the means of lines go, s: the same for all runs, however long they are; 0 at the finest.
+    duration: f64,
 }
 
 impl Spans {
     /// As many as a figure distinguishes.
-    pub const FINEST: Self = Self { most: 250 };
+    pub const FINEST: Self = Self { most: 250, duration: 0.0 };
     /// As few as still show a course.
-    const COARSEST: Self = Self { most: 30 };
+    const FEWEST: usize = 30;
 
     /// So many that no line goes up and down all the time, as where the contact comes and goes in many revolutions: several
-    /// such lines would be one block.
+    /// such lines would be one block. Of every curve the times, s, and the values.
     pub fn calm<'a>(curves: impl Iterator<Item = (&'a [f64], &'a [f64])> + Clone) -> Self {
+        let longest = curves.clone().map(|(times, _)| span_of(times)).fold(0.0, f64::max);
         let mut spans = Self::FINEST;
-        while spans.most > Self::COARSEST.most && !spans.are_calm(curves.clone()) {
-            spans.most = (spans.most / 2).max(Self::COARSEST.most);
+        while spans.most > Self::FEWEST && !spans.are_calm(curves.clone()) {
+            let most = (spans.most / 2).max(Self::FEWEST);
+            spans = Self { most, duration: longest * (2 * (Self::FINEST.most / most)) as f64 };
         }
         spans
+    }
+
+    /// The coarser of two.
+    pub fn coarser(self, other: Self) -> Self {
+        if other.most < self.most { other } else { self }
     }
 
     fn are_calm<'a>(self, curves: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
@@ -55,11 +64,12 @@ impl Spans {
         samples.div_ceil(self.most).max(1)
     }
 
-    /// The lines through means: as many as a figure distinguishes, each, where spans are coarser, with those beside it, whose weights fall
-    /// to nothing a span away. A line through means of single spans would go up and down where ups and downs are about as long. Such a line
-    /// ends a span before the last sample.
+    /// The lines through means, over times in s: as many as a figure distinguishes, each, where spans are coarser, with those beside it, whose
+    /// weights fall to nothing. A line through means of single spans would go up and down where ups and downs are about as long. Such a line
+    /// ends half the time of a mean before the last sample.
     pub fn course(self, times: &[f64], values: &[f64]) -> Vec<Vec<[f64; 2]>> {
-        let beside = Self::FINEST.most / self.most;
+        let span = span_of(times);
+        let beside = if span > 0.0 { (0.5 * self.duration / span).round() as usize } else { 0 };
         let mut lines = pieces(&Self::FINEST.means(times, values));
         if beside > 1 {
             lines.iter_mut().for_each(|line| *line = weighted(line, beside));
@@ -67,25 +77,13 @@ impl Spans {
         lines
     }
 
-    /// Over how long a time the means of a course go.
-    pub fn duration(self, times: &[f64]) -> f64 {
-        let [Some(first), Some(last)] = [times.first(), times.last()] else { return 0.0 };
-        let length = Self::FINEST.length(times.len()) as f64 * (last - first) / (times.len() - 1).max(1) as f64;
-        length * (2 * (Self::FINEST.most / self.most)).max(1) as f64
-    }
-
-    /// What the lines of a course are, of runs with samples at these times: what they are at the finest, or over how long a time means go.
-    pub fn meaning<'a>(self, times: impl Iterator<Item = &'a [f64]>, finest: &str) -> String {
+    /// What the lines of a course are: what they are at the finest, or over how long a time means go.
+    pub fn meaning(self, finest: &str) -> String {
         if self == Self::FINEST {
             return finest.to_owned();
         }
-        let ends = (f64::INFINITY, 0.0_f64);
-        let (low, high) = times
-            .map(|times| self.duration(times))
-            .fold(ends, |(low, high), length| (low.min(length), high.max(length)));
-        let unit = Unit::for_size("s", high);
-        let [low, high] = [low, high].map(|length| unit.with_symbol(&number::rounded(unit.value(length), 2)));
-        if low == high { format!("weighted mean over {high}") } else { format!("weighted mean over {low} to {high}") }
+        let unit = Unit::for_size("s", self.duration);
+        format!("weighted mean over {}", unit.with_symbol(&number::rounded(unit.value(self.duration), 2)))
     }
 
     /// Whether there are so many samples that their reach is a band.
@@ -147,6 +145,12 @@ impl Spans {
         spans.dedup();
         spans
     }
+}
+
+/// The time of one of the finest spans of samples at these times, s.
+fn span_of(times: &[f64]) -> f64 {
+    let [Some(first), Some(last)] = [times.first(), times.last()] else { return 0.0 };
+    Spans::FINEST.length(times.len()) as f64 * (last - first) / (times.len() - 1).max(1) as f64
 }
 
 /// The pieces of a curve whose points have gaps between them: those that are no numbers.
@@ -228,13 +232,18 @@ mod tests {
         assert_eq!(spans_of(&[&slow]), Spans::FINEST);
         let coarse = spans_of(&[&slow, &pulsing]);
         // Eight spans of 16 s on both sides.
-        assert_eq!((coarse, coarse.duration(&times)), (Spans { most: 31 }, 256.0));
+        assert_eq!(coarse, Spans { most: 31, duration: 256.0 });
         let [course] = &coarse.course(&times, &pulsing)[..] else { panic!("one line") };
         assert_eq!(course.len(), 250 - 7);
         assert!(course[8..].iter().all(|[_, value]| value.abs() < 3.0), "{course:?}");
         // What does not pulse stays as it is.
         let [straight] = &coarse.course(&times, &times)[..] else { panic!("one line") };
         assert!(straight.iter().all(|[time, value]| (time - value).abs() < 1e-9));
+        // A run of half the length has the same means: as many seconds, not as large a part of it.
+        let half = &times[..2000];
+        let [short] = &coarse.course(half, &pulsing[..2000])[..] else { panic!("one line") };
+        assert_eq!(short.len(), 250 - 15);
+        assert!(short[16..].iter().all(|[_, value]| value.abs() < 3.0), "{short:?}");
         let constant = vec![2.0; times.len()];
         assert_eq!(spans_of(&[&constant]), Spans::FINEST);
     }

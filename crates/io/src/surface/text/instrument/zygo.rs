@@ -111,7 +111,7 @@ pub(super) fn points(text: &str, options: &ReadOptions) -> Result<Table, TextErr
     let mut table = header.table(heights, vec![format!("1 stands for {unit:e} m")], options)?;
     if options.unit.is_none() {
         let warning = "heights taken as um, as the format has it; the program can write other units without saying so: \
-                       unit = \"um\" (or another) beside file says which";
+                       unit = \"um\" (or another) below file in the scene says which";
         table.warnings.push(warning.to_owned());
     }
     Ok(named("Zygo XYZ", table))
