@@ -388,6 +388,10 @@ fn heights_of_a_run_are_described_before_and_after() {
         let peak = heights.iter().map(|height| sign * (height - mean)).fold(0.0, f64::max);
         assert!((all[at]["Sp"].as_f64().unwrap() / (1e6 * peak) - 1.0).abs() < 1e-9, "{map} {moment}");
     }
+    // The table need not repeat the file.
+    let table = directory.plateau(["surface", "run.h5"]).quiet_success();
+    let heads = table.lines().next().unwrap();
+    assert!(heads.contains("disc height, 0 s") && !heads.contains("run.h5"), "{heads}");
     // One of them, drawn and written for other programs.
     let one = ["--dataset", "disc/height", "--at", "0.9 s", "--to", "worn.sdf", "--plot", "worn.png"];
     let told = directory.plateau([&["surface", "run.h5"][..], &one].concat()).quiet_success();

@@ -367,7 +367,14 @@ impl Opening<'_> {
     }
 
     fn foreign(&self, missing: &str) -> ReadError {
-        ReadError::Foreign { path: self.path.into(), missing: missing.into() }
+        // What `sweep collect` writes.
+        let is_study = self.file.attr("base_scene").is_ok();
+        let advice = if is_study {
+            "; it has the results of a study, which `plateau sweep effects STUDY.toml` draws"
+        } else {
+            ""
+        };
+        ReadError::Foreign { path: self.path.into(), missing: format!("{missing}{advice}") }
     }
 
     fn damaged(&self, reason: impl Into<String>) -> ReadError {

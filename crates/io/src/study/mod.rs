@@ -38,6 +38,7 @@ mod unknown_key;
 pub mod unrecorded;
 pub mod value_table;
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -149,8 +150,14 @@ impl Study {
     pub fn load(path: &Path) -> Result<Self, StudyError> {
         let file: Arc<Path> = path.into();
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
-        let text = regular::read_to_string(path, limits::STUDY)
-            .map_err(|error| at(Origin::File(file.clone()), format!("cannot read the study: {error}")))?;
+        let text = regular::read_to_string(path, limits::STUDY).map_err(|error| {
+            let what = if is_hdf5(path) {
+                "this is an HDF5 file, expected a study, which is a text in TOML".to_owned()
+            } else {
+                format!("cannot read the study: {error}")
+            };
+            at(Origin::File(file.clone()), what)
+        })?;
         let place = Place { file: file.clone(), text: &text };
         let located = |error: &toml::de::Error, message: String| {
             at(error.span().map_or(Origin::File(file.clone()), |span| place.at(span.start)), message)
@@ -164,6 +171,12 @@ impl Study {
             toml::from_str(&text).map_err(|error| located(&error, unknown_key::with_advice(error.message())))?;
         build::build(document, path, &place).map_err(StudyError)
     }
+}
+
+/// Whether a file begins as an HDF5 file does.
+fn is_hdf5(path: &Path) -> bool {
+    let mut head = [0; 4];
+    regular::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && head == *b"\x89HDF"
 }
 
 /// Whether this is a scene: it has a table that only scenes have, and nothing that every study has.

@@ -37,15 +37,20 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         let mut found = match recorded::of(path, arguments)? {
             Some(found) => found,
             None => {
-                vec![RecordedHeights { name: path.display().to_string(), body: None, measured: read(path, arguments)? }]
+                vec![RecordedHeights {
+                    name: path.display().to_string(),
+                    map: String::new(),
+                    body: None,
+                    measured: read(path, arguments)?,
+                }]
             }
         };
         if let Some(to) = &arguments.to {
             let [one] = &mut found[..] else { return Err(several(path, &found)) };
             convert(path, one, to, arguments.force)?;
         }
-        for RecordedHeights { name, body, measured } in found {
-            subjects.push(Subject::of_file(name, measured, body, level, draws(arguments))?);
+        for RecordedHeights { name, map, body, measured } in found {
+            subjects.push(Subject::of_file([name, map], measured, body, level, draws(arguments))?);
         }
     }
     if let Some(path) = &arguments.prepare {

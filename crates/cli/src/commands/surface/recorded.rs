@@ -22,6 +22,8 @@ const USUAL: usize = 2;
 pub struct RecordedHeights {
     /// The file; of a map of a run with its dataset and time.
     pub name: String,
+    /// Of a map of a run the end of that name: dataset and time.
+    pub map: String,
     /// The body of a map of a run.
     pub body: Option<Body>,
     /// The heights; those of a map with peaks positive.
@@ -119,6 +121,7 @@ fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<RecordedHeigh
         notes: vec![format!("recorded by a run at {}", moment(run, index))],
         warnings: Vec::new(),
     };
-    let name = format!("{} {}, {}", run.path().display(), map_path(map).replace('/', " "), moment(run, index));
-    Ok(Some(RecordedHeights { name, body: Some(body), measured }))
+    let what = format!("{}, {}", map_path(map).replace('/', " "), moment(run, index));
+    let name = format!("{} {what}", run.path().display());
+    Ok(Some(RecordedHeights { name, map: what, body: Some(body), measured }))
 }

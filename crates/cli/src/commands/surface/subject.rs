@@ -18,6 +18,8 @@ use crate::message;
 pub struct Subject {
     /// The file, or the body of the scene.
     pub name: String,
+    /// Of a map of a run file what it is: the end of its name.
+    pub map: String,
     /// What the file is, or that a scene made it.
     pub origin: String,
     /// Points along x.
@@ -43,7 +45,7 @@ pub struct Subject {
 impl Subject {
     /// What a file has, with the form taken out; of a run file the heights of a body.
     pub fn of_file(
-        name: String,
+        [name, map]: [String; 2],
         measured: Measured,
         body: Option<Body>,
         form: Level,
@@ -71,6 +73,7 @@ impl Subject {
         }
         Ok(Self {
             name,
+            map,
             origin: format.to_string(),
             columns,
             rows,
@@ -104,6 +107,7 @@ impl Subject {
             let own = |line: &&String| line.starts_with(&format!("{name}."));
             Ok(Self {
                 name: name.to_owned(),
+                map: String::new(),
                 origin: format!("prepared by {}", scene.display()),
                 columns,
                 rows,

@@ -76,7 +76,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         None if with_steps => vec![Meaning::in_words(&format!("lines: {line}, paler: single steps"))],
         None => vec![Meaning::in_words(&format!("lines: {line}"))],
     };
-    let meanings = with_names(subjects, |shown| runs.iter().any(|(number, ..)| *number == shown), own);
+    let mut meanings = with_names(subjects, |shown| runs.iter().any(|(number, ..)| *number == shown), own);
     let height = if with_operation { 420.0 } else { 760.0 };
     charts.push(Chart {
         title: String::new(),
@@ -84,9 +84,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         y: Axis::linear(up_from_zero(area.value(largest)), area.label(title("contact_area"))),
         contents: steps.into_iter().chain(lines).collect(),
     });
-    if let [subject] = subjects {
-        operation::shade_events(subject.run, &time, &mut charts)?;
-    }
+    meanings.extend(operation::shade_events(subjects, &time, &mut charts)?);
     let of_operation = if with_operation {
         " Above it load and speed; spans with both are shaded (of a single run that has ended)."
     } else {

@@ -46,15 +46,14 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         charts.push(chart("airborne mass for each kilometre of road", mean, "kg m-1", &masses, &time, end));
         charts.push(chart("airborne particles for each kilometre of road", mean, "m-1", &numbers, &time, end));
     }
-    if let [subject] = subjects {
-        operation::shade_events(subject.run, &time, &mut charts)?;
-    }
+    let shade = operation::shade_events(subjects, &time, &mut charts)?;
     let mut own = match only_stroke(subjects, having.iter().map(|(number, _)| *number)) {
         Some(stroke) => {
             vec![Meaning::of_line(stroke, "PM10, particles"), Meaning::of_line(stroke.paler(), "PM2.5")]
         }
         None => vec![Meaning::in_words("lines: PM10, particles; paler: PM2.5")],
     };
+    own.extend(shade);
     own.push(Meaning::in_words(&of_pins(&having)));
     let meanings = with_names(subjects, |shown| having.iter().any(|(number, _)| *number == shown), own);
     let of_road = if on_road.is_empty() {

@@ -71,11 +71,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         },
         Chart { title: "samples of single steps".to_owned(), x, y: y.shared(), contents: marks },
     ];
-    if let [subject] = subjects {
-        operation::shade_events(subject.run, &time, &mut charts[..1])?;
-    }
-    let meanings: Vec<Meaning> =
-        courses.iter().map(|course| Meaning::of_run(course.number, &course.subject.label)).collect();
+    let shade = operation::shade_events(subjects, &time, &mut charts[..1])?;
+    let meanings = courses.iter().map(|course| Meaning::of_run(course.number, &course.subject.label));
+    let meanings: Vec<Meaning> = meanings.chain(shade).collect();
     let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,

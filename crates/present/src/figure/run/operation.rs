@@ -4,10 +4,10 @@ use plateau_io::run_file::{ReadError, RunFile};
 
 use super::Subject;
 use super::spans::Spans;
-use crate::colour::INK;
+use crate::colour::{INK, paler};
 use crate::figure::axes::Axis;
-use crate::figure::chart::{Chart, up_from_zero};
-use crate::figure::page::Content;
+use crate::figure::chart::{Chart, Meaning, up_from_zero};
+use crate::figure::page::{Content, KeyStyle};
 use crate::figure::stroke::Stroke;
 use crate::quantity::{SeriesLook, Unit};
 
@@ -63,13 +63,15 @@ pub fn while_rubbing(run: &RunFile, mut values: Vec<f64>) -> Result<Vec<f64>, Re
     Ok(values)
 }
 
-/// Shades the events of a run in charts against time, below all that is in them.
-pub fn shade_events(run: &RunFile, time: &Unit, charts: &mut [Chart]) -> Result<(), ReadError> {
-    let events = run.events()?;
+/// Shades the events of a run in charts against time, below all that is in them; what the shade is, where there is any. Of several runs
+/// nothing is shaded.
+pub fn shade_events(subjects: &[Subject], time: &Unit, charts: &mut [Chart]) -> Result<Option<Meaning>, ReadError> {
+    let [subject] = subjects else { return Ok(None) };
+    let events = subject.run.events()?;
     let ends = |name| events.iter().find(|(quantity, _)| quantity.name == name).map(|(_, values)| values.as_slice());
-    let (Some(starts), Some(ends)) = (ends("start"), ends("end")) else { return Ok(()) };
-    if starts.len() > MOST_EVENTS {
-        return Ok(());
+    let (Some(starts), Some(ends)) = (ends("start"), ends("end")) else { return Ok(None) };
+    if starts.is_empty() || starts.len() > MOST_EVENTS {
+        return Ok(None);
     }
     for chart in charts {
         let (low, high) = (*chart.y.range.start(), *chart.y.range.end());
@@ -81,5 +83,6 @@ pub fn shade_events(run: &RunFile, time: &Unit, charts: &mut [Chart]) -> Result<
         let shades: Vec<Content> = starts.iter().zip(ends).map(shade).collect();
         chart.contents.splice(0..0, shades);
     }
-    Ok(())
+    let colour = paler(INK, SHADE);
+    Ok(Some(Meaning { colour, style: KeyStyle::Area, text: "events".to_owned() }))
 }

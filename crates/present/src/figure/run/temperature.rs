@@ -65,9 +65,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         }
     };
     let mut charts: Vec<Chart> = courses.iter().map(chart).collect();
-    if let [subject] = subjects {
-        operation::shade_events(subject.run, &time, &mut charts)?;
-    }
+    let shade = operation::shade_events(subjects, &time, &mut charts)?;
     let of_cells = if courses.iter().all(|course| is_body(&course)) {
         ""
     } else {
@@ -76,7 +74,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     };
     let is_shown = |number: usize| runs().any(|(other, ..)| *other == number);
     let shown = subjects.iter().enumerate().filter(|(number, _)| is_shown(*number));
-    let meanings: Vec<Meaning> = shown.map(|(number, subject)| Meaning::of_run(number, &subject.label)).collect();
+    let meanings = shown.map(|(number, subject)| Meaning::of_run(number, &subject.label));
+    let meanings: Vec<Meaning> = meanings.chain(shade).collect();
     let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
