@@ -49,6 +49,22 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// Heights of an instrument of which nothing else is to be said: column by column, m, on so many columns and rows.
+    pub fn new(format: Format, [columns, rows]: [usize; 2], pitch: Option<[f64; 2]>, heights: Vec<f64>) -> Self {
+        Self {
+            format,
+            columns,
+            rows,
+            pitch,
+            is_pitch_assumed: false,
+            heights,
+            instrument: true,
+            profile_lay: None,
+            notes: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
     /// The heights with their pitch, if that is known.
     pub fn into_patch(self) -> Option<Patch> {
         let Self { columns, rows, heights, .. } = self;
@@ -134,18 +150,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
                 hdf5::heights(path, options.dataset.as_deref())?;
             let notes = vec![format!("dataset {dataset}")];
             let pitch = agreed_pitch(pitch, options.pitch)?;
-            Ok(Measured {
-                format,
-                columns,
-                rows,
-                pitch,
-                is_pitch_assumed: false,
-                heights,
-                instrument: false,
-                profile_lay: None,
-                notes,
-                warnings: Vec::new(),
-            })
+            Ok(Measured { notes, instrument: false, ..Measured::new(format, [columns, rows], pitch, heights) })
         }
         Format::Sdf(_) => {
             let file = regular::open(path)?;
@@ -176,36 +181,14 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             let image::HeightMap { columns, rows, heights, notes, warnings } =
                 image::heights(&regular::read(path, limits::SURFACE)?, format, options)?;
             let pitch = options.pitch;
-            Ok(Measured {
-                format,
-                columns,
-                rows,
-                pitch,
-                is_pitch_assumed: false,
-                heights,
-                instrument: true,
-                profile_lay: None,
-                notes,
-                warnings,
-            })
+            Ok(Measured { notes, warnings, ..Measured::new(format, [columns, rows], pitch, heights) })
         }
         Format::Text => {
             let xyz = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xyz"));
             let text::Table { columns, rows, pitch, is_pitch_assumed, heights, notes, warnings } =
                 text::read(&regular::read(path, limits::SURFACE_TEXT)?, xyz, options)?;
-            let (instrument, profile_lay) = (true, None);
-            Ok(Measured {
-                format,
-                columns,
-                rows,
-                pitch,
-                is_pitch_assumed,
-                heights,
-                instrument,
-                profile_lay,
-                notes,
-                warnings,
-            })
+            let plain = Measured::new(format, [columns, rows], pitch, heights);
+            Ok(Measured { is_pitch_assumed, notes, warnings, ..plain })
         }
         Format::Instrument(instrument) => Err(FileError::Instrument(instrument)),
     }
@@ -215,18 +198,7 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
 fn from_instrument(format: Format, patch: Patch, notes: Vec<String>, warnings: Vec<String>) -> Measured {
     let Patch { columns, rows, column_pitch, row_pitch, heights } = patch;
     let pitch = Some([column_pitch, row_pitch]);
-    Measured {
-        format,
-        columns,
-        rows,
-        pitch,
-        is_pitch_assumed: false,
-        heights,
-        instrument: true,
-        profile_lay: None,
-        notes,
-        warnings,
-    }
+    Measured { notes, warnings, ..Measured::new(format, [columns, rows], pitch, heights) }
 }
 
 /// A NumPy array: heights of the model, as those of an HDF5 file.
@@ -236,19 +208,8 @@ fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
     if integers && options.unit.is_none() {
         warnings.push("integers taken as heights in m: unit = \"nm\" says what 1 stands for".to_owned());
     }
-    let (pitch, notes) = (options.pitch, vec![format!("type {descr}")]);
-    Measured {
-        format,
-        columns,
-        rows,
-        pitch,
-        is_pitch_assumed: false,
-        heights,
-        instrument: false,
-        profile_lay: None,
-        notes,
-        warnings,
-    }
+    let notes = vec![format!("type {descr}")];
+    Measured { notes, warnings, instrument: false, ..Measured::new(format, [columns, rows], options.pitch, heights) }
 }
 
 /// Refuses what would silently not be used.

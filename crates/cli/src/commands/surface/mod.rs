@@ -22,7 +22,7 @@ use crate::message;
 use crate::output;
 use crate::table::print;
 use comparison::Comparison;
-use recorded::RecordedHeights;
+use recorded::NamedHeights;
 use subject::Subject;
 
 /// More surfaces make no legible picture.
@@ -37,7 +37,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         let mut found = match recorded::of(path, arguments)? {
             Some(found) => found,
             None => {
-                vec![RecordedHeights {
+                vec![NamedHeights {
                     name: path.display().to_string(),
                     map: String::new(),
                     body: None,
@@ -49,7 +49,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             let [one] = &mut found[..] else { return Err(several(path, &found)) };
             convert(path, one, to, arguments.force)?;
         }
-        for RecordedHeights { name, map, body, measured } in found {
+        for NamedHeights { name, map, body, measured } in found {
             subjects.push(Subject::of_file([name, map], measured, body, level, draws(arguments))?);
         }
     }
@@ -60,7 +60,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 }
 
 /// Refuses to convert several maps of a run into one file.
-fn several(path: &Path, found: &[RecordedHeights]) -> Failure {
+fn several(path: &Path, found: &[NamedHeights]) -> Failure {
     let count = found.len();
     named(
         path,
@@ -108,7 +108,7 @@ fn read(path: &Path, arguments: &SurfaceArguments) -> Result<Measured, Failure> 
 }
 
 /// Writes heights into a file.
-fn convert(path: &Path, from: &mut RecordedHeights, to: &Path, force: bool) -> Result<(), Failure> {
+fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Result<(), Failure> {
     let measured = &mut from.measured;
     let Some([column_pitch, row_pitch]) = measured.pitch else {
         return Err(named(path, "the distance of its points is unknown, which --to needs: give --pitch"));

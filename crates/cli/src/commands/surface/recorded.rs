@@ -19,7 +19,7 @@ const HEIGHTS: [Map; 4] = [Map::DiscHeight, Map::PinHeight, Map::DiscSubstrate, 
 const USUAL: usize = 2;
 
 /// Heights with the name that they are told by.
-pub struct RecordedHeights {
+pub struct NamedHeights {
     /// The file; of a map of a run with its dataset and time.
     pub name: String,
     /// Of a map of a run the end of that name: dataset and time.
@@ -35,7 +35,7 @@ pub struct RecordedHeights {
 ///
 /// # Errors
 /// [`Failure::Input`] when it is damaged, an option has no use for it, or it has no such map.
-pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<RecordedHeights>>, Failure> {
+pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedHeights>>, Failure> {
     let run = match RunFile::open(path) {
         Ok(run) => run,
         Err(
@@ -94,7 +94,7 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<Record
 }
 
 /// A map at one moment.
-fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<RecordedHeights>, Failure> {
+fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<NamedHeights>, Failure> {
     let mesh = run.mesh();
     let body = if map.on_disc() { Body::Disc } else { Body::Pin };
     let cells = body.columns(mesh) * mesh.rows();
@@ -109,19 +109,11 @@ fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<RecordedHeigh
         heights.iter_mut().for_each(|height| *height = -*height);
         mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
     }
-    let measured = Measured {
-        format: Format::Hdf5,
-        columns: body.columns(mesh),
-        rows: mesh.rows(),
-        pitch: Some([mesh.column_width(), mesh.row_height()]),
-        is_pitch_assumed: false,
-        heights,
-        instrument: true,
-        profile_lay: None,
-        notes: vec![format!("recorded by a run at {}", moment(run, index))],
-        warnings: Vec::new(),
-    };
+    let pitch = Some([mesh.column_width(), mesh.row_height()]);
+    let notes = vec![format!("recorded by a run at {}", moment(run, index))];
+    let plain = Measured::new(Format::Hdf5, [body.columns(mesh), mesh.rows()], pitch, heights);
+    let measured = Measured { notes, ..plain };
     let what = format!("{}, {}", map_path(map).replace('/', " "), moment(run, index));
     let name = format!("{} {what}", run.path().display());
-    Ok(Some(RecordedHeights { name, map: what, body: Some(body), measured }))
+    Ok(Some(NamedHeights { name, map: what, body: Some(body), measured }))
 }
