@@ -1,6 +1,6 @@
 //! What of a patch can hardly be meant, or is too little to go by.
 
-use super::implausible::{odd_pitch, odd_rms};
+use super::implausible::{odd_pitch, odd_rms, odd_slope};
 use super::level::rms;
 use super::{Body, Length, Patch};
 use crate::model::mesh::Mesh;
@@ -19,10 +19,13 @@ pub(super) fn warnings(patch: &Patch, missing: usize, scale: f64, body: Body, me
     let few = few_points(patch, missing);
     // Of a line of points the pitch across it is nobody's measure.
     let axes = [(patch.columns, patch.column_pitch), (patch.rows, patch.row_pitch)];
+    let pitch = [patch.column_pitch, patch.row_pitch].map(|pitch| pitch / scale.abs());
+    // Heights in a wrong unit are steep as well.
+    let steep = || odd_slope(&patch.heights, patch.rows, pitch);
     let pitches: Vec<f64> = axes.into_iter().filter(|(points, _)| *points > 1).map(|(_, pitch)| pitch).collect();
     odd_pitch(&pitches, Some((body.name(), body.length(mesh))))
         .into_iter()
-        .chain(odd_rms(rms(&patch.heights) * scale.abs()))
+        .chain(odd_rms(rms(&patch.heights) * scale.abs()).or_else(steep))
         .chain(few)
         .map(|warning| format!("warning: {warning}"))
         .collect()

@@ -91,8 +91,8 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
 fn warn(disc: &Path, measured: &Measured, rms: Option<f64>) {
     let pitch = measured.pitch.and_then(|pitch| implausible::odd_pitch(&pitch, None));
     let stand_in = implausible::stand_in(&measured.heights);
-    let slope = measured.pitch.and_then(|pitch| implausible::odd_slope(&measured.heights, measured.rows, pitch));
-    let found = stand_in.into_iter().chain(pitch).chain(slope).chain(rms.and_then(implausible::odd_rms));
+    let steep = || implausible::odd_slope(&measured.heights, measured.rows, measured.pitch?);
+    let found = stand_in.into_iter().chain(pitch).chain(rms.and_then(implausible::odd_rms).or_else(steep));
     for warning in measured.warnings.iter().cloned().chain(found) {
         message::warning(format_args!("{}: {warning}", disc.display()));
     }

@@ -65,8 +65,9 @@ impl Subject {
         let description = describe(&name, &grid)?.ok_or_else(none)?;
         if is_measured {
             warnings.extend(pitch.and_then(|pitch| implausible::odd_pitch(&pitch, None)));
-            warnings.extend(pitch.and_then(|pitch| implausible::odd_slope(&heights, rows, pitch)));
-            warnings.extend(implausible::odd_rms(description.heights.root_mean_square_height));
+            let steep = || pitch.and_then(|pitch| implausible::odd_slope(&heights, rows, pitch));
+            let rms = implausible::odd_rms(description.heights.root_mean_square_height);
+            warnings.extend(rms.or_else(steep));
         }
         for warning in &warnings {
             message::warning(format_args!("{name}: {warning}"));
