@@ -20,7 +20,13 @@ arguments = parser.parse_args()
 field = plateau.open_run(arguments.run)[arguments.map].plateau.at_time(arguments.time)
 axes = field.plateau.plot(polar=arguments.polar)
 axes.figure.savefig(arguments.output, dpi=150)
-low, mean, high = (float(value) for value in (field.min(), field.plateau.area_mean(), field.max()))
-unit, time = field.attrs["units"], float(field["map_time"])
-unit = "" if unit == "1" else f" {unit}"
-print(f"{arguments.map} at {time:.6g} s: from {low:.6g}{unit} to {high:.6g}{unit}, mean over the area {mean:.6g}{unit}")
+when = f"{arguments.map} at {float(field['map_time']):.6g} s"
+names = field.plateau.status_names
+if names:
+    # The numbers of a status have no mean: what counts is how much of the area has which. Beyond a round pin there is no area.
+    parts = [f"{name} {float(field.plateau.area_fraction(name)):.2%}" for name in names.values() if name != "absent"]
+    print(f"{when}: {', '.join(parts)} of the area")
+else:
+    low, mean, high = (float(value) for value in (field.min(), field.plateau.area_mean(), field.max()))
+    unit = "" if field.attrs["units"] == "1" else f" {field.attrs['units']}"
+    print(f"{when}: from {low:.6g}{unit} to {high:.6g}{unit}, mean over the area {mean:.6g}{unit}")

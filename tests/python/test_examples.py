@@ -81,7 +81,7 @@ class Examples(unittest.TestCase):
     def test_disc_map(self):
         with netCDF4.Dataset(self.folder / "quick.h5") as run:
             height, pressure, times = run["disc/height"][:], run["pin/pressure"][:], run["map_time"][:]
-            radius = np.asarray(run["radius"][:])
+            radius, status = np.asarray(run["radius"][:]), np.asarray(run["pin/status"][2])
         self.assertEqual(len(times), 3)
 
         def mean(values):
@@ -97,7 +97,10 @@ class Examples(unittest.TestCase):
         self.check_picture("pressure.png")
         [line] = self.example("disc_map.py", "quick.h5", "--map", "pin/status", "--polar", "-o", "status.png")
         self.close(numbers(line)[0], times[2])
-        self.assertRegex(line, r"from 0 to 2, mean over the area [\d.]+$")
+        self.assertRegex(line, r": none [\d.]+%, primary [\d.]+%, secondary [\d.]+% of the area$")
+        # In the order of their numbers.
+        parts = [100 * mean((status == value).astype(float)) for value in range(3)]
+        np.testing.assert_allclose(numbers(line)[1:], parts, atol=0.006)
         self.check_picture("status.png")
 
     def test_compare_runs(self):

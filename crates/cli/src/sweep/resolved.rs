@@ -62,29 +62,22 @@ impl Resolved {
         (0..self.firsts.len()).filter(|place| self.is_repeat(*place)).count()
     }
 
-    /// Refuses responses that ask for a time after the end of every run, and warns of those after the end of some, which then give no value.
-    ///
-    /// # Errors
-    /// [`Failure::Input`] with the times.
-    pub fn refuse_late_questions(&self, study: &Study) -> Result<(), Failure> {
-        let ends = || self.lengths.iter().map(|length| length.duration * (1.0 + 1e-9));
+    /// Warns of responses that ask for a time after the end of some run, or of all, which then give none. Another question to the same runs costs
+    /// none of them, so nothing is refused.
+    pub fn warn_of_late_questions(&self, study: &Study) {
+        let ends = || self.lengths.iter().map(|length| length.duration);
         let (shortest, longest) = (ends().fold(f64::INFINITY, f64::min), ends().fold(0.0, f64::max));
-        let file = study.path.display();
+        let is_after = |time: f64, end: f64| time > end * (1.0 + 1e-9);
         for response in &study.responses {
-            let Some(time) = response.latest_time().filter(|time| *time > shortest) else { continue };
-            let asks = format!("{file}: response \"{}\" asks for {}", response.name, seconds(time));
-            if time > longest {
-                let end = seconds(longest);
-                return Err(Failure::input(format_args!(
-                    "{asks}, and every run ends at {end} or before: ask for an earlier time, or \"end\", or make the runs longer"
-                )));
-            }
-            message::warning(format_args!(
-                "{asks}, and the shortest run ends at {}: runs that end before have no value of it",
-                seconds(shortest)
-            ));
+            let Some(time) = response.latest_time().filter(|time| is_after(*time, shortest)) else { continue };
+            let why = if is_after(time, longest) {
+                format!("every run ends at {} or before: none has a value of it", seconds(longest))
+            } else {
+                format!("the shortest run ends at {}: runs that end before have no value of it", seconds(shortest))
+            };
+            let (file, name) = (study.path.display(), &response.name);
+            message::warning(format_args!("{file}: response \"{name}\" asks for {}, and {why}", seconds(time)));
         }
-        Ok(())
     }
 
     /// Refuses responses to series that no run records, before any is made, and warns of those that some do not.

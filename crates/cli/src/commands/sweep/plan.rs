@@ -37,7 +37,7 @@ pub fn plan(arguments: &PlanArguments) -> Result<(), Failure> {
         let (resolved, journal) = (Resolved::of(&plan)?, journal(plan.study())?);
         check(&resolved.files.iter().cloned().collect::<Vec<_>>())?;
         resolved.refuse_unrecorded(plan.study())?;
-        resolved.refuse_late_questions(plan.study())?;
+        resolved.warn_of_late_questions(plan.study());
         short_tenth::say(plan.study(), &resolved.lengths);
         resolved.warnings.say("runs");
         let different = (0..plan.runs()).filter(|place| !resolved.is_repeat(*place));

@@ -32,7 +32,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let plan = sweep::plan(&arguments.study)?;
     let resolved = Resolved::of(&plan)?;
     resolved.refuse_unrecorded(plan.study())?;
-    resolved.refuse_late_questions(plan.study())?;
+    resolved.warn_of_late_questions(plan.study());
     short_tenth::say(plan.study(), &resolved.lengths);
     resolved.warnings.say("runs");
     // The first rank decides what is to be done: another one may see the journal a moment later.

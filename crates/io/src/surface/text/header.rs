@@ -59,12 +59,15 @@ impl Header {
         match name.to_lowercase().as_str() {
             // Written by digital holographic microscopes, beside a data unit of rad.
             "height conversion factor (-> m)" => self.unit = number(),
-            "unit" | "units" | "z unit" | "z-unit" | "height unit" | "data unit" | "value units" | "einheiten"
-            | "unités" | "unità valore" | "unidades de valor" | "jednotky hodnot" => {
+            "unit" | "units" | "z unit" | "z-unit" | "height unit" | "data unit" | "value units" | "einheit"
+            | "einheiten" | "werteinheiten" | "z-einheit" | "unités" | "unità valore" | "unidades de valor"
+            | "jednotky hodnot" => {
                 self.unit = self.unit.or(length_unit(value));
             }
             "lateral units" | "x-unit" => self.lateral_unit = length_unit(value),
-            "pitch" | "pixel size" => self.pitch = pitch(value, decimal),
+            "pitch" | "pixel size" | "spacing" | "schrittweite" | "punktabstand" | "pixelgröße" => {
+                self.pitch = pitch(value, decimal)
+            }
             // Written by Gwyddion, in the language of its user.
             "width" | "breite" | "largeur" | "larghezza" | "anchura" | "šířka" => {
                 self.extent[0] = length(value, decimal)
@@ -101,6 +104,13 @@ mod tests {
         let read = |(line, text): (usize, &&str)| assert!(header.read(line + 1, text, Decimal::Point), "{text}");
         lines.iter().enumerate().for_each(read);
         header
+    }
+
+    #[test]
+    fn reads_german_headers() {
+        let german = header(&["Einheit: µm", "Schrittweite: 20 um"]);
+        assert_eq!((german.unit, german.pitch), (Some(1e-6), Some([2e-5; 2])));
+        assert_eq!(header(&["Werteinheiten: nm", "Punktabstand = 5 um, 10 um"]).pitch, Some([5e-6, 1e-5]));
     }
 
     #[test]

@@ -126,7 +126,7 @@ impl Numbers {
             let farthest = heights.iter().filter(beside).map(|height| height.abs()).fold(0.0, f64::max);
             (count > 0 && farthest < 0.5 * number.abs()).then(|| {
                 format!(
-                    "{count} heights are {number}, which many programs write where there is none: if so, write NaN in their place"
+                    "{number} is there {count} times, far from all other heights, as many programs write it where there is none: if so, write NaN in its place"
                 )
             })
         })
