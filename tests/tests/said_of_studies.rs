@@ -206,6 +206,13 @@ fn loads(response: &str) -> WorkingDirectory {
     directory
 }
 
+/// Writes the study of a folder again, with one piece of its text replaced.
+fn change(directory: &WorkingDirectory, old: &str, new: &str) {
+    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
+    assert!(text.contains(old), "{old} in {text}");
+    directory.write("study.toml", text.replace(old, new));
+}
+
 #[test]
 fn a_series_that_no_run_records_is_refused_before_the_first_run() {
     for (response, lacking) in [
@@ -223,9 +230,8 @@ fn a_series_that_no_run_records_is_refused_before_the_first_run() {
     }
     // Where some runs have it the others give no value.
     let directory = loads("dataset = \"/series/disc_sq\"\nat = \"end\"");
-    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
     let switch = "[[factor]]\nname = \"told\"\nkey = \"output.roughness\"\nlevels = [false, true]\n[[response]]";
-    directory.write("study.toml", text.replace("[[response]]", switch));
+    change(&directory, "[[response]]", switch);
     said(&ask(&directory, &["run"]), 0, "output.roughness = true, which 2 of 4 runs do not have: they give no value");
 }
 
@@ -252,18 +258,16 @@ fn a_time_after_the_end_of_runs_is_warned_of() {
         let every = "response \"y\" asks for 3 s, and every run ends at 2 s or before: none has a value of it";
         said(&ask(&directory, &[command]), 0, every);
     }
-    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
-    let text = text.replace("set = [\"operation.duration = \\\"2 s\\\"\"]\n", "");
+    change(&directory, "set = [\"operation.duration = \\\"2 s\\\"\"]\n", "");
     let longer = "[[factor]]\nname = \"time\"\nkey = \"operation.duration\"\nlevels = [\"2 s\", \"4 s\"]\n[[response]]";
-    directory.write("study.toml", text.replace("[[response]]", longer));
+    change(&directory, "[[response]]", longer);
     said(&ask(&directory, &["plan"]), 0, "and the shortest run ends at 2 s: runs that end before have no value of it");
 }
 
 #[test]
 fn a_place_that_is_a_point_of_the_study_confirms_nothing() {
     let directory = loads("dataset = \"/series/contact_area\"\nat = \"end\"");
-    let text = fs::read_to_string(directory.path("study.toml")).unwrap();
-    directory.write("study.toml", text.replace("levels = [\"5 N\", \"10 N\"]", "range = [\"5 N\", \"10 N\"]"));
+    change(&directory, "levels = [\"5 N\", \"10 N\"]", "range = [\"5 N\", \"10 N\"]");
     said(&ask(&directory, &["run"]), 0, "finished now");
     let known = ask(&directory, &["predict", "--at", "load=10 N", "--confirm"]);
     said(&known, 0, "the fit has used them, so they confirm nothing");

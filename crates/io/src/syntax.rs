@@ -4,6 +4,11 @@ use toml::de::Error;
 
 use crate::text::{short, shown_title};
 
+/// Whether a document with these keys is a study: every one has both.
+pub(crate) fn is_study(has: impl Fn(&str) -> bool) -> bool {
+    has("design") && has("factor")
+}
+
 /// What the parser says of a text, and more of what is often wrong.
 pub(crate) fn problem(text: &str, error: &Error) -> String {
     let message = error.message();

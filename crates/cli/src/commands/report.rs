@@ -1,6 +1,6 @@
 //! `plateau report`: one HTML page about runs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use plateau_io::number;
 use plateau_io::run_file::RunFile;
@@ -21,11 +21,9 @@ pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
         _ => "report.html".into(),
     });
     refuse_other_format(page)?;
-    let check = |inputs: &[PathBuf]| {
-        output::check(page, *force, inputs).map_err(|failure| failure.but("-o FILE names another one"))
-    };
     let runs = super::open_runs(paths)?;
-    check(&super::runs::inputs_of(&runs))?;
+    output::check(page, *force, &super::runs::inputs_of(&runs))
+        .map_err(|failure| failure.but("-o FILE names another one"))?;
     let figures = super::figures(&runs, &Options::default())?;
     let html = report::page(&runs, &Pictures::draw(&figures).map_err(Failure::run)?, &version::program())
         .map_err(Failure::input)?;

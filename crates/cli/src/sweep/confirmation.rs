@@ -41,12 +41,14 @@ pub struct Confirmed {
 /// A place, and what is expected of each response there.
 pub type Expected<'a> = (&'a [Level], &'a [Option<Forecast>]);
 
-/// Makes the runs that are not there yet, and looks at each response of the study beside what was expected of it, at each place.
+/// Makes the runs that are not there yet, and looks at each response of the study beside what was expected of it, at each place. The runs of the
+/// study itself have the `known` identities.
 ///
 /// # Errors
 /// [`Failure::Input`] when a scene cannot be built there, [`Failure::Run`] when no run ends well, [`Failure::Stopped`].
 pub fn confirm(
     plan: &Plan,
+    known: &[String],
     places: &[Expected<'_>],
     cores: &CoresArguments,
 ) -> Result<Vec<Vec<Option<Confirmed>>>, Failure> {
@@ -59,7 +61,7 @@ pub fn confirm(
     let extra = Plan::new(study).map_err(Failure::input)?;
     let resolved = Resolved::of(&extra)?;
     resolved.warnings.say("confirming runs");
-    warn_of_known(plan, &resolved)?;
+    warn_of_known(known, &resolved);
     in_job(|job| make(&extra, &resolved, cores, job))?;
     let journal = journal(extra.study())?;
     let collected = Collected::new(&extra, &resolved.identities, &journal).map_err(Failure::run)?;
@@ -76,9 +78,8 @@ pub fn confirm(
 }
 
 /// Warns of confirming runs that are runs of the study: the fit has used them.
-fn warn_of_known(plan: &Plan, extra: &Resolved) -> Result<(), Failure> {
-    let known = Resolved::of(plan)?;
-    let number = |identity: &String| known.identities.iter().position(|other| other == identity).map(|at| at + 1);
+fn warn_of_known(known: &[String], extra: &Resolved) {
+    let number = |identity: &String| known.iter().position(|other| other == identity).map(|at| at + 1);
     let numbers: BTreeSet<usize> = extra.identities.iter().filter_map(number).collect();
     if !numbers.is_empty() {
         let runs = if numbers.len() == 1 { "run" } else { "runs" };
@@ -88,7 +89,6 @@ fn warn_of_known(plan: &Plan, extra: &Resolved) -> Result<(), Failure> {
              them, so they confirm nothing; ask for another place, or give a study of this place with other seeds"
         ));
     }
-    Ok(())
 }
 
 fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job) -> Result<(), Failure> {

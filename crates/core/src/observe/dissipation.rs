@@ -26,6 +26,7 @@ pub const FRICTION: Extra = Extra {
         of!(friction.work, "friction_work", "J", "work of friction"),
     ],
     request: None,
+    needs: "a law of friction, table [friction]",
 };
 
 /// With `[thermal]`.
@@ -39,6 +40,7 @@ pub const HEAT: Extra = Extra {
         of!(heat.residual, "heat_residual", "1", "relative residual of the energy balance"),
     ],
     request: None,
+    needs: "heat, table [thermal]",
 };
 
 /// With `[emission]`.
@@ -51,6 +53,7 @@ pub const EMISSION: Extra = Extra {
         of!(emission.number, "particle_number", "1", "number of airborne particles"),
     ],
     request: None,
+    needs: "airborne emission, table [emission]",
 };
 
 /// Over the contact temperature map, which is written, too.
@@ -74,6 +77,7 @@ pub const CONTACT_TEMPERATURE: Extra = Extra {
         maps: &[Map::Pressure, Map::Temperature],
         measure: heated_and_largest,
     }),
+    needs: "heat, table [thermal]",
 };
 
 /// Mean over the area of the cells in contact, and the largest of all, K; no number where nothing touches.

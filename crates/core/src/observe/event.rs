@@ -54,7 +54,7 @@ pub struct EventQuantity {
     /// What it is, in words.
     pub long_name: &'static str,
     /// The part of the model that brings it; none where every run with a cycle has it.
-    part: Option<&'static Extra>,
+    pub part: Option<&'static Extra>,
     /// The value of an event.
     pub value: fn(&EventRecord) -> f64,
 }

@@ -14,6 +14,8 @@ pub struct Extra {
     pub quantities: &'static [Quantity],
     /// How it is asked for and measured; none where a run has it for another reason.
     pub request: Option<Request>,
+    /// What of a scene it needs, in words, besides a switch; empty where it needs nothing.
+    pub needs: &'static str,
 }
 
 /// A series on request.

@@ -59,6 +59,7 @@ pub const ACCELERATION: Extra = Extra {
         ),
     ],
     request: None,
+    needs: "a time acceleration that the run chooses, numerics.time_acceleration = { tolerance = 0.01, max = 1000 }",
 };
 
 /// The series on request: those whose switch, by its name, is on.

@@ -11,6 +11,7 @@ pub const CYCLE: Extra = Extra {
         Quantity::extra("rotational_speed", "rad s-1", "rotational speed of the disc at the end of the step"),
     ],
     request: None,
+    needs: "a cycle, table [operation.cycle]",
 };
 
 /// How far the vehicle has come, where its speed is given.
@@ -18,4 +19,5 @@ pub const ROAD: Extra = Extra {
     name: "road",
     quantities: &[Quantity::extra("road_distance", "m", "distance that the vehicle has travelled")],
     request: None,
+    needs: "a cycle with the speed on the road, column road_speed",
 };

@@ -22,6 +22,7 @@ pub const EXTRA: Extra = Extra {
         maps: &[Map::Pressure],
         measure: |parameters, pressures| spread(&parameters.mesh, &pressures[0]).to_vec(),
     }),
+    needs: "",
 };
 
 /// Coefficient of variation and Gini coefficient of the pressures (Pa) of the cells in contact, each counted with its area; of no

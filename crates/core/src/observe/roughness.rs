@@ -30,6 +30,7 @@ pub const EXTRA: Extra = Extra {
             [disc, pin].concat()
         },
     }),
+    needs: "",
 };
 
 /// Sa, Sq, Ssk and Sku of heights of every cell of disc or pin, m, column by column, peaks positive: Sa = Σ A |z − z̄| / Σ A,

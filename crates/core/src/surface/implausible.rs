@@ -15,6 +15,14 @@ const MOST_LOOKED_AT: usize = 100_000;
 /// Times the interquartile range of all others that this height is from them at least.
 const FAR: f64 = 10.0;
 
+/// What of a measured surface hints at another unit: its pitch along x and y, if it is known, its rms height, both m, or its slopes, for heights in
+/// a wrong unit are steep as well. The heights are as of [`odd_slope`].
+pub fn odd_units(heights: &[f64], rows: usize, pitch: Option<[f64; 2]>, rms: f64) -> impl Iterator<Item = String> {
+    let distances = pitch.and_then(|pitch| odd_pitch(&pitch, None));
+    let steep = || pitch.and_then(|pitch| odd_slope(heights, rows, pitch));
+    distances.into_iter().chain(odd_rms(rms).or_else(steep))
+}
+
 /// Distances of points, m, that no measurement of a body so long has are in another unit.
 pub fn odd_pitch(pitches: &[f64], longest: Option<(&str, f64)>) -> Option<String> {
     let (least, largest) = pitches

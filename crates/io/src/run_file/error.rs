@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::checkpoint;
 use crate::text::shown_problem;
-use crate::{checkpoint, limits, regular};
 
 /// Why a run file cannot be made or written.
 ///
@@ -176,22 +176,6 @@ pub(super) fn hdf5_reason(error: &hdf5::Error) -> String {
     system.map_or(message.as_str(), |(system, _)| system).to_owned()
 }
 
-/// What is expected in place of a file that is not HDF5, and which command makes it: of a scene or a study that was named in its place.
-fn run_of(path: &Path) -> String {
-    let shown = path.display();
-    let expected = "expected a run file of plateau, which";
-    if path.extension().is_none_or(|ending| ending != "toml") {
-        return format!("{expected} `plateau run` writes");
-    }
-    let table = regular::read_to_string(path, limits::STUDY).ok().and_then(|text| text.parse::<toml::Table>().ok());
-    if table.is_some_and(|table| table.contains_key("factor")) {
-        return format!(
-            "{expected} `plateau run` writes of a scene; this is a study, whose figures `plateau sweep effects {shown}` draws"
-        );
-    }
-    format!("{expected} `plateau run {shown}` writes")
-}
-
 /// Why a run file cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ReadError {
@@ -204,10 +188,12 @@ pub enum ReadError {
         reason: String,
     },
     /// It is no HDF5 file.
-    #[error("{} is not an HDF5 file, {}", path.display(), run_of(path))]
+    #[error("{} is not an HDF5 file, {expected}", path.display())]
     NotHdf5 {
         /// The file.
         path: PathBuf,
+        /// What is expected in its place, and which command makes it.
+        expected: String,
     },
     /// It is an HDF5 file that no run wrote.
     #[error("{} is not a run file of plateau: it has no {missing}", path.display())]

@@ -14,12 +14,13 @@ use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, ma
 use super::state::State;
 use super::status::Statuses;
 use crate::hdf5_file::{self, OpenError};
-use crate::number;
 use crate::scene::mesh::{Geometry, Refused};
 use crate::scene::schema::choices::{SHAPE, Shape};
+use crate::syntax::is_study;
 use crate::text::{short, shown_title};
 use crate::timestamp::from_iso_8601;
 use crate::units::{self, Dimension};
+use crate::{limits, number, regular};
 
 /// A series of a run file.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,7 +55,7 @@ impl RunFile {
         let system = |error: std::io::Error| ReadError::System { path: path.into(), reason: error.to_string() };
         let is_hdf5 = hdf5_file::is_hdf5(path).map_err(system)?;
         if !is_hdf5 {
-            return Err(ReadError::NotHdf5 { path: path.into() });
+            return Err(ReadError::NotHdf5 { path: path.into(), expected: expected_of(path) });
         }
         let damaged = |error: hdf5::Error| ReadError::of_library(path, reason(&error));
         hdf5_file::guarded(0, || {
@@ -213,6 +214,22 @@ impl RunFile {
         }
         Ok(Some(base.into_raw_vec_and_offset().0))
     }
+}
+
+/// What is expected in place of a file that is not HDF5, and which command makes it: of a scene or a study that was named in its place.
+fn expected_of(path: &Path) -> String {
+    let shown = path.display();
+    let expected = "expected a run file of plateau, which";
+    if path.extension().is_none_or(|ending| ending != "toml") {
+        return format!("{expected} `plateau run` writes");
+    }
+    let table = regular::read_to_string(path, limits::STUDY).ok().and_then(|text| text.parse::<toml::Table>().ok());
+    if table.is_some_and(|table| is_study(|key| table.contains_key(key))) {
+        return format!(
+            "{expected} `plateau run` writes of a scene; this is a study, whose figures `plateau sweep effects {shown}` draws"
+        );
+    }
+    format!("{expected} `plateau run {shown}` writes")
 }
 
 /// A file of which it is not yet known whether it is a run file.

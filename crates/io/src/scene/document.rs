@@ -133,7 +133,7 @@ pub(super) fn read(file: &Arc<Path>, text: &str, problems: &mut Vec<Problem>) ->
         let message = syntax::problem(text, &error);
         Problem::without_key(&origin, message)
     })?;
-    if ["design", "factor"].iter().all(|key| document.get_ref().contains_key(*key)) {
+    if syntax::is_study(|key| document.get_ref().contains_key(key)) {
         let message = "this is a study, expected a scene; `plateau sweep plan` and `plateau sweep run` take studies";
         return Err(Problem::without_key(&Origin::File(file.clone()), message));
     }

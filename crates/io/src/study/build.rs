@@ -225,10 +225,8 @@ fn values(table: &document::Factor, key: &str, in_file: bool, place: &Place<'_>)
                     format!("{}: expected all in the same unit", other.text),
                 ));
             }
-            let unfit = levels.get_ref().iter().enumerate();
-            if let Some((at, why)) =
-                unfit.filter_map(|(at, level)| Some((at, Level::unfit(key, level.get_ref())?))).next()
-            {
+            let mut unfit = levels.get_ref().iter().enumerate();
+            if let Some((at, why)) = unfit.find_map(|(at, level)| Some((at, Level::unfit(key, level.get_ref())?))) {
                 return refuse(at, why);
             }
             let odd = list.iter().enumerate().find_map(|(at, level)| Some((at, odd_character(&level.label)?)));

@@ -49,11 +49,8 @@ impl Level {
             (None, toml::Value::String(_)) if key.is_empty() => {
                 si_number(key, value).ok_or_else(|| format!("{value} is not a number with a unit"))
             }
-            (Some(expected), toml::Value::String(text)) => {
-                units::parse(text, expected).map_err(|error| error.to_string())
-            }
-            (Some(expected), toml::Value::Integer(_) | toml::Value::Float(_)) => {
-                Err(UnitError::NoUnit { text: value.to_string(), expected }.to_string())
+            (Some(expected), toml::Value::String(_) | toml::Value::Integer(_) | toml::Value::Float(_)) => {
+                quantity(value, expected)
             }
             (None, toml::Value::Integer(integer)) => Ok(*integer as f64),
             (None, toml::Value::Float(number)) if number.is_finite() => Ok(*number),
@@ -65,10 +62,9 @@ impl Level {
     pub fn unfit(key: &str, value: &toml::Value) -> Option<String> {
         let found = schema::find(key)?;
         let Kind::Quantity { dimension, .. } = found.kind else { return None };
-        match value {
-            toml::Value::String(word) if found.may_be_none() && word == "none" => None,
-            toml::Value::String(text) => units::parse(text, dimension).err().map(|error| error.to_string()),
-            other => Some(UnitError::NoUnit { text: other.to_string(), expected: dimension }.to_string()),
+        match value.as_str() {
+            Some("none") if found.may_be_none() => None,
+            _ => quantity(value, dimension).err(),
         }
     }
 
@@ -91,6 +87,14 @@ pub(super) fn dimension(key: &str) -> Option<Dimension> {
         Kind::Quantity { dimension, .. } => Some(dimension),
         Kind::LengthUnit | Kind::Lengths { .. } => Some(Dimension::Length),
         _ => None,
+    }
+}
+
+/// A value that has to have a unit, in SI units, or why it has none of what is expected.
+fn quantity(value: &toml::Value, expected: Dimension) -> Result<f64, String> {
+    match value {
+        toml::Value::String(text) => units::parse(text, expected).map_err(|error| error.to_string()),
+        other => Err(UnitError::NoUnit { text: other.to_string(), expected }.to_string()),
     }
 }
 

@@ -38,7 +38,6 @@ mod unknown_key;
 pub mod unrecorded;
 pub mod value_table;
 
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -46,7 +45,7 @@ use plateau_study::design::Kind;
 use thiserror::Error;
 
 use crate::scene::{Origin, Problem};
-use crate::{brief, limits, regular, syntax};
+use crate::{brief, hdf5_file, limits, regular, syntax};
 use document::Document;
 use factor::Factor;
 use measured::FitSettings;
@@ -151,7 +150,7 @@ impl Study {
         let file: Arc<Path> = path.into();
         let at = |origin: Origin, message: String| StudyError(vec![Problem::without_key(&origin, message)]);
         let text = regular::read_to_string(path, limits::STUDY).map_err(|error| {
-            let what = if is_hdf5(path) {
+            let what = if hdf5_file::is_hdf5(path).unwrap_or(false) {
                 "this is an HDF5 file, expected a study, which is a text in TOML".to_owned()
             } else {
                 format!("cannot read the study: {error}")
@@ -171,12 +170,6 @@ impl Study {
             toml::from_str(&text).map_err(|error| located(&error, unknown_key::with_advice(error.message())))?;
         build::build(document, path, &place).map_err(StudyError)
     }
-}
-
-/// Whether a file begins as an HDF5 file does.
-fn is_hdf5(path: &Path) -> bool {
-    let mut head = [0; 4];
-    regular::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok() && head == *b"\x89HDF"
 }
 
 /// Whether this is a scene: it has a table that only scenes have, and nothing that every study has.

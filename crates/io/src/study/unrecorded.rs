@@ -1,7 +1,8 @@
 //! Responses to series that no run of a study records, for its scenes do not ask for them.
 
-use plateau_core::observe::event::event_quantities;
+use plateau_core::observe::event::event_quantity;
 use plateau_core::observe::extra::Extra;
+use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{EXTRAS, quantities};
 
 use super::record::EVENT;
@@ -10,41 +11,26 @@ use crate::scene::Scene;
 /// What a scene must have so that its run file has a series, or, with `event/` before it, a quantity of events; none if it has it.
 pub fn lacking(scene: &Scene, series: &str) -> Option<String> {
     let extras = scene.extras(scene.adaptive.is_some());
+    let needs = |extra: &Extra| extra.needs.to_owned();
     if let Some(name) = series.strip_prefix(EVENT) {
         if scene.cycle.is_none() {
-            return Some(part("cycle").to_owned());
+            return Some(needs(&CYCLE));
         }
-        let has = |extras: &[&Extra]| event_quantities(extras).any(|quantity| quantity.name == name);
-        let brings = || EXTRAS.iter().find(|extra| has(&[extra]));
-        return if has(&extras) { None } else { brings().map(|extra| part(extra.name).to_owned()) };
+        return event_quantity(name)?.part.filter(|part| !extras.contains(part)).map(needs);
     }
     if quantities(&extras).any(|quantity| quantity.name == series) {
         return None;
     }
     let extra = EXTRAS.iter().find(|extra| extra.quantities.iter().any(|quantity| quantity.name == series))?;
-    Some(match extra.request {
-        // It is asked for, which is no use without heat.
-        Some(_) if scene.output.extras.contains(extra) => part("heat").to_owned(),
-        Some(_) => format!("output.{} = true", extra.name),
-        None => part(extra.name).to_owned(),
-    })
-}
-
-/// What of a scene makes runs record a part of the model.
-fn part(name: &str) -> &'static str {
-    match name {
-        "cycle" => "a cycle, table [operation.cycle]",
-        "road" => "a cycle with the speed on the road, column road_speed",
-        "friction" => "a law of friction, table [friction]",
-        "heat" => "heat, table [thermal]",
-        "emission" => "airborne emission, table [emission]",
-        _ => "a time acceleration that the run chooses, numerics.time_acceleration = { tolerance = 0.01, max = 1000 }",
-    }
+    let is_asked_for = extra.request.is_none() || scene.output.extras.contains(extra);
+    Some(if is_asked_for { needs(extra) } else { format!("output.{} = true", extra.name) })
 }
 
 #[cfg(test)]
 mod tests {
     use std::path::Path;
+
+    use plateau_core::observe::event::event_quantities;
 
     use super::*;
     use crate::scene::load;

@@ -89,10 +89,9 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
 
 /// Says what of the file can hardly be meant.
 fn warn(disc: &Path, measured: &Measured, rms: Option<f64>) {
-    let pitch = measured.pitch.and_then(|pitch| implausible::odd_pitch(&pitch, None));
     let stand_in = implausible::stand_in(&measured.heights);
-    let steep = || implausible::odd_slope(&measured.heights, measured.rows, measured.pitch?);
-    let found = stand_in.into_iter().chain(pitch).chain(rms.and_then(implausible::odd_rms).or_else(steep));
+    let units = implausible::odd_units(&measured.heights, measured.rows, measured.pitch, rms.unwrap_or_default());
+    let found = stand_in.into_iter().chain(units);
     for warning in measured.warnings.iter().cloned().chain(found) {
         message::warning(format_args!("{}: {warning}", disc.display()));
     }

@@ -49,8 +49,8 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             let [one] = &mut found[..] else { return Err(several(path, &found)) };
             convert(path, one, to, arguments.force)?;
         }
-        for NamedHeights { name, map, body, measured } in found {
-            subjects.push(Subject::of_file([name, map], measured, body, level, draws(arguments))?);
+        for heights in found {
+            subjects.push(Subject::of_heights(heights, level, draws(arguments))?);
         }
     }
     if let Some(path) = &arguments.prepare {

@@ -11,6 +11,7 @@ use plateau_present::figure::run::{moment, nearest};
 
 use super::super::runs::warn_of_unfinished;
 use super::named;
+use super::subject::turn_pin;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 
@@ -105,9 +106,7 @@ fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<NamedHeights>
     })?;
     let Some(MapValues::Float(mut heights)) = run.map(map, index).map_err(Failure::input)? else { return Ok(None) };
     if body == Body::Pin {
-        // The pin's z grows away from the disc.
-        heights.iter_mut().for_each(|height| *height = -*height);
-        mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
+        turn_pin(&mut heights, mesh);
     }
     let pitch = Some([mesh.column_width(), mesh.row_height()]);
     let notes = vec![format!("recorded by a run at {}", moment(run, index))];

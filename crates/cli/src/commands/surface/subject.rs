@@ -11,6 +11,7 @@ use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
 use super::comparison::Comparison;
 use super::describe::describe;
+use super::recorded::NamedHeights;
 use crate::failure::Failure;
 use crate::message;
 
@@ -43,14 +44,9 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// What a file has, with the form taken out; of a run file the heights of a body.
-    pub fn of_file(
-        [name, map]: [String; 2],
-        measured: Measured,
-        body: Option<Body>,
-        form: Level,
-        draws: bool,
-    ) -> Result<Self, Failure> {
+    /// The heights of a file, with the form taken out.
+    pub fn of_heights(heights: NamedHeights, form: Level, draws: bool) -> Result<Self, Failure> {
+        let NamedHeights { name, map, body, measured } = heights;
         let closed = body == Some(Body::Disc);
         let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
         // What a run has made of its surfaces is as it is.
@@ -64,10 +60,7 @@ impl Subject {
         let none = || Failure::input(format_args!("{name}: none of its {points} points has a height"));
         let description = describe(&name, &grid)?.ok_or_else(none)?;
         if is_measured {
-            warnings.extend(pitch.and_then(|pitch| implausible::odd_pitch(&pitch, None)));
-            let steep = || pitch.and_then(|pitch| implausible::odd_slope(&heights, rows, pitch));
-            let rms = implausible::odd_rms(description.heights.root_mean_square_height);
-            warnings.extend(rms.or_else(steep));
+            warnings.extend(implausible::odd_units(&heights, rows, pitch, description.heights.root_mean_square_height));
         }
         for warning in &warnings {
             message::warning(format_args!("{name}: {warning}"));
@@ -121,9 +114,8 @@ impl Subject {
                 description,
             })
         };
-        // The pin's z grows away from the disc.
-        let mut pin_height: Vec<f64> = surfaces.pin_height.into_iter().map(|height| -height).collect();
-        mesh.absent_cells().for_each(|cell| pin_height[cell] = f64::NAN);
+        let mut pin_height = surfaces.pin_height;
+        turn_pin(&mut pin_height, mesh);
         Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
     }
 
@@ -149,6 +141,12 @@ impl Subject {
         });
         self.comparison.as_ref().and_then(Comparison::described).into_iter().chain(own)
     }
+}
+
+/// Makes the peaks of the pin's heights of the model positive, for its z grows away from the disc; what is no cell has no height.
+pub fn turn_pin(heights: &mut [f64], mesh: &Mesh) {
+    heights.iter_mut().for_each(|height| *height = -*height);
+    mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
 }
 
 /// The form that is taken out of a surface, or of one that closes round the ring.

@@ -107,11 +107,10 @@ fn aligned(lines: &[Line]) -> String {
 /// The name of a file without its folder, unless another has the same; of maps of one run file what they are.
 fn short_name(subject: &Subject, subjects: &[Subject]) -> String {
     // All are of one run file: its name would stand above each.
-    let of_run = |subject: &Subject| Some((subject.name.strip_suffix(&subject.map)?.to_owned(), subject.map.clone()));
-    if let Some((file, map)) = of_run(subject).filter(|(_, map)| !map.is_empty() && subjects.len() > 1)
-        && subjects.iter().all(|other| of_run(other).is_some_and(|(other, map)| other == file && !map.is_empty()))
-    {
-        return map;
+    let file = |subject: &Subject| subject.name.strip_suffix(&subject.map).map(str::to_owned);
+    let is_beside = |other: &Subject| !other.map.is_empty() && file(other) == file(subject);
+    if subjects.len() > 1 && subjects.iter().all(is_beside) {
+        return subject.map.clone();
     }
     let short = |subject: &Subject| subject.name.rsplit('/').next().unwrap_or_default().to_owned();
     let name = short(subject);

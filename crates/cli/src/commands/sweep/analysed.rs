@@ -68,6 +68,8 @@ pub struct Analysed {
     pub analysis: Analysis,
     /// What the results were made of.
     pub inputs: Vec<PathBuf>,
+    /// By what the results of each run are known, in the order of the design.
+    pub identities: Vec<String>,
 }
 
 impl Analysed {
@@ -88,7 +90,7 @@ impl Analysed {
     /// the results cannot be read.
     pub fn of(plan: Plan, asked: Asked) -> Result<Self, Failure> {
         let study = plan.study();
-        let Found { collected, inputs } = analysable(&plan)?;
+        let Found { collected, inputs, identities } = analysable(&plan)?;
         let analysis = Analysis::of(study, &collected, asked).in_order_of(&plan);
         for response in &analysis.responses {
             if let Err(error @ EffectsError::Domain { .. }) = &response.effects {
@@ -96,6 +98,6 @@ impl Analysed {
                 return Err(Failure::input(format_args!("{path}: response \"{}\": {error}", response.name)));
             }
         }
-        Ok(Self { plan, collected, analysis, inputs })
+        Ok(Self { plan, collected, analysis, inputs, identities })
     }
 }

@@ -25,7 +25,7 @@ const LISTED: usize = 10;
 /// Collects what there is.
 pub fn collect(arguments: &CollectArguments) -> Result<(), Failure> {
     let plan = sweep::plan(&arguments.study)?;
-    let Found { collected, inputs } = collected(&plan)?;
+    let Found { collected, inputs, .. } = collected(&plan)?;
     let folder = arguments.output.clone().unwrap_or_else(|| plan.study().directory.clone());
     output::make_directory(&folder)?;
     let [hdf5, csv] = ["results.h5", "results.csv"].map(|name| folder.join(name));
@@ -56,6 +56,8 @@ pub struct Found {
     pub collected: Collected,
     /// The study, its tables, its scenes and what they read.
     pub inputs: Vec<PathBuf>,
+    /// By what the results of each run are known, in the order of the design.
+    pub identities: Vec<String>,
 }
 
 /// The results of a study, as far as there are any.
@@ -68,7 +70,7 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         // Each run is one of its own, for it was measured by itself.
         let numbers: Vec<String> = (1..=plan.runs()).map(|number| number.to_string()).collect();
         let collected = Collected::new(plan, &numbers, &Journal::default()).map_err(failure)?;
-        return Ok(Found { collected, inputs });
+        return Ok(Found { collected, inputs, identities: numbers });
     }
     let resolved = Resolved::of(plan)?;
     short_tenth::say(plan.study(), &resolved.lengths);
@@ -82,7 +84,7 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
         ));
     }
     inputs.extend(resolved.files);
-    Ok(Found { collected, inputs })
+    Ok(Found { collected, inputs, identities: resolved.identities })
 }
 
 fn failure(error: CollectError) -> Failure {

@@ -27,7 +27,7 @@ pub struct Drawn {
 /// # Errors
 /// [`Failure::Run`] when a figure cannot be drawn, and those of [`OutputFolder`].
 pub fn write(folder: &mut OutputFolder, analysed: &Analysed, table: &str, runs: &str) -> Result<(), Failure> {
-    let Analysed { plan, collected, analysis, inputs } = analysed;
+    let Analysed { plan, collected, analysis, inputs, .. } = analysed;
     let responses = figures(analysis);
     let names = names_of(responses.iter().flat_map(|of_response| &of_response.figures));
     folder.begin(&[&[TABLE.to_owned(), RUNS.to_owned(), PAGE.to_owned()], &names[..]].concat(), inputs)?;

@@ -64,7 +64,7 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     };
     write(&mut folder, &figures(&shown, contour), &analysed.inputs)?;
     let files = folder.files().to_vec();
-    let make = || confirm(&analysed.plan, &[(&place.levels, &forecasts)], &arguments.cores);
+    let make = || confirm(&analysed.plan, &analysed.identities, &[(&place.levels, &forecasts)], &arguments.cores);
     let confirmed = arguments.confirm.then(make).transpose()?.and_then(|places| places.into_iter().next());
     if arguments.json {
         let document = Document {

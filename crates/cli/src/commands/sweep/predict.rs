@@ -46,7 +46,11 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
     let forecasts = places.iter().map(|place| forecasts_at(&analysed, &surrogates, place, confidence));
     let forecasts = forecasts.collect::<Result<Vec<_>, Failure>>()?;
     let expected: Vec<_> = places.iter().zip(&forecasts).map(|(place, own)| (&place.levels[..], &own[..])).collect();
-    let confirmed = if arguments.confirm { confirm(&analysed.plan, &expected, &arguments.cores)? } else { Vec::new() };
+    let confirmed = if arguments.confirm {
+        confirm(&analysed.plan, &analysed.identities, &expected, &arguments.cores)?
+    } else {
+        Vec::new()
+    };
     if let Some(path) = &arguments.output {
         let table = prediction_table::table(&analysed, &places, &forecasts, &confirmed);
         output::write(path, table.as_bytes(), arguments.force)?;

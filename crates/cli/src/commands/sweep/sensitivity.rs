@@ -32,7 +32,7 @@ pub fn sensitivity(arguments: &SensitivityArguments) -> Result<(), Failure> {
     let study = plan.study();
     let folder = arguments.output.clone().unwrap_or_else(|| study.directory.join("sensitivity"));
     let mut folder = OutputFolder::new(folder, arguments.force)?;
-    let Found { collected, inputs } = analysable(&plan)?;
+    let Found { collected, inputs, .. } = analysable(&plan)?;
     let told = Told::new(&plan, &collected, arguments);
     let figures = told.figures();
     folder.begin(&[&[TABLE.to_owned()], &names_of(figures.iter())[..]].concat(), &inputs)?;

@@ -23,5 +23,5 @@ pub(super) fn read(numbers: &Numbers, options: &ReadOptions) -> Result<Table, Te
     numbers.scale(&mut heights, unit)?;
     let pitch = agreed_pitch(header.matrix_pitch(columns, rows), options.pitch)?;
     let notes = vec![format!("matrix, 1 stands for {unit:e} m")];
-    Ok(Table { columns, rows, pitch, is_pitch_assumed: false, heights, notes, warnings })
+    Ok(Table { columns, rows, pitch, heights, notes, warnings, ..Table::default() })
 }

@@ -51,7 +51,7 @@ fn alone(numbers: &Numbers, options: &ReadOptions) -> Result<Table, TextError> {
     let mut heights = numbers.values.clone();
     numbers.scale(&mut heights, unit)?;
     let notes = vec![format!("1 stands for {unit:e} m")];
-    Ok(Table { columns: count, rows: 1, pitch, is_pitch_assumed: false, heights, notes, warnings: Vec::new() })
+    Ok(Table { columns: count, rows: 1, pitch, heights, notes, ..Table::default() })
 }
 
 /// Heights beside the distance along the line.
@@ -73,13 +73,5 @@ fn beside_distances(
     if let Some(place) = spacing.rounded_to {
         notes.push(format!("distances rounded to {place} are taken as evenly spaced, {} apart", short(spacing.step)));
     }
-    Ok(Table {
-        columns: spacing.count,
-        rows: 1,
-        pitch: Some(pitch),
-        is_pitch_assumed: false,
-        heights,
-        notes,
-        warnings: Vec::new(),
-    })
+    Ok(Table { columns: spacing.count, rows: 1, pitch: Some(pitch), heights, notes, ..Table::default() })
 }

@@ -1,7 +1,7 @@
 //! What a text file holds.
 
 /// Heights of a text file, m, column by column. A profile has one row.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(in crate::surface) struct Table {
     pub(in crate::surface) columns: usize,
     pub(in crate::surface) rows: usize,

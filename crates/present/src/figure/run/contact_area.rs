@@ -62,8 +62,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             steps.extend(points.into_iter().map(|points| Content::Line { points, stroke }));
         }
         let in_units = |[at, mean]: [f64; 2]| [time.value(at), area.value(mean)];
-        let means = course(subject, mean).into_iter().map(|points| points.into_iter().map(in_units).collect());
-        lines.extend(means.map(|points| Content::Line { points, stroke }));
+        lines.extend(spans.lines(subject.run.time(), mean, in_units, stroke));
     }
     let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
     let only = only_stroke(subjects, runs.iter().map(|(number, ..)| *number));

@@ -101,10 +101,12 @@ fn read(subject: &Subject) -> Result<Balance, ReadError> {
     }
     let mut times = subject.run.time().to_vec();
     let mut supply = vec![0.0; times.len()];
+    let mut has_returned = false;
     for name in SOURCES {
-        supply.iter_mut().zip(values(name)?).for_each(|(sum, value)| *sum += value);
+        let volumes = values(name)?;
+        has_returned |= name == RETURNED && volumes.iter().any(|volume| *volume > 0.0);
+        supply.iter_mut().zip(volumes).for_each(|(sum, value)| *sum += value);
     }
-    let has_returned = values(RETURNED)?.iter().any(|volume| *volume > 0.0);
     // At the start nothing was worn.
     times.insert(0, 0.0);
     parts.iter_mut().chain([&mut supply]).for_each(|values| values.insert(0, 0.0));

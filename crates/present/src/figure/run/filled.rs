@@ -48,19 +48,17 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         let (mut bands, mut lines) = (Vec::new(), Vec::new());
         let mut largest = 0.0_f64;
         for (number, times, values) in &runs {
-            let course = spans.course(times, values);
-            let times: Vec<f64> = times.iter().map(|at| time.value(*at)).collect();
+            let scaled: Vec<f64> = times.iter().map(|at| time.value(*at)).collect();
             largest = values.iter().copied().fold(largest, f64::max);
             let stroke = Stroke::of(*number, subjects.len());
             if runs.len() <= MOST_BANDS {
-                bands.extend(spans.band(&times, values, stroke.colour, runs.len()));
+                bands.extend(spans.band(&scaled, values, stroke.colour, runs.len()));
             }
             if spans == Spans::FINEST {
-                lines.push(Content::Line { points: spans.means_between_ends(&times, values), stroke });
+                lines.push(Content::Line { points: spans.means_between_ends(&scaled, values), stroke });
             } else {
                 let in_units = |[at, value]: [f64; 2]| [time.value(at), value];
-                let course = course.into_iter().map(|points| points.into_iter().map(in_units).collect());
-                lines.extend(course.map(|points| Content::Line { points, stroke }));
+                lines.extend(spans.lines(times, values, in_units, stroke));
             }
         }
         let y = if series == "filled_fraction" { "part of the volume" } else { "part of the area" };

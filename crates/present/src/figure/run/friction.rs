@@ -56,9 +56,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     for course in &courses {
         let stroke = Stroke::of(course.number, subjects.len());
         let in_units = |[at, mean]: [f64; 2]| [time.value(at), mean];
-        let curve = spans.course(course.subject.run.time(), &course.means);
-        let curve = curve.into_iter().map(|points| points.into_iter().map(in_units).collect());
-        lines.extend(curve.map(|points| Content::Line { points, stroke }));
+        lines.extend(spans.lines(course.subject.run.time(), &course.means, in_units, stroke));
         let points = course.steps.iter().map(|[at, coefficient]| [pressure.value(*at), *coefficient]).collect();
         marks.push(Content::Marks { points, colour: stroke.colour, mark: Mark::Point });
     }

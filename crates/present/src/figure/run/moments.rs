@@ -45,11 +45,8 @@ pub fn ends_with_contact(subject: &Subject, map: Map, of_contact: fn(f64) -> boo
 pub fn without_contact(subject: &Subject, name: &str) -> String {
     let run = subject.run;
     if !subject.chosen.is_empty() {
-        let times: Vec<String> = subject.chosen.iter().map(|index| moment(run, *index)).collect();
-        return format!(
-            "no map {name} with a contact at {}, the nearest times that were recorded",
-            brief::list(times, ", ")
-        );
+        let at = moments_in_words(run, &subject.chosen);
+        return format!("no map {name} with a contact at {at}, the nearest times that were recorded");
     }
     let last = run.time().last().filter(|_| run.state() != State::Finished && after_the_start(run).next().is_none());
     match last {
@@ -108,6 +105,11 @@ pub fn moment(run: &RunFile, index: usize) -> String {
     let seconds = run.map_time().get(index).copied().unwrap_or(f64::NAN);
     let unit = if seconds > 0.0 { Unit::for_size("s", seconds) } else { Unit::usual("s") };
     unit.with_symbol(&number::rounded(unit.value(seconds), 4))
+}
+
+/// Several of them, in words.
+pub fn moments_in_words(run: &RunFile, indices: &[usize]) -> String {
+    brief::list(indices.iter().map(|index| moment(run, *index)), ", ")
 }
 
 /// Heights or pressures of a map, column by column; nothing if there are none.

@@ -3,12 +3,11 @@
 use plateau_core::model::material::Status;
 use plateau_core::observe::Map;
 use plateau_core::observe::plateau_size::plateau_areas;
-use plateau_io::brief;
 use plateau_io::run_file::ReadError;
 
 use super::legend::{only_stroke, with_names};
 use super::map_rows::{any_of, having};
-use super::moments::{floats, moment, shown_moments, statuses};
+use super::moments::{floats, moment, moments_in_words, shown_moments, statuses};
 use super::{Figures, Subject, moments};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{Anchor, TEXT};
@@ -72,8 +71,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     if empty.len() == kinds.len() {
         for subject in any_of(subjects, lists.each_ref().map(|list| &list[..])) {
-            let times: Vec<String> = shown_moments(subject).iter().map(|index| moment(subject.run, *index)).collect();
-            let at = brief::list(times, ", ");
+            let at = moments_in_words(subject.run, &shown_moments(subject));
             figures.leave_out(NAME, subject, &format!("no contact and no plateaus in the maps that are shown, {at}"));
         }
         return Ok(());

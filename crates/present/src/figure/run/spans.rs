@@ -4,6 +4,7 @@ use plateau_io::number;
 use plotters::style::RGBColor;
 
 use crate::figure::page::Content;
+use crate::figure::stroke::Stroke;
 use crate::quantity::Unit;
 
 /// How much of a band's colour hides what lies below; among several bands less.
@@ -75,6 +76,18 @@ impl Spans {
             lines.iter_mut().for_each(|line| *line = weighted(line, beside));
         }
         lines
+    }
+
+    /// These lines as they are drawn: `place` gives each point its place on the axes.
+    pub fn lines(
+        self,
+        times: &[f64],
+        values: &[f64],
+        place: impl Fn([f64; 2]) -> [f64; 2],
+        stroke: Stroke,
+    ) -> impl Iterator<Item = Content> {
+        let placed = move |points: Vec<[f64; 2]>| points.into_iter().map(&place).collect();
+        self.course(times, values).into_iter().map(move |points| Content::Line { points: placed(points), stroke })
     }
 
     /// What the lines of a course are: what they are at the finest, or over how long a time means go.

@@ -83,7 +83,8 @@ impl Written {
         };
         // Tests end soon.
         let series: &'static [Quantity] = Vec::leak(self.series.iter().map(quantity).collect());
-        let extra: &'static Extra = Box::leak(Box::new(Extra { name: "made up", quantities: series, request: None }));
+        let extra: &'static Extra =
+            Box::leak(Box::new(Extra { name: "made up", quantities: series, request: None, needs: "" }));
         let header = Header {
             title: self.title.into(),
             pin_base: vec![Base::Primary; mesh.pin_cells()],

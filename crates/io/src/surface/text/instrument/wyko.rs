@@ -122,7 +122,7 @@ impl Facts {
         let pitch = agreed_pitch(self.pixel.map(|pixel| [pixel, pixel * self.aspect]), options.pitch)?;
         scale(&mut heights, unit, line)?;
         let notes = vec![format!("1 stands for {unit:e} m")];
-        Ok(Table { columns, rows, pitch, is_pitch_assumed: false, heights, notes, warnings: Vec::new() })
+        Ok(Table { columns, rows, pitch, heights, notes, ..Table::default() })
     }
 }
 

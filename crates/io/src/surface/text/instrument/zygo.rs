@@ -68,7 +68,7 @@ impl Header {
     fn table(&self, heights: Vec<f64>, notes: Vec<String>, options: &ReadOptions) -> Result<Table, TextError> {
         let [columns, rows] = self.size;
         let pitch = agreed_pitch(self.pixel.map(|pixel| [pixel; 2]), options.pitch)?;
-        Ok(Table { columns, rows, pitch, is_pitch_assumed: false, heights, notes, warnings: Vec::new() })
+        Ok(Table { columns, rows, pitch, heights, notes, ..Table::default() })
     }
 }
 
