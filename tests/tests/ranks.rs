@@ -161,7 +161,7 @@ fn a_rank_without_its_scene_ends_all() {
     command.args([":", "-n", "1"]).arg(program()).args(["run", "missing.toml"]);
     let outcome = run(command);
     assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
-    assert_eq!(outcome.stderr.matches("missing.toml").count(), 1, "{}", outcome.stderr);
+    assert_eq!(outcome.stderr.matches("plateau: missing.toml: ").count(), 1, "{}", outcome.stderr);
 }
 
 #[test]
