@@ -11,13 +11,5 @@ root=$(CDPATH='' cd -P "${0%/*}/.." && pwd -P) || exit 1
 requirements=$root/crates/bench/peers/requirements.txt
 environment=$root/.venv-peers
 
-install() {
-    make_venv "$environment"
-    ! cmp -s "$requirements" "$environment/installed.txt" || return 0
-    say "installing Numba into $environment"
-    "$environment/bin/python" -m pip install --quiet -r "$requirements" || die "Numba cannot be installed, see above"
-    cp "$requirements" "$environment/installed.txt"
-}
-
-with_lock "$environment.lock" install >&2 || exit 1
+with_lock "$environment.lock" fill_venv "$environment" "$requirements" >&2 || die "Numba cannot be installed, see above"
 printf '%s\n' "$environment/bin/python"

@@ -14,13 +14,19 @@ make_venv() {
         die "no pip for Python: install python3-venv or python3-pip"
 }
 
+# fill_venv DIR LIST: a virtual environment with the packages of a list, which are installed when the list is another one than before.
+# To be called with a lock.
+fill_venv() {
+    make_venv "$1"
+    cmp -s "$2" "$1/installed.txt" && return 0
+    say "installing the packages of $2 into $1"
+    run_quietly "$1/bin/python" -m pip install --quiet -r "$2" && cp "$2" "$1/installed.txt"
+}
+
 # The environment .venv of the checkout, `root`, where the run files are read as users read them. To be called with its lock,
 # .venv.lock.
 install_readers() {
-    make_venv "$root/.venv"
-    cmp -s "$root/tests/python/requirements.txt" "$root/.venv/installed.txt" && return 0
-    "$root/.venv/bin/python" -m pip install --quiet -r "$root/tests/python/requirements.txt" &&
-        cp "$root/tests/python/requirements.txt" "$root/.venv/installed.txt"
+    fill_venv "$root/.venv" "$root/tests/python/requirements.txt"
 }
 
 pip_from_ensurepip() {

@@ -18,14 +18,6 @@ environment=$root/.venv-wheel
 requirements=$root/scripts/wheel-requirements.txt
 glibc=2_28
 
-install_tools() {
-    make_venv "$environment"
-    ! cmp -s "$requirements" "$environment/installed.txt" || return 0
-    say "installing maturin, zig, cmake and auditwheel into $environment"
-    "$environment/bin/python" -m pip install --quiet -r "$requirements" || die "pip could not install them, see above"
-    cp "$requirements" "$environment/installed.txt"
-}
-
 build() {
     # Of the works of others in the program; they go into the wheel, and not into the checkout.
     python3 "$root/scripts/notices.py" >"$root/THIRD-PARTY-NOTICES" || die "the notices could not be collected, see above"
@@ -44,7 +36,7 @@ trap 'rm -f "$root/THIRD-PARTY-NOTICES"' EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 need_rust
-with_lock "$environment.lock" install_tools >&2 || exit 1
+with_lock "$environment.lock" fill_venv "$environment" "$requirements" >&2 || die "pip could not install what builds the wheel, see above"
 PATH=$environment/bin:$PATH
 CMAKE=$environment/bin/cmake
 CMAKE_GENERATOR=Ninja

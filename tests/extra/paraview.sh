@@ -10,8 +10,7 @@ root=$PWD
 . scripts/toolchain.sh
 
 venv=$root/.venv-paraview
-with_lock .venv-paraview.lock make_venv "$venv" || exit 1
-if ! "$venv/bin/python" -m pip install --quiet -r tests/extra/paraview-requirements.txt; then
+if ! with_lock .venv-paraview.lock fill_venv "$venv" tests/extra/paraview-requirements.txt; then
     echo 'the Python package vtk could not be installed'
     exit 77
 fi

@@ -1,9 +1,14 @@
 #!/bin/sh
-# The guide as a site: it is built, every link within it leads somewhere, and KaTeX understands every formula. Needs mdbook; node and npm
+# The guide as a site: it is built, every link within it leads somewhere, and KaTeX understands every formula. Needs node and npm
 # for the formulas.
 set -u
 cd "$(dirname "$0")/../.." || exit 1
-command -v mdbook >/dev/null 2>&1 || { echo 'mdbook is not installed: cargo install --locked mdbook' && exit 77; }
+root=$PWD
+. scripts/say.sh
+. scripts/lock.sh
+. scripts/python.sh
+. scripts/tools.sh
+provide_tool mdbook || { echo 'mdbook is missing, and pip cannot install it: cargo install --locked mdbook' && exit 77; }
 lab=$(mktemp -d) || exit 1
 trap 'rm -rf "$lab"' EXIT
 sh scripts/site.sh "$lab/site" || exit 1

@@ -26,13 +26,7 @@ export PYTHONPATH
 mkdir -p "$runs"
 
 # The environment in which other readings of the rule are compiled, .venv-study.
-install_compiler() {
-    make_venv "$root/.venv-study"
-    cmp -s "$study/requirements.txt" "$root/.venv-study/installed.txt" && return 0
-    "$root/.venv-study/bin/python" -m pip install --quiet -r "$study/requirements.txt" &&
-        cp "$study/requirements.txt" "$root/.venv-study/installed.txt"
-}
-with_lock .venv-study.lock install_compiler || exit 1
+with_lock .venv-study.lock fill_venv "$root/.venv-study" "$study/requirements.txt" || exit 1
 
 # simulate SCENE NAME [SET...]: a run with one worker, or the rest of it.
 simulate() {
