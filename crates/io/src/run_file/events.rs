@@ -3,7 +3,7 @@
 use plateau_core::observe::event::{EVENT_QUANTITIES, EventQuantity};
 
 use super::layout::event_path;
-use super::reader::reason;
+use super::opening::reason;
 use super::{ReadError, RunFile};
 use crate::hdf5_file;
 

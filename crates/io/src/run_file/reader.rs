@@ -3,35 +3,20 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use hdf5::{Dataset, H5Type};
-use ndarray::s;
 use plateau_core::model::mesh::Mesh;
-use plateau_core::observe::{EXTRAS, Map, MapValues, quantities};
+use plateau_core::observe::{Map, MapValues};
 
 use super::error::ReadError;
 use super::header::InputFile;
-use super::layout::{FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, TIME_OF_SERIES, map_path, series_path};
+use super::layout::{MAP_TIME, PIN_BASE, TIME, map_path, series_path};
+use super::opening::{Opening, Series, reason};
 use super::state::State;
 use super::status::Statuses;
 use crate::hdf5_file::{self, OpenError};
-use crate::scene::mesh::{Geometry, Refused};
-use crate::scene::schema::choices::{SHAPE, Shape};
 use crate::syntax::is_study;
 use crate::text::{short, shown_title};
 use crate::timestamp::from_iso_8601;
-use crate::units::{self, Dimension};
-use crate::{limits, number, regular};
-
-/// A series of a run file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Series {
-    /// Name of its dataset below `/series`.
-    pub name: String,
-    /// SI unit.
-    pub unit: String,
-    /// What it is, in words.
-    pub long_name: String,
-}
+use crate::{limits, regular};
 
 /// A run file as it was when it was opened: what is appended later is not seen.
 pub struct RunFile {
@@ -63,7 +48,40 @@ impl RunFile {
                 OpenError::Hdf5(error) => damaged(error),
                 elsewhere => ReadError::Elsewhere { path: path.into(), reason: elsewhere.to_string() },
             })?;
-            Opening { path, file: &file }.read()
+            Self::read(&Opening { path, file: &file })
+        })
+    }
+
+    /// All of a file but series and maps.
+    fn read(opening: &Opening<'_>) -> Result<Self, ReadError> {
+        opening.check_version()?;
+        let text = |name: &str| {
+            let text =
+                hdf5_file::text_attribute(opening.file, name).map_err(|error| opening.damaged(reason(&error)))?;
+            text.ok_or_else(|| opening.foreign(&format!("root attribute {name}")))
+        };
+        let state = text("state")?;
+        let state = State::of(&state).ok_or_else(|| {
+            let known = State::ALL.map(State::name).join(", ");
+            opening.damaged(format!("its state is \"{}\", expected {known}", short(&state).escape_debug()))
+        })?;
+        let scene: toml::Table = text("scene")?.parse().map_err(|error: toml::de::Error| {
+            // The line of TOML that it shows may be all of a text that somebody else has made.
+            opening.damaged(format!("its scene is not TOML: {}", shown_title(error.message())))
+        })?;
+        let mesh = opening.mesh(&scene)?;
+        let time = opening.all(TIME)?;
+        let map_time = if opening.file.link_exists(MAP_TIME) { opening.all(MAP_TIME)? } else { Vec::new() };
+        Ok(Self {
+            path: opening.path.into(),
+            file: opening.file.clone(),
+            title: text("title")?,
+            state,
+            scene,
+            mesh,
+            time,
+            map_time,
+            series: opening.series()?,
         })
     }
 
@@ -230,176 +248,4 @@ fn expected_of(path: &Path) -> String {
         );
     }
     format!("{expected} `plateau run {shown}` writes")
-}
-
-/// A file of which it is not yet known whether it is a run file.
-struct Opening<'a> {
-    path: &'a Path,
-    file: &'a hdf5::File,
-}
-
-impl Opening<'_> {
-    fn read(self) -> Result<RunFile, ReadError> {
-        self.check_version()?;
-        let text = |name: &str| {
-            let text = hdf5_file::text_attribute(self.file, name).map_err(|error| self.damaged(reason(&error)))?;
-            text.ok_or_else(|| self.foreign(&format!("root attribute {name}")))
-        };
-        let state = text("state")?;
-        let state = State::of(&state).ok_or_else(|| {
-            let known = State::ALL.map(State::name).join(", ");
-            self.damaged(format!("its state is \"{}\", expected {known}", short(&state).escape_debug()))
-        })?;
-        let scene: toml::Table = text("scene")?.parse().map_err(|error: toml::de::Error| {
-            // The line of TOML that it shows may be all of a text that somebody else has made.
-            self.damaged(format!("its scene is not TOML: {}", shown_title(error.message())))
-        })?;
-        let mesh = self.mesh(&scene)?;
-        let time = self.all(TIME)?;
-        let map_time = if self.file.link_exists(MAP_TIME) { self.all(MAP_TIME)? } else { Vec::new() };
-        Ok(RunFile {
-            path: self.path.into(),
-            file: self.file.clone(),
-            title: text("title")?,
-            state,
-            scene,
-            mesh,
-            time,
-            map_time,
-            series: self.series()?,
-        })
-    }
-
-    /// Refuses another format than those that are read here, and what is no version at all.
-    fn check_version(&self) -> Result<(), ReadError> {
-        // As a floating-point number, for as a whole one the library would read NaN as 0, and 1.5 as 1.
-        let found = hdf5_file::number_attribute::<f64>(self.file, "format_version").ok().flatten();
-        let found = found.ok_or_else(|| self.foreign("root attribute format_version"))?;
-        if (1..=FORMAT_VERSION).any(|known| f64::from(known) == found) {
-            return Ok(());
-        }
-        if found.is_finite() && found.fract() == 0.0 && found > f64::from(FORMAT_VERSION) {
-            return Err(ReadError::Newer { path: self.path.into(), found: found as i64, expected: FORMAT_VERSION });
-        }
-        Err(self.damaged(format!(
-            "its format_version is {}, expected a whole number from 1 to {FORMAT_VERSION}",
-            number::plain(found)
-        )))
-    }
-
-    /// The mesh, as the scene has it; the coordinates must be those of this mesh.
-    fn mesh(&self, scene: &toml::Table) -> Result<Mesh, ReadError> {
-        let value = |key: &str| scene.get("mesh").and_then(|mesh| mesh.get(key));
-        let incomplete = |key: &str| self.damaged(format!("its scene has no usable mesh.{key}"));
-        let length = |key: &'static str| {
-            let usable = |text: &toml::Value| units::parse(text.as_str()?, Dimension::Length).ok();
-            value(key).map(|value| usable(value).ok_or_else(|| incomplete(key))).transpose()
-        };
-        let count = |key: &'static str| {
-            let usable = |number: &toml::Value| u64::try_from(number.as_integer()?).ok();
-            value(key).map(|value| usable(value).ok_or_else(|| incomplete(key))).transpose()
-        };
-        let shape = match value("shape") {
-            // Files of before there was a choice have none.
-            None => Shape::Rectangle,
-            Some(word) => {
-                let known = SHAPE.iter().find(|(known, _)| word.as_str() == Some(*known));
-                known.ok_or_else(|| incomplete("shape"))?.1
-            }
-        };
-        let refused = |Refused { message, .. }: Refused| self.damaged(format!("its mesh: {message}"));
-        let cells = Geometry::read(shape, length, count, incomplete)?.cells().map_err(refused)?;
-        for (name, expected) in ["radius", "disc_angle", "pin_angle"].into_iter().zip(cells.counts) {
-            let found = self.dataset(name)?.size();
-            if found as u64 != expected {
-                return Err(self.damaged(format!("/{name} has {found} values, expected {expected} as in its scene")));
-            }
-        }
-        cells.mesh().map_err(refused)
-    }
-
-    fn series(&self) -> Result<Vec<Series>, ReadError> {
-        let group = self
-            .file
-            .group("series")
-            .map_err(|_| ReadError::Foreign { path: self.path.into(), missing: "group /series".into() })?;
-        let names = group.member_names().map_err(|error| self.damaged(reason(&error)))?;
-        // Their time is no series.
-        let series = names.into_iter().filter(|name| series_path(name) != TIME_OF_SERIES).map(|name| {
-            let dataset = self.dataset(&series_path(&name))?;
-            let text = |attribute| match hdf5_file::text_attribute(&dataset, attribute) {
-                Ok(text) => Ok(text.unwrap_or_default()),
-                Err(error) => Err(self.damaged(format!("/series/{name}: {}", reason(&error)))),
-            };
-            Ok(Series { unit: text("units")?, long_name: text("long_name")?, name })
-        });
-        let mut series: Vec<Series> = series.collect::<Result<_, _>>()?;
-        // As they are reported; what is not known here comes last.
-        let place = |name: &str| quantities(EXTRAS).position(|quantity| quantity.name == name).unwrap_or(usize::MAX);
-        series.sort_by(|one, other| (place(&one.name), &one.name).cmp(&(place(&other.name), &other.name)));
-        Ok(series)
-    }
-
-    fn dataset(&self, path: &str) -> Result<Dataset, ReadError> {
-        if !self.file.link_exists(path) {
-            return Err(ReadError::Foreign { path: self.path.into(), missing: format!("dataset /{path}") });
-        }
-        let dataset = self.file.dataset(path).and_then(|dataset| {
-            hdf5_file::refuse_hollow(&dataset)?;
-            Ok(dataset)
-        });
-        dataset.map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
-    }
-
-    fn all(&self, path: &str) -> Result<Vec<f64>, ReadError> {
-        let values = self.dataset(path)?.read_1d::<f64>();
-        values.map(|values| values.to_vec()).map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
-    }
-
-    /// The first values of a dataset with one dimension.
-    fn start(&self, path: &str, count: usize) -> Result<Vec<f64>, ReadError> {
-        let dataset = self.dataset(path)?;
-        if dataset.ndim() != 1 || dataset.size() < count {
-            return Err(self.damaged(format!("/{path} has shape {:?}, expected {count} values", dataset.shape())));
-        }
-        let values = dataset.read_slice_1d::<f64, _>(s![..count]);
-        values.map(|values| values.to_vec()).map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))
-    }
-
-    /// The values of a map at one time.
-    fn level<T: H5Type>(&self, path: &str, index: usize, (columns, rows): (usize, usize)) -> Result<Vec<T>, ReadError> {
-        let dataset = self.dataset(path)?;
-        match dataset.shape()[..] {
-            [levels, c, r] if index < levels && (c, r) == (columns, rows) => {
-                let values = dataset.read_slice_2d::<T, _>(s![index, .., ..]);
-                let values = values.map_err(|error| self.damaged(format!("/{path}: {}", reason(&error))))?;
-                Ok(values.into_raw_vec_and_offset().0)
-            }
-            _ => Err(self.damaged(format!(
-                "/{path} has shape {:?}, expected ({} or more, {columns}, {rows})",
-                dataset.shape(),
-                index + 1
-            ))),
-        }
-    }
-
-    fn foreign(&self, missing: &str) -> ReadError {
-        // What `sweep collect` writes.
-        let is_study = self.file.attr("base_scene").is_ok();
-        let advice = if is_study {
-            "; it has the results of a study, which `plateau sweep effects STUDY.toml` draws"
-        } else {
-            ""
-        };
-        ReadError::Foreign { path: self.path.into(), missing: format!("{missing}{advice}") }
-    }
-
-    fn damaged(&self, reason: impl Into<String>) -> ReadError {
-        ReadError::of_library(self.path, reason)
-    }
-}
-
-/// What the library said, on one line.
-pub(super) fn reason(error: &hdf5::Error) -> String {
-    error.to_string().split_whitespace().collect::<Vec<_>>().join(" ")
 }

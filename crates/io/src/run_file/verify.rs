@@ -11,7 +11,7 @@ use super::attribute_digests::{
 };
 use super::digest::{DIGEST, of_bytes, of_floats};
 use super::layout::{EVENT, MAP_TIME, PIN_BASE, TIME, event_path, map_path, series_path};
-use super::reader::reason;
+use super::opening::reason;
 use super::{ReadError, RunFile, State};
 use crate::hdf5_file;
 

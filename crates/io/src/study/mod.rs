@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! study file     document       the text
-//!                build          what its keys say together -> Study
+//!                factor_keys, design_keys, response_keys  what its keys say, each kind by itself
+//!                build          what they say together -> Study
 //!                measured       what was measured of the responses
 //!                measured_series  a series of it, from a table
 //!                unrecorded     series that no run would record
@@ -18,8 +19,10 @@
 pub mod bounds;
 mod build;
 pub mod collected;
+mod design_keys;
 mod document;
 pub mod factor;
+mod factor_keys;
 pub mod identity;
 pub mod imported;
 pub mod journal;
