@@ -7,21 +7,19 @@ mod fit;
 mod model;
 mod new;
 mod plot;
+mod quantity;
 mod reading;
+mod run;
+mod run_files;
 mod surface;
 mod sweep;
 
 use std::ffi::OsString;
-use std::num::NonZeroU64;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use plateau_core::engine::kernel::InstructionSet;
-use plateau_core::simulation::Engine;
 use plateau_io::text::{odd_character, shown_on_one_line};
-use plateau_io::units::{self, Dimension};
-use plateau_run::ExecutionOptions;
 
 use crate::failure::Failure;
 
@@ -33,6 +31,8 @@ pub use model::Terms;
 pub use new::NewArguments;
 pub use plot::PlotArguments;
 pub use reading::{ReadArguments, as_options};
+pub use run::{CheckArguments, RunArguments, SceneArguments};
+pub use run_files::{ExportArguments, ExportFormat, RepairArguments, ReportArguments, VerifyArguments, WatchArguments};
 pub use surface::SurfaceArguments;
 pub use sweep::{
     CollectArguments, EffectsArguments, PlanArguments, SensitivityArguments, SlurmArguments, SweepCommand,
@@ -147,115 +147,6 @@ pub enum Command {
     Man(ManArguments),
 }
 
-/// A scene, with changes.
-#[derive(Debug, Clone, Args)]
-pub struct SceneArguments {
-    /// Scene file (TOML)
-    pub scene: PathBuf,
-    /// Set a key of the scene, such as operation.normal_force="20 N"; may be repeated
-    #[arg(long = "set", value_name = "KEY.PATH=VALUE")]
-    pub sets: Vec<String>,
-    /// Threads that share the ring: a number or "auto"; overrides the scene
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = workers)]
-    pub workers: Option<String>,
-    /// Print one JSON document instead of text
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// A value of `--workers`, which is checked here so that the message names what was typed.
-fn workers(text: &str) -> Result<String, &'static str> {
-    match text.parse::<NonZeroU64>() {
-        Err(_) if text != "auto" => Err("expected an integer, at least 1, or \"auto\""),
-        _ => Ok(text.to_owned()),
-    }
-}
-
-/// Arguments of `plateau run`.
-#[derive(Debug, Args)]
-pub struct RunArguments {
-    #[command(flatten)]
-    pub scene: SceneArguments,
-    /// Run file to write, relative to the working directory; overrides the scene
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Replace the run file if it exists
-    #[arg(long)]
-    pub force: bool,
-    /// Go on with a run that was stopped or killed, from its last checkpoint
-    #[arg(long)]
-    pub resume: bool,
-    /// Go on with a run beyond its end, to this time, such as "7200 s"
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    pub extend_to: Option<String>,
-    #[command(flatten)]
-    pub execution: ExecutionArguments,
-}
-
-/// How a run is carried out, which does not show in its results, but that the two engines round differently.
-#[derive(Debug, Args)]
-pub struct ExecutionArguments {
-    /// What takes the steps: the fast engine, or the plain model, cell by cell, which is slow and rounds otherwise
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = EngineArgument::Fast)]
-    pub engine: EngineArgument,
-    /// Instruction set of the kernels, for tests; the widest that the processor has unless given
-    #[arg(long, value_name = "NAME", value_parser = instruction_set)]
-    pub isa: Option<InstructionSet>,
-    /// Keep each worker on a core of its own, as far as there are enough; a single worker is left free
-    #[arg(long)]
-    pub pin: bool,
-}
-
-impl ExecutionArguments {
-    /// As the library takes them.
-    pub fn options(&self) -> ExecutionOptions {
-        let engine = match self.engine {
-            EngineArgument::Fast => Engine::Fast,
-            EngineArgument::Plain => Engine::Plain,
-        };
-        ExecutionOptions { engine, instructions: self.isa, pin: self.pin }
-    }
-}
-
-/// A value of `--engine`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum EngineArgument {
-    /// On any number of workers.
-    Fast,
-    /// On one worker.
-    Plain,
-}
-
-/// A value of `--isa`.
-fn instruction_set(text: &str) -> Result<InstructionSet, String> {
-    let available = || InstructionSet::available().map(InstructionSet::name);
-    let found = InstructionSet::available().find(|instructions| instructions.name() == text);
-    found.ok_or_else(|| format!("this processor has {}", available().collect::<Vec<_>>().join(", ")))
-}
-
-/// Arguments of `plateau check`.
-#[derive(Debug, Args)]
-pub struct CheckArguments {
-    #[command(flatten)]
-    pub scene: SceneArguments,
-    #[command(flatten)]
-    pub execution: ExecutionArguments,
-}
-
-/// Arguments of `plateau report`.
-#[derive(Debug, Args)]
-pub struct ReportArguments {
-    /// Run files, also of runs that go on or were stopped; at most 8, of which the others are compared with the first
-    #[arg(value_name = "RUN", required = true)]
-    pub runs: Vec<PathBuf>,
-    /// Page to write; named like the run file, or "report.html" for several, unless given
-    #[arg(short, long, value_name = "HTML")]
-    pub output: Option<PathBuf>,
-    /// Replace the page if it exists
-    #[arg(long)]
-    pub force: bool,
-}
-
 /// Arguments of `plateau completions`.
 #[derive(Debug, Args)]
 pub struct CompletionsArguments {
@@ -275,91 +166,6 @@ pub struct ManArguments {
     /// Replace pages that exist
     #[arg(long, requires = "output")]
     pub force: bool,
-}
-
-/// Arguments of `plateau watch`.
-#[derive(Debug, Args)]
-pub struct WatchArguments {
-    /// Run file, which need not be there yet
-    pub run: PathBuf,
-    /// Print the state once and end
-    #[arg(long)]
-    pub once: bool,
-    /// Give up after so many seconds without a new sample; unless given, after 10 s without a file, else never
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true, value_parser = seconds)]
-    pub timeout: Option<u64>,
-}
-
-/// A time of the run, s.
-fn run_time(text: &str) -> Result<f64, String> {
-    let time = quantity(text, Dimension::Time)?;
-    if time >= 0.0 {
-        Ok(time)
-    } else {
-        Err(format!("{text} is before the start of a run, expected a time such as \"100 s\""))
-    }
-}
-
-/// A quantity of this dimension, SI.
-fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
-    units::parse(text.trim(), dimension).map_err(|error| error.to_string())
-}
-
-/// A value of `--timeout`.
-fn seconds(text: &str) -> Result<u64, &'static str> {
-    text.parse::<NonZeroU64>().map(NonZeroU64::get).map_err(|_| "expected whole seconds, at least 1")
-}
-
-/// Arguments of `plateau verify`.
-#[derive(Debug, Args)]
-pub struct VerifyArguments {
-    /// Run files
-    #[arg(value_name = "RUN", required = true)]
-    pub runs: Vec<PathBuf>,
-    /// Print one JSON document instead of text: an array with an object for each file
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `plateau repair`.
-#[derive(Debug, Args)]
-pub struct RepairArguments {
-    /// Run files
-    #[arg(value_name = "RUN", required = true)]
-    pub runs: Vec<PathBuf>,
-    /// Repair also what another machine has written a moment ago, or what another user may still be writing
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// Arguments of `plateau export`.
-#[derive(Debug, Args)]
-pub struct ExportArguments {
-    /// Run file, also of a run that goes on or was stopped
-    pub run: PathBuf,
-    /// Format of the files
-    #[arg(long, value_name = "FORMAT", alias = "format")]
-    pub to: ExportFormat,
-    /// File to write, for vtk the folder, made if it is not there; named like the run file unless given
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Write the maps too; for csv, as the other formats have them anyway
-    #[arg(long)]
-    pub maps: bool,
-    /// Replace files that exist
-    #[arg(long)]
-    pub force: bool,
-}
-
-/// A format of other programs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ExportFormat {
-    /// Comma-separated values: the series; with --maps the maps
-    Csv,
-    /// NumPy archive: series and maps as arrays
-    Npz,
-    /// ParaView: maps on the cells of ring and pin, as a time series
-    Vtk,
 }
 
 #[cfg(test)]

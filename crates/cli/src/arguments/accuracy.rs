@@ -7,7 +7,8 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use plateau_io::units::Dimension;
 use plateau_run::accuracy::Ladder;
 
-use super::{ExecutionArguments, SceneArguments, quantity};
+use super::quantity::quantity;
+use super::run::{ExecutionArguments, SceneArguments};
 
 /// Arguments of `plateau accuracy`.
 #[derive(Debug, Args)]

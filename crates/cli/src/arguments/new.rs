@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use plateau_io::units::{self, Dimension};
 
-use super::ReadArguments;
+use super::quantity::positive;
+use super::reading::ReadArguments;
 
 /// Arguments of `plateau new`. Values have a unit, as in a scene.
 #[derive(Debug, Args)]
@@ -52,16 +53,16 @@ impl NewArguments {
 }
 
 fn length(text: &str) -> Result<String, String> {
-    of(text, Dimension::Length)
+    positive(text, Dimension::Length)
 }
 
 fn force(text: &str) -> Result<String, String> {
-    of(text, Dimension::Force)
+    positive(text, Dimension::Force)
 }
 
 fn speed(text: &str) -> Result<String, String> {
     let dimension = if is_sliding_speed(text) { Dimension::Speed } else { Dimension::RotationalSpeed };
-    of(text, dimension).map_err(|error| match dimension {
+    positive(text, dimension).map_err(|error| match dimension {
         Dimension::Speed => error,
         _ => format!("{error}, or a sliding speed such as \"3 m/s\""),
     })
@@ -73,13 +74,7 @@ fn is_sliding_speed(text: &str) -> bool {
 }
 
 fn time(text: &str) -> Result<String, String> {
-    of(text, Dimension::Time)
-}
-
-/// The text, if it is a quantity of this dimension above 0.
-fn of(text: &str, dimension: Dimension) -> Result<String, String> {
-    let value = units::parse(text, dimension).map_err(|error| error.to_string())?;
-    if value > 0.0 && value.is_finite() { Ok(text.to_owned()) } else { Err("expected more than 0".to_owned()) }
+    positive(text, Dimension::Time)
 }
 
 #[cfg(test)]

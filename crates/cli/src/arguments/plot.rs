@@ -7,7 +7,7 @@ use plateau_io::units::Dimension;
 use plateau_present::figure::run::NAMES;
 use plateau_present::figure::{ColourMap, Format};
 
-use super::{quantity, run_time};
+use super::quantity::{quantity, run_time};
 
 /// Arguments of `plateau plot`.
 #[derive(Debug, Args)]

@@ -3,10 +3,9 @@
 use clap::Args;
 use plateau_io::scene::schema::choices;
 use plateau_io::surface::{Decimal, Lay, ReadOptions};
-use plateau_io::units::Dimension;
 use toml::Value;
 
-use super::quantity;
+use super::quantity::length;
 
 /// Options that tell how a surface file is read.
 #[derive(Debug, Clone, Args)]
@@ -131,11 +130,6 @@ fn decimal(text: &str) -> Result<Decimal, String> {
 fn lay(text: &str) -> Result<Lay, String> {
     let known = choices::LAY.iter().find(|(word, _)| *word == text);
     known.map(|(_, lay)| *lay).ok_or_else(|| "expected along, across or isotropic".to_owned())
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    let length = quantity(text, Dimension::Length)?;
-    if length.is_finite() { Ok(length) } else { Err("expected a finite length".to_owned()) }
 }
 
 #[cfg(test)]

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use plateau_core::surface::Level;
 
-use super::{ReadArguments, run_time};
+use super::quantity::run_time;
+use super::reading::ReadArguments;
 
 /// Arguments of `plateau surface`.
 #[derive(Debug, Args)]

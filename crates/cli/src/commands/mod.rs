@@ -3,8 +3,10 @@
 mod accuracy;
 mod check;
 mod check_cycle;
+mod check_files;
 mod check_outline;
 mod check_pulse;
+mod check_report;
 mod completions;
 mod export;
 mod fit;

@@ -19,6 +19,7 @@
 //! run has ended and the file is made anew.
 mod attribute_digests;
 mod contact_area;
+mod creation;
 mod datasets;
 mod digest;
 pub(crate) mod dimension;
@@ -37,21 +38,26 @@ mod restored;
 mod seal;
 mod state;
 mod status;
+mod storage;
 mod store;
 mod verify;
 mod writer;
+mod writer_queue;
+mod writer_thread;
 
 pub use contact_area::ContactArea;
 pub use error::{ReadError, RunFileError};
 pub use header::{Earlier, End, Header, InputFile};
 pub use image::Image;
 pub use kept::{KeepError, keep};
+pub use layout::map_path;
 pub(crate) use layout::map_unit;
-pub use layout::{image_estimate, map_path, size_estimate};
 pub use opening::Series;
 pub use place::{check_place, resolve};
 pub use reader::RunFile;
 pub use repair::{LeftOut, Repair, RepairError, is_healthy, last_writer, repair};
 pub use state::State;
+pub use storage::{image_estimate, size_estimate};
 pub use verify::{Damage, Verification, verify};
-pub use writer::{RunWriter, Synced, WriterReport};
+pub use writer::{RunWriter, WriterReport};
+pub use writer_queue::Synced;

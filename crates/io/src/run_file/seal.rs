@@ -9,10 +9,11 @@ use hdf5::File;
 use plateau_core::observe::event::EventRecord;
 
 use super::attribute_digests;
+use super::creation::{Source, lay_out};
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
 use super::error::{failed, not_anew};
-use super::layout::{Source, TIME, TIME_OF_SERIES, lay_out};
+use super::layout::{TIME, TIME_OF_SERIES};
 use super::place::Place;
 use super::{End, Header, RunFileError};
 use crate::hdf5_file;

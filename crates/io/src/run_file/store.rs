@@ -9,11 +9,11 @@ use hdf5::File;
 use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Sample, Snapshot};
 
+use super::creation::lay_out;
 use super::datasets::Datasets;
 use super::dimension::EMPTY_FILE;
 use super::error::{failed, hdf5_reason, not_anew};
 use super::image::{Image, MARK, Values};
-use super::layout;
 use super::place::Place;
 use super::restored::Restored;
 use super::seal::Seal;
@@ -162,7 +162,7 @@ impl Store {
 pub(super) fn set_up(place: &Place, header: &Header, start: SystemTime, mark: &str) -> hdf5::Result<(File, Datasets)> {
     let file = open_for_writing(place.temporary())?;
     write_text(&file, MARK, mark)?;
-    layout::lay_out(&file, header, start, None)?;
+    lay_out(&file, header, start, None)?;
     file.start_swmr()?;
     let datasets = Datasets::open(&file, header)?;
     file.flush()?;

@@ -1,27 +1,23 @@
-//! The thread that writes a run file, and the queue before it.
+//! Writes a run file while a simulation goes on: what a simulation calls.
 
 use std::path::Path;
 use std::thread::{self, JoinHandle};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crossbeam::channel::{self, Receiver, Sender, TrySendError};
+use crossbeam::channel::{self, Sender};
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
 
 use super::store::Store;
+use super::writer_queue::{Queues, Synced, send};
+use super::writer_thread::write;
 use super::{Earlier, End, Header, Image, RunFileError};
 
 /// Samples in the queue, at most: 3 MB, as many as come while a batch is written.
 const QUEUED_SAMPLES: usize = 16 * 1024;
 /// Snapshots in the queue, at most; with the one that is being written two are under way.
 const QUEUED_SNAPSHOTS: usize = 1;
-/// Samples written at once, at most: 2 MB.
-const BATCH: usize = 8 * 1024;
-/// How long a sample waits for others before it is written.
-const LATENCY: Duration = Duration::from_millis(500);
-/// How long samples gather in the queue before they are taken out, at least.
-const PAUSE: Duration = Duration::from_millis(2);
 
 /// Writes a run file from a thread of its own. Who makes one holds the [`Claim`](crate::claim::Claim) of its path, and of the
 /// checkpoints beside it, until both are complete.
@@ -48,15 +44,6 @@ pub struct WriterReport {
     pub snapshots: usize,
     /// Size of the file.
     pub bytes: u64,
-}
-
-#[derive(Debug)]
-struct Queues {
-    samples: Sender<Sample>,
-    snapshots: Sender<Snapshot>,
-    syncs: Sender<Sender<Vec<Image>>>,
-    /// See [`Synced`].
-    alive: Receiver<()>,
 }
 
 impl RunWriter {
@@ -212,136 +199,5 @@ impl Drop for RunWriter {
         {
             let _ = store.seal(&End::Failed("the program stopped before the run was done".into()), &[]);
         }
-    }
-}
-
-/// Sends and adds to `waited` how long that took if the queue was full; false when nobody receives any more.
-fn send<T>(queue: &Sender<T>, value: T, waited: &mut Duration) -> bool {
-    match queue.try_send(value) {
-        Ok(()) => true,
-        Err(TrySendError::Disconnected(_)) => false,
-        Err(TrySendError::Full(value)) => {
-            let start = Instant::now();
-            let sent = queue.send(value).is_ok();
-            *waited += start.elapsed();
-            sent
-        }
-    }
-}
-
-/// Body of the thread: appends what arrives until both queues are closed and empty.
-fn write(
-    mut store: Store,
-    samples: &Receiver<Sample>,
-    snapshots: &Receiver<Snapshot>,
-    syncs: &Receiver<Sender<Vec<Image>>>,
-) -> Result<Store, RunFileError> {
-    match append_all(&mut store, samples, snapshots, syncs) {
-        Ok(()) => Ok(store),
-        Err(error) => {
-            store.abandon();
-            Err(error)
-        }
-    }
-}
-
-fn append_all(
-    store: &mut Store,
-    samples: &Receiver<Sample>,
-    snapshots: &Receiver<Snapshot>,
-    syncs: &Receiver<Sender<Vec<Image>>>,
-) -> Result<(), RunFileError> {
-    let mut batch: Vec<Sample> = Vec::new();
-    let mut due = channel::never();
-    loop {
-        crossbeam::select! {
-            recv(samples) -> sample => {
-                let Ok(sample) = sample else { break };
-                if batch.is_empty() {
-                    due = channel::after(LATENCY);
-                }
-                batch.push(sample);
-                // Not to be woken by every sample of a run that sends many makes sending one cheap.
-                thread::sleep(PAUSE);
-                batch.extend(samples.try_iter().take(BATCH - batch.len()));
-            }
-            recv(snapshots) -> snapshot => {
-                let Ok(snapshot) = snapshot else { break };
-                store.append_snapshot(&snapshot)?;
-            }
-            recv(syncs) -> answer => {
-                let Ok(answer) = answer else { break };
-                batch.extend(samples.try_iter());
-                for snapshot in snapshots.try_iter() {
-                    store.append_snapshot(&snapshot)?;
-                }
-                store.append_samples(&batch)?;
-                batch.clear();
-                due = channel::never();
-                // Who asked may have given up.
-                let _ = answer.send(store.sync()?.into_iter().collect());
-            }
-            recv(due) -> _ => {
-                store.append_samples(&batch)?;
-                batch.clear();
-                due = channel::never();
-            }
-        }
-        if batch.len() == BATCH {
-            store.append_samples(&batch)?;
-            batch.clear();
-            due = channel::never();
-        }
-    }
-    batch.extend(samples.try_iter());
-    for snapshot in snapshots.try_iter() {
-        store.append_snapshot(&snapshot)?;
-    }
-    if batch.is_empty() { Ok(()) } else { store.append_samples(&batch) }
-}
-
-/// An answer that a writer owes: whether what was sent to it is on the disk.
-#[derive(Debug)]
-pub struct Synced {
-    answers: Receiver<Vec<Image>>,
-    /// Closed when the writer has ended. A question that it has not taken then stays in its queue, and is never answered.
-    alive: Receiver<()>,
-}
-
-impl Synced {
-    fn new(answers: Receiver<Vec<Image>>, alive: Receiver<()>) -> Self {
-        Self { answers, alive }
-    }
-
-    /// For a run file that is complete on the disk.
-    pub fn already() -> Self {
-        let (answer, answers) = channel::bounded(1);
-        // There is room for it.
-        let _ = answer.send(Vec::new());
-        Self { answers, alive: channel::never() }
-    }
-
-    /// Waits for the answer: the image of the file as it is on the disk, if it is there; none of a file that is closed.
-    pub fn wait(&self) -> Option<Vec<Image>> {
-        crossbeam::select! {
-            recv(self.answers) -> answer => answer.ok(),
-            recv(self.alive) -> _ => self.answers.try_recv().ok(),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_question_that_nobody_takes_is_answered_with_no() {
-        let (questions, taken) = channel::bounded(1);
-        let (life, alive) = channel::bounded(0);
-        let (answer, answers) = channel::bounded(1);
-        questions.send(answer).unwrap();
-        drop((taken, life));
-        assert_eq!(Synced::new(answers, alive).wait(), None);
-        assert_eq!(Synced::already().wait(), Some(Vec::new()));
     }
 }

@@ -1,6 +1,6 @@
 //! What a response can be at all: an area is not negative, a fraction is not above 1.
 
-use super::collected::unit_of;
+use super::record::unit_of;
 use super::response::{Question, Response};
 
 /// Series that are fractions.

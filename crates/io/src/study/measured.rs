@@ -2,9 +2,9 @@
 
 use toml::{Spanned, Value};
 
-use super::collected::unit_of;
 use super::document::Document;
 use super::place::Place;
+use super::record::unit_of;
 use super::response::Response;
 use crate::scene::Problem;
 use crate::text::short;

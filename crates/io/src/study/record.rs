@@ -4,6 +4,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::read::{DeflateDecoder, DeflateEncoder};
+use plateau_core::observe::event::event_quantity;
+use plateau_core::observe::{EXTRAS, quantities};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
@@ -62,6 +64,14 @@ pub struct Series {
 
 /// How the dataset of a quantity of events begins, as against that of a series.
 pub const EVENT: &str = "event/";
+
+/// SI unit of a series, or of a quantity of events.
+pub fn unit_of(series: &str) -> &'static str {
+    if let Some(name) = series.strip_prefix(EVENT) {
+        return event_quantity(name).map_or("1", |quantity| quantity.unit);
+    }
+    quantities(EXTRAS).find(|quantity| quantity.name == series).map_or("1", |quantity| quantity.unit)
+}
 
 impl Series {
     /// Columns and their names, `time` first.

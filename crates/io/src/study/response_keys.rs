@@ -9,12 +9,12 @@ use plateau_core::observe::{EXTRAS, quantities};
 use plateau_study::effects::Transform;
 use toml::{Spanned, Value};
 
-use super::collected::unit_of;
 use super::document::{Mean, Response as Table};
 use super::measured;
 use super::measured_series::{self, Wanted};
 use super::place::Place;
 use super::record::EVENT;
+use super::record::unit_of;
 use super::response::{Question, Response, WhichEvent, units};
 use crate::brief::MOST_PROBLEMS;
 use crate::scene::{Problem, schema};

@@ -5,8 +5,9 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use super::collected::{Collected, CollectedRun, State, error_name, unit_of};
+use super::collected::{Collected, CollectedRun, State, error_name};
 use super::plan::Plan;
+use super::record::unit_of;
 
 /// What the first columns of every table are called.
 const FIRST: [&str; 4] = ["run", "point", "replicate", "state"];

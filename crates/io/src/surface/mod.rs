@@ -1,6 +1,7 @@
 //! Initial surfaces: from what a scene asks for to heights and bases of every cell.
 
 mod decimal;
+mod detect;
 mod error;
 mod format;
 pub mod hdf5;
@@ -12,6 +13,7 @@ mod measured;
 pub mod npy;
 mod options;
 mod profiles;
+mod read;
 pub mod sdf;
 mod stylus_profile;
 mod text;
@@ -26,9 +28,10 @@ pub use image::ImageError;
 pub use instrument::Instrument;
 pub use load::{load, load_with_patches, micrograph};
 pub use loaded::{Loaded, Patches};
-pub use measured::{Measured, read};
+pub use measured::Measured;
 pub use npy::NpyError;
 pub use options::{Disagreement, ReadOptions};
+pub use read::read;
 pub use stylus_profile::{Lay, ProfileError, StylusProfile};
 pub use text::TextError;
 pub use writing::{WriteError, WriteOptions, write};

@@ -1,6 +1,6 @@
 //! Examples of values, for documentation and editors.
 
-use super::{Key, Kind};
+use super::key::{Key, Kind};
 
 /// Lengths and times of the paper's baseline or of its kind, by the last name of the key.
 const USUAL: &[(&str, &str)] = &[
@@ -45,8 +45,15 @@ const PAIRS: &[(&str, &str)] = &[
     ("radii", "[\"20 mm\", \"24 mm\"]"),
 ];
 
+impl Key {
+    /// A value as a scene may give it, in TOML, where a value's form has to be seen.
+    pub fn example(&self) -> Option<String> {
+        of(self)
+    }
+}
+
 /// A value that the key may have, in TOML; `None` where its form is plain.
-pub(super) fn of(key: &Key) -> Option<String> {
+fn of(key: &Key) -> Option<String> {
     let name = key.name.rsplit('.').next().unwrap_or(key.name);
     let usual = USUAL.iter().find(|(known, _)| *known == name).map(|(_, example)| *example);
     if let Some((_, pair)) = PAIRS.iter().find(|(known, _)| *known == name) {

@@ -3,92 +3,31 @@
 use plateau_core::observe::EXTRAS;
 
 use super::choices::{self, words};
+use super::key::{Choose, Key, Kind, Need, Role};
+use super::range::Range;
 use super::table::{Table, length};
-use super::{CYCLE, Choose, Group, Key, Kind, Meaningless, Need, Range, Role};
 use super::{mesh, optional_parts};
 use crate::units::Dimension::{Area, Force, Pressure, RotationalSpeed, SpecificWearRate, Speed, Time};
-use Kind::{Bool, Choice, CountOr, InputFile, Integer, LengthUnit, Maps, Number, NumberOr, Rows, Text, Times, True};
+use Kind::{Bool, Choice, CountOr, InputFile, Integer, Maps, Number, NumberOr, Rows, Text, Times};
 use Need::{Computed, Default, OneOf, Optional, Required, RequiredUnless, RequiredWithout, SameAs};
 
-const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
-const FILE: &[&str] = &["dataset", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
-const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
+/// Full path of the key of m: a number, or a table with how the run chooses it.
+pub(crate) const ACCELERATION: &str = "numerics.time_acceleration";
+/// Full path of the table of the cycle.
+pub(crate) const CYCLE: &str = "operation.cycle";
 
-const TEXTURES: &[(&str, &[&str])] = &[
-    ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
-    ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
-];
-
-/// What is done where a patch is smaller than ring or pin.
-const BEYOND_THE_PATCH: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
-
-/// Keys that exclude each other.
-pub const GROUPS: &[Group] = &[
-    Group {
-        section: "operation",
-        members: &[("rotational_speed", &[]), ("sliding_speed", &[])],
-        required: true,
-        unless: Some(CYCLE),
-    },
-    Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true, unless: Some(CYCLE) },
-    Group {
-        section: "operation",
-        members: &[("cycle.file", &[]), ("cycle.points", &[])],
-        required: true,
-        unless: None,
-    },
-    Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true, unless: None },
-    Group { section: "disc.surface", members: TEXTURES, required: true, unless: None },
-    Group { section: "disc.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
-    Group {
-        section: "pin.base",
-        members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
-        required: true,
-        unless: None,
-    },
-    Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
-    Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
-    Group { section: "pin.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
-    Group {
-        section: "output",
-        members: &[("sample_every", &[]), ("sample_every_steps", &[])],
-        required: false,
-        unless: None,
-    },
-    Group { section: "plateaus", members: &[("debris", &[]), ("debris_pool", &[])], required: false, unless: None },
-];
-
-const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };
-
-/// Keys that have no meaning beside a value of another key.
-pub const MEANINGLESS: &[Meaningless] = &[
-    Meaningless { beside: mesh::PIN_IS_ROUND, key: "mesh.pin_length", reason: "a round pin is as long as it is wide" },
-    Meaningless {
-        beside: mesh::PIN_IS_A_RECTANGLE,
-        key: "mesh.pin_diameter",
-        reason: "a rectangle covers all rows and pin_columns",
-    },
-    Meaningless {
-        beside: DEBRIS_IS_LOCAL,
-        key: "plateaus.pad_share",
-        reason: "local debris goes to the pin up to the plateau ahead and then to the disc",
-    },
-    Meaningless {
-        beside: DEBRIS_IS_LOCAL,
-        key: "plateaus.destruction",
-        reason: "with local debris no plateau falls for want of support, it goes when it is worn through",
-    },
-];
+/// Debris goes into the gap behind the cell that wears, and there is no pool.
+pub(super) const DEBRIS_IS_LOCAL: Choose = Choose { key: "plateaus.debris", value: "local" };
 
 const POISSON_RATIO: Range = Range::new(-1.0, false, 0.5, true);
 const BETWEEN_0_AND_1: Range = Range::new(0.0, false, 1.0, false);
-const ABOVE_1: Range = Range::new(1.0, false, f64::INFINITY, false);
 const AT_LEAST_1: Range = Range::new(1.0, true, f64::INFINITY, false);
 
 const fn time(range: Range) -> Kind {
     Kind::Quantity { dimension: Time, unit: "s", range }
 }
 
+/// Every key, in the order of docs/scenes.md.
 pub(super) fn all() -> Vec<Key> {
     let mut table = Table::new(Role::Nothing);
     table.key("version", Integer(1), Required, "version of the scene format: 1");
@@ -275,82 +214,5 @@ impl Table {
         self.elasticity(need);
         let rate = Kind::Quantity { dimension: SpecificWearRate, unit: "1/Pa", range: Range::NOT_NEGATIVE };
         self.key("specific_wear_rate", rate, need, "worn volume per force and sliding distance");
-    }
-
-    fn heights(&mut self) {
-        self.key("file", InputFile, OneOf, "measured heights: .sdf .x3p .txt .xyz .csv .npy .npz .h5 .png .tif");
-        self.key("dataset", Text, Optional, "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows)");
-        self.key("unit", LengthUnit, Optional, "what the number 1 stands for, for text, .npy and decimal images");
-        let pitch = Kind::Lengths { count: 2, single: true, unit: "um", range: Range::POSITIVE };
-        self.key(
-            "pitch",
-            pitch,
-            Optional,
-            "distance of points, or those along x and y, for files that do not state it",
-        );
-        let range = Kind::Lengths { count: 2, single: false, unit: "um", range: Range::ANY };
-        self.key("height_range", range, Optional, "heights of black and white, for images");
-        let decimal = Choice(&const { words(&choices::DECIMAL) });
-        self.key("decimal", decimal, Optional, "decimal mark of a text file, where its content does not tell it");
-        self.key("skip", Integer(0), Optional, "lines of a text file before the table that are not read");
-        let lay = Choice(&const { words(&choices::LAY) });
-        self.key(
-            "profile_lay",
-            lay,
-            Optional,
-            "the file is a profile: whether its surface has grooves along or across sliding, or no direction",
-        );
-        self.key("synthetic.seed", Integer(0), Default("0"), "seed of the random heights");
-        self.key("synthetic.rms_height", length("um", Range::NOT_NEGATIVE), Required, "realised rms height");
-        let positive = length("um", Range::POSITIVE);
-        self.key("synthetic.correlation_length", positive, OneOf, "length l of the autocorrelation exp(-(r/l)^2)");
-        let across = "another length l across the sliding direction: a lay";
-        self.key("synthetic.correlation_length_across", positive, Optional, across);
-        self.key("synthetic.roll_off", positive, OneOf, "wavelength from which down the spectrum falls as a power law");
-        self.key(
-            "synthetic.hurst",
-            Number(Range::FRACTION),
-            Optional,
-            "Hurst exponent of the power law, 0 rough to 1 smooth; required beside roll_off",
-        );
-        self.key("synthetic.short_cutoff", positive, Optional, "wavelength at which the power law ends");
-        self.key("synthetic.patch", length("mm", Range::POSITIVE), Optional, "length after which the heights repeat");
-        self.key("synthetic.skewness", Number(Range::ANY), Default("0"), "skewness of the heights");
-        self.key("synthetic.kurtosis", Number(ABOVE_1), Default("3"), "kurtosis of the heights, 3 for normal ones");
-        self.key("flat", True, OneOf, "all heights zero");
-        self.key("mirror", Bool, Default("false"), "whether the heights are a view of the face, to be mirrored");
-    }
-
-    fn preparation(&mut self) {
-        self.straightening();
-        let levels = Choice(&const { words(&choices::LEVEL) });
-        self.key(
-            "level",
-            levels,
-            Default("\"none\""),
-            "form that is taken out: none, the mean, the plane, second order",
-        );
-        let slope = "slope beyond which points of spikes and pits are taken out";
-        self.key("outlier_slope", Number(Range::POSITIVE), Optional, slope);
-        let outliers = "robust standard deviations from the median beyond which points are taken out";
-        self.key("outliers", Number(Range::POSITIVE), Optional, outliers);
-        let fills = Choice(&const { words(&choices::FILL) });
-        self.key("fill", fills, Optional, "what missing points and outliers get; without it they are an error");
-        self.key("pixel", length("um", Range::POSITIVE), Optional, "pixel pitch in place of the file's own");
-        let nesting_index = length("um", Range::POSITIVE);
-        self.key(
-            "s_filter",
-            nesting_index,
-            Optional,
-            "nesting index of a Gaussian filter that takes out shorter waves",
-        );
-        self.key("l_filter", nesting_index, Optional, "nesting index of a Gaussian filter that takes out longer waves");
-        self.key("cutoff", length("um", Range::NOT_NEGATIVE), Optional, "height above the mean at which peaks are cut");
-        let repeat = "whether the patch is tiled over the ring or pin, mirrored from tile to tile";
-        self.key("repeat", Bool, Computed("`false`"), repeat);
-        let extend = "random heights with the statistics of the patch in place of the patch itself";
-        self.key("extend", Choice(&const { words(&choices::EXTEND) }), Optional, extend);
-        self.key("extend_seed", Integer(0), Computed("`0`"), "seed of the random heights of `extend`");
-        self.key("scale", Number(Range::ANY), Default("1"), "factor of the heights");
     }
 }

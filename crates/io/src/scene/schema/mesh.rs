@@ -1,8 +1,9 @@
 //! The keys of the mesh: in cells or in lengths, under a rectangle or a round pin.
 
 use super::choices::{self, words};
+use super::key::{Choose, Kind, Need};
+use super::range::Range;
 use super::table::{Table, length};
-use super::{Choose, Kind, Need, Range};
 use Kind::{Choice, Integer};
 use Need::{Computed, OfWay, Optional};
 

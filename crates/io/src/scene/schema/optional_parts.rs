@@ -1,7 +1,8 @@
 //! The keys of the parts of the model that a scene switches on with a table: friction, heat, emission.
 
+use super::key::{Kind, Need};
+use super::range::Range;
 use super::table::{Table, length};
-use super::{Kind, Need, Range};
 use crate::units::Dimension::{
     Area, Cooling, CoolingPerSpeed, Density, NumberPerMass, Pressure, SpecificHeat, Temperature, ThermalConductivity,
 };

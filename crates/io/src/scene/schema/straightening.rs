@@ -1,10 +1,10 @@
 //! The keys that say how a measured patch comes to lie along the track.
 
-use super::Kind::Choice;
-use super::Need::{Optional, Required};
 use super::choices::{self, words};
+use super::key::Kind::{self, Choice};
+use super::key::Need::{Optional, Required};
+use super::range::Range;
 use super::table::Table;
-use super::{Kind, Range};
 use crate::units::Dimension::Angle;
 
 impl Table {

@@ -1,6 +1,7 @@
 //! What to say about a key that no scene has.
 
-use super::{find, is_below, is_table, join, keys};
+use super::key::{Key, is_below, join};
+use super::lookup::{find, is_table, keys};
 use crate::text::short;
 
 /// Likeness (0 to 1, strsim's normalised Damerau-Levenshtein) from which a name counts as mistyped.
@@ -77,7 +78,7 @@ fn known(path: &str) -> bool {
 /// Names directly below a table, in the order of docs/scenes.md.
 pub(super) fn children(table: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for path in keys().iter().map(super::Key::path) {
+    for path in keys().iter().map(Key::path) {
         let rest = if table.is_empty() {
             path.as_str()
         } else if is_below(&path, table) {

@@ -1,6 +1,7 @@
 //! The table of keys while it is put together.
 
-use super::{Key, Kind, Need, Range, Role};
+use super::key::{Key, Kind, Need, Role};
+use super::range::Range;
 use crate::units::Dimension::Length;
 
 /// Collects keys; `section` is the table to which the next ones belong, `role` what they change.

@@ -48,12 +48,13 @@ pub fn table_meaning(path: &str) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{is_table, keys};
+    use super::super::key::Key;
+    use super::super::lookup::{is_table, keys};
     use super::*;
 
     #[test]
     fn every_table_of_the_keys_is_explained_and_no_other() {
-        for path in keys().iter().map(super::super::Key::path) {
+        for path in keys().iter().map(Key::path) {
             for (end, _) in path.match_indices('.') {
                 assert!(table_meaning(&path[..end]).is_some(), "{}", &path[..end]);
             }

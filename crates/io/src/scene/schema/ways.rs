@@ -1,6 +1,7 @@
 //! Ways to say the same with different keys of a table.
 
-use super::{Need, find, join};
+use super::key::{Need, join};
+use super::lookup::find;
 
 /// All of them.
 pub const WAYS: &[Ways] = &[Ways {

@@ -1,7 +1,13 @@
 //! Journals of several processes, torn ones, and ones that are made smaller.
 
-use super::*;
-use crate::study::record::Series;
+use std::fs;
+use std::path::Path;
+
+use super::line::line;
+use super::merge::FEW;
+use super::shard::{COMPLETE, OPEN, shards};
+use super::{Journal, Shard, merge};
+use crate::study::record::{Outcome, Record, Series};
 
 fn record(identity: &str, finished: bool) -> Record {
     let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
@@ -130,20 +136,6 @@ fn shards_of_processes_that_are_gone_are_merged() {
     // One for the dead; who is elsewhere may be alive.
     assert_eq!(shards(folder.path()).unwrap().len(), 1 + 1 + 12);
     assert_eq!(identities(folder.path()).len(), 25);
-}
-
-#[test]
-fn a_line_without_end_takes_no_memory() {
-    let mut text = "ab\ncdefghij\nkl\nmnop".as_bytes();
-    let (mut line, mut lines) = (Vec::new(), Vec::new());
-    loop {
-        match next_line(&mut text, &mut line, 4).unwrap() {
-            0 => break,
-            length => lines.push((length, String::from_utf8(line.clone()).unwrap())),
-        }
-    }
-    let expected = [(3, "ab\n"), (9, ""), (3, "kl\n"), (4, "")];
-    assert_eq!(lines, expected.map(|(length, text)| (length, text.to_owned())));
 }
 
 #[test]

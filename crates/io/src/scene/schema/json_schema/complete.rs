@@ -2,8 +2,11 @@
 
 use serde_json::{Map, Value, json};
 
+use super::super::exclusions::{GROUPS, Group};
+use super::super::key::{Key, Need, is_below, join};
+use super::super::lookup::{find, is_table, keys, optional_table};
 use super::super::suggest::children;
-use super::super::{GROUPS, Group, Key, Need, WAYS, Ways, find, is_below, is_table, join, keys, optional_table};
+use super::super::ways::{WAYS, Ways};
 use super::exclusion::{chooses, members, name_in};
 
 /// What must be in a table, and in the tables in it.

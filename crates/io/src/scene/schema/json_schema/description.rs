@@ -1,6 +1,7 @@
 //! What an editor shows about a key.
 
-use super::super::{Key, Kind, Need, Range};
+use super::super::key::{Key, Kind, Need};
+use super::super::range::Range;
 use crate::units::Dimension;
 
 /// Meaning, units, range, and what happens when the key is absent.

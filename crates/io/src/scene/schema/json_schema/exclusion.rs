@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::{Choose, GROUPS, Group, MEANINGLESS, Meaningless, WAYS, join};
+use super::super::exclusions::{GROUPS, Group, MEANINGLESS, Meaningless};
+use super::super::key::{Choose, join};
+use super::super::ways::WAYS;
 
 /// For each alternative of a table: the others are not there. An editor so marks the key that is one too many.
 pub(super) fn table(path: &str) -> Map<String, Value> {

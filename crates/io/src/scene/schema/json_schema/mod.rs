@@ -11,8 +11,10 @@ mod value;
 
 use serde_json::{Map, Value, json};
 
+use super::key::join;
+use super::lookup::{find, is_table, may_be_none};
 use super::suggest::children;
-use super::{find, is_table, join, may_be_none, table_meaning};
+use super::tables::table_meaning;
 
 /// The JSON Schema (draft 7, the one that TOML plug-ins of editors read) of scene files.
 pub fn document() -> Value {

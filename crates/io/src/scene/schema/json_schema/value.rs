@@ -3,7 +3,8 @@
 use plateau_core::observe;
 use serde_json::{Map, Value, json};
 
-use super::super::{Key, Kind, Need, Range};
+use super::super::key::{Key, Kind, Need};
+use super::super::range::Range;
 use super::description;
 use crate::units::Dimension;
 use crate::units::pattern::{self, Sign};

@@ -1,49 +1,16 @@
-//! From the settings of a scene to the surfaces before the first step.
+//! The initial heights of a body: read or made, prepared, and told of.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use plateau_core::model::mesh::Mesh;
-use plateau_core::model::state::{Base, InitialSurfaces};
 use plateau_core::surface::describe::HeightParameters;
-use plateau_core::surface::micrograph::{FibreMap, Micrograph};
-use plateau_core::surface::{
-    Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture, fibre_fraction, set_back_resin,
-};
+use plateau_core::surface::{Body, Extension, HeightSynthesis, Length, Patch, Preparation, RawHeights, Texture};
 
-use super::error::{FileError, SurfaceError};
-use super::format::Format;
-use super::loaded::{Loaded, Patches};
-use super::measured::{detect, read};
-use super::options::ReadOptions;
-use super::stylus_profile::{Lay, ProfileError};
-use super::{hdf5, image};
-use crate::regular::sha256;
-use crate::scene::{BaseSource, HeightSettings, HeightSource, Scene};
-use crate::{limits, regular};
-
-/// Reads or makes the initial surfaces of a scene and prepares them.
-///
-/// Heights of the pin that come from an instrument (SDF, text, images) are negated after their preparation: an
-/// instrument's peaks are positive, while the pin's z grows away from the disc. HDF5, NumPy and synthetic heights are
-/// taken as they are.
-///
-/// # Errors
-/// [`SurfaceError`], which names the scene's table and the file.
-pub fn load(scene: &Scene) -> Result<Loaded, SurfaceError> {
-    Loader::new(scene).load(scene)
-}
-
-/// As [`load`], with the patches from which the heights of disc and pin come: prepared, scaled and with the sign that the
-/// heights have, at their own pitch; none for a body whose heights come from no patch.
-///
-/// # Errors
-/// [`SurfaceError`] as for [`load`].
-pub fn load_with_patches(scene: &Scene) -> Result<(Loaded, Patches), SurfaceError> {
-    let mut loader = Loader { patches: Some(Patches::default()), ..Loader::new(scene) };
-    let loaded = loader.load(scene)?;
-    Ok((loaded, loader.patches.unwrap_or_default()))
-}
+use super::super::error::{FileError, SurfaceError};
+use super::super::options::ReadOptions;
+use super::super::read::read;
+use super::super::stylus_profile::{Lay, ProfileError};
+use super::loader::Loader;
+use crate::scene::{HeightSettings, HeightSource};
 
 /// Table of the scene that says where a body's heights come from.
 fn surface_key(body: Body) -> &'static str {
@@ -59,14 +26,6 @@ fn prepare_key(body: Body) -> &'static str {
         Body::Disc => "disc.prepare",
         Body::Pin => "pin.prepare",
     }
-}
-
-struct Loader<'a> {
-    mesh: &'a Mesh,
-    inputs: Inputs,
-    report: Vec<String>,
-    /// The patches from which heights come, where they are asked for.
-    patches: Option<Patches>,
 }
 
 /// What heights are called in an error of their preparation.
@@ -86,26 +45,13 @@ fn profile_lay(source: &HeightSource) -> Option<Lay> {
     }
 }
 
-impl<'a> Loader<'a> {
-    fn new(scene: &'a Scene) -> Self {
-        Self { mesh: &scene.parameters.mesh, inputs: Inputs::default(), report: Vec::new(), patches: None }
-    }
-
-    fn load(&mut self, scene: &Scene) -> Result<Loaded, SurfaceError> {
-        let (disc_height, disc_cut) = self.heights(&scene.disc_surface, Body::Disc)?;
-        let (mut pin_height, pin_cut) = self.heights(&scene.pin_surface, Body::Pin)?;
-        let pin_base = self.base(&scene.pin_base, scene.pin_base_mirror)?;
-        if scene.resin_recess != 0.0 {
-            set_back_resin(&mut pin_height, &pin_base, scene.resin_recess);
-            self.report.push(format!("pin.surface: resin set back by {}", Length(scene.resin_recess)));
-        }
-        let surfaces = InitialSurfaces { disc_height, pin_height, pin_base };
-        let (inputs, report) = (std::mem::take(&mut self.inputs).0, std::mem::take(&mut self.report));
-        Ok(Loaded { surfaces, disc_cut, pin_cut, inputs, report })
-    }
-
+impl Loader<'_> {
     /// Heights of a body, and the fraction of its points that a cutoff cut.
-    fn heights(&mut self, settings: &HeightSettings, body: Body) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
+    pub(super) fn heights(
+        &mut self,
+        settings: &HeightSettings,
+        body: Body,
+    ) -> Result<(Vec<f64>, Option<f64>), SurfaceError> {
         let (surface, prepare) = (surface_key(body), prepare_key(body));
         let (raw, negate) = match &settings.source {
             HeightSource::Flat => {
@@ -213,86 +159,6 @@ impl<'a> Loader<'a> {
         self.mesh.absent_cells().for_each(|cell| within[cell] = f64::NAN);
         spread(&within)
     }
-
-    fn base(&mut self, source: &BaseSource, mirror: bool) -> Result<Vec<Base>, SurfaceError> {
-        let key = "pin.base";
-        let mut base = match source {
-            BaseSource::Uniform(base) => {
-                self.report.push(format!("{key}: uniform"));
-                vec![*base; self.mesh.pin_cells()]
-            }
-            BaseSource::Synthetic(synthesis) => {
-                self.report.push(format!(
-                    "{key}: synthetic, seed {}, fibres of {} by {}",
-                    synthesis.seed,
-                    Length(synthesis.fibre_length),
-                    Length(synthesis.fibre_width)
-                ));
-                synthesis.base(self.mesh).map_err(|reason| SurfaceError::Fibre { key, reason })?
-            }
-            BaseSource::File { path, dataset } => self
-                .file_base(path, dataset.as_deref())
-                .map_err(|reason| SurfaceError::File { key, path: path.clone(), reason })?,
-            BaseSource::Image { path, micrograph } => {
-                let map = self.fibre_map(path, micrograph).map_err(|reason| SurfaceError::File {
-                    key,
-                    path: path.clone(),
-                    reason,
-                })?;
-                self.report.extend(map.report.iter().map(|step| format!("{key}: {step}")));
-                map.base
-            }
-        };
-        if mirror {
-            let columns: Vec<&[Base]> = base.chunks_exact(self.mesh.rows()).rev().collect();
-            base = columns.concat();
-            self.report.push(format!("{key}: mirrored along the sliding direction"));
-        }
-        self.report.push(format!("{key}: fibre fraction {:.4}", fibre_fraction(&base, self.mesh)));
-        Ok(base)
-    }
-
-    fn fibre_map(&mut self, path: &Path, micrograph: &Micrograph) -> Result<FibreMap, FileError> {
-        let (map, picture) = fibre_map(path, micrograph, self.mesh)?;
-        self.inputs.add(path)?;
-        let pixel = Length(micrograph.pixel);
-        self.report.push(format!("pin.base: {}, {picture}, {pixel} a pixel", path.display()));
-        Ok(map)
-    }
-
-    fn file_base(&mut self, path: &Path, dataset: Option<&str>) -> Result<Vec<Base>, FileError> {
-        let format = detect(path)?;
-        if format != Format::Hdf5 {
-            return Err(FileError::NotABase(format));
-        }
-        let shape = (self.mesh.pin_columns(), self.mesh.rows());
-        let (name, base) = hdf5::base(path, dataset, shape, |cell| self.mesh.is_present(cell))?;
-        self.inputs.add(path)?;
-        self.report.push(format!("pin.base: {}, dataset {name}", path.display()));
-        Ok(base)
-    }
-}
-
-/// What a scene makes of the micrograph that the pin's base comes from, and the width of its pixels, m; none where it comes
-/// from something else.
-///
-/// # Errors
-/// [`SurfaceError`] as for [`load`].
-pub fn micrograph(scene: &Scene) -> Result<Option<(FibreMap, f64)>, SurfaceError> {
-    let BaseSource::Image { path, micrograph } = &scene.pin_base else { return Ok(None) };
-    let map = fibre_map(path, micrograph, &scene.parameters.mesh);
-    let (map, _) = map.map_err(|reason| SurfaceError::File { key: "pin.base", path: path.clone(), reason })?;
-    Ok(Some((map, micrograph.pixel)))
-}
-
-/// Makes the fibre map of an image file; says what the image is besides.
-fn fibre_map(path: &Path, micrograph: &Micrograph, mesh: &Mesh) -> Result<(FibreMap, String), FileError> {
-    let format = detect(path)?;
-    if !matches!(format, Format::Png | Format::Tiff) {
-        return Err(FileError::NotAnImage(format));
-    }
-    let (grey, picture) = image::grey(&regular::read(path, limits::SURFACE)?, format)?;
-    Ok((micrograph.fibre_map(grey, mesh)?, picture))
 }
 
 /// What synthetic heights were asked for, in words.
@@ -324,17 +190,4 @@ fn spread(heights: &[f64]) -> String {
         if skewness.is_nan() { String::new() } else { format!(", skewness {skewness:.3}, kurtosis {kurtosis:.3}") };
     let rms = Length(root_mean_square_height);
     format!("heights from {} to {}, rms {rms}{shape}", Length(lowest), Length(highest))
-}
-
-/// Every surface file with its SHA-256 in hexadecimal digits, each file once.
-#[derive(Debug, Default)]
-struct Inputs(Vec<(PathBuf, String)>);
-
-impl Inputs {
-    fn add(&mut self, path: &Path) -> io::Result<()> {
-        if !self.0.iter().any(|(known, _)| known == path) {
-            self.0.push((path.to_owned(), sha256(path)?));
-        }
-        Ok(())
-    }
 }

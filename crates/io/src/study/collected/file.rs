@@ -9,152 +9,19 @@
 //! ```
 
 use std::collections::BTreeSet;
-use std::io;
 use std::path::Path;
 
-use plateau_core::observe::event::event_quantity;
 use plateau_core::observe::{EXTRAS, quantities};
-use thiserror::Error;
 
-use super::identity::firsts;
-use super::imported::Imported;
-use super::journal::{Entry, Journal};
-use super::plan::{Plan, Run};
-use super::record::{EVENT, Outcome, Series};
-use super::response::Response;
-use crate::dataset_file::{Attribute, Content, Coordinate, DatasetFileError, Name, Rows, Values, Variable, write_rows};
+use super::super::plan::{Plan, Run};
+use super::super::record::unit_of;
+use super::results::{CollectError, Collected, CollectedRun, State, series};
+use crate::dataset_file::{Attribute, Content, Coordinate, Name, Rows, Values, Variable, write_rows};
 
-/// The results of the runs of a study, as far as there are any.
-#[derive(Debug, Clone)]
-pub struct Collected {
-    /// The runs in the order of the design.
-    pub runs: Vec<CollectedRun>,
-}
-
-/// A run and what came of it.
-#[derive(Debug, Clone)]
-pub struct CollectedRun {
-    /// The run.
-    pub run: Run,
-    /// The first run of the design with the same scene, files and program, by its place: its own unless it repeats that
-    /// one, whose result it has.
-    pub first: usize,
-    /// How it ended, if it did.
-    pub state: State,
-    /// Answers to the questions of the study, in their order; NaN where there is none.
-    pub responses: Vec<f64>,
-    /// Standard errors of these; NaN where there is none.
-    pub errors: Vec<f64>,
-    /// For each response what the run has at the times of a measured series; empty where there is none, or the run ends before.
-    pub at_measured_times: Vec<Vec<f64>>,
-    /// Wall time, s; NaN if it has not ended.
-    pub wall_time: f64,
-    entry: Option<Entry>,
-    /// Times of its samples, if it finished.
-    time: Vec<f64>,
-    /// Names of its series.
-    series: Vec<String>,
-}
-
-/// How a run ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum State {
-    /// All steps were taken.
-    Finished,
-    /// It failed for this reason.
-    Failed(String),
-    /// It was not made yet, or not by this program.
-    Missing,
-}
-
-impl State {
-    /// One word.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Finished => "finished",
-            Self::Failed(_) => "failed",
-            Self::Missing => "missing",
-        }
-    }
-}
-
-/// Why results cannot be collected.
-#[derive(Debug, Error)]
-pub enum CollectError {
-    /// The journal cannot be read.
-    #[error("cannot read the results: {0}")]
-    Read(#[from] io::Error),
-    /// The file cannot be written.
-    #[error(transparent)]
-    Write(#[from] DatasetFileError),
-}
+/// Where runs have samples at different times.
+const TIME_OF_SAMPLE: &str = "sample_time";
 
 impl Collected {
-    /// Looks up the results of all runs; `identities` are theirs, in the order of the design.
-    ///
-    /// # Errors
-    /// [`CollectError::Read`].
-    pub fn new(plan: &Plan, identities: &[String], journal: &Journal) -> Result<Self, CollectError> {
-        let responses = &plan.study().responses;
-        let is_imported = responses.iter().any(Response::is_imported);
-        let read = || {
-            Imported::read(plan).map_err(|error| CollectError::Read(io::Error::new(io::ErrorKind::InvalidData, error)))
-        };
-        let imported = if is_imported { read()? } else { Imported::default() };
-        let run = |((number, identity), first): ((usize, &String), usize)| {
-            let mut collected = CollectedRun {
-                run: plan.run(number),
-                first,
-                state: State::Missing,
-                responses: vec![f64::NAN; responses.len()],
-                errors: vec![f64::NAN; responses.len()],
-                at_measured_times: vec![Vec::new(); responses.len()],
-                wall_time: f64::NAN,
-                entry: journal.get(identity).cloned(),
-                time: Vec::new(),
-                series: Vec::new(),
-            };
-            if let Some(entry) = &collected.entry {
-                collected.wall_time = entry.wall_time;
-                collected.state = entry.failure.clone().map_or(State::Finished, State::Failed);
-                let series = series(entry)?;
-                if series.is_none() && collected.state == State::Finished {
-                    collected.state = State::Failed(NO_SERIES.to_owned());
-                }
-                if let Some(series) = series {
-                    collected.time = series.time().to_vec();
-                    collected.series = series.names().to_vec();
-                    let known = |answer: Option<f64>| answer.unwrap_or(f64::NAN);
-                    collected.responses = responses.iter().map(|response| known(response.of(&series))).collect();
-                    collected.at_measured_times = responses
-                        .iter()
-                        .map(|response| response.at_measured_times(&series).unwrap_or_default())
-                        .collect();
-                    collected.errors = responses.iter().map(|response| known(response.error_of(&series))).collect();
-                }
-            }
-            for at in (0..responses.len()).filter(|at| responses[*at].is_imported()) {
-                collected.responses[at] = imported.value(number - 1, at);
-            }
-            if plan.study().is_imported() && collected.responses.iter().any(|value| value.is_finite()) {
-                collected.state = State::Finished;
-            }
-            Ok(collected)
-        };
-        let runs = (1..).zip(identities).zip(firsts(identities)).map(run).collect::<Result<_, CollectError>>()?;
-        Ok(Self { runs })
-    }
-
-    /// How many runs repeat another one: they tell nothing that it does not.
-    pub fn repeats(&self) -> usize {
-        self.runs.iter().enumerate().filter(|(place, run)| run.first != *place).count()
-    }
-
-    /// How many runs ended like this.
-    pub fn count(&self, state: &str) -> usize {
-        self.runs.iter().filter(|run| run.state.name() == state).count()
-    }
-
     /// Writes all of it as one HDF5 file; `attributes` tell where it comes from.
     ///
     /// # Errors
@@ -276,34 +143,6 @@ impl Collected {
 pub fn is_collected(path: &Path) -> bool {
     let has = |file: &hdf5::File, name: &str| file.attr(name).is_ok();
     path.is_file() && hdf5::File::open(path).is_ok_and(|file| has(&file, "design") && has(&file, "collected"))
-}
-
-/// Where runs have samples at different times.
-const TIME_OF_SAMPLE: &str = "sample_time";
-
-/// What is known of a run whose record is whole and whose series are not.
-const NO_SERIES: &str = "its record in the journal holds no series; move the journal away, and make the runs again";
-
-/// The series of a record; none of a run that failed, and none where the record does not hold what it says.
-fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
-    match entry.record()?.outcome {
-        Outcome::Failed { .. } => Ok(None),
-        Outcome::Finished { series, events, .. } => {
-            let series = series.unpack();
-            Ok(match events {
-                Some(events) => series.zip(events.unpack()).map(|(series, events)| series.with_events(events)),
-                None => series,
-            })
-        }
-    }
-}
-
-/// SI unit of a series, or of a quantity of events.
-pub fn unit_of(series: &str) -> &'static str {
-    if let Some(name) = series.strip_prefix(EVENT) {
-        return event_quantity(name).map_or("1", |quantity| quantity.unit);
-    }
-    quantities(EXTRAS).find(|quantity| quantity.name == series).map_or("1", |quantity| quantity.unit)
 }
 
 fn coordinate(

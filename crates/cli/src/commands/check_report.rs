@@ -1,0 +1,251 @@
+//! What `plateau check` reports of a scene: its numbers, and what they are in words.
+
+use std::fmt::Write as _;
+
+use plateau_core::engine::parts::{ACCELERATION, Part};
+use plateau_core::simulation::Execution;
+use plateau_io::checkpoint;
+use plateau_io::run_file::{image_estimate, size_estimate};
+use plateau_io::scene::{Scene, Warning, memory_estimate};
+use plateau_run::stiffness_warning;
+use serde::Serialize;
+
+use super::check_cycle::CycleReport;
+use super::check_files::File;
+use super::check_outline::OutlineReport;
+use super::check_pulse::PulseReport;
+use crate::number;
+use crate::table::{list, table};
+
+/// What `plateau check` reports.
+#[derive(Debug, Serialize)]
+pub(super) struct CheckReport {
+    title: String,
+    scene: String,
+    files: Vec<File>,
+    surfaces: Vec<String>,
+    rows: usize,
+    disc_columns: usize,
+    pin_columns: usize,
+    cell_height: f64,
+    cell_width: f64,
+    /// Of a pin that is no rectangle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outline: Option<OutlineReport>,
+    nominal_pressure: f64,
+    steps: u64,
+    step_time: f64,
+    /// Of a scene with a cycle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cycle: Option<CycleReport>,
+    revolutions: f64,
+    /// Of a scene whose contact area pulses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pulse: Option<PulseReport>,
+    samples: u64,
+    maps: usize,
+    memory: u64,
+    run_file: u64,
+    checkpoint: u64,
+    workers: usize,
+    instruction_set: &'static str,
+    /// Of the steps and the surfaces, s.
+    estimated_time: f64,
+    /// What making the surfaces has taken, s.
+    preparing_time: f64,
+    /// Of a run that chooses it.
+    largest_acceleration: Option<f64>,
+    stiffness_number: f64,
+    warns_of_stiffness: bool,
+    /// What the scene can hardly mean.
+    warnings: Vec<Warning>,
+    needed: Vec<Reasoned>,
+    left_out: Vec<Reasoned>,
+}
+
+/// A part of the model or of the output, and what in the scene decides over it.
+#[derive(Debug, Clone, Serialize)]
+struct Reasoned {
+    part: String,
+    reason: String,
+}
+
+impl CheckReport {
+    /// Of a scene, whose surfaces took the first of these times to make, s, and of which a step takes the second.
+    pub(super) fn new(
+        scene: &Scene,
+        files: Vec<File>,
+        surfaces: Vec<String>,
+        parts: &[Part],
+        pulse: Option<PulseReport>,
+        execution: Execution,
+        [preparing_time, seconds_per_step]: [f64; 2],
+    ) -> Self {
+        let parameters = &scene.parameters;
+        let mesh = &parameters.mesh;
+        let schedule = scene.schedule();
+        let mut reasoned: Vec<(bool, Reasoned)> = parts
+            .iter()
+            .map(|part| (part.needed, Reasoned { part: part.name.into(), reason: part.reason.into() }))
+            .collect();
+        let workers = Reasoned { part: "several workers".into(), reason: format!("workers = {}", execution.workers) };
+        reasoned.push((execution.workers > 1, workers));
+        reasoned.extend(plateau_core::observe::Map::CHOICES.map(|map| {
+            let asked = scene.output.maps.contains(&map);
+            let reason = if asked { "output.maps asks for it" } else { "not in output.maps" };
+            (asked, Reasoned { part: format!("map {}", map.name()), reason: reason.into() })
+        }));
+        if scene.adaptive.is_some() {
+            let reason = "the run chooses it, by what a scout before it finds".to_owned();
+            let chosen = (true, Reasoned { part: ACCELERATION.into(), reason });
+            reasoned.iter_mut().filter(|(_, part)| part.part == ACCELERATION).for_each(|part| *part = chosen.clone());
+        }
+        reasoned.extend(plateau_core::observe::EXTRAS.iter().filter_map(|extra| {
+            let asked = scene.output.extras.contains(extra);
+            let part = format!("{} with every sample", extra.request.as_ref()?.what);
+            Some((asked, Reasoned { part, reason: format!("output.{} = {asked}", extra.name) }))
+        }));
+        let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
+        let stiffness_number = parameters.stiffness_number();
+        let extras = scene.extras(scene.adaptive.is_some());
+        let maps = if scene.output.maps.is_empty() { 0 } else { schedule.maps() };
+        Self {
+            title: scene.title.clone(),
+            scene: scene.resolved.clone(),
+            files,
+            surfaces,
+            rows: mesh.rows(),
+            disc_columns: mesh.disc_columns(),
+            pin_columns: mesh.pin_columns(),
+            cell_height: mesh.row_height(),
+            cell_width: mesh.column_width(),
+            outline: OutlineReport::of(mesh),
+            nominal_pressure: parameters.normal_force / mesh.pin_area(),
+            steps: scene.steps,
+            step_time: parameters.step_time(),
+            cycle: CycleReport::of(scene),
+            revolutions: scene.steps as f64 / mesh.disc_columns() as f64,
+            pulse,
+            samples: schedule.samples(),
+            maps,
+            memory: memory_estimate(scene),
+            run_file: size_estimate(mesh, &scene.output.maps, &extras, schedule.samples(), maps as u64),
+            checkpoint: checkpoint::size_estimate(mesh, scene.adaptive.is_some()).saturating_add(image_estimate(
+                mesh,
+                &scene.output.maps,
+                &extras,
+                schedule.samples(),
+                maps as u64,
+            )),
+            workers: execution.workers,
+            instruction_set: execution.means(),
+            estimated_time: preparing_time + seconds_per_step * scene.steps as f64,
+            preparing_time,
+            stiffness_number,
+            largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
+            warns_of_stiffness: stiffness_warning(parameters).is_some(),
+            warnings: scene.warnings.clone(),
+            needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
+            left_out: left_out.into_iter().map(|(_, reasoned)| reasoned).collect(),
+        }
+    }
+
+    /// How long the run will take, in words: the surfaces, which are not made faster by acceleration, and the steps.
+    fn time(&self) -> String {
+        let steps = number::duration(self.estimated_time - self.preparing_time);
+        let trial = match self.largest_acceleration {
+            None => format!("{steps} for the steps (from a short trial)"),
+            Some(largest) => format!(
+                "{steps} for the steps without acceleration (from a short trial), at best {} times less",
+                number::short(largest)
+            ),
+        };
+        let [all, surfaces] = [self.estimated_time, self.preparing_time].map(number::duration);
+        format!("{all}: {surfaces} for the surfaces (as now), {trial}")
+    }
+
+    /// All of it as text.
+    pub(super) fn to_text(&self) -> String {
+        let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
+        let stiffness = format!(
+            "Π = {}{}",
+            number::short(self.stiffness_number),
+            if self.warns_of_stiffness { " (large, see the warning)" } else { "" }
+        );
+        let mut rows = vec![
+            (
+                "mesh",
+                format!(
+                    "{} rows, {} columns round the ring, {} under the pin: {} disc and {} pin cells of {} by {}",
+                    self.rows,
+                    self.disc_columns,
+                    self.pin_columns,
+                    number::grouped((self.rows * self.disc_columns) as u64),
+                    number::grouped((self.rows * self.pin_columns) as u64),
+                    micrometres(self.cell_height),
+                    micrometres(self.cell_width)
+                ),
+            ),
+            (
+                if self.cycle.is_some() { "largest nominal pressure" } else { "nominal pressure" },
+                format!("{} MPa", number::short(self.nominal_pressure * 1e-6)),
+            ),
+            (
+                "steps",
+                format!(
+                    "{}{} of {} s{}: {} revolutions, {} s",
+                    if self.largest_acceleration.is_some() { "without acceleration " } else { "" },
+                    number::grouped(self.steps),
+                    number::short(self.step_time),
+                    if self.cycle.is_some() { " in the mean" } else { "" },
+                    number::short(self.revolutions),
+                    number::short(
+                        self.cycle.as_ref().map_or(self.step_time * self.steps as f64, CycleReport::duration)
+                    )
+                ),
+            ),
+            ("output", format!("samples: {}, moments with maps: {}", number::grouped(self.samples), self.maps)),
+            ("stiffness number", stiffness),
+            ("memory for cells and maps", number::bytes(self.memory)),
+            (
+                "storage",
+                format!(
+                    "run file at most {}, two checkpoints of at most {}",
+                    number::bytes(self.run_file),
+                    number::bytes(self.checkpoint)
+                ),
+            ),
+            ("workers", format!("{}, instruction set {}", self.workers, self.instruction_set)),
+            ("estimated time", self.time()),
+        ];
+        if let Some(cycle) = &self.cycle {
+            // Behind the steps.
+            rows.splice(3..3, cycle.rows());
+        }
+        if let Some(pulse) = &self.pulse {
+            // Behind the steps, which no cycle has then.
+            rows.insert(3, ("contact area pulses", pulse.text()));
+        }
+        if let Some(outline) = &self.outline {
+            // Behind the mesh.
+            rows.insert(1, ("outline of the pin", outline.text()));
+        }
+        let mut text = format!("# {}\n\n{}\n", self.title, self.scene.trim_start());
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "{}\n{}\n{}\n{}\n{}",
+            table("Files", &self.files.iter().map(File::row).collect::<Vec<_>>()),
+            list("Surfaces", &self.surfaces),
+            table("Run", &rows),
+            table("Needed", &reasons(&self.needed)),
+            table("Left out", &reasons(&self.left_out))
+        );
+        text
+    }
+}
+
+/// Rows of a table.
+fn reasons(parts: &[Reasoned]) -> Vec<(&str, String)> {
+    parts.iter().map(|part| (part.part.as_str(), part.reason.clone())).collect()
+}

@@ -1,0 +1,266 @@
+//! Makes a run file: its groups, datasets and attributes before the first step, or with all that a run has written.
+
+use std::time::SystemTime;
+
+use hdf5::plist::file_create::LinkCreationOrder;
+use hdf5::{Dataset, Datatype, Extent, File, SimpleExtents};
+use plateau_core::model::mesh::Mesh;
+use plateau_core::observe::event::{EventRecord, event_quantities};
+use plateau_core::observe::extra::Extra;
+use plateau_core::observe::operation::CYCLE;
+use plateau_core::observe::{Map, quantities};
+
+use super::digest::{self, DIGEST};
+use super::dimension::{DIMENSION_LIST, Dimensions};
+use super::layout::{
+    CONVENTIONS, EVENT, EVENT_GROUP, FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, event_path, map_long_name, map_path,
+    map_unit, series_path,
+};
+use super::status::{Statuses, stored_base};
+use super::storage::{MAP_CHUNK_BYTES, series_chunk};
+use super::{Header, State};
+use crate::hdf5_file::writing::{write_number, write_text};
+use crate::timestamp::iso_8601;
+
+const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Contact Area and Pressure Dependence of \
+    Initial Surface Roughness for Cermet-Coated Discs Used in Disc Brakes, Tribology in Industry 41 (2019)";
+
+/// Writes everything that is known before the first step, and makes every other dataset: with no times in it yet, or with
+/// all that a `source` has, the file of the same run as it was while the run went on.
+///
+/// No object of the file is open any more when this returns.
+///
+/// The events of a cycle come with the source: they are written when a run has ended.
+pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: Option<Source>) -> hdf5::Result<()> {
+    write_provenance(file, header, start)?;
+    let mut layout = Layout::new(file, header, source.map(|source| source.file))?;
+    layout.coordinates(!header.maps.is_empty())?;
+    for quantity in quantities(&header.extras) {
+        layout.series(quantity.name, quantity.unit, quantity.long_name)?;
+    }
+    for map in Map::ALL.into_iter().filter(|map| header.maps.contains(map)) {
+        layout.map(map)?;
+    }
+    layout.pin_base(header)?;
+    let has_events = header.extras.iter().any(|extra| **extra == CYCLE);
+    if let Some(source) = source.filter(|_| has_events) {
+        layout.events(source.events, &header.extras)?;
+    }
+    layout.dimensions.finish()
+}
+
+/// What the file of a run that has ended is made of.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Source<'a> {
+    /// The file as it was while the run went on.
+    pub file: &'a File,
+    /// What happened in the events of the cycle.
+    pub events: &'a [EventRecord],
+}
+
+fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
+    let seeds: serde_json::Map<_, _> = header.seeds.iter().map(|(key, seed)| (key.clone(), (*seed).into())).collect();
+    let inputs = serde_json::to_string(&header.inputs).map_err(|error| hdf5::Error::from(error.to_string()))?;
+
+    write_text(file, "title", &header.title)?;
+    write_number(file, "format_version", FORMAT_VERSION)?;
+    write_text(file, "conventions", CONVENTIONS)?;
+    write_text(file, "Conventions", CONVENTIONS)?; // the spelling that netCDF readers look for
+    write_text(file, "references", REFERENCES)?;
+    write_text(file, "program", &header.program)?;
+    write_text(file, "source_revision", &header.source_revision)?;
+    write_text(file, "scene", &header.scene)?;
+    write_text(file, "inputs", &inputs)?;
+    write_text(file, "surfaces", &header.surfaces.join("\n"))?;
+    write_text(file, "seeds", &serde_json::Value::from(seeds).to_string())?;
+    write_text(file, "host", &header.host)?;
+    write_number(file, "workers", header.workers as i64)?;
+    write_text(file, "instruction_set", &header.instruction_set)?;
+    write_text(file, "start_time", &iso_8601(start))?;
+    write_text(file, "state", State::Running.name())
+}
+
+/// The datasets of a file while they are made.
+struct Layout<'a> {
+    file: &'a File,
+    mesh: &'a Mesh,
+    series_chunk: usize,
+    dimensions: Dimensions,
+    float: Datatype,
+    /// Committed, since netCDF-4 knows enumerations only as named types.
+    status: Datatype,
+    source: Option<&'a File>,
+}
+
+impl<'a> Layout<'a> {
+    fn new(file: &'a File, header: &'a Header, source: Option<&'a File>) -> hdf5::Result<Self> {
+        let status = Statuses::of(&header.mesh).datatype()?;
+        let dimensions = Dimensions::new(file)?;
+        file.commit_datatype("status", &status)?;
+        for group in ["series", "disc", "pin"] {
+            file.create_group_builder()
+                .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
+                .create(group)?;
+        }
+        Ok(Self {
+            file,
+            mesh: &header.mesh,
+            series_chunk: series_chunk(header.expected_samples),
+            dimensions,
+            float: Datatype::from_type::<f64>()?,
+            status,
+            source,
+        })
+    }
+
+    /// Radius, angles and times, each the scale of the dimension of its name.
+    fn coordinates(&mut self, with_maps: bool) -> hdf5::Result<()> {
+        let centres = |columns| (0..columns).map(|c| (c as f64 + 0.5) * self.mesh.column_angle()).collect::<Vec<_>>();
+        let disc_angle = centres(self.mesh.disc_columns());
+        let pin_angle = centres(self.mesh.pin_columns());
+        let radius = self.mesh.radius().to_vec();
+        for (name, unit, long_name, values) in [
+            ("radius", "m", "radius of the cell centres", &radius),
+            ("disc_angle", "rad", "angle of the cell centres on the disc", &disc_angle),
+            ("pin_angle", "rad", "angle of the cell centres on the pin, from its leading edge", &pin_angle),
+        ] {
+            let scale = self.scale(name, unit, long_name)?;
+            fixed(&scale, values)?;
+            // What cannot be written when a dataset is let go of is not told.
+            self.file.flush()?;
+        }
+        let time = self.scale(TIME, "s", "physical time of the samples")?;
+        self.fill(&time, TIME)?;
+        if with_maps {
+            let map_time = self.scale(MAP_TIME, "s", "physical time of the maps")?;
+            self.fill(&map_time, MAP_TIME)?;
+        }
+        Ok(())
+    }
+
+    fn scale(&mut self, name: &'static str, unit: &str, long_name: &str) -> hdf5::Result<Dataset> {
+        let scale = self.dataset(name, &self.float, &[name], unit, long_name)?;
+        self.dimensions.make_scale(&scale, name)?;
+        Ok(scale)
+    }
+
+    fn series(&mut self, name: &str, unit: &str, long_name: &str) -> hdf5::Result<()> {
+        let series = self.dataset(&series_path(name), &self.float, &[TIME], unit, long_name)?;
+        self.fill(&series, &series_path(name))?;
+        self.dimensions.attach(&series, &[TIME])
+    }
+
+    fn map(&mut self, map: Map) -> hdf5::Result<()> {
+        let dimensions = [MAP_TIME, if map.on_disc() { "disc_angle" } else { "pin_angle" }, "radius"];
+        if let (Some(source), false) = (self.source, map.is_status()) {
+            // As it is compressed; its scales are those of this file.
+            source.dataset(map_path(map))?.copy_to(self.file, map_path(map))?;
+            let copy = self.file.dataset(map_path(map))?;
+            copy.delete_attr(DIMENSION_LIST)?;
+            return self.dimensions.attach(&copy, &dimensions);
+        }
+        let datatype = if map.is_status() { &self.status } else { &self.float };
+        let dataset = self.dataset(map_path(map), datatype, &dimensions, map_unit(map), map_long_name(map))?;
+        if map.is_status() {
+            Statuses::of(self.mesh).write_flags(&dataset, map.on_disc())?;
+        }
+        if let Some(source) = self.source {
+            Statuses::of(self.mesh).copy(&source.dataset(map_path(map))?, &dataset)?;
+            self.file.flush()?;
+        }
+        self.dimensions.attach(&dataset, &dimensions)
+    }
+
+    /// Takes the values of a dataset with one dimension from the source.
+    fn fill(&self, dataset: &Dataset, path: &str) -> hdf5::Result<()> {
+        let Some(source) = self.source else { return Ok(()) };
+        let values = source.dataset(path)?.read_1d::<f64>()?;
+        dataset.resize(values.len())?;
+        dataset.write(&values)?;
+        // What cannot be written when a dataset is let go of is not told.
+        self.file.flush()
+    }
+
+    fn pin_base(&mut self, header: &Header) -> hdf5::Result<()> {
+        let dimensions = ["pin_angle", "radius"];
+        let dataset =
+            self.dataset(PIN_BASE, &self.status, &dimensions, "1", "base of the pin cells: resin or fibre")?;
+        Statuses::of(self.mesh).write_flags(&dataset, false)?;
+        self.dimensions.attach(&dataset, &dimensions)?;
+        let bytes = stored_base(self.mesh, &header.pin_base);
+        Statuses::of(self.mesh).write_base(&dataset, &bytes, self.mesh.rows())?;
+        write_text(&dataset, DIGEST, &digest::of_bytes(&bytes))?;
+        self.file.flush()
+    }
+
+    /// One row for each event of the cycle.
+    fn events(&mut self, records: &[EventRecord], extras: &[&Extra]) -> hdf5::Result<()> {
+        self.file
+            .create_group_builder()
+            .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
+            .create(EVENT_GROUP)?;
+        let numbers: Vec<f64> = (1..=records.len()).map(|number| number as f64).collect();
+        let scale = self.scale(EVENT, "1", "number of the event")?;
+        fixed(&scale, &numbers)?;
+        for quantity in event_quantities(extras) {
+            let values: Vec<f64> = records.iter().map(quantity.value).collect();
+            let dataset =
+                self.dataset(&event_path(quantity.name), &self.float, &[EVENT], quantity.unit, quantity.long_name)?;
+            fixed(&dataset, &values)?;
+            self.dimensions.attach(&dataset, &[EVENT])?;
+        }
+        self.file.flush()
+    }
+
+    /// Makes a dataset; the two time dimensions are empty and can grow.
+    fn dataset(
+        &self,
+        path: &str,
+        datatype: &Datatype,
+        dimensions: &[&str],
+        unit: &str,
+        long_name: &str,
+    ) -> hdf5::Result<Dataset> {
+        let extents = dimensions.iter().map(|&dimension| match dimension {
+            "radius" => Extent::fixed(self.mesh.rows()),
+            "disc_angle" => Extent::fixed(self.mesh.disc_columns()),
+            "pin_angle" => Extent::fixed(self.mesh.pin_columns()),
+            _ => Extent::resizable(0),
+        });
+        let extents = SimpleExtents::from_vec(extents.collect());
+        let mut builder = self.file.new_dataset_builder().chunk(self.chunk(&extents, datatype.size()));
+        // What is filtered takes a new place in the file whenever it changes, and leaves the old one behind for those who may
+        // be reading it. A series changes with every flush.
+        let changes = self.source.is_none() && extents.dims() == [0];
+        if !changes {
+            builder = builder.shuffle().deflate(1);
+        }
+        let dataset = builder.empty_as(datatype).shape(extents).create(path)?;
+        write_text(&dataset, "units", unit)?;
+        write_text(&dataset, "long_name", long_name)?;
+        Ok(dataset)
+    }
+
+    /// Shape of the chunks: a series is cut in time, a field into equal parts by columns and one time per chunk.
+    fn chunk(&self, extents: &SimpleExtents, bytes_per_value: usize) -> Vec<usize> {
+        match extents.dims().as_slice() {
+            &[0] => vec![self.series_chunk],
+            &[.., columns, rows] => {
+                let parts = (columns * rows * bytes_per_value).div_ceil(MAP_CHUNK_BYTES).min(columns);
+                let mut chunk = vec![1; extents.ndim() - 2];
+                chunk.extend([columns.div_ceil(parts), rows]);
+                chunk
+            }
+            dims => dims.to_vec(),
+        }
+    }
+}
+
+/// Writes values that never change, with their digest.
+fn fixed(dataset: &Dataset, values: &[f64]) -> hdf5::Result<()> {
+    if dataset.is_resizable() {
+        dataset.resize(values.len())?;
+    }
+    dataset.write_raw(values)?;
+    write_text(dataset, DIGEST, &digest::of_floats(values))
+}

@@ -1,0 +1,128 @@
+//! Keys that exclude each other, and keys that have no meaning beside a value of another.
+
+use super::key::{Choose, Key, join};
+use super::keys::{CYCLE, DEBRIS_IS_LOCAL};
+use super::mesh;
+
+/// Keys of which a scene gives exactly one, or at most one.
+#[derive(Debug, Clone, Copy)]
+pub struct Group {
+    /// Table they belong to.
+    pub section: &'static str,
+    /// The alternatives, each with the keys that have a meaning only beside it.
+    pub members: &'static [(&'static str, &'static [&'static str])],
+    /// Whether one must be given.
+    pub required: bool,
+    /// Full path of a table beside which none must be given all the same.
+    pub unless: Option<&'static str>,
+}
+
+impl Group {
+    /// Whether one is to be chosen at all: alternatives in an inline table mean nothing where that is not given.
+    pub fn applies(&self, given: impl Fn(&str) -> bool) -> bool {
+        self.members
+            .iter()
+            .all(|(name, _)| name.rsplit_once('.').is_none_or(|(table, _)| given(&join(self.section, table))))
+    }
+
+    /// Whether one must be given in a scene that has these tables.
+    pub fn is_required(&self, given: impl Fn(&str) -> bool) -> bool {
+        self.required && !self.unless.is_some_and(given)
+    }
+
+    /// Whether this name is one of the alternatives.
+    fn has(&self, name: &str) -> bool {
+        self.members.iter().any(|(member, _)| *member == name)
+    }
+
+    /// The alternatives as a list: `file, synthetic, flat`.
+    pub fn names(&self) -> String {
+        self.members.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
+    }
+}
+
+const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
+const FILE: &[&str] = &["dataset", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
+const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
+
+const TEXTURES: &[(&str, &[&str])] = &[
+    ("synthetic.correlation_length", &["synthetic.correlation_length_across"]),
+    ("synthetic.roll_off", &["synthetic.hurst", "synthetic.short_cutoff"]),
+];
+
+/// What is done where a patch is smaller than ring or pin.
+const BEYOND_THE_PATCH: &[(&str, &[&str])] = &[("repeat", &[]), ("extend", &["extend_seed"])];
+
+/// Keys that exclude each other.
+pub const GROUPS: &[Group] = &[
+    Group {
+        section: "operation",
+        members: &[("rotational_speed", &[]), ("sliding_speed", &[])],
+        required: true,
+        unless: Some(CYCLE),
+    },
+    Group { section: "operation", members: &[("duration", &[]), ("steps", &[])], required: true, unless: Some(CYCLE) },
+    Group {
+        section: "operation",
+        members: &[("cycle.file", &[]), ("cycle.points", &[])],
+        required: true,
+        unless: None,
+    },
+    Group { section: "disc.surface", members: HEIGHT_SOURCES, required: true, unless: None },
+    Group { section: "disc.surface", members: TEXTURES, required: true, unless: None },
+    Group { section: "disc.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
+    Group {
+        section: "pin.base",
+        members: &[("synthetic", &[]), ("image", IMAGE), ("file", &["dataset"]), ("uniform", &[])],
+        required: true,
+        unless: None,
+    },
+    Group { section: "pin.surface", members: HEIGHT_SOURCES, required: true, unless: None },
+    Group { section: "pin.surface", members: TEXTURES, required: true, unless: None },
+    Group { section: "pin.prepare", members: BEYOND_THE_PATCH, required: false, unless: None },
+    Group {
+        section: "output",
+        members: &[("sample_every", &[]), ("sample_every_steps", &[])],
+        required: false,
+        unless: None,
+    },
+    Group { section: "plateaus", members: &[("debris", &[]), ("debris_pool", &[])], required: false, unless: None },
+];
+
+impl Key {
+    /// The group of alternatives of which the key is one.
+    pub fn group(&self) -> Option<&'static Group> {
+        GROUPS.iter().find(|group| group.section == self.section && group.has(self.name))
+    }
+}
+
+/// A key that has no meaning beside a value of another, and why.
+#[derive(Debug, Clone, Copy)]
+pub struct Meaningless {
+    /// The value that takes its meaning.
+    pub beside: Choose,
+    /// Full path of the key.
+    pub key: &'static str,
+    /// What the value does instead.
+    pub reason: &'static str,
+}
+
+/// Keys that have no meaning beside a value of another key.
+pub const MEANINGLESS: &[Meaningless] = &[
+    Meaningless { beside: mesh::PIN_IS_ROUND, key: "mesh.pin_length", reason: "a round pin is as long as it is wide" },
+    Meaningless {
+        beside: mesh::PIN_IS_A_RECTANGLE,
+        key: "mesh.pin_diameter",
+        reason: "a rectangle covers all rows and pin_columns",
+    },
+    Meaningless {
+        beside: DEBRIS_IS_LOCAL,
+        key: "plateaus.pad_share",
+        reason: "local debris goes to the pin up to the plateau ahead and then to the disc",
+    },
+    Meaningless {
+        beside: DEBRIS_IS_LOCAL,
+        key: "plateaus.destruction",
+        reason: "with local debris no plateau falls for want of support, it goes when it is worn through",
+    },
+];
