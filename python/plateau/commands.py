@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import pandas
 import xarray
 
-from plateau.errors import InputTypeError, PlateauWarning
-from plateau.program import call, listen
+from plateau.errors import InputError, InputTypeError, PlateauWarning
+from plateau.program import call, file_name, listen
 from plateau.run_file import open_run
 from plateau.study import Study, open_study, read_table
 from plateau.times import seconds
@@ -91,9 +91,9 @@ def run(
     Traceback (most recent call last):
     plateau.errors.InputError: set["operation.normal_force"] = 1: ... 1 has no unit, expected a force such as "47 N" (N, kN, mN)
     """
-    arguments = ["run", scene, *_scene_arguments(set, workers)]
+    arguments = ["run", file_name(scene, "a scene"), *_scene_arguments(set, workers)]
     if output is not None:
-        arguments += ["--output", output]
+        arguments += ["--output", file_name(output, "a run file")]
     if extend_to is not None:
         arguments += ["--extend-to", extend_to if isinstance(extend_to, str) else f"{seconds(extend_to)!r} s"]
     arguments += [flag for flag, given in (("--force", force), ("--resume", resume)) if given]
@@ -125,7 +125,7 @@ def check(scene: Path, *, set: Mapping[str, Any] | None = None, workers: int | s
     >>> check("quick.toml", set={"mesh.rows": 10, "output.file": "ten-rows.h5"})["rows"]
     10
     """
-    return dict(call(["check", scene, *_scene_arguments(set, workers)], progress=False))
+    return dict(call(["check", file_name(scene, "a scene"), *_scene_arguments(set, workers)], progress=False))
 
 
 def sweep(
@@ -170,7 +170,7 @@ def sweep(
     >>> results.table["load [N]"].tolist()
     [5.0, 10.0]
     """
-    arguments = ["sweep", "run", study]
+    arguments = ["sweep", "run", file_name(study, "a study")]
     for flag, value in (("--jobs", jobs), ("--workers", workers), ("--max-failures", max_failures)):
         if value is not None:
             arguments += [flag, str(value)]
@@ -191,7 +191,7 @@ def collect(study: Path) -> Study:
     Study
         Table and data; runs without result have the state ``missing`` or ``failed``.
     """
-    collected = call(["sweep", "collect", study], progress=False)
+    collected = call(["sweep", "collect", file_name(study, "a study")], progress=False)
     return open_study(os.path.dirname(collected["files"][0]))
 
 
@@ -230,7 +230,7 @@ def effects(
     >>> bool(found.table.loc[("contact area", "load"), "effect"] > 0)
     True
     """
-    arguments = ["sweep", "effects", study]
+    arguments = ["sweep", "effects", file_name(study, "a study")]
     for flag, value in (("--model", model), ("--confidence", confidence), ("--output", output)):
         if value is not None:
             arguments += [flag, str(value)]
@@ -302,6 +302,8 @@ def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | Non
     if changes is not None and not isinstance(changes, Mapping):
         raise InputTypeError(f'set = {changes!r}: expected a dictionary, such as set={{"operation.normal_force": "20 N"}}')
     for key, value in (changes or {}).items():
+        if not isinstance(key, str) or "=" in key:
+            raise InputError(f"set: {key!r} is not a key of a scene, expected text such as \"operation.normal_force\"")
         arguments += ["--set", f"{key}={_toml(value)}"]
     if workers is not None:
         arguments += ["--workers", str(workers)]

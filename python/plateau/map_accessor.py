@@ -157,9 +157,14 @@ class MapAccessor:
         """
         if "map_time" not in self._cells.dims:
             return self._cells
+        if self._cells.sizes["map_time"] == 0:
+            raise InputError("no map has been recorded yet: open the run again when it has gone on")
         if time is None:
             return self._cells.isel(map_time=-1)
-        return self._cells.sel(map_time=seconds(time), method="nearest")
+        wanted = seconds(time)
+        if np.isnan(wanted):
+            raise InputError(f"time = {time!r}: expected a time in s, or text with a unit such as \"1 min\"")
+        return self._cells.sel(map_time=wanted, method="nearest")
 
     def plot(self, time: float | str | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
         """Draws the map, unrolled or as the ring that it is, with the colours of the program's figures; needs matplotlib.

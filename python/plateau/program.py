@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from plateau.errors import InputError, PlateauError, PlateauWarning, error_of, in_python
+from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of, in_python
 from plateau.progress import Follow, follow_pipe, follow_terminal, shower
 
 # What every message of the program begins with.
@@ -94,6 +94,36 @@ def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = No
     return json.loads(document) if document.strip() else None
 
 
+def file_name(path: str | os.PathLike[str], what: str) -> str:
+    """A path as an argument that is not taken for an option.
+
+    Parameters
+    ----------
+    path : str or path
+    what : str
+        What it is to be the path of, for messages.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputTypeError
+        If it is no path.
+
+    Examples
+    --------
+    >>> file_name("-x.toml", "a scene")
+    './-x.toml'
+    """
+    try:
+        name = os.fsdecode(path)
+    except TypeError as error:
+        raise InputTypeError(f"{path!r}: expected the path of {what}") from error
+    return os.path.join(".", name) if name.startswith("-") else name
+
+
 def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None, stacklevel: int = 3) -> str:
     """Calls the program and gives what it prints on standard output.
 
@@ -115,7 +145,10 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
     PlateauError
         With the message of the program. Its warnings are given as `PlateauWarning`.
     """
-    command = [find_program(), *[os.fspath(argument) for argument in arguments]]
+    try:
+        command = [find_program(), *[os.fspath(argument) for argument in arguments]]
+    except TypeError as error:
+        raise InputTypeError(f"{error}: expected a path or text") from error
     for argument in command:
         if (b"\0" if isinstance(argument, bytes) else "\0") in argument:
             raise InputError(f"{argument!r} has a character 0, which no argument of a program can have: take it out")

@@ -93,7 +93,7 @@ class RunAccessor:
         >>> plateau.open_run("quick.h5").plateau.mean("filled_fraction", "30 s", "1 min").start
         30.0
         """
-        time = self._values("time")
+        time = self._sample_times()
         if series in TOTALS and series in self._run["series"]:
             raise InputError(
                 f"{series} is a total since the start of the run, and its mean says nothing: "
@@ -136,7 +136,7 @@ class RunAccessor:
         values = self._values(f"series/{series}")
         if series not in TOTALS:
             raise InputError(f"{series} is no total since the start of the run: take mean({series!r})")
-        return self._mean_of(self._values("time"), values, start, end)
+        return self._mean_of(self._sample_times(), values, start, end)
 
     def _mean_of(self, time: Array, integral: Array, start: float | str | None, end: float | str | None) -> Mean:
         revolutions = self._revolutions()
@@ -225,6 +225,13 @@ class RunAccessor:
 
     def _values(self, name: str) -> Array:
         return np.asarray(array(self._run, name).values, dtype=np.float64)
+
+    def _sample_times(self) -> Array:
+        """Times of the samples, of which there has to be one."""
+        time = self._values("time")
+        if time.size == 0:
+            raise InputError("the run has no sample yet, so there is no mean: open it again when it has gone on")
+        return time
 
     def _revolutions(self) -> Array | None:
         """Simulated revolutions until every sample: one stands for as many as the time acceleration says."""

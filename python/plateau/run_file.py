@@ -3,6 +3,7 @@
 import difflib
 import importlib.util
 import os
+import time
 from typing import Any
 
 import h5py
@@ -12,6 +13,10 @@ from plateau.errors import InputError, InputTypeError, MissingFileError, Missing
 
 # What every HDF5 file begins with.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
+# Bytes of a superblock of version 3, which files have that are written while others read them, and where the end of the file stands in it.
+SUPERBLOCK, END_OF_FILE = 48, slice(28, 36)
+# Seconds for which a file may be shorter than its superblock says: the writer sets the end first.
+PATIENCE = 1.0
 # What HDF5 and netCDF keep in attributes for themselves.
 INTERNAL = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
 
@@ -54,6 +59,8 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
         path = os.fsdecode(path)
     except TypeError as error:
         raise InputTypeError(f"{path!r}: expected the path of a run file") from error
+    if not path:
+        raise InputError("the path of a run file is empty: name one")
     if os.path.isdir(path):
         raise InputError(f"{path}: this is a folder, expected a run file; plateau.open_study opens the results of a study")
     # To open a pipe would wait for whoever writes into it.
@@ -77,6 +84,7 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
             return xarray.open_datatree(path, engine="h5netcdf")
         except (OSError, KeyError, RuntimeError) as error:
             raise _unreadable(path, error) from error
+    _refuse_cut(path)
     try:
         with h5py.File(path, "r", swmr=True) as file:
             _state(file, path)
@@ -133,6 +141,21 @@ def _is_marked(path: str | os.PathLike[str]) -> bool:
     with open(path, "rb") as file:
         superblock = file.read(12)
     return superblock.startswith(SIGNATURE) and len(superblock) == 12 and superblock[8] >= 3 and superblock[11] != 0
+
+
+def _refuse_cut(path: str) -> None:
+    """Refuses a copy that was cut short of a file that is marked as written: HDF5 would wait for what is missing."""
+    until = time.monotonic() + PATIENCE
+    while True:
+        with open(path, "rb") as file:
+            superblock = file.read(SUPERBLOCK)
+        end = int.from_bytes(superblock[END_OF_FILE], "little") if len(superblock) == SUPERBLOCK else SUPERBLOCK
+        size = os.path.getsize(path)
+        if size >= end:
+            return
+        if time.monotonic() >= until:
+            raise InputError(f"{path}: cannot be read as a run file: it was cut short, to {size} bytes of {end} or more: copy it again")
+        time.sleep(PATIENCE / 10)
 
 
 def _state(file: Any, path: str | os.PathLike[str]) -> Any:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pandas
 import xarray
 
-from plateau.errors import InputError, MissingFileError
+from plateau.errors import InputError, InputTypeError, MissingFileError
 
 
 class Study(NamedTuple):
@@ -53,7 +53,10 @@ def open_study(path: str | os.PathLike[str]) -> Study:
     >>> data["contact_area"].dims
     ('run', 'time')
     """
-    folder = Path(path)
+    try:
+        folder = Path(path)
+    except TypeError as error:
+        raise InputTypeError(f"{path!r}: expected the folder of the results, or the study file") from error
     if folder.suffix == ".toml":
         folder = folder.parent / _directory(folder)
     csv, hdf5 = folder / "results.csv", folder / "results.h5"

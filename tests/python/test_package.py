@@ -148,6 +148,20 @@ class Runs(InFolder):
             plateau.check("wrong.toml")
         self.assertIs(type(caught.exception), plateau.InputError)
 
+    def test_what_is_no_path_and_what_is_no_key(self):
+        for call in (plateau.run, plateau.check, plateau.sweep, plateau.collect, plateau.effects, plateau.open_study, plateau.open_run):
+            for wrong in (None, 3, {}):
+                if (call, wrong) != (plateau.open_run, 3):  # the number of an open file
+                    self.assertRaises(plateau.InputTypeError, call, wrong)
+        with self.assertRaisesRegex(plateau.InputError, "is empty"):
+            plateau.open_run("")
+        for key in ("mesh.rows=3", 5):
+            with self.assertRaisesRegex(plateau.InputError, "is not a key of a scene"):
+                plateau.check("quick.toml", set={key: 1})
+        # What begins as an option does is a file nevertheless.
+        pathlib.Path("-h").write_text('extends = "quick.toml"\n')
+        self.assertEqual(plateau.check("-h", set={"mesh.rows": 10})["rows"], 10)
+
     def test_any_command(self):
         said = 'for word; do printf "<%s>" "$word"; done'
         with stand_in(said):

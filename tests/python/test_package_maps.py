@@ -357,6 +357,16 @@ class Unfinished(InFolder):
         process.wait()
         killed = plateau.open_run("going.h5")
         self.assertEqual(killed.attrs["state"], "running")
+        whole = pathlib.Path("going.h5").read_bytes()
+        for length in (12, 48, 2048, len(whole) // 2):
+            pathlib.Path("cut.h5").write_bytes(whole[:length])
+            with self.assertRaisesRegex(plateau.InputError, f"cut.h5: cannot be read as a run file: it was cut short, to {length} bytes"):
+                plateau.open_run("cut.h5")
+        with self.assertRaisesRegex(plateau.InputError, "no sample yet"):
+            killed.isel(time=slice(0, 0)).plateau.mean()
+        for look in ("at_time", "plot"):
+            with self.assertRaisesRegex(plateau.InputError, "no map has been recorded yet"):
+                getattr(killed["disc/height"].isel(map_time=slice(0, 0)).plateau, look)()
         for run in looks:
             count = len(run["time"])
             for name in ("contact_area", "emitted"):

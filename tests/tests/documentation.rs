@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
-use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity};
+use plateau_core::observe::{EXTRAS, Map, QUANTITIES, Quantity, TOTALS, quantities};
 use plateau_io::scene::schema::{self, Key, Kind, Need, Range, WAYS};
 
 /// The text between the two marks of a table in a document is this, or is made so.
@@ -249,6 +249,19 @@ fn every_series_is_documented() {
     expect_table("run-file.md", "series", &series(QUANTITIES));
     for extra in EXTRAS {
         expect_table("run-file.md", &format!("{} series", extra.name.replace('_', " ")), &series(extra.quantities));
+    }
+}
+
+#[test]
+fn python_knows_the_same_totals() {
+    let text = include_str!("../../python/plateau/run_accessor.py");
+    let (_, list) = text.split_once("TOTALS = frozenset(").expect("the totals in Python");
+    let (list, _) = list.split_once(".split()").expect("the end of their list");
+    let of_python: std::collections::BTreeSet<_> =
+        list.split(['"', ' ', '\n']).filter(|name| !name.is_empty()).collect();
+    assert_eq!(of_python, TOTALS.iter().copied().collect());
+    for total in TOTALS {
+        assert!(quantities(EXTRAS).any(|quantity| quantity.name == *total), "{total} is no series");
     }
 }
 

@@ -108,7 +108,15 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     assert!(said.contains("note: spikes.csv: 4 of 3600 points are spikes") && said.contains("outliers = 6"), "{said}");
     let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
     for line in
-        ["outliers = 6 ", "fill = \"interpolate\"", "sliding_speed = \"3 m/s\"", "maps_at = [\"0 s\"]", "# rotate = "]
+        // 3 m/s at 22 mm are 3/0.022 rad/s.
+        [
+            "or rotational_speed = \"1302 rpm\"",
+            "outliers = 6 ",
+            "fill = \"interpolate\"",
+            "sliding_speed = \"3 m/s\"",
+            "maps_at = [\"0 s\"]",
+            "# rotate = ",
+        ]
     {
         assert!(text.contains(line), "{line} in\n{text}");
     }
@@ -120,6 +128,28 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("afm.sdf")).unwrap();
     let said = directory.plateau(["new", "afm.toml", "--disc", "afm.sdf"]).quiet_success();
     assert!(said.contains("is read as 12.8 mm by 12.8 mm"), "{said}");
+}
+
+#[test]
+fn a_distance_of_points_that_nobody_states_is_asked_for() {
+    let directory = WorkingDirectory::new();
+    let row =
+        |j: u32| (0..200).map(|i| format!("{:.4}", f64::from((i * i + 3 * j * j) % 23))).collect::<Vec<_>>().join(",");
+    directory.write("matrix.csv", (0..200).map(|j| row(j) + "\n").collect::<String>());
+    let new = ["new", "mine.toml", "--disc", "matrix.csv", "--unit", "um"];
+    let refused = directory.plateau(new);
+    assert_eq!(refused.status, Some(2), "{}", refused.stdout);
+    assert!(refused.stderr.contains("how far its points are apart: give --pitch"), "{}", refused.stderr);
+    assert_eq!(directory.names(), ["matrix.csv"]);
+    directory.plateau([&new[..], &["--pitch", "5 um"]].concat()).quiet_success();
+    assert!(fs::read_to_string(directory.path("mine.toml")).unwrap().contains("pitch = \"5 um\""));
+    // The same with numbers of lines in front and of columns above, as tables of Python are saved.
+    let head = (0..200).map(|i| format!(",{i}")).collect::<String>() + "\n";
+    directory.write("labels.csv", head + &(0..200).map(|j| format!("{j},{}\n", row(j))).collect::<String>());
+    let described = directory.plateau(["surface", "labels.csv", "--unit", "um", "--pitch", "5 um"]);
+    for what in ["the first column counts evenly to 199, from 0 on", "the first line counts evenly to 199"] {
+        assert!(described.status == Some(0) && described.stderr.contains(what), "{}", described.stderr);
+    }
 }
 
 #[test]
@@ -135,7 +165,11 @@ fn a_unit_that_can_hardly_be_meant_is_told_at_once() {
     assert_eq!(refused.status, Some(2), "{}", refused.stdout);
     let advice =
         r#"points 25 nm by 25 nm apart, 1.5 um by 1.5 um in all; if they are in mm, say pitch = ["25 um", "25 um"]"#;
-    assert!(refused.stderr.contains(advice) && refused.stderr.contains("(here: --pitch)"), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains(advice) && refused.stderr.contains("(on the command line: --pitch)"),
+        "{}",
+        refused.stderr
+    );
     let described = directory.plateau(["surface", "probe.xyz", "--unit", "um"]);
     assert!(described.status == Some(0) && described.stderr.contains(advice), "{}", described.stderr);
     // In a scene that tiles it: the first warning names the cause.

@@ -339,6 +339,7 @@ fn what_is_wrong_with_a_study_is_said_before_anything_runs() {
         ("at = \"end\"", "at = \"end\"\nmean = [\"1 s\", \"2 s\"]"),
         ("mean = [\"1 s\", \"3 s\"]", "mean = [\"3 s\", \"1 s\"]"),
         ("mean = [\"1 s\", \"3 s\"]", "mean = \"last fifth\""),
+        ("dataset = \"/series/filled_fraction\"", "dataset = \"/series/worn_pin\""),
         ("directory = \"results\"", "directory = \"results\"\npoints = 5"),
         ("directory = \"results\"", "directory = \"results\"\nfoo = 5"),
         ("levels = [0.2, 0.3, 0.4]", "range = [0.4, 0.2]"),

@@ -21,7 +21,7 @@ fn what_is_asked_to_keep_a_limit_lies_on_it() {
     }
     // Where the limit lies is named in the figure.
     let contour = fs::read_to_string(directory.path("results/optimum/contour.svg")).unwrap();
-    assert!(contour.contains("worn ≤ 4 10⁻³ mm³"), "the limit has no name in the figure");
+    assert!(contour.contains("worn ≤ 4·10⁻³ mm³"), "the limit has no name in the figure");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::quantity::length;
 #[derive(Debug, Clone, Args)]
 pub struct ReadArguments {
     /// What the number 1 stands for in a file that does not say so, such as um
-    #[arg(long, value_name = "UNIT", value_parser = said(unit))]
+    #[arg(long, value_name = "UNIT", allow_hyphen_values = true, value_parser = said(unit))]
     pub unit: Option<Said<f64>>,
     /// Distance of the points of a file that does not say so, such as "0.5 um", or "0.5 um, 2 um" along x and y
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = said(pitch))]
@@ -85,7 +85,7 @@ pub fn as_options(message: &str) -> String {
     };
     let named: Vec<String> =
         keys.iter().filter(|key| is_named(key)).map(|key| format!("--{}", key.replace('_', "-"))).collect();
-    if named.is_empty() { String::new() } else { format!(" (here: {})", named.join(", ")) }
+    if named.is_empty() { String::new() } else { format!(" (on the command line: {})", named.join(", ")) }
 }
 
 /// A parser that keeps the words.
@@ -96,9 +96,12 @@ fn said<T>(parse: fn(&str) -> Result<T, String>) -> impl Fn(&str) -> Result<Said
 /// A value of `--unit`.
 fn unit(text: &str) -> Result<f64, String> {
     // A unit alone, or what the number 1 stands for, as in a scene.
-    length(&format!("1 {text}"))
-        .or_else(|_| length(text))
-        .map_err(|_| "expected a unit of length: m, mm, um, nm".to_owned())
+    let unit = length(&format!("1 {text}")).or_else(|_| length(text));
+    match unit {
+        Err(_) => Err("expected a unit of length: m, mm, um, nm".to_owned()),
+        Ok(unit) if unit > 0.0 => Ok(unit),
+        Ok(_) => Err("expected more than 0".to_owned()),
+    }
 }
 
 /// A value of `--pitch`.
@@ -137,9 +140,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_unit_is_more_than_0() {
+        assert_eq!(unit("um"), Ok(1e-6));
+        assert_eq!(unit("2.5 nm"), Ok(2.5e-9));
+        assert_eq!([unit("0 um"), unit("-1 um")], [(); 2].map(|()| Err("expected more than 0".to_owned())));
+        assert!(unit("kg").unwrap_err().contains("a unit of length"));
+    }
+
+    #[test]
     fn a_key_that_a_message_names_is_told_as_its_option() {
-        assert_eq!(as_options("unit = \"um\" below file in the scene does"), " (here: --unit)");
-        assert_eq!(as_options("say profile_lay = \"along\" below file in the scene"), " (here: --profile-lay)");
+        assert_eq!(as_options("unit = \"um\" below file in the scene does"), " (on the command line: --unit)");
+        assert_eq!(
+            as_options("say profile_lay = \"along\" below file in the scene"),
+            " (on the command line: --profile-lay)"
+        );
         assert_eq!(as_options("the file has no line of numbers"), "");
         assert_eq!(as_options("sub_unit = 3"), "");
     }

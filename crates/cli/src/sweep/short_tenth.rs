@@ -14,7 +14,7 @@ pub fn say(study: &Study, lengths: &[RunLength]) {
     let names: Vec<String> = asks.map(|response| format!("\"{}\"", response.name)).collect();
     if let (false, Some(what)) = (names.is_empty(), longer(lengths)) {
         let responses = if names.len() == 1 { "response" } else { "responses" };
-        message::note(format_args!("{}: {responses} {}: {what}", study.path.display(), brief::list(names, ", ")));
+        message::note(format_args!("note: {}: {responses} {}: {what}", study.path.display(), brief::list(names, ", ")));
     }
 }
 

@@ -30,7 +30,7 @@ pub mod window_mean;
 
 use self::extra::Extra;
 pub use self::map::{ABSENT, Map, MapValues, Snapshot};
-pub use self::quantity::{QUANTITIES, Quantity};
+pub use self::quantity::{QUANTITIES, Quantity, TOTALS};
 pub use self::sample::Sample;
 
 /// The table of series that not every run has, in the order of a run file. Scenes (`output.NAME`), run files, exports,

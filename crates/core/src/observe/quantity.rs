@@ -84,3 +84,23 @@ pub const QUANTITIES: &[Quantity] = quantities! {
     load_residual, "1", "relative residual of the load balance";
     balance_residual, "1", "relative residual of the debris balance";
 };
+
+/// Series that are totals since the start of a run: they only grow, and their mean over a time says nothing.
+pub const TOTALS: &[&str] = &[
+    "contact_area_integral",
+    "sliding_distance",
+    "road_distance",
+    "worn_pin",
+    "worn_resin",
+    "worn_disc",
+    "emitted",
+    "deposited_pin",
+    "deposited_disc",
+    "returned",
+    "friction_work",
+    "heat_lost",
+    "emitted_mass",
+    "pm10_mass",
+    "pm25_mass",
+    "particle_number",
+];

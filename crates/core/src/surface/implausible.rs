@@ -12,8 +12,10 @@ const STEEPEST: f64 = 5.0;
 const FEWEST: usize = 5;
 /// Heights that tell the quartiles of all, about.
 const MOST_LOOKED_AT: usize = 100_000;
-/// Times the interquartile range of all others that this height is from them at least.
+/// Times the interquartile range of all others that this height is from their quartiles at least.
 const FAR: f64 = 10.0;
+/// The same of the height 0, from the nearest of the others: that is what most often stands for no height, and it may be near them.
+const GAP_OF_ZERO: f64 = 2.0;
 
 /// What of a measured surface hints at another unit: its pitch along x and y, if it is known, its rms height, both m, or its slopes, for heights in
 /// a wrong unit are steep as well. The heights are as of [`odd_slope`].
@@ -103,8 +105,13 @@ pub fn stand_in(heights: &[f64]) -> Option<String> {
         let quarter = others.len() / 4;
         let mut at = |place: usize| *others.select_nth_unstable_by(place, f64::total_cmp).1;
         let [low, high] = [at(quarter), at(3 * quarter)];
-        let is_far = (low - end).max(end - high) > FAR * (high - low) && high > low;
-        is_far.then(|| {
+        let width = high - low;
+        let gap = || {
+            let others = heights.iter().filter(|height| height.is_finite() && **height != end);
+            others.fold(f64::INFINITY, |gap, height| gap.min((height - end).abs()))
+        };
+        let is_far = (low - end).max(end - high) > FAR * width || end == 0.0 && gap() > GAP_OF_ZERO * width;
+        (is_far && width > 0.0).then(|| {
             format!(
                 "{count} points have the height {}, far from all others, of which half are {} to {}: if it stands for points \
                  without a height, write NaN in its place",
@@ -161,6 +168,15 @@ mod tests {
         let mut mostly: Vec<f64> = (0..1000).map(tilted).collect();
         mostly.iter_mut().enumerate().filter(|(at, _)| at % 5 != 0).for_each(|(_, height)| *height = -9999e-6);
         assert!(stand_in(&mostly).unwrap().starts_with("800 points have the height"));
+        // 0 is near heights of 6 to 20 um, and no other is near it.
+        let near = |number: usize| if number.is_multiple_of(25) { 0.0 } else { 6e-6 + 0.014e-6 * number as f64 };
+        let mut zeros: Vec<f64> = (0..1000).map(near).collect();
+        assert!(stand_in(&zeros).is_none(), "the range between the quartiles is wider than the gap");
+        zeros.iter_mut().filter(|height| **height > 0.0).for_each(|height| *height = 6e-6 + *height / 10.0);
+        assert!(stand_in(&zeros).unwrap().starts_with("40 points have the height 0 m, far from all others"));
+        // Heights that begin at 0, as some programs save them.
+        let from_zero: Vec<f64> = (0..1000).map(|number| tilted(number / 10)).collect();
+        assert_eq!(stand_in(&from_zero), None);
         // A detector that is cut off, two spikes, and a surface of two levels are none.
         let cut: Vec<f64> = (0..1000).map(|number| tilted(number).min(45e-6)).collect();
         let mut spikes: Vec<f64> = (0..1000).map(tilted).collect();

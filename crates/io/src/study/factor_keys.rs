@@ -120,6 +120,10 @@ fn levels(levels: &Spanned<Vec<Spanned<toml::Value>>>, key: &str, place: &Place<
     if let Some(at) = list.iter().position(|level| !known.insert(level.text.as_str())) {
         return refuse(at, format!("{} is there twice", list[at].text));
     }
+    let equal = |at: &usize| list[..*at].iter().any(|level| level.number.is_some() && level.number == list[*at].number);
+    if let Some(at) = (0..list.len()).find(equal) {
+        return refuse(at, format!("{} is there twice, in other words", list[at].text));
+    }
     if let Some(other) = key.is_empty().then(|| Factor::in_another_unit(&list)).flatten() {
         return Err(place.problem(levels, "factor.levels", format!("{}: expected all in the same unit", other.text)));
     }

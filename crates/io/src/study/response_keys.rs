@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use plateau_core::observe::event::{EVENT_QUANTITIES, event_quantity};
-use plateau_core::observe::{EXTRAS, quantities};
+use plateau_core::observe::{EXTRAS, TOTALS, quantities};
 use plateau_study::effects::Transform;
 use toml::{Spanned, Value};
 
@@ -53,7 +53,7 @@ pub(super) fn responses(
                 let series = series.unwrap_or_default();
                 let question = match &table.measured_file {
                     Some(file) => of_file(table, file, &series, folder, place)?,
-                    None => question(table, place)?,
+                    None => question(table, &series, place)?,
                 };
                 Ok((series, question))
             }),
@@ -73,7 +73,7 @@ pub(super) fn responses(
     responses
 }
 
-fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
+fn question(table: &Table, series: &str, place: &Place<'_>) -> Result<Question, Problem> {
     let time = |text: &Spanned<String>, key: &str| {
         let time =
             parse(text.get_ref(), Dimension::Time).map_err(|error| place.problem(text, key, error.to_string()))?;
@@ -106,6 +106,13 @@ fn question(table: &Table, place: &Place<'_>) -> Result<Question, Problem> {
             }
         },
         (None, Some(mean), None) => {
+            if TOTALS.contains(&series) {
+                let message = format!(
+                    "{series} is a total since the start of the run, and its mean says nothing: at = \"end\" is how much it is \
+                     at the end, and the difference of two responses, such as at = \"50 s\" and at = \"100 s\", how much is added between"
+                );
+                return Err(place.problem(mean, "response.mean", message));
+            }
             let Mean::Between([from, to]) = mean.get_ref() else { return Ok(Question::MeanOfLastTenth) };
             let (start, end) = (time(from, "response.mean")?, time(to, "response.mean")?);
             if start < end {
@@ -196,6 +203,14 @@ pub(super) fn series_name(
     let known = || quantities(EXTRAS).map(|quantity| quantity.name);
     if known().any(|known| known == name) {
         return Some(name.to_owned());
+    }
+    if let Some(event) = name.trim_start_matches('/').strip_prefix(EVENT).filter(|name| event_quantity(name).is_some())
+    {
+        let message = format!(
+            "/{EVENT}{event} is of events, which are asked for with event = 3, event = \"last\" or event = \"mean\""
+        );
+        problems.push(place.problem(found, key, message));
+        return None;
     }
     let nearest = schema::nearest(name, known()).map_or_else(
         || format!("; the series are {}", known().collect::<Vec<_>>().join(", ")),

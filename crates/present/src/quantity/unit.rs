@@ -181,6 +181,11 @@ impl Unit {
 
     /// A number with the unit behind it.
     pub fn with_symbol(&self, number: &str) -> String {
+        // A power of ten is a factor of all that stands before it.
+        if self.symbol.starts_with("10") {
+            let number = if number.contains(' ') { format!("({number})") } else { number.to_owned() };
+            return format!("{number}·{}", self.symbol);
+        }
         format!("{number} {}", self.symbol).trim_end().to_owned()
     }
 }

@@ -54,7 +54,7 @@ impl<'a> WorkQueue<'a> {
         }
     }
 
-    /// Does all pieces, on so many threads.
+    /// Does all pieces, on so many threads, or as many as there are pieces.
     ///
     /// # Errors
     /// When the system gives no threads.
@@ -63,8 +63,10 @@ impl<'a> WorkQueue<'a> {
         jobs: usize,
         work: &(dyn Fn(usize) -> PieceEnd + Sync),
     ) -> Result<(), rayon::ThreadPoolBuildError> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build()?;
-        pool.scope(|scope| (0..jobs).for_each(|_| scope.spawn(|_| self.work(work))));
+        // A thread without a piece would only wait; thousands of them keep a machine busy.
+        let threads = jobs.min(self.pieces.len()).max(1);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| self.work(work))));
         Ok(())
     }
 }
@@ -93,6 +95,17 @@ mod tests {
         assert_eq!(done(1000, None, |_| PieceEnd::Done), (1..=1000).collect::<Vec<_>>());
         assert!(done(0, None, |_| PieceEnd::Done).is_empty());
         assert_eq!(done(100, None, |_| PieceEnd::Failed).len(), 100);
+    }
+
+    #[test]
+    fn no_thread_is_without_a_piece() {
+        let threads = Mutex::new(0);
+        let work = |_| {
+            *threads.lock().unwrap() = rayon::current_num_threads();
+            PieceEnd::Done
+        };
+        WorkQueue::new(&[1, 2, 3], None).share(10_000, &work).unwrap();
+        assert_eq!(threads.into_inner().unwrap(), 3);
     }
 
     #[test]

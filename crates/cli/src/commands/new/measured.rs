@@ -17,15 +17,15 @@ use crate::{message, number};
 pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(String, Vec<String>), Failure> {
     let named = |reason: &dyn fmt::Display| Failure::input(format_args!("{}: {reason}", disc.display()));
     let measured = read(disc, reading).map_err(|reason| named(&reason))?;
+    if measured.pitch.is_none() {
+        return Err(named(&"it does not say how far its points are apart: give --pitch, such as --pitch \"5 um\""));
+    }
     let too_small = smaller_than_cells(&measured);
     if let (Some(_), true, [warning, ..]) = (&too_small, measured.is_pitch_assumed, &measured.warnings[..]) {
         return Err(named(&format_args!("{warning}{}", as_options(warning))));
     }
     let mut lines = vec![line("file", path_from(scene, disc).map_err(|reason| named(&reason))?, "<-")];
     lines.extend(reading.keys().into_iter().map(|(key, value)| line(key, value, "<-")));
-    if measured.pitch.is_none() {
-        lines.push(line("pitch", "1 um", "<- the file does not say how far its points are apart"));
-    }
     let mut notes = Vec::new();
     lines.extend([String::new(), "[disc.prepare]".to_owned()]);
     if measured.profile_lay.is_none() {
@@ -90,8 +90,9 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
 /// Says what of the file can hardly be meant.
 fn warn(disc: &Path, measured: &Measured, rms: Option<f64>) {
     let stand_in = implausible::stand_in(&measured.heights);
-    let units = implausible::odd_units(&measured.heights, measured.rows, measured.pitch, rms.unwrap_or_default());
-    let found = stand_in.into_iter().chain(units);
+    let units = || implausible::odd_units(&measured.heights, measured.rows, measured.pitch, rms.unwrap_or_default());
+    // Numbers that stand for no height make odd heights of any unit.
+    let found = stand_in.map_or_else(|| units().collect(), |found| vec![found]);
     for warning in measured.warnings.iter().cloned().chain(found) {
         message::warning(format_args!("{}: {warning}", disc.display()));
     }

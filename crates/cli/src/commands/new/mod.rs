@@ -3,14 +3,15 @@
 mod measured;
 mod refusal;
 
+use plateau_io::units::{self, Dimension};
 use plateau_io::{plausibility, scene};
 
 use crate::arguments::NewArguments;
 use crate::called;
 use crate::failure::Failure;
-use crate::message;
 use crate::output;
 use crate::table::print;
+use crate::{message, number};
 
 /// The scene with places for what is the user's.
 const SCENE: &str = include_str!("scene.toml");
@@ -60,8 +61,9 @@ fn text(arguments: &NewArguments) -> Result<Written, Failure> {
             ("pin_length", pin_length.as_str(), "<- along sliding"),
         ],
     };
-    let radius = [("mean_radius", radius.as_str(), "<- where the middle of the pin slides")];
-    let mesh: Vec<String> = mesh.iter().chain(&radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
+    let mean_radius = [("mean_radius", radius.as_str(), "<- where the middle of the pin slides")];
+    let mesh: Vec<String> =
+        mesh.iter().chain(&mean_radius).map(|(key, value, remark)| line(key, *value, remark)).collect();
     let mut notes = Vec::new();
     let disc = match disc {
         Some(disc) => {
@@ -78,13 +80,10 @@ fn text(arguments: &NewArguments) -> Result<Written, Failure> {
         }
     };
     let speed_key = arguments.speed_key();
-    let other_speed = match speed_key {
-        "sliding_speed" => "<- at the mean radius; or rotational_speed = \"850 rpm\"",
-        _ => "<- or sliding_speed = \"2 m/s\", at the mean radius",
-    };
+    let other_speed = other_speed(speed_key, speed, radius).unwrap_or_default();
     let operation = [
         line("normal_force", load.as_str(), "<- on the whole pin"),
-        line(speed_key, speed.as_str(), other_speed),
+        line(speed_key, speed.as_str(), &other_speed),
         line("duration", duration.as_str(), "<-"),
     ];
     let name = called::argument(&scene.to_string_lossy());
@@ -104,6 +103,18 @@ fn text(arguments: &NewArguments) -> Result<Written, Failure> {
     ];
     let text = places.iter().fold(SCENE.to_owned(), |text, (place, value)| text.replace(place, value));
     Ok(Written { text, notes })
+}
+
+/// The remark beside the speed: the same by the other key.
+fn other_speed(key: &str, speed: &str, radius: &str) -> Option<String> {
+    let radius = units::parse(radius, Dimension::Length).ok()?;
+    Some(if key == "sliding_speed" {
+        let rotation = units::parse(speed, Dimension::Speed).ok()? / radius * 60.0 / std::f64::consts::TAU;
+        format!("<- at the mean radius, or rotational_speed = \"{} rpm\"", number::rounded(rotation, 4))
+    } else {
+        let sliding = units::parse(speed, Dimension::RotationalSpeed).ok()? * radius;
+        format!("<- or sliding_speed = \"{} m/s\" at the mean radius", number::rounded(sliding, 4))
+    })
 }
 
 /// A key with a value and a remark, as the others stand in the scene.

@@ -51,17 +51,17 @@ impl Subject {
         let Measured { format, columns, rows, pitch, mut heights, notes, mut warnings, .. } = measured;
         // What a run has made of its surfaces is as it is.
         let is_measured = body.is_none();
-        if is_measured {
-            warnings.extend(implausible::stand_in(&heights));
-        }
+        let stand_in = is_measured.then(|| implausible::stand_in(&heights)).flatten();
         level(&mut heights, rows, form, closed);
         let grid = Grid { columns, rows, pitch, heights: &heights };
         let points = heights.len();
         let none = || Failure::input(format_args!("{name}: none of its {points} points has a height"));
         let description = describe(&name, &grid)?.ok_or_else(none)?;
-        if is_measured {
+        // Numbers that stand for no height make odd heights of any unit.
+        if is_measured && stand_in.is_none() {
             warnings.extend(implausible::odd_units(&heights, rows, pitch, description.heights.root_mean_square_height));
         }
+        warnings.extend(stand_in);
         for warning in &warnings {
             message::warning(format_args!("{name}: {warning}"));
         }

@@ -68,7 +68,8 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let interrupt = Interrupt::listen().map_err(Failure::run)?;
     // Else a signal that asks runs for a checkpoint would end all of them; these keep theirs by the clock.
     interrupt.listen_for_save().map_err(Failure::run)?;
-    let (jobs, workers) = (arguments.cores.runs_at_a_time(), arguments.cores.workers());
+    let jobs = arguments.cores.runs_at_a_time().min(pending.len().max(1));
+    let workers = arguments.cores.workers();
     if job.ranks() > 1 && arguments.cores.jobs.is_some() && job.leads() {
         message::warning("each rank makes one run at a time: --jobs has no effect");
     }

@@ -1,6 +1,7 @@
 //! A matrix of heights: each line is a profile along x, the first at y = 0.
 
 use super::error::TextError;
+use super::labels::labels;
 use super::numbers::Numbers;
 use super::table::Table;
 use crate::surface::options::{ReadOptions, agreed_pitch};
@@ -19,7 +20,7 @@ pub(super) fn read(numbers: &Numbers, options: &ReadOptions) -> Result<Table, Te
     for column in 0..columns {
         heights.extend(numbers.values.iter().skip(column).step_by(columns));
     }
-    let warnings = Numbers::stand_in(&heights).into_iter().collect();
+    let warnings = Numbers::stand_in(&heights).into_iter().chain(labels(&heights, rows)).collect();
     numbers.scale(&mut heights, unit)?;
     let pitch = agreed_pitch(header.matrix_pitch(columns, rows), options.pitch)?;
     let notes = vec![format!("matrix, 1 stands for {unit:e} m")];

@@ -6,6 +6,7 @@
 //! | `cells.rs`, `dialect.rs` | the numbers of a line; what parts them, and their decimal mark |
 //! | `beginning.rs` | how many lines stand before the table, where they are not understood |
 //! | `header.rs`, `names.rs`, `numbers.rs` | what stands before the numbers, the names of columns, the whole table |
+//! | `labels.rs` | what stands beside a matrix and is no height |
 //! | `matrix.rs`, `list.rs`, `profile.rs`, `spacing.rs` | what becomes of the table |
 //! | `instrument/` | exports of instruments that have a form of their own |
 //!
@@ -20,6 +21,7 @@ mod dialect;
 mod error;
 mod header;
 mod instrument;
+mod labels;
 mod lengths;
 mod list;
 mod matrix;

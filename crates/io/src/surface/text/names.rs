@@ -30,7 +30,7 @@ pub(super) struct Names {
 /// The columns by what is named in them.
 const X: &[&str] = &["x", "lateral"];
 const Y: &[&str] = &["y", "y1"];
-const Z: &[&str] = &["z", "height", "raw"];
+const Z: &[&str] = &["z", "height", "höhe", "raw"];
 
 impl Names {
     /// Reads names such as "x [um]; y [um]; z [nm]", or "x in µm, y in µm" of a profile; none if the columns of points or
