@@ -186,6 +186,13 @@ fn blocks_that_differ_are_a_part_of_the_uncertainty() {
         let ends = [found.mean_interval, found.run_interval].map(Option::unwrap);
         let found = [found.value, ends[0][0], ends[0][1], ends[1][0], ends[1][1]];
         found.iter().zip(expected).for_each(|(found, expected)| same(*found, *expected, "forecast"));
+        // Figures show the same interval of the mean; that with the seeds of the runs is shorter.
+        let given: Vec<(usize, Setting)> = coded(at).into_iter().enumerate().collect();
+        let [low, high] = effects.mean_at(&given).unwrap().interval.unwrap();
+        same(low, expected[1], "interval of the mean");
+        same(high, expected[2], "interval of the mean");
+        let [with_these, to_these] = effects.predict_at(&given).unwrap().interval.unwrap();
+        assert!(low < with_these && to_these < high, "{low} {with_these} {to_these} {high}");
     }
 }
 

@@ -215,6 +215,11 @@ fn most_ticks(length: f64) -> usize {
     ((length / PER_TICK[0]) as usize + 1).max(2)
 }
 
+/// Ticks that have room on an axis from below upward where they stand as close as their numbers can.
+pub fn closest_ticks_upward(length: f64) -> usize {
+    (length / LEAST_PER_TICK) as usize + 1
+}
+
 /// Ticks that have room on an axis from below upward.
 pub fn most_ticks_upward(length: f64) -> usize {
     let each = PER_TICK[1].min(0.5 * length).max(LEAST_PER_TICK);

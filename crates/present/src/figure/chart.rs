@@ -66,9 +66,21 @@ impl Meaning {
 
 /// Charts in rows of so many, each box so high, below a legend; all of the page's width.
 pub fn page(width: f64, height: f64, across: usize, charts: Vec<Chart>, meanings: &[Meaning]) -> Page {
+    let across = across.max(1);
+    let mut rows: Vec<Vec<Chart>> = Vec::new();
+    for (at, chart) in charts.into_iter().enumerate() {
+        match rows.last_mut() {
+            Some(row) if at % across > 0 => row.push(chart),
+            _ => rows.push(vec![chart]),
+        }
+    }
+    page_of_rows(width, height, across, &rows, meanings)
+}
+
+/// The same with these rows of at most so many, any of which may be shorter.
+pub fn page_of_rows(width: f64, height: f64, across: usize, rows: &[Vec<Chart>], meanings: &[Meaning]) -> Page {
     let mut page = Page { size: [width, 0.0], ..Page::default() };
     let mut top = legend(&mut page, meanings, MARGIN);
-    let rows: Vec<&[Chart]> = charts.chunks(across.max(1)).collect();
     // A column of boxes begins at one place, whichever of them has the widest numbers.
     let room = |column: usize| {
         let charts = rows.iter().filter_map(|row| row.get(column));

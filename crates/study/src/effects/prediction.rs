@@ -24,7 +24,8 @@ impl Effects {
     }
 
     /// The response where some factors, by index, have these settings: averaged over the levels of all others and over
-    /// blocks, with their numbers at the middle of the range.
+    /// blocks, with their numbers at the middle of the range. Its interval is that of the mean with the seeds of the runs;
+    /// [`mean_at`](Self::mean_at) has that with any seeds.
     ///
     /// # Errors
     /// If there is no such factor, a setting does not fit its factor, or a level was never observed.
@@ -37,7 +38,7 @@ impl Effects {
         self.row_at(given).is_ok_and(|row| self.inner.fit.tells(&row))
     }
 
-    fn row_at(&self, given: &[(usize, Setting)]) -> Result<Vec<f64>, EffectsError> {
+    pub(super) fn row_at(&self, given: &[(usize, Setting)]) -> Result<Vec<f64>, EffectsError> {
         let mut settings = vec![None; self.inner.factors.len()];
         for (factor, setting) in given {
             let found = EffectsError::Settings { found: factor + 1, expected: settings.len() };

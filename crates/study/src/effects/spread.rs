@@ -4,9 +4,10 @@
 //! differ by is a part of the uncertainty, and the degrees of freedom are those of Satterthwaite, F. E. (1946): An approximate
 //! distribution of estimates of variance components. Biometrics Bulletin 2, 110–114, doi:10.2307/3002019.
 
+use super::distribution::t_quantile;
 use super::error::EffectsError;
 use super::factor::FactorKind;
-use super::result::{Effects, Squares};
+use super::result::{Effects, Prediction, Squares};
 use crate::design::Setting;
 
 /// A prediction and its variances.
@@ -40,6 +41,11 @@ impl Variance {
         }
         Some(Self { estimate, freedom: estimate * estimate / spread }).filter(|sum| sum.freedom > 0.0)
     }
+
+    /// Half the length of the interval of this confidence.
+    pub fn reach(self, confidence: f64) -> f64 {
+        t_quantile(1.0 - confidence, self.freedom) * self.estimate.sqrt()
+    }
 }
 
 impl Effects {
@@ -48,9 +54,29 @@ impl Effects {
     /// # Errors
     /// If the settings do not fit the factors, or a level was never observed.
     pub(crate) fn spread(&self, settings: &[Setting]) -> Result<Spread, EffectsError> {
+        Ok(self.spread_of(&self.inner.regressors.row(&self.by_value(settings), None)?))
+    }
+
+    /// The response where some factors have these settings, as [`predict_at`](Self::predict_at), with the interval that has the mean of many
+    /// runs in it, whatever their seeds: what a surrogate expects of the mean there. None where the runs do not tell the response.
+    ///
+    /// # Errors
+    /// Those of [`predict_at`](Self::predict_at).
+    pub fn mean_at(&self, given: &[(usize, Setting)]) -> Result<Prediction, EffectsError> {
+        let spread = self.spread_of(&self.row_at(given)?);
+        let mean = spread.mean.filter(|_| self.tells_at(given));
+        let interval = |variance: Variance| {
+            let reach = variance.reach(self.confidence);
+            [spread.value - reach, spread.value + reach]
+        };
+        let standard_error = mean.map(|variance| variance.estimate.sqrt());
+        Ok(Prediction { value: spread.value, standard_error, interval: mean.map(interval) })
+    }
+
+    /// The response for a row of the model matrix, and its variances.
+    fn spread_of(&self, row: &[f64]) -> Spread {
         let inner = &self.inner;
-        let settings = self.by_value(settings);
-        let (value, leverage) = inner.fit.predict(&inner.regressors.row(&settings, None)?);
+        let (value, leverage) = inner.fit.predict(row);
         let error = self.residual_standard_deviation.map(|_| self.residual.squares);
         let runs = self.observations as f64;
         let of = |more: f64| {
@@ -64,7 +90,7 @@ impl Effects {
             let part = (1.0 + more * count) / runs;
             Variance::sum([(part, blocks), ((leverage + more - part).max(0.0), error)])
         };
-        Ok(Spread { value: inner.offset + value, mean: of(0.0), run: of(1.0) })
+        Spread { value: inner.offset + value, mean: of(0.0), run: of(1.0) }
     }
 
     /// Settings with the ends of numbers that have two levels as these levels: −1 is the least value, whichever level is the

@@ -2,7 +2,7 @@
 
 use super::{Forecast, Surrogate};
 use crate::design::Setting;
-use crate::effects::{Effects, EffectsError, Model, Transform, Variance, t_quantile};
+use crate::effects::{Effects, EffectsError, Model, Transform, Variance};
 
 /// Part of the points that must be there to be left out for an error to be known. A single centre point of a response surface,
 /// without which there are no squares, is no reason to know nothing.
@@ -70,7 +70,7 @@ impl Surrogate for PolynomialSurrogate<'_> {
             return Ok(Forecast { value: self.scale.back(spread.value), mean_interval: None, run_interval: None });
         }
         let interval = |variance: Variance| {
-            let reach = t_quantile(1.0 - confidence, variance.freedom) * variance.estimate.sqrt();
+            let reach = variance.reach(confidence);
             [spread.value - reach, spread.value + reach].map(|end| self.scale.back(end))
         };
         let [mean_interval, of_run] = [spread.mean, spread.run].map(|variance| variance.map(interval));

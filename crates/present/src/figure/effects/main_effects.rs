@@ -79,25 +79,27 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     } else {
         ""
     };
-    let key = match (any_predicted, all_predicted) {
-        (_, true) => "predicted",
-        (true, _) if is_adjusted => "adjusted mean at a level, or predicted",
-        (true, _) => "mean of the runs at a level, or predicted",
-        _ if is_adjusted => "adjusted mean at a level",
-        _ => "mean of the runs at a level",
-    };
     let interval = subject.confidence();
-    let uncertainty = if has_intervals {
-        format!("Bars and bands are intervals of {interval} confidence, from the error of the whole study.")
-    } else {
-        "There is no error, so there are no confidence intervals.".to_owned()
-    };
-    let meanings = [(FAINT, "mean of all runs".to_owned()), (DATA, key.to_owned())];
-    let mut meanings: Vec<Meaning> =
-        meanings.into_iter().map(|(colour, text)| Meaning { colour, style: KeyStyle::Line(SOLID), text }).collect();
-    if has_intervals {
-        meanings[1].text.push_str(&format!(", {interval} confidence"));
+    // What others would give with other seeds is no part of what levels differ by.
+    let of_seeds = if subject.effects.blocks.is_some() { "with these seeds" } else { "confidence" };
+    let of_levels = if is_adjusted { "adjusted mean at a level" } else { "mean of the runs at a level" };
+    let bars = format!("Bars are intervals of {interval} {of_seeds}, from the error of the whole study.");
+    let bands = format!(
+        "Bands have the mean of many runs in them, whatever their seeds, with {interval} confidence, as predictions."
+    );
+    let keys = [(!all_predicted, of_levels, of_seeds, bars), (any_predicted, "predicted", "of means", bands)];
+    let line = |colour, text| Meaning { colour, style: KeyStyle::Line(SOLID), text };
+    let mut meanings = vec![line(FAINT, "mean of all runs".to_owned())];
+    let mut uncertainty = Vec::new();
+    for (_, key, of, said) in keys.into_iter().filter(|(is_shown, ..)| *is_shown) {
+        let text = if has_intervals { format!("{key}, {interval} {of}") } else { key.to_owned() };
+        meanings.push(line(DATA, text));
+        uncertainty.extend(has_intervals.then_some(said));
     }
+    if !has_intervals {
+        uncertainty.push("There is no error, so there are no confidence intervals.".to_owned());
+    }
+    let uncertainty = uncertainty.join(" ");
     let ends = shown.iter().flat_map(|shown| &shown.intervals).flat_map(|[_, low, high]| [*low, *high]);
     let cut = said_of_cuts(subject.bounds(), &subject.unit, ends);
     let caption = format!("{what}.{adjusted} {uncertainty}{cut}");
@@ -133,7 +135,8 @@ fn shown(subject: &Subject, factor: usize) -> Shown {
     };
     let mut found: Vec<([f64; 2], Option<[f64; 3]>)> = if predicted {
         let at = |setting: Setting| {
-            let prediction = effects.predict_at(&[(factor, setting)]).ok()?;
+            // The interval that `predict` and the profiler of an optimum have at the same place.
+            let prediction = effects.mean_at(&[(factor, setting)]).ok()?;
             let x = axis.place(setting);
             Some(([x, unit.value(prediction.value)], interval(x, prediction.interval)))
         };

@@ -4,7 +4,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
 use super::map_rows::{Painted, any_of, having, rows};
 use super::moments::{leave_blank, moment};
 use super::shape::Shape;
@@ -37,7 +37,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let scales = [scale(&having[0], BODIES[0])?, scale(&having[1], BODIES[1])?];
     let disc_shape = options.disc_shape();
     let mut blocks = Vec::new();
-    for together in shown.chunks(MOST_ACROSS) {
+    for together in shown.chunks(runs_across(shown.len())) {
         let mut groups = Vec::new();
         for (body, scale) in BODIES.into_iter().zip(&scales) {
             let on_disc = body[0].on_disc();

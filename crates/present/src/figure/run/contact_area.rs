@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::legend::{meanings, only_stroke, with_names};
+use super::legend::{meanings, of_short_runs, only_stroke, with_names};
 use super::spans::{MOST_BANDS, Spans, pieces};
 use super::{Figures, Subject, operation};
 use crate::colour::paler;
@@ -67,7 +67,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let has_bands = steps.iter().any(|content| matches!(content, Content::Band { .. }));
     let only = only_stroke(subjects, runs.iter().map(|(number, ..)| *number));
     let line = spans.meaning(MEAN);
-    let own = match only {
+    let mut own = match only {
         _ if has_bands => meanings(true, only, &line, "least to greatest of single steps"),
         Some(stroke) => {
             vec![Meaning::of_line(stroke, &line), Meaning::of_line(single_steps(stroke), "single steps")]
@@ -75,6 +75,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         None if with_steps => vec![Meaning::in_words(&format!("lines: {line}, paler: single steps"))],
         None => vec![Meaning::in_words(&format!("lines: {line}"))],
     };
+    own.extend(of_short_runs(spans, runs.iter().map(|(_, subject, ..)| (&*subject.label, subject.run.time())), MEAN));
     let mut meanings = with_names(subjects, |shown| runs.iter().any(|(number, ..)| *number == shown), own);
     let height = if with_operation { 420.0 } else { 760.0 };
     charts.push(Chart {
@@ -95,7 +96,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         "Contact area",
         format!(
             "Contact area against time: the line is the mean over the last simulated revolution, or, where this goes up and down \
-             all along, a weighted mean over the time that is stated. The band reaches from the least to the greatest of the samples \
+             all along and the run is long enough, a weighted mean over the time that is stated. The band reaches from the least to the greatest of the samples \
              of single steps; where there are few, a paler line goes through these. Of more than three runs there are the \
              means alone. All have a gap where nothing rubs.{of_operation}"
         ),

@@ -3,7 +3,7 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
 use super::map_rows::{Painted, having, rows};
 use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment, without_contact};
 use super::shape::Shape;
@@ -45,7 +45,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let mut blocks = Vec::new();
     let mut has_none = false;
-    for together in shown.chunks(MOST_ACROSS) {
+    for together in shown.chunks(runs_across(shown.len())) {
         let rows = rows(together, Shape::of_pin, false, moments_of, |subject, index| {
             let temperatures = floats(subject.run, Map::Temperature, index)?;
             let colour = |temperature: &f64| match *temperature {

@@ -4,11 +4,12 @@
 use plateau_io::run_file::ReadError;
 use plotters::style::RGBColor;
 
+use super::map_page::runs_across;
 use super::{Figures, Subject};
 use crate::colour::{DEBRIS, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
-use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page, up_from_zero};
+use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page_of_rows, up_from_zero};
 use crate::figure::page::{Content, KeyStyle};
 use crate::figure::stroke::{SOLID, Stroke};
 use crate::quantity::{Unit, title};
@@ -25,8 +26,6 @@ const RETURNED: &str = "returned";
 const SUPPLY: [&str; 2] = ["worn off", "worn off, or back from plateaus that broke away"];
 /// Points along time, at most.
 const MOST_POINTS: usize = 400;
-/// Runs beside each other, at most.
-const MOST_ACROSS: usize = 3;
 
 /// One run's balance, m³.
 struct Balance {
@@ -62,16 +61,18 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     };
     let most = balances.iter().map(|(_, balance)| balance.most(&STAYED)).fold(0.0, f64::max);
     let kept = Unit::for_size("m3", most);
-    let of_kept = |(_, balance): &(&Subject, Balance)| Chart {
-        title: "without what was emitted".to_owned(),
+    let of_kept = |(subject, balance): &(&Subject, Balance)| Chart {
+        title: format!("{}, not emitted", subject.label),
         x: Axis::linear(0.0..=time.value(end), time.label("time")),
         y: Axis::linear(up_from_zero(kept.value(most)), kept.label("laid down so far")),
         contents: stack(balance, &STAYED, &time, &kept),
     };
-    let across = balances.len().min(MOST_ACROSS);
-    let row =
-        |runs: &[(&Subject, Balance)]| runs.iter().map(of_all).chain(runs.iter().map(of_kept)).collect::<Vec<_>>();
-    let charts: Vec<Chart> = balances.chunks(across).flat_map(row).collect();
+    let across = runs_across(balances.len());
+    // The second chart of a run stands below its first one, also in a row that is not full.
+    let rows = balances
+        .chunks(across)
+        .flat_map(|runs| [runs.iter().map(of_all).collect(), runs.iter().map(of_kept).collect()]);
+    let rows: Vec<Vec<Chart>> = rows.collect();
     let meaning = |(colour, text): (RGBColor, &str)| Meaning { colour, style: KeyStyle::Area, text: text.to_owned() };
     // As they lie on each other, from the top.
     let is_there =
@@ -88,7 +89,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
          was worn, and what plateaus that lost their support returned: the stack must reach it. Below, the same on an axis of its own \
          without what was emitted. All are sums since the start: debris that was laid down, worn off and laid down again counts twice, so \
          less of it is there at the end.",
-        page(width, 480.0, across, charts, &meanings),
+        page_of_rows(width, 480.0, across, &rows, &meanings),
     );
     Ok(())
 }
@@ -158,6 +159,7 @@ fn supply(balance: &Balance, time: &Unit, volume: &Unit) -> Content {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::figure::run::written::Written;
 
     #[test]
     fn a_balance_that_holds_reaches_its_line() {
@@ -177,5 +179,19 @@ mod tests {
         let stayed = stack(&balance, &STAYED, &Unit::NUMBER, &Unit::NUMBER);
         let Content::Band { spans, .. } = &stayed[2] else { panic!("a band") };
         assert_eq!((spans[1], balance.most(&STAYED)), ([2.0, 3.0, 7.0], 7.0));
+    }
+
+    #[test]
+    fn the_second_chart_of_every_run_stands_below_its_first() {
+        let run = |title| Written::new(title, &[], |_, time| time);
+        // The last row has one of seven runs.
+        let names = ["a", "b", "c", "d", "e", "f", "g"];
+        let figures = Written::figures(&names.map(run));
+        let page = &figures.figures.iter().find(|figure| figure.name == NAME).unwrap().page;
+        let place = |text: &str| page.texts.iter().find(|words| words.text == text).unwrap().place;
+        for name in names {
+            let (first, second) = (place(name), place(&format!("{name}, not emitted")));
+            assert!(first.0 == second.0 && first.1 < second.1, "{name}: {first:?} {second:?}");
+        }
     }
 }

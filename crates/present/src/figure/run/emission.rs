@@ -54,6 +54,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         None => vec![Meaning::in_words("lines: PM10, particles; paler: PM2.5")],
     };
     own.extend(shade);
+    own.extend(of_windows(&having)?);
     own.push(Meaning::in_words(&of_pins(&having)));
     let meanings = with_names(subjects, |shown| having.iter().any(|(number, _)| *number == shown), own);
     let of_road = if on_road.is_empty() {
@@ -73,6 +74,27 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
         page(width, 560.0, 2, charts, &meanings),
     );
     Ok(())
+}
+
+/// Over how long a time rates are means; none of runs without any. The last window of a run may be shorter than the others.
+fn of_windows(runs: &[(usize, &Subject)]) -> Result<Option<Meaning>, ReadError> {
+    let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
+    for (_, subject) in runs {
+        let masses = subject.run.values(SERIES[0])?.unwrap_or_default();
+        let rates = rates(subject.run.time(), &masses);
+        let whole = if rates.len() > 1 { &rates[..rates.len() - 1] } else { &rates[..] };
+        for Rate { begin, end, .. } in whole {
+            (shortest, longest) = (shortest.min(end - begin), longest.max(end - begin));
+        }
+    }
+    let unit = Unit::for_size("s", longest);
+    let rounded = |seconds: f64| number::rounded(unit.value(seconds), 2);
+    let said = match [shortest, longest].map(rounded) {
+        _ if longest <= 0.0 => return Ok(None),
+        [one, other] if one == other => one,
+        [one, other] => format!("{one} to {other}"),
+    };
+    Ok(Some(Meaning::in_words(&format!("rates: means of {}", unit.with_symbol(&said)))))
 }
 
 /// What a reader must not take for the emission of a brake: the area that it is of.
@@ -180,6 +202,8 @@ mod tests {
         close(&[last(mass_of_way, Stroke::of(0, 1).paler().colour)], &[[10.0, 0.0375]]);
         close(&[last(number_of_way, RUNS[0])], &[[10.0, 150.0]]);
         assert!(lines_of(mass_of_way, RUNS[1]).is_empty());
+        // Eleven samples, a second from each other, are fewer than windows.
+        assert!(figure.page.texts.iter().any(|words| words.text == "rates: means of 1 s"), "{:?}", figure.page.texts);
         // By hand: 5 of 60 columns of a ring between 20 mm and 24 mm, π (24² − 20²)/12 mm².
         assert!(figure.page.texts.iter().any(|words| words.text.contains("of this pin, 46.1 mm²")));
         assert_eq!(notes(&figures, NAME), ["no series road_distance"]);

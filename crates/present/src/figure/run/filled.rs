@@ -2,7 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
-use super::legend::{meanings, only_stroke, with_names};
+use super::legend::{meanings, of_short_runs, only_stroke, with_names};
 use super::spans::{MOST_BANDS, Spans};
 use super::{Figures, Subject, operation};
 use crate::figure::axes::Axis;
@@ -13,6 +13,9 @@ use crate::quantity::{Unit, title};
 
 const NAME: &str = "filled";
 const SERIES: [&str; 4] = ["filled_fraction", "disc_secondary", "pin_secondary", "pin_primary"];
+
+/// What a line is where its samples are put together.
+const MEAN: &str = "mean of a span of time";
 
 /// A run by its number, the times of its samples, s, and a series, %.
 type Course<'a> = (usize, &'a [f64], Vec<f64>);
@@ -54,8 +57,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             if runs.len() <= MOST_BANDS {
                 bands.extend(spans.band(&scaled, values, stroke.colour, runs.len()));
             }
-            if spans == Spans::FINEST {
-                lines.push(Content::Line { points: spans.means_between_ends(&scaled, values), stroke });
+            if !spans.is_weighted(times) {
+                lines.push(Content::Line { points: Spans::FINEST.means_between_ends(&scaled, values), stroke });
             } else {
                 let in_units = |[at, value]: [f64; 2]| [time.value(at), value];
                 lines.extend(spans.lines(times, values, in_units, stroke));
@@ -76,8 +79,10 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let only = only_stroke(subjects, (0..subjects.len()).filter(|number| shown[*number]));
     let times = || subjects.iter().map(|subject| subject.run.time()).filter(|times| !times.is_empty());
     let is_binned = times().any(|times| spans.has_bands(times)) || spans != Spans::FINEST;
-    let mut own = meanings(is_binned, only, &spans.meaning("mean of a span of time"), "least to greatest");
+    let mut own = meanings(is_binned, only, &spans.meaning(MEAN), "least to greatest");
     own.truncate(if has_bands { 2 } else { 1 });
+    let drawn = (0..subjects.len()).filter(|number| shown[*number]).map(|number| &subjects[number]);
+    own.extend(of_short_runs(spans, drawn.map(|subject| (&*subject.label, subject.run.time())), MEAN));
     let meanings = with_names(subjects, |number| shown[number], own);
     let width = figures.width(TWO_COLUMNS);
     figures.add(

@@ -2,6 +2,7 @@
 
 use plateau_io::run_file::ReadError;
 
+use super::legend::of_short_runs;
 use super::spans::Spans;
 use super::{Figures, Subject, operation};
 use crate::figure::axes::{Axis, Scale};
@@ -12,6 +13,8 @@ use crate::quantity::{SeriesLook, Unit};
 
 const NAME: &str = "friction";
 const SERIES: [&str; 3] = ["friction_coefficient_mean", "friction_coefficient", "mean_pressure"];
+/// What the line of a run is.
+const MEAN: &str = "mean of the last simulated revolution";
 /// Samples of a run that are marked, at most: more would hide each other.
 const MOST_MARKS: usize = 200;
 /// Pressures that differ more than this many times are shown on a scale of equal ratios.
@@ -62,7 +65,7 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     }
     let mut charts = [
         Chart {
-            title: spans.meaning("mean of the last simulated revolution"),
+            title: spans.meaning(MEAN),
             x: Axis::linear(0.0..=time.value(end), time.label("time")),
             y: y.clone(),
             contents: lines,
@@ -71,13 +74,15 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     ];
     let shade = operation::shade_events(subjects, &time, &mut charts[..1])?;
     let meanings = courses.iter().map(|course| Meaning::of_run(course.number, &course.subject.label));
-    let meanings: Vec<Meaning> = meanings.chain(shade).collect();
+    let short =
+        of_short_runs(spans, courses.iter().map(|course| (&*course.subject.label, course.subject.run.time())), MEAN);
+    let meanings: Vec<Meaning> = meanings.chain(short).chain(shade).collect();
     let width = figures.width(TWO_COLUMNS);
     figures.add(
         NAME,
         "Coefficient of friction",
         format!(
-            "Coefficient of friction, left the mean of the last simulated revolution, weighted by load, or, where this goes up and down all along, its weighted mean \
+            "Coefficient of friction, left the mean of the last simulated revolution, weighted by load, or, where this goes up and down all along and the run is long enough, its weighted mean \
              over the time that is stated, against time, right that \
              of single steps against their mean contact pressure; of a run at most {MOST_MARKS} samples, evenly chosen. Events of a \
              single run with a cycle that has ended are shaded."

@@ -2,7 +2,7 @@
 //! only run of a figure has its own colours there; what is said of several is said in words.
 
 use super::Subject;
-use super::spans::OPACITY;
+use super::spans::{OPACITY, Spans};
 use crate::colour::paler;
 use crate::figure::chart::Meaning;
 use crate::figure::page::KeyStyle;
@@ -23,6 +23,21 @@ pub fn with_names(subjects: &[Subject], shown: impl Fn(usize) -> bool, own: Vec<
         label => Meaning::of_run(*number, label),
     };
     shown.iter().map(name).chain(own.iter().cloned()).collect()
+}
+
+/// What the lines of runs are for which the weighted means of the others are too long, given their names and times; none where there are no
+/// such means, or all runs have them.
+pub fn of_short_runs<'a>(
+    spans: Spans,
+    runs: impl Iterator<Item = (&'a str, &'a [f64])>,
+    finest: &str,
+) -> Option<Meaning> {
+    if spans == Spans::FINEST {
+        return None;
+    }
+    let short: Vec<&str> = runs.filter(|(_, times)| !spans.is_weighted(times)).map(|(name, _)| name).collect();
+    let lines = if short.len() == 1 { "line" } else { "lines" };
+    (!short.is_empty()).then(|| Meaning::in_words(&format!("{lines} of {}: {finest}", short.join(", "))))
 }
 
 /// What lines and bands are, where there are bands: in the colour of the only run, else in words, for there is no line of all runs.
@@ -56,5 +71,18 @@ mod tests {
             ["lines: mean", "bands: reach"]
         );
         assert!(meanings(false, None, "mean", "reach").is_empty());
+    }
+
+    #[test]
+    fn runs_that_are_too_short_for_a_weighted_mean_are_named() {
+        let times: Vec<f64> = (0..4000).map(f64::from).collect();
+        let runs = || [("long", &times[..]), ("short", &times[..500]), ("other", &times[..100])].into_iter();
+        let spans = Spans { most: 31, duration: 256.0 };
+        let said = of_short_runs(spans, runs(), "mean of a revolution").unwrap();
+        assert_eq!((said.text.as_str(), said.style), ("lines of short, other: mean of a revolution", KeyStyle::Words));
+        let one = of_short_runs(spans, runs().take(2), "mean").unwrap();
+        assert_eq!(one.text, "line of short: mean");
+        assert!(of_short_runs(spans, runs().take(1), "mean").is_none());
+        assert!(of_short_runs(Spans::FINEST, runs(), "mean").is_none());
     }
 }

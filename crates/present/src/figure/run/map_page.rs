@@ -3,15 +3,16 @@
 use plotters::style::RGBColor;
 
 use super::map_section::{Fit, MapSection};
+use super::shape::X_LABELS;
 use crate::figure::axes::{Axis, Frame};
-use crate::figure::canvas::{Anchor, TITLE};
+use crate::figure::canvas::{Anchor, TEXT, TITLE};
 use crate::figure::chart::{COLUMN, LEGEND, MARGIN, Meaning, TWO_COLUMNS, legend};
 use crate::figure::colour_bar::ColourBar;
-use crate::figure::font::shortened;
+use crate::figure::font::{shortened, text_width};
 use crate::figure::page::{LINE_OF_TEXT, Page};
 
 /// Maps beside each other, at most.
-pub const MOST_ACROSS: usize = 3;
+const MOST_ACROSS: usize = 3;
 /// Room on the right for a colour bar with numbers and label, pixels.
 const BAR_ROOM: f64 = 250.0;
 /// Width of a colour bar, and its distance from the maps.
@@ -27,18 +28,23 @@ const BETWEEN: f64 = 40.0;
 const HIGHEST: f64 = TWO_COLUMNS * 4.0 / 3.0;
 /// What is tried until a page is no higher, one after the other: unrolled maps in fewer, longer windows, then smaller maps.
 const FITS: [Fit; 11] = [
-    Fit { stretch: 1.0, size: 1.0 },
-    Fit { stretch: 1.25, size: 1.0 },
-    Fit { stretch: 1.5, size: 1.0 },
-    Fit { stretch: 2.0, size: 1.0 },
-    Fit { stretch: 3.0, size: 1.0 },
-    Fit { stretch: 4.0, size: 1.0 },
-    Fit { stretch: 4.0, size: 0.9 },
-    Fit { stretch: 4.0, size: 0.8 },
-    Fit { stretch: 4.0, size: 0.7 },
-    Fit { stretch: 4.0, size: 0.6 },
-    Fit { stretch: 4.0, size: 0.5 },
+    Fit { stretch: 1.0, size: 1.0, words: 0 },
+    Fit { stretch: 1.25, size: 1.0, words: 0 },
+    Fit { stretch: 1.5, size: 1.0, words: 0 },
+    Fit { stretch: 2.0, size: 1.0, words: 0 },
+    Fit { stretch: 3.0, size: 1.0, words: 0 },
+    Fit { stretch: 4.0, size: 1.0, words: 0 },
+    Fit { stretch: 4.0, size: 0.9, words: 0 },
+    Fit { stretch: 4.0, size: 0.8, words: 0 },
+    Fit { stretch: 4.0, size: 0.7, words: 0 },
+    Fit { stretch: 4.0, size: 0.6, words: 0 },
+    Fit { stretch: 4.0, size: 0.5, words: 0 },
 ];
+
+/// How many of so many runs stand beside each other: rows are about equally full.
+pub fn runs_across(runs: usize) -> usize {
+    runs.div_ceil(runs.div_ceil(MOST_ACROSS).max(1)).max(1)
+}
 
 /// Maps that share a colour scale, in rows; a place may be empty.
 #[derive(Debug, Clone, Default)]
@@ -83,8 +89,17 @@ pub fn page(whole: f64, meanings: &[Meaning], blocks: &[MapBlock]) -> Page {
     page
 }
 
-/// The page with maps that are fitted in this way.
+/// The page with maps that are fitted in this way: the axes below them say the same, in the most words that fit everywhere.
 fn fitted(whole: f64, meanings: &[Meaning], blocks: &[MapBlock], fit: Fit) -> Page {
+    let with_words = |words: usize| laid_out(whole, meanings, blocks, Fit { words, ..fit });
+    let has_room =
+        |page: &Page| page.panels.iter().all(|panel| text_width(&panel.axes.x.label, TEXT) <= panel.axes.frame.width());
+    let fewest = X_LABELS - 1;
+    (0..fewest).map(with_words).find(has_room).unwrap_or_else(|| with_words(fewest))
+}
+
+/// The page with maps that are fitted in this way and say this.
+fn laid_out(whole: f64, meanings: &[Meaning], blocks: &[MapBlock], fit: Fit) -> Page {
     let mut page = Page { size: [whole, 0.0], ..Page::default() };
     let scaled = blocks.iter().flat_map(|block| &block.groups).any(|group| group.scale.is_some());
     let width = whole - MARGIN - if scaled { BAR_ROOM } else { MARGIN };
@@ -96,9 +111,10 @@ fn fitted(whole: f64, meanings: &[Meaning], blocks: &[MapBlock], fit: Fit) -> Pa
     if several {
         top = meanings_at(&mut page, top);
     }
+    // All runs have boxes of one size, also those of the last row.
+    let across = blocks.iter().map(|block| block.names.len()).max().unwrap_or(0).max(1);
+    let each = width / across as f64;
     for block in blocks {
-        let across = block.names.len().max(1);
-        let each = width / across as f64;
         for (column, name) in block.names.iter().enumerate() {
             let place = (MARGIN + column as f64 * each, top);
             page.write(shortened(name, TITLE, each - BETWEEN), place, Anchor::BelowRight, TITLE);
@@ -107,20 +123,33 @@ fn fitted(whole: f64, meanings: &[Meaning], blocks: &[MapBlock], fit: Fit) -> Pa
         if !several {
             top = meanings_at(&mut page, top);
         }
-        top = block.groups.iter().fold(top, |top, group| group.place(&mut page, top, width, fit));
+        let columns = several.then_some(Columns { runs: block.names.len().max(1), each });
+        top = block.groups.iter().fold(top, |top, group| group.place(&mut page, top, width, fit, columns));
         top += MARGIN;
     }
     page.size[1] = top.ceil();
     page
 }
 
+/// Columns of a page with several runs.
+#[derive(Debug, Clone, Copy)]
+struct Columns {
+    /// How many runs stand beside each other here.
+    runs: usize,
+    /// Width of each, pixels.
+    each: f64,
+}
+
 impl MapGroup<'_> {
-    /// Puts the maps on the page, this far from its top and so wide; gives the place below.
-    fn place(&self, page: &mut Page, begin: f64, width: f64, fit: Fit) -> f64 {
+    /// Puts the maps on the page, this far from its top and so wide; gives the place below. Where there are columns of runs, the maps of one
+    /// stand below each other.
+    fn place(&self, page: &mut Page, begin: f64, width: f64, fit: Fit, columns: Option<Columns>) -> f64 {
         let (mut top, mut last_box, mut right) = (begin, begin, MARGIN);
         let mut most_lines = 1;
-        for row in &self.rows {
-            let each = width / row.len().max(1) as f64;
+        let rows =
+            self.rows.iter().flat_map(|row| row.chunks(columns.map_or(row.len(), |columns| columns.runs).max(1)));
+        for row in rows {
+            let each = columns.map_or(width / row.len().max(1) as f64, |columns| columns.each);
             let mut lowest = top;
             // Maps beside each other begin at one height, however long what is written above them is.
             let lines = row.iter().flatten().map(|section| section.words(each - BETWEEN).len()).max().unwrap_or(0);
@@ -225,5 +254,46 @@ mod tests {
         let small = Mesh::new(8, 100, 16, 20e-3, 24e-3).unwrap();
         let block = || MapBlock { groups: block(&small).groups.split_off(1), ..MapBlock::default() };
         assert_eq!(page(TWO_COLUMNS, &[], &[block()]).size, fitted(TWO_COLUMNS, &[], &[block()], FITS[0]).size);
+    }
+
+    #[test]
+    fn all_runs_have_boxes_of_one_size_and_axes_that_say_the_same() {
+        // By hand: a row has no more than three.
+        assert_eq!([1, 2, 3, 4, 5, 6, 7, 8].map(runs_across), [1, 2, 3, 2, 3, 3, 3, 3]);
+        let mesh = Mesh::new(20, 690, 40, 20e-3, 21e-3).unwrap();
+        let section = |columns: usize| MapSection {
+            title: "disc, 0 s".to_owned(),
+            remark: String::new(),
+            mesh: &mesh,
+            shape: Shape::Unrolled,
+            cells: vec![0; columns * mesh.rows()],
+        };
+        // The last run stands alone in its row, as a run alone has its maps: those of the pin beside each other.
+        let group = |columns, runs: usize| {
+            let rows = match runs {
+                1 if columns == mesh.pin_columns() => vec![vec![Some(section(columns)); 2]],
+                _ => vec![vec![Some(section(columns)); runs]; 2],
+            };
+            MapGroup { rows, palette: vec![RGBColor(0, 0, 0), RGBColor(255, 255, 255)], scale: None }
+        };
+        let block = |runs: usize| MapBlock {
+            names: vec!["run".to_owned(); runs],
+            groups: [mesh.disc_columns(), mesh.pin_columns()].map(|columns| group(columns, runs)).to_vec(),
+        };
+        let page = page(TWO_COLUMNS, &[], &[block(3), block(1)]);
+        // Six windows of the disc at two moments and two maps of the pin, of four runs.
+        assert_eq!(page.panels.len(), 4 * 14);
+        let frames: Vec<Frame> = page.panels.iter().map(|panel| panel.axes.frame).collect();
+        for [full, last] in [[&frames[..36], &frames[42..54]], [&frames[36..42], &frames[54..]]] {
+            assert!(full.iter().chain(last).all(|frame| frame.width() == full[0].width()), "{full:?} {last:?}");
+            // The maps of the last run stand below each other, and below those of the first.
+            assert!(last.iter().all(|frame| frame.x[0] == full[0].x[0]), "{last:?}");
+        }
+        // Of one run a disc has room for more words than a pin, which is a column wide.
+        let alone = super::page(1800.0, &[], &[block(1)]);
+        let mut labels: Vec<&str> = alone.panels.iter().map(|panel| panel.axes.x.label.as_str()).collect();
+        labels.retain(|label| !label.is_empty());
+        labels.dedup();
+        assert_eq!(labels, ["arc length, mm; the disc moves \u{2192}"]);
     }
 }

@@ -1,6 +1,7 @@
 //! One map on its page: what is written above it, and its windows below each other.
 
 use plateau_core::model::mesh::Mesh;
+use plateau_io::number;
 use plotters::style::RGBColor;
 
 use super::shape::{Shape, Window};
@@ -30,6 +31,9 @@ pub struct MapSection<'a> {
     pub cells: Vec<u8>,
 }
 
+/// A map that is stretched by less than this is in proportion for the eye.
+const STRETCHED: f64 = 1.05;
+
 /// How maps are fitted into a page.
 #[derive(Debug, Clone, Copy)]
 pub struct Fit {
@@ -37,6 +41,8 @@ pub struct Fit {
     pub stretch: f64,
     /// The part of the width that there is for a map that it takes.
     pub size: f64,
+    /// Which words say what the axes below measure: the same for all maps of a page.
+    pub words: usize,
 }
 
 /// Where a map lies on its page.
@@ -53,6 +59,21 @@ impl MapSection<'_> {
         let room = width - Axis::linear(self.shape.y_range(self.mesh), self.shape.y_label()).room_beside(width);
         let texts = [&self.title, &self.remark].into_iter().filter(|text| !text.is_empty());
         texts.flat_map(|text| wrapped(text, room)).collect()
+    }
+
+    /// What the axes below and to the left say: also, where the radius is drawn so many times as long as the arc, how many times. The axis to
+    /// the left says it if it is so tall that there is room, else the one below.
+    fn labels(&self, words: usize, stretch: f64, tall: f64) -> (String, String) {
+        let (x, y) = (self.shape.x_label(words), self.shape.y_label());
+        if stretch < STRETCHED {
+            return (x.to_owned(), y.to_owned());
+        }
+        let stretched = format!("stretched {}\u{d7}", number::rounded(stretch, 2));
+        let upward = format!("{y} ({stretched})");
+        if text_width(&upward, TEXT) <= tall {
+            return (x.to_owned(), upward);
+        }
+        (x.replacen("mm", &format!("mm (radius {stretched})"), 1), y.to_owned())
     }
 
     /// Puts the map on the page with its upper left corner there, below so many lines of text.
@@ -78,6 +99,15 @@ impl MapSection<'_> {
         let begin = left + room;
         let space = (width - room).floor();
         let inner = (space * fit.size).floor();
+        // A body that is as tall as boxes may be stays in proportion.
+        let wide = |window: &Window| inner.min(inner.min(MOST_HEIGHT) / proportion(window)).max(LEAST_HEIGHT).round();
+        let heights = || windows.iter().map(|window| height(window, inner));
+        let stretches =
+            windows.iter().zip(heights()).map(|(window, height)| height / (wide(window) * proportion(window)));
+        let stretch = stretches.fold(1.0, f64::max);
+        let between = BELOW + Axis::linear(y_range.clone(), "").room_below();
+        let tall = heights().sum::<f64>() + between * (windows.len() - 1) as f64;
+        let (x_label, y_label) = self.labels(fit.words, stretch, tall);
         let mut y_top = top;
         for text in self.words(width) {
             page.write(shortened(&text, TEXT, space), (begin, y_top), Anchor::BelowRight, TEXT);
@@ -87,17 +117,15 @@ impl MapSection<'_> {
         let first = y_top;
         let last = windows.len() - 1;
         let mut box_end = [begin, y_top];
-        for (number, window) in windows.into_iter().enumerate() {
-            let height = height(&window, inner);
-            // A body that is as tall as boxes may be stays in proportion.
-            let wide = inner.min(inner.min(MOST_HEIGHT) / proportion(&window)).max(LEAST_HEIGHT).round();
+        for (number, window) in windows.iter().enumerate() {
+            let height = height(window, inner);
+            let wide = wide(window);
             let frame = Frame { x: [begin.round(), begin.round() + wide], y: [y_top, y_top + height] };
             let frame_end = frame.x[1];
-            let label = if number == last { self.shape.x_label(wide) } else { String::new() };
+            let label = if number == last { x_label.as_str() } else { "" };
             let x = Axis::linear(window.x.clone(), label);
             let y = Axis { label: String::new(), ..y.clone() };
-            let picture =
-                self.shape.picture(self.mesh, &window, &self.cells, palette, [wide as usize, height as usize]);
+            let picture = self.shape.picture(self.mesh, window, &self.cells, palette, [wide as usize, height as usize]);
             let below = x.room_below();
             // What the axis measures may be wider than the map.
             let words_end = 0.5 * (begin.round() + frame_end + text_width(&x.label, TEXT));
@@ -106,7 +134,7 @@ impl MapSection<'_> {
             y_top = box_end[1] + below + BELOW;
         }
         let beside = left + 1.1 * f64::from(TEXT);
-        page.write(self.shape.y_label(), (beside, 0.5 * (first + box_end[1])), Anchor::Upward, TEXT);
+        page.write(y_label, (beside, 0.5 * (first + box_end[1])), Anchor::Upward, TEXT);
         Placed { box_end, end: y_top }
     }
 }
@@ -125,5 +153,40 @@ mod tests {
         assert_eq!(wrapped("disc, 0 s", 400.0), ["disc, 0 s"]);
         let lines = wrapped("none 21.7, primary 29.8, secondary 48.5 %", 400.0);
         assert_eq!(lines, ["none 21.7, primary 29.8,", "secondary 48.5 %"]);
+    }
+
+    #[test]
+    fn the_axis_of_a_stretched_map_says_so() {
+        // A ring of 1 mm, 129 mm long: six windows of 21.5 mm, and a pin of 7.5 mm.
+        let mesh = Mesh::new(20, 690, 40, 20e-3, 21e-3).unwrap();
+        let labels = |columns: usize, width: f64| {
+            let section = MapSection {
+                title: String::new(),
+                remark: String::new(),
+                mesh: &mesh,
+                shape: Shape::Unrolled,
+                cells: vec![0; columns * mesh.rows()],
+            };
+            let mut page = Page::default();
+            let palette = [RGBColor(0, 0, 0), RGBColor(255, 255, 255)];
+            section.place(&mut page, [0.0; 2], width, Fit { stretch: 1.0, size: 1.0, words: 2 }, &palette, 0);
+            let axes = &page.panels.last().unwrap().axes;
+            // How many pixels a millimetre has along the radius, over how many along the arc.
+            let per_mm = |length: f64, axis: &Axis| length / (axis.range.end() - axis.range.start());
+            let stretch = per_mm(axes.frame.height(), &axes.y) / per_mm(axes.frame.width(), &axes.x);
+            (axes.x.label.clone(), page.texts.last().unwrap().text.clone(), stretch)
+        };
+        let plain = |text: &str| text.to_owned();
+        let (x, y, stretch) = labels(690, 1800.0);
+        assert_eq!((x, y), (plain("arc length, mm"), plain("radius, mm")));
+        assert!((stretch - 1.0).abs() < 0.02, "{stretch}");
+        let (x, y, stretch) = labels(690, 600.0);
+        let times = format!("stretched {stretch:.1}\u{d7}");
+        assert!(stretch > 2.0 && x == "arc length, mm", "{stretch} {x}");
+        assert_eq!(y, format!("radius, mm ({times})"));
+        // A single low window has no room for it on the left.
+        let (x, y, stretch) = labels(40, 300.0);
+        assert!(stretch > 1.5, "{stretch}");
+        assert_eq!((x, y), (format!("arc length, mm (radius stretched {stretch:.1}\u{d7})"), plain("radius, mm")));
     }
 }

@@ -20,7 +20,7 @@
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
 //! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`map_rows`], [`map_section`] and [`shape`], the moments that are
-//! shown in [`moments`], what lines and bands are in [`legend`], many samples as few in [`spans`] and [`mod@crate::envelope`], what grows as what is added in a time in
+//! shown in [`moments`], what lines and bands are in [`legend`], many samples as few in [`spans`], [`weighted_mean`] and [`mod@crate::envelope`], what grows as what is added in a time in
 //! [`rates`], names of runs in [`mod@crate::label`].
 
 mod build_up;
@@ -46,6 +46,7 @@ mod status;
 mod temperature;
 mod thickness;
 mod topography;
+mod weighted_mean;
 #[cfg(test)]
 mod written;
 

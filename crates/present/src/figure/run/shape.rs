@@ -6,8 +6,6 @@ use std::ops::{Range, RangeInclusive};
 use plateau_core::model::mesh::Mesh;
 use plotters::style::RGBColor;
 
-use crate::figure::canvas::TEXT;
-use crate::figure::font::text_width;
 use crate::figure::picture::Picture;
 
 /// Length of a window of an unrolled ring over its height, about.
@@ -15,6 +13,8 @@ const ELONGATION: f64 = 8.6;
 /// Windows that an unrolled ring is broken into, at most.
 const MOST_WINDOWS: usize = 6;
 const MILLIMETRES: f64 = 1e3;
+/// Ways to say what the axis below measures.
+pub const X_LABELS: usize = 3;
 
 /// How a body is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,10 +42,10 @@ impl Shape {
         if mesh.is_rectangle() { Self::Unrolled } else { Self::Arcs }
     }
 
-    /// What the axis below measures, and where the disc moves, toward higher columns (model 1), in words of which the first fit into so many
-    /// pixels.
-    pub fn x_label(self, room: f64) -> String {
-        let labels = match self {
+    /// What the axis below measures, and where the disc moves, toward higher columns (model 1), in words that are the fewer the higher their
+    /// number is.
+    pub fn x_label(self, words: usize) -> &'static str {
+        let labels: [_; X_LABELS] = match self {
             Self::Unrolled => [
                 "arc length at the mean radius, mm; the disc moves \u{2192}",
                 "arc length, mm; the disc moves \u{2192}",
@@ -58,15 +58,14 @@ impl Shape {
                 "arc length from the middle, mm",
             ],
         };
-        let fitting = labels.into_iter().find(|label| text_width(label, TEXT) <= room);
-        fitting.unwrap_or(labels[2]).to_owned()
+        labels[words.min(X_LABELS - 1)]
     }
 
     /// What the axis to the left measures.
-    pub fn y_label(self) -> String {
+    pub fn y_label(self) -> &'static str {
         match self {
-            Self::Unrolled | Self::Arcs => "radius, mm".to_owned(),
-            Self::Polar => "y, mm".to_owned(),
+            Self::Unrolled | Self::Arcs => "radius, mm",
+            Self::Polar => "y, mm",
         }
     }
 
@@ -171,7 +170,7 @@ mod tests {
     const PALETTE: [RGBColor; 9] = [RGBColor(0, 0, 0); 9];
 
     #[test]
-    fn maps_say_where_the_disc_moves_as_far_as_there_is_room() {
+    fn maps_say_where_the_disc_moves() {
         // Model 1: in step n the pin's column j lies over the disc's column j - n, so what is under 2 comes from under 1.
         let mesh = Mesh::new(1, 12, 3, 1.0, 2.0).unwrap();
         let under = |step: usize, column: usize| (column + mesh.disc_columns() - step) % mesh.disc_columns();
@@ -184,9 +183,8 @@ mod tests {
         for (shape, moves) in
             [(Shape::Unrolled, "\u{2192}"), (Shape::Arcs, "\u{2192}"), (Shape::Polar, "against the clock")]
         {
-            let labels = [2000.0, 600.0, 100.0].map(|room| shape.x_label(room));
+            let labels = [0, 1, 2].map(|words| shape.x_label(words));
             assert_eq!(labels.each_ref().map(|label| label.contains(moves)), [true, true, false], "{labels:?}");
-            assert!(text_width(&labels[1], TEXT) <= 600.0);
         }
     }
 

@@ -1,102 +1,30 @@
 //! Many samples as few: their mean, and how far they reach, in spans of time.
 
-use plateau_io::number;
 use plotters::style::RGBColor;
 
 use crate::figure::page::Content;
-use crate::figure::stroke::Stroke;
-use crate::quantity::Unit;
 
 /// How much of a band's colour hides what lies below; among several bands less.
 pub const OPACITY: f64 = 0.28;
 const OPACITY_OF_SEVERAL: f64 = 0.12;
 /// Runs whose samples have bands, or lines of their own beside the means, at most: of more none could be told from the others.
 pub const MOST_BANDS: usize = 3;
-/// A line that goes up and down over more than so many times the height of all lines is no line for the eye.
-const MOST_WAY: f64 = 3.0;
 
 /// In how many spans of time, at most, samples are put together.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Spans {
-    most: usize,
+    pub(super) most: usize,
     /// Over how long a time the means of lines go, s: the same for all runs, however long they are; 0 at the finest.
-    duration: f64,
+    pub(super) duration: f64,
 }
 
 impl Spans {
     /// As many as a figure distinguishes.
     pub const FINEST: Self = Self { most: 250, duration: 0.0 };
-    /// As few as still show a course.
-    const FEWEST: usize = 30;
-
-    /// So many that no line goes up and down all the time, as where the contact comes and goes in many revolutions: several
-    /// such lines would be one block. Of every curve the times, s, and the values.
-    pub fn calm<'a>(curves: impl Iterator<Item = (&'a [f64], &'a [f64])> + Clone) -> Self {
-        let longest = curves.clone().map(|(times, _)| span_of(times)).fold(0.0, f64::max);
-        let mut spans = Self::FINEST;
-        while spans.most > Self::FEWEST && !spans.are_calm(curves.clone()) {
-            let most = (spans.most / 2).max(Self::FEWEST);
-            spans = Self { most, duration: longest * (2 * (Self::FINEST.most / most)) as f64 };
-        }
-        spans
-    }
-
-    /// The coarser of two.
-    pub fn coarser(self, other: Self) -> Self {
-        if other.most < self.most { other } else { self }
-    }
-
-    fn are_calm<'a>(self, curves: impl Iterator<Item = (&'a [f64], &'a [f64])>) -> bool {
-        let (mut low, mut high, mut longest) = (f64::INFINITY, f64::NEG_INFINITY, 0.0_f64);
-        for (times, values) in curves {
-            let mut way = 0.0;
-            for piece in self.course(times, values) {
-                way += piece.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs()).sum::<f64>();
-                (low, high) =
-                    piece.iter().fold((low, high), |(low, high), [_, value]| (low.min(*value), high.max(*value)));
-            }
-            longest = longest.max(way);
-        }
-        longest <= MOST_WAY * (high - low).max(0.0)
-    }
 
     /// Samples of a span.
-    fn length(self, samples: usize) -> usize {
+    pub(super) fn length(self, samples: usize) -> usize {
         samples.div_ceil(self.most).max(1)
-    }
-
-    /// The lines through means, over times in s: as many as a figure distinguishes, each, where spans are coarser, with those beside it, whose
-    /// weights fall to nothing. A line through means of single spans would go up and down where ups and downs are about as long. Such a line
-    /// ends half the time of a mean before the last sample.
-    pub fn course(self, times: &[f64], values: &[f64]) -> Vec<Vec<[f64; 2]>> {
-        let span = span_of(times);
-        let beside = if span > 0.0 { (0.5 * self.duration / span).round() as usize } else { 0 };
-        let mut lines = pieces(&Self::FINEST.means(times, values));
-        if beside > 1 {
-            lines.iter_mut().for_each(|line| *line = weighted(line, beside));
-        }
-        lines
-    }
-
-    /// These lines as they are drawn: `place` gives each point its place on the axes.
-    pub fn lines(
-        self,
-        times: &[f64],
-        values: &[f64],
-        place: impl Fn([f64; 2]) -> [f64; 2],
-        stroke: Stroke,
-    ) -> impl Iterator<Item = Content> {
-        let placed = move |points: Vec<[f64; 2]>| points.into_iter().map(&place).collect();
-        self.course(times, values).into_iter().map(move |points| Content::Line { points: placed(points), stroke })
-    }
-
-    /// What the lines of a course are: what they are at the finest, or over how long a time means go.
-    pub fn meaning(self, finest: &str) -> String {
-        if self == Self::FINEST {
-            return finest.to_owned();
-        }
-        let unit = Unit::for_size("s", self.duration);
-        format!("weighted mean over {}", unit.with_symbol(&number::rounded(unit.value(self.duration), 2)))
     }
 
     /// Whether there are so many samples that their reach is a band.
@@ -160,33 +88,10 @@ impl Spans {
     }
 }
 
-/// The time of one of the finest spans of samples at these times, s.
-fn span_of(times: &[f64]) -> f64 {
-    let [Some(first), Some(last)] = [times.first(), times.last()] else { return 0.0 };
-    Spans::FINEST.length(times.len()) as f64 * (last - first) / (times.len() - 1).max(1) as f64
-}
-
 /// The pieces of a curve whose points have gaps between them: those that are no numbers.
 pub fn pieces(points: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     let is_number = |point: &[f64; 2]| point[1].is_finite();
     points.split(|point| !is_number(point)).filter(|piece| !piece.is_empty()).map(<[_]>::to_vec).collect()
-}
-
-/// Means of every value and those beside it, with weights that fall to nothing at so many places from it. Near the begin, where most
-/// happens, there are as many before it as behind it. The last places have too few behind them and are left out: a mean of those before
-/// would go up and down with the values. A line shorter than twice the width goes to its end, as it goes from its begin.
-fn weighted(points: &[[f64; 2]], beside: usize) -> Vec<[f64; 2]> {
-    let is_short = points.len() < 2 * beside;
-    let count = if is_short { points.len() } else { points.len() + 1 - beside };
-    let mean = |at: usize| {
-        let reach = (beside - 1).min(at).min(points.len() - 1 - at);
-        let part = |other: usize| (reach + 1 - at.abs_diff(other)) as f64;
-        let around = at - reach..=at + reach;
-        let (sum, weights) = around
-            .fold((0.0, 0.0), |(sum, weights), other| (sum + part(other) * points[other][1], weights + part(other)));
-        [points[at][0], sum / weights]
-    };
-    (0..count).map(mean).collect()
 }
 
 #[cfg(test)]
@@ -236,32 +141,6 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_go_up_and_down_all_the_time_are_put_together() {
-        let times: Vec<f64> = (0..4000).map(f64::from).collect();
-        let slow: Vec<f64> = times.iter().map(|time| time.sqrt()).collect();
-        // Forty seconds up and down, as far as the slow one rises.
-        let pulsing: Vec<f64> = times.iter().map(|time| 30.0 * (time * std::f64::consts::TAU / 40.0).sin()).collect();
-        let spans_of = |curves: &[&Vec<f64>]| Spans::calm(curves.iter().map(|values| (&times[..], &values[..])));
-        assert_eq!(spans_of(&[&slow]), Spans::FINEST);
-        let coarse = spans_of(&[&slow, &pulsing]);
-        // Eight spans of 16 s on both sides.
-        assert_eq!(coarse, Spans { most: 31, duration: 256.0 });
-        let [course] = &coarse.course(&times, &pulsing)[..] else { panic!("one line") };
-        assert_eq!(course.len(), 250 - 7);
-        assert!(course[8..].iter().all(|[_, value]| value.abs() < 3.0), "{course:?}");
-        // What does not pulse stays as it is.
-        let [straight] = &coarse.course(&times, &times)[..] else { panic!("one line") };
-        assert!(straight.iter().all(|[time, value]| (time - value).abs() < 1e-9));
-        // A run of half the length has the same means: as many seconds, not as large a part of it.
-        let half = &times[..2000];
-        let [short] = &coarse.course(half, &pulsing[..2000])[..] else { panic!("one line") };
-        assert_eq!(short.len(), 250 - 15);
-        assert!(short[16..].iter().all(|[_, value]| value.abs() < 3.0), "{short:?}");
-        let constant = vec![2.0; times.len()];
-        assert_eq!(spans_of(&[&constant]), Spans::FINEST);
-    }
-
-    #[test]
     fn several_bands_hide_less() {
         let times: Vec<f64> = (0..1000).map(f64::from).collect();
         let opacity = |bands| match &ALL.band(&times, &times, RGBColor(1, 2, 3), bands)[..] {
@@ -288,17 +167,5 @@ mod tests {
         let [gap, one, two, three] = [f64::NAN, 1.0, 2.0, 3.0].map(|value| [value, value]);
         assert_eq!(pieces(&[gap, one, two, gap, gap, three]), [vec![one, two], vec![three]]);
         assert_eq!(pieces(&[gap]), [[[0.0; 2]; 0]; 0]);
-    }
-
-    #[test]
-    fn weights_fall_with_distance() {
-        let means = |values: &[f64], beside| -> Vec<f64> {
-            let points: Vec<[f64; 2]> = values.iter().map(|value| [1.0, *value]).collect();
-            weighted(&points, beside).iter().map(|point| point[1]).collect()
-        };
-        // By hand: 1, 2, 1 behind the begin, 1, 2, 3, 2, 1 from there on; the last two places have fewer behind them.
-        assert_eq!(means(&[0.0, 0.0, 9.0, 0.0, 0.0, 0.0, 9.0, 0.0], 3), [0.0, 2.25, 3.0, 2.0, 2.0, 2.0]);
-        // A short line goes to its end.
-        assert_eq!(means(&[0.0, 0.0, 9.0, 0.0, 0.0], 3), [0.0, 2.25, 3.0, 2.25, 0.0]);
     }
 }

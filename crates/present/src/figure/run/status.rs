@@ -6,7 +6,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
 use super::map_rows::{Painted, any_of, having, rows};
 use super::moments::{leave_blank, moment, shown_moments, statuses};
 use super::shape::Shape;
@@ -39,7 +39,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([film, GROUND]).collect();
     let disc_shape = options.disc_shape();
     let mut blocks = Vec::new();
-    for together in shown.chunks(MOST_ACROSS) {
+    for together in shown.chunks(runs_across(shown.len())) {
         let disc_rows = rows(
             together,
             |_| disc_shape,

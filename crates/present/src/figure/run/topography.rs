@@ -4,7 +4,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MOST_ACROSS, MapBlock, MapGroup, page, width_of};
+use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
 use super::map_rows::{Painted, any_of, having, rows};
 use super::moments::{heights, leave_blank, moment, shown_moments};
 use super::shape::Shape;
@@ -28,7 +28,7 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let scales = [scale(&having[0], bodies[0])?, scale(&having[1], bodies[1])?];
     let palette: Vec<_> = colour_map().into_iter().chain([GROUND]).collect();
     let mut blocks = Vec::new();
-    for together in shown.chunks(MOST_ACROSS) {
+    for together in shown.chunks(runs_across(shown.len())) {
         let names = together.iter().map(|subject| subject.label.clone()).collect();
         let mut groups = Vec::new();
         for (map, scale) in bodies.into_iter().zip(&scales) {
