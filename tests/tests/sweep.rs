@@ -348,6 +348,7 @@ fn what_is_wrong_with_a_study_is_said_before_anything_runs() {
         ("levels = [\"5 N\", \"10 N\", \"20 N\"]", "range = [\"5 N\", \"1 kN\"]"),
         ("levels = [0.2, 0.3, 0.4]", "range = [0.2, \"0.4\"]"),
         ("levels = [0.2, 0.3, 0.4]", "levels = [0.2, 0.2]"),
+        ("levels = [\"5 N\", \"10 N\", \"20 N\"]", "levels = [\"5 N\", \"5000 mN\"]"),
         ("keys = [\"disc.surface.synthetic.seed\", \"pin.base.synthetic.seed\"]", "keys = [\"mesh.rows\"]"),
         ("version = 1", "version = 2"),
         ("version = 1", "version = "),

@@ -120,9 +120,9 @@ fn levels(levels: &Spanned<Vec<Spanned<toml::Value>>>, key: &str, place: &Place<
     if let Some(at) = list.iter().position(|level| !known.insert(level.text.as_str())) {
         return refuse(at, format!("{} is there twice", list[at].text));
     }
-    let equal = |at: &usize| list[..*at].iter().any(|level| level.number.is_some() && level.number == list[*at].number);
-    if let Some(at) = (0..list.len()).find(equal) {
-        return refuse(at, format!("{} is there twice, in other words", list[at].text));
+    let before = |at: usize| list[..at].iter().find(|one| one.number.is_some() && one.number == list[at].number);
+    if let Some((at, same)) = (0..list.len()).find_map(|at| Some((at, before(at)?))) {
+        return refuse(at, format!("{} is the same as {}, expected different levels", list[at].text, same.text));
     }
     if let Some(other) = key.is_empty().then(|| Factor::in_another_unit(&list)).flatten() {
         return Err(place.problem(levels, "factor.levels", format!("{}: expected all in the same unit", other.text)));
