@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Map, MapValues};
 use plateau_core::surface::Body;
 use plateau_io::memory::refuse_beyond;
@@ -11,7 +12,6 @@ use plateau_present::figure::run::{moment, nearest};
 
 use super::super::runs::warn_of_unfinished;
 use super::named;
-use super::subject::turn_pin;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
 
@@ -115,4 +115,10 @@ fn heights(run: &RunFile, map: Map, index: usize) -> Result<Option<NamedHeights>
     let what = format!("{}, {}", map_path(map).replace('/', " "), moment(run, index));
     let name = format!("{} {what}", run.path().display());
     Ok(Some(NamedHeights { name, map: what, body: Some(body), measured }))
+}
+
+/// Makes the peaks of the pin's heights of the model positive, for its z grows away from the disc; what is no cell has no height.
+pub fn turn_pin(heights: &mut [f64], mesh: &Mesh) {
+    heights.iter_mut().for_each(|height| *height = -*height);
+    mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
 }

@@ -11,7 +11,7 @@ use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
 
 use super::comparison::Comparison;
 use super::describe::describe;
-use super::recorded::NamedHeights;
+use super::recorded::{NamedHeights, turn_pin};
 use crate::failure::Failure;
 use crate::message;
 
@@ -141,12 +141,6 @@ impl Subject {
         });
         self.comparison.as_ref().and_then(Comparison::described).into_iter().chain(own)
     }
-}
-
-/// Makes the peaks of the pin's heights of the model positive, for its z grows away from the disc; what is no cell has no height.
-pub fn turn_pin(heights: &mut [f64], mesh: &Mesh) {
-    heights.iter_mut().for_each(|height| *height = -*height);
-    mesh.absent_cells().for_each(|cell| heights[cell] = f64::NAN);
 }
 
 /// The form that is taken out of a surface, or of one that closes round the ring.
