@@ -11,6 +11,8 @@ const INK: &str = "#222222";
 /// An SVG figure, taken apart.
 #[derive(Debug, Clone)]
 pub struct Figure {
+    /// Width and height, mm.
+    pub size: [f64; 2],
     /// Texts with their place and what their place is of them: `start`, `middle` or `end`.
     pub texts: Vec<Text>,
     /// Lines with their colour, in the order in which they are drawn.
@@ -69,7 +71,11 @@ impl Figure {
     /// When it is no SVG as the program writes it; so do the functions below where they find something else.
     pub fn read(svg: &str) -> Self {
         let document = Document::parse(svg).expect("an SVG");
-        let mut figure = Self { texts: Vec::new(), lines: Vec::new(), areas: Vec::new(), images: Vec::new() };
+        let size = ["width", "height"].map(|name| {
+            let length = attribute(document.root_element(), name);
+            length.strip_suffix("mm").and_then(|length| length.parse().ok()).expect("a length in mm")
+        });
+        let mut figure = Self { size, texts: Vec::new(), lines: Vec::new(), areas: Vec::new(), images: Vec::new() };
         for node in document.root_element().children().filter(Node::is_element) {
             match node.tag_name().name() {
                 "text" => figure.texts.push(Text {

@@ -79,6 +79,77 @@ fn several_runs_share_their_axes() {
     }
 }
 
+/// The figures that a call wrote, with their paths; each has to fit into the page of a journal.
+fn written(directory: &WorkingDirectory, list: &str) -> Vec<(String, Figure)> {
+    let figure = |line: &str| {
+        let path = line["wrote ".len()..].split(':').next().unwrap().to_owned();
+        let figure = Figure::read(&fs::read_to_string(directory.path(&path)).unwrap());
+        let [width, height] = figure.size;
+        assert!(width <= 180.0 && height <= 240.0, "{path}: {width} mm x {height} mm");
+        (path, figure)
+    };
+    list.lines().map(figure).collect()
+}
+
+#[test]
+fn maps_of_many_runs_stand_on_several_pages_of_a_journal() {
+    let directory = short();
+    let names: Vec<String> = (2..=8).map(|number| format!("{number}.h5")).collect();
+    names.iter().for_each(|name| {
+        fs::copy(directory.path("run.h5"), directory.path(name)).unwrap();
+    });
+    let plot = |runs: usize| {
+        let runs = std::iter::once("run.h5").chain(names.iter().map(String::as_str)).take(runs);
+        directory.plateau(["plot", "-o", "figures", "--format", "svg", "--force"].into_iter().chain(runs))
+    };
+    // Three runs stand beside each other, four as two and two.
+    for (runs, pages) in [(8, 3), (4, 2)] {
+        let list = plot(runs).stdout;
+        let figures = written(&directory, &list);
+        for name in ["topography", "status"] {
+            let of_figure = || figures.iter().filter(|(path, _)| path.starts_with(&format!("figures/{name}")));
+            assert_eq!(of_figure().count(), pages, "{name}: {list}");
+            // Each run is named once.
+            let names = of_figure().flat_map(|(_, figure)| &figure.texts);
+            assert_eq!(names.filter(|text| text.text.starts_with("Quick look")).count(), runs, "{name}");
+        }
+        assert!(list.contains(&format!("topography-2.svg: Topography of disc and pin, page 2 of {pages}\n")), "{list}");
+    }
+    // Pages of the call before stay, and are told.
+    let outcome = plot(1);
+    let said = "plateau: warning: figures/topography-2.svg is a page of an earlier call";
+    assert!(outcome.status == Some(0) && only(&outcome).contains(&said), "{}", outcome.stderr);
+}
+
+#[test]
+fn maps_at_many_moments_stand_on_several_pages_of_a_journal() {
+    let directory = with_run(&[
+        ("duration = \"60 s\"", "duration = \"10 s\""),
+        ("maps_at = [\"0 s\"]", "maps_at = [\"0 s\", \"2 s\", \"4 s\", \"6 s\", \"8 s\"]"),
+    ]);
+    fs::copy(directory.path("run.h5"), directory.path("2.h5")).unwrap();
+    let at: Vec<String> = (0..=5).map(|number| format!("--at={} s", 2 * number)).collect();
+    for (runs, shape) in [(1, None), (1, Some("--polar")), (2, None), (2, Some("--polar"))] {
+        let arguments = ["plot", "run.h5", "2.h5"].into_iter().take(1 + runs).chain(at.iter().map(String::as_str));
+        let always = ["-o", "figures", "--format", "svg", "--force"];
+        let list = directory.plateau(arguments.chain(shape).chain(always)).stdout;
+        // Every moment of every run is there once.
+        for (name, body) in [("topography", "disc"), ("topography", "pin"), ("pressure", "pin")] {
+            let figures = written(&directory, &list);
+            let texts = figures.iter().filter(|(path, _)| path.starts_with(&format!("figures/{name}")));
+            let mut moments: Vec<&str> = texts
+                .flat_map(|(_, figure)| &figure.texts)
+                .filter_map(|text| text.text.strip_prefix(&format!("{body}, ")))
+                .collect();
+            moments.sort_unstable();
+            // Maps are of the next step.
+            let expected = ["0 s", "10 s", "2.001 s", "4 s", "6.001 s", "8 s"];
+            let expected = expected.into_iter().filter(|moment| name != "pressure" || *moment != "0 s");
+            assert_eq!(moments, expected.flat_map(|moment| vec![moment; runs]).collect::<Vec<_>>(), "{name} {shape:?}");
+        }
+    }
+}
+
 #[test]
 fn every_format_has_every_figure() {
     let directory = short();

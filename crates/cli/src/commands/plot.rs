@@ -1,12 +1,12 @@
 //! `plateau plot`: the figures of runs.
 
-use plateau_present::figure::run::Options;
+use plateau_present::figure::run::{NAMES, Options};
 use plateau_present::figure::{Figure, Format};
 
 use crate::arguments::PlotArguments;
 use crate::failure::Failure;
-use crate::output;
 use crate::table::print;
+use crate::{message, output};
 
 /// Draws the figures of runs, each into a file of its own.
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
@@ -33,5 +33,17 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         output::write_in_folder(&path, &figure.draw(format).map_err(Failure::run)?, *force)?;
         print(&format!("wrote {}: {}\n", path.display(), figure.title))?;
     }
+    for left in NAMES.into_iter().filter_map(|name| page_after_last(&figures.figures, name)) {
+        let path = directory.join(format!("{left}.{}", format.ending()));
+        if path.is_file() {
+            message::warning(format_args!("{} is a page of an earlier call", path.display()));
+        }
+    }
     Ok(())
+}
+
+/// What a page of a figure that is drawn would be called if there were one more.
+fn page_after_last(figures: &[Figure], name: &str) -> Option<String> {
+    let mut pages = (1..).map(|number| Figure::name_of_page(name, number));
+    pages.find(|page| figures.iter().all(|figure| figure.name != *page)).filter(|page| page != name)
 }

@@ -1,6 +1,6 @@
 //! Charts: their boxes beside and below each other, and what their colours mean.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 use plotters::style::RGBColor;
 
@@ -74,11 +74,12 @@ pub fn page(width: f64, height: f64, across: usize, charts: Vec<Chart>, meanings
             _ => rows.push(vec![chart]),
         }
     }
-    page_of_rows(width, height, across, &rows, meanings)
+    page_of_rows(width, height, &rows, 0..rows.len(), meanings)
 }
 
-/// The same with these rows of at most so many, any of which may be shorter.
-pub fn page_of_rows(width: f64, height: f64, across: usize, rows: &[Vec<Chart>], meanings: &[Meaning]) -> Page {
+/// The same with some of these rows, any of which may be shorter than the first. All pages with some of them have the same columns.
+pub fn page_of_rows(width: f64, height: f64, rows: &[Vec<Chart>], shown: Range<usize>, meanings: &[Meaning]) -> Page {
+    let across = rows.first().map_or(1, Vec::len).max(1);
     let mut page = Page { size: [width, 0.0], ..Page::default() };
     let mut top = legend(&mut page, meanings, MARGIN);
     // A column of boxes begins at one place, whichever of them has the widest numbers.
@@ -89,7 +90,7 @@ pub fn page_of_rows(width: f64, height: f64, across: usize, rows: &[Vec<Chart>],
     let rooms: Vec<f64> = (0..across).map(room).collect();
     let taken = rooms.iter().sum::<f64>() + BETWEEN * across as f64 + 2.0 * MARGIN;
     let box_width = ((width - taken) / across as f64).floor();
-    for row in rows {
+    for row in &rows[shown] {
         let titled = row.iter().any(|chart| !chart.title.is_empty());
         top += if titled { LINE_OF_TEXT + 12.0 } else { 16.0 };
         if titled && !meanings.is_empty() && page.panels.is_empty() {

@@ -13,6 +13,7 @@
 //! | curves with no more places than there is to see | [`simplify`] |
 //! | colour, width and dashes of lines | [`stroke`] |
 //! | a page as plain data | [`page`], drawn as PNG, SVG or PDF by [`mod@format`] |
+//! | what is too high for a page of a journal on several of them | [`pages`] |
 //! | charts beside and below each other | [`chart`] |
 //! | map, histogram and Abbott-Firestone curve of surfaces | [`surface_description`], [`surface_map`], [`surface_charts`] |
 //! | the fibre map of a pin beside its micrograph | [`fibre_map`] |
@@ -43,6 +44,7 @@ mod hull;
 mod labels;
 pub mod optimum;
 mod page;
+mod pages;
 mod picture;
 mod raster;
 pub mod run;

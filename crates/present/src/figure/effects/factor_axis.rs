@@ -191,9 +191,38 @@ impl<'a> FactorAxis<'a> {
             return self.between(self.range(), length);
         }
         let label = shortened(&self.label(), TEXT, length);
+        let names = if self.factor.factor.is_numeric() { self.numbers(length) } else { self.words(length) };
+        Axis::marked(self.range(), label, self.places.iter().copied().zip(names).collect())
+    }
+
+    /// The names of levels, as much of each as there is room for on an axis of this length.
+    fn words(&self, length: f64) -> Vec<String> {
         let room = length / self.distances() - 0.5 * BETWEEN;
-        let mark = |(name, place): (&String, &f64)| (*place, shortened(name, TEXT, room));
-        Axis::marked(self.range(), label, self.names.iter().zip(&self.places).map(mark).collect())
+        self.names.iter().map(|name| shortened(name, TEXT, room)).collect()
+    }
+
+    /// The numbers of levels, whole; nothing in place of those that have no room beside others, the least and the largest of which come first.
+    fn numbers(&self, length: f64) -> Vec<String> {
+        let distance = length / (self.names.len() as f64 - 1.0 + 2.0 * BESIDE).max(1.0);
+        let width = |level: usize| text_width(&self.names[level], TEXT);
+        let are_apart = |one: usize, other: usize| {
+            let apart = distance * (self.places[one] - self.places[other]).abs();
+            apart >= 0.5 * (width(one) + width(other) + BETWEEN)
+        };
+        let mut levels: Vec<usize> = (0..self.names.len()).collect();
+        levels.sort_by(|one, other| self.places[*one].total_cmp(&self.places[*other]));
+        if let Some(last) = levels.pop() {
+            levels.insert(1.min(levels.len()), last);
+        }
+        let mut names = vec![String::new(); self.names.len()];
+        let mut kept: Vec<usize> = Vec::new();
+        for level in levels {
+            if kept.iter().all(|other| are_apart(level, *other)) {
+                names[level].clone_from(&self.names[level]);
+                kept.push(level);
+            }
+        }
+        names
     }
 
     /// Length of the axis in the least distance of two levels.
@@ -244,6 +273,19 @@ mod tests {
         assert!(axis.axis(axis.room()).marks.unwrap().iter().all(|(_, name)| !name.contains('\u{2026}')));
         let marks = axis.axis(300.0).marks.unwrap();
         assert!(marks.iter().all(|(_, name)| text_width(name, TEXT) <= 300.0 / 1.9));
+    }
+
+    #[test]
+    fn numbers_that_have_no_room_are_left_out() {
+        let labels = ["400 rpm", "700 rpm", "800 rpm", "850 rpm"];
+        let speed = factor("speed", FactorKind::Levels(vec![400.0, 700.0, 800.0, 850.0]), &labels);
+        let axis = FactorAxis::new(&speed, (0..4).map(Setting::Level));
+        let said = |length: f64| axis.axis(length).marks.unwrap().into_iter().map(|(_, name)| name).collect::<Vec<_>>();
+        assert_eq!(said(axis.room()), ["400", "700", "800", "850"]);
+        // By hand: 850 is a ninth of 3 distances of levels from 800, and a third of them from 700. The axis is 3.9 distances long, so these are
+        // 0.085 and 0.256 of it; a number of three digits and what is beside it need about 90 pixels.
+        assert_eq!(said(700.0), ["400", "700", "", "850"]);
+        assert_eq!(said(250.0), ["400", "", "", "850"]);
     }
 
     #[test]

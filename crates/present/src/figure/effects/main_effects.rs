@@ -6,12 +6,13 @@ use plateau_study::effects::{Cell, Model};
 use super::{FactorAxis, ResponseFigures, Subject, range_of, said_of_cuts};
 use crate::colour::{DATA, FAINT};
 use crate::figure::canvas::LINE;
-use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, note, page};
+use crate::figure::chart::{COLUMN, Chart, MARGIN, Meaning, TWO_COLUMNS, note, page_of_rows};
 use crate::figure::page::{Content, KeyStyle, Mark};
+use crate::figure::pages::with_lower_boxes;
 use crate::figure::stroke::{SOLID, Stroke};
 
-/// Height of a box, pixels.
-const HEIGHT: f64 = 620.0;
+/// Height of a box, pixels; at least, where there are many factors, and mostly.
+const HEIGHTS: [f64; 2] = [300.0, 620.0];
 /// Boxes beside each other, at most.
 const MOST_ACROSS: usize = 6;
 /// Room of the numbers and the label on the left, and of what is between two boxes, pixels.
@@ -48,18 +49,22 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         let ends = shown.intervals.iter().flat_map(|[_, low, high]| [*low, *high]);
         shown.points.iter().map(|[_, value]| *value).chain(ends)
     });
-    let y = subject.value_axis(range_of(values.chain([mean])), HEIGHT);
+    let range = range_of(values.chain([mean]));
     let Layout { width, across, box_width } = Layout::of(subject.axes);
-    let chart = |(at, (axis, shown)): (usize, (&FactorAxis, &Shown))| Chart {
-        title: String::new(),
-        x: axis.axis(box_width),
-        y: if at % across == 0 { y.clone() } else { y.clone().shared() },
-        contents: {
-            let x = axis.range();
-            [subject.impossible(&x, &y.range), contents(shown, axis, mean)].concat()
-        },
+    let boxes: Vec<(&FactorAxis, &Shown)> = subject.axes.iter().zip(&shown).collect();
+    let rows = |height: f64| -> Vec<Vec<Chart>> {
+        let y = subject.value_axis(range.clone(), height);
+        let chart = |(column, (axis, shown)): (usize, &(&FactorAxis, &Shown))| Chart {
+            title: String::new(),
+            x: axis.axis(box_width),
+            y: if column == 0 { y.clone() } else { y.clone().shared() },
+            contents: {
+                let x = axis.range();
+                [subject.impossible(&x, &y.range), contents(shown, axis, mean)].concat()
+            },
+        };
+        boxes.chunks(across).map(|row| row.iter().enumerate().map(chart).collect()).collect()
     };
-    let charts = subject.axes.iter().zip(&shown).enumerate().map(chart).collect();
     let has_intervals = shown.iter().any(|shown| !shown.intervals.is_empty());
     let (any_predicted, all_predicted) =
         (shown.iter().any(|shown| shown.predicted), shown.iter().all(|shown| shown.predicted));
@@ -103,14 +108,18 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     let ends = shown.iter().flat_map(|shown| &shown.intervals).flat_map(|[_, low, high]| [*low, *high]);
     let cut = said_of_cuts(subject.bounds(), &subject.unit, ends);
     let caption = format!("{what}.{adjusted} {uncertainty}{cut}");
-    let mut page = page(width, HEIGHT, across, charts, &meanings);
-    if any_predicted {
-        let held =
-            if subject.axes.len() > 1 { subject.held(&[], "predicted with the others at") } else { String::new() };
+    let held = match any_predicted && subject.axes.len() > 1 {
+        true => subject.held(&[], "predicted with the others at"),
+        false => String::new(),
+    };
+    let impossible = subject.note_of_impossible(shown.iter().flat_map(|shown| &shown.points).map(|[_, value]| *value));
+    let pages = with_lower_boxes(boxes.len().div_ceil(across), HEIGHTS, |some, height| {
+        let mut page = page_of_rows(width, height, &rows(height), some, &meanings);
         note(&mut page, &held);
-    }
-    note(&mut page, &subject.note_of_impossible(shown.iter().flat_map(|shown| &shown.points).map(|[_, value]| *value)));
-    subject.add(figures, "main-effects", "Main effects on", caption, page);
+        note(&mut page, &impossible);
+        page
+    });
+    subject.add_pages(figures, "main-effects", "Main effects on", caption, pages);
 }
 
 /// Whether means at levels of a factor are not those of the runs.

@@ -124,12 +124,13 @@ impl Subject<'_> {
 
     /// Adds a figure; `title` is what it shows of the response.
     fn add(&self, figures: &mut ResponseFigures, figure: &str, title: &str, caption: String, page: Page) {
-        figures.figures.push(Figure {
-            name: format!("{}-{figure}", self.name),
-            title: format!("{title} {}", self.response.title()),
-            caption,
-            page,
-        });
+        self.add_pages(figures, figure, title, caption, vec![page]);
+    }
+
+    /// Adds a figure on one page or several.
+    fn add_pages(&self, figures: &mut ResponseFigures, figure: &str, title: &str, caption: String, pages: Vec<Page>) {
+        let (name, title) = (format!("{}-{figure}", self.name), format!("{title} {}", self.response.title()));
+        figures.figures.extend(Figure::of_pages(&name, &title, &caption, pages));
     }
 }
 

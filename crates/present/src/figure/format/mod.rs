@@ -58,6 +58,26 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// A figure on so many pages: each is a file of its own, and says which one it is. The first one has the name of the figure.
+    pub(super) fn of_pages(name: &str, title: &str, caption: &str, pages: Vec<Page>) -> Vec<Self> {
+        let most = pages.len();
+        let of_page = |(number, page)| {
+            let said = format!("{title}, page {number} of {most}");
+            let (title, caption) = match number {
+                1 if most == 1 => (title.to_owned(), caption.to_owned()),
+                1 => (said, caption.to_owned()),
+                _ => (said.clone(), format!("{said}.")),
+            };
+            Self { name: Self::name_of_page(name, number), title, caption, page }
+        };
+        (1..).zip(pages).map(of_page).collect()
+    }
+
+    /// The name of a page of a figure, counted from 1.
+    pub fn name_of_page(figure: &str, number: usize) -> String {
+        if number == 1 { figure.to_owned() } else { format!("{figure}-{number}") }
+    }
+
     /// The content of a file with the figure.
     ///
     /// # Errors

@@ -34,9 +34,8 @@ pub struct Shown<'a> {
 
 /// The figures; the contour is over two factors, by index, or over the two that matter most.
 pub fn figures(shown: &Shown<'_>, contour: Option<[usize; 2]>) -> Vec<Figure> {
-    let profiler = profiler::figure(shown);
     let pair = contour.or_else(|| shown.pair());
-    [Some(profiler), pair.and_then(|pair| contour::figure(shown, pair))].into_iter().flatten().collect()
+    profiler::figures(shown).into_iter().chain(pair.and_then(|pair| contour::figure(shown, pair))).collect()
 }
 
 impl<'a> Shown<'a> {

@@ -4,22 +4,23 @@ use std::ops::RangeInclusive;
 
 use plateau_io::number;
 use plateau_study::design::Setting;
-use plateau_study::optimum::{Axis as Range, Kept};
+use plateau_study::optimum::{Axis as Places, Kept};
 use plateau_study::surrogate::Forecast;
 
 use super::Shown;
 use crate::colour::{DATA, DERIVED, FAINT, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::{LINE, TEXT};
-use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, note, page};
+use crate::figure::chart::{Chart, Meaning, TWO_COLUMNS, note, page_of_rows};
 use crate::figure::effects::{FactorAxis, axes, range_of, said_of_cuts};
 use crate::figure::font::shortened;
 use crate::figure::format::Figure;
-use crate::figure::page::{Content, KeyStyle, Mark};
+use crate::figure::page::{Content, KeyStyle, Mark, Page};
+use crate::figure::pages::with_lower_boxes;
 use crate::figure::stroke::{Dashes, SOLID, Stroke};
 
-/// Height of a box, pixels.
-const HEIGHT: f64 = 400.0;
+/// Height of a box, pixels; at least, where there are many responses, and mostly.
+const HEIGHTS: [f64; 2] = [220.0, 400.0];
 /// Values along a range.
 const VALUES: usize = 121;
 /// How often a piece between two values is halved to find where the desirability comes to 0: a part in 10⁻⁷ of the range.
@@ -28,8 +29,14 @@ const HALVINGS: usize = 20;
 const DASHES: Dashes = &[14.0, 9.0];
 /// Whether one sees through bands.
 const OPACITY: f64 = 0.25;
-/// Width of the boxes of one factor up to this many factors; with more they share the page, pixels.
+/// Width of the boxes of one factor, as long as the page is wide enough; of the numbers and the label on the left; and between boxes, pixels.
 const BOX: f64 = 620.0;
+const LEFT: f64 = 300.0;
+const BETWEEN: f64 = 48.0;
+/// Distance of rows, pixels.
+const BETWEEN_ROWS: f64 = 28.0;
+/// Factors beside each other, at most.
+const MOST_ACROSS: usize = 5;
 
 /// The axis of the desirability: a curve at 0 is not on the frame.
 const WORTH: RangeInclusive<f64> = -0.05..=1.05;
@@ -37,22 +44,23 @@ const WORTH: RangeInclusive<f64> = -0.05..=1.05;
 /// A place on the axis below, a value and the ends of its interval.
 type Point = (f64, f64, Option<[f64; 2]>);
 
-/// The figure.
-pub fn figure(shown: &Shown<'_>) -> Figure {
+/// The figure, on one page or several.
+pub fn figures(shown: &Shown<'_>) -> Vec<Figure> {
     let axes: Vec<FactorAxis<'_>> =
         axes(shown.analysis).into_iter().zip(shown.axes).map(|(axis, range)| looked_at(axis, range)).collect();
     let surrogates = shown.surrogates();
-    let across = axes.len();
-    let width = (BOX * across as f64 + 300.0).min(TWO_COLUMNS);
+    let across = axes.len().div_ceil(axes.len().div_ceil(MOST_ACROSS).max(1)).max(1);
+    let width = (BOX * across as f64 + LEFT).min(TWO_COLUMNS);
+    let box_width = (width - LEFT) / across as f64 - BETWEEN;
     // The band is what has to keep the limits.
     let of_runs = shown.limits.iter().any(|limit| limit.kept == Kept::Runs);
     let band = |forecast: &Forecast| if of_runs { forecast.run_interval } else { forecast.mean_interval };
-    let mut charts = Vec::new();
+    let mut rows: Vec<Vec<Chart>> = Vec::new();
     let mut cut = "";
     for (at, (response, surrogate)) in shown.analysis.responses.iter().zip(&surrogates).enumerate() {
         let Some(surrogate) = surrogate else { continue };
         let unit = &response.scale.unit;
-        let curves: Vec<Vec<Point>> = (0..across)
+        let curves: Vec<Vec<Point>> = (0..axes.len())
             .map(|factor| {
                 let along = settings(shown, &axes[factor], factor);
                 curve(shown, &axes[factor], factor, along, |settings| {
@@ -71,10 +79,9 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
             .flat_map(|(_, value, ends)| [Some(*value), ends.map(|ends| ends[0]), ends.map(|ends| ends[1])]);
         let limits = limits(shown, at).into_iter().map(|limit| unit.value(limit)).collect::<Vec<_>>();
         let range = range_of(values.flatten().chain(limits.iter().copied()));
-        let y = Axis::linear(range, shortened(&response.head(), TEXT, HEIGHT));
-        charts.extend(row(shown, &axes, &curves, &y, &limits, false));
+        rows.push(row(shown, &axes, &curves, &Axis::linear(range, response.head()), &limits, box_width));
     }
-    let curves: Vec<Vec<Point>> = (0..across)
+    let curves: Vec<Vec<Point>> = (0..axes.len())
         .map(|factor| {
             let worth = |settings: &[Setting]| shown.desirability(&surrogates, settings);
             let is_worth = |coded| {
@@ -85,7 +92,7 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
             curve(shown, &axes[factor], factor, along, |settings| Some((worth(settings)?, None)))
         })
         .collect();
-    charts.extend(row(shown, &axes, &curves, &Axis::linear(WORTH, "desirability"), &[], true));
+    rows.push(row(shown, &axes, &curves, &Axis::linear(WORTH, "desirability"), &[], box_width));
     let optimum: Vec<String> = self::axes(shown.analysis)
         .iter()
         .zip(shown.best)
@@ -98,27 +105,48 @@ pub fn figure(shown: &Shown<'_>) -> Figure {
         meaning(DERIVED, SOLID, "optimum".to_owned()),
     ];
     meanings.extend((!shown.limits.is_empty()).then(|| meaning(INK, DASHES, "limit".to_owned())));
-    Figure {
-        name: "profiler".to_owned(),
-        title: "Responses and desirability against each factor".to_owned(),
-        caption: format!(
-            "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
-             optimum; bands are intervals of {}, dashes are limits.{cut}",
-            if of_runs { "one more run" } else { "the mean of many runs" }
-        ),
-        page: {
-            let mut page = page(width, HEIGHT, across, charts, &meanings);
-            note(&mut page, &format!("each factor with the others held at the optimum: {}", optimum.join(", ")));
-            page
-        },
-    }
+    let held = format!("each factor with the others held at the optimum: {}", optimum.join(", "));
+    let caption = format!(
+        "What each response is expected to be, and how much all goals are met, against each factor with the others at the \
+         optimum; bands are intervals of {}, dashes are limits.{cut}",
+        if of_runs { "one more run" } else { "the mean of many runs" }
+    );
+    let pages = pages(&rows, across, width, &meanings, &held);
+    Figure::of_pages("profiler", "Responses and desirability against each factor", &caption, pages)
+}
+
+/// Pages with a row for each response and so many factors across; the others follow below the first ones.
+fn pages(responses: &[Vec<Chart>], across: usize, width: f64, meanings: &[Meaning], held: &str) -> Vec<Page> {
+    let factors = responses.first().map_or(0, Vec::len);
+    let of_factors = |first: usize| responses.iter().map(move |row| row[first..factors.min(first + across)].to_vec());
+    let rows: Vec<Vec<Chart>> = (0..factors).step_by(across).flat_map(of_factors).collect();
+    with_lower_boxes(rows.len(), HEIGHTS, |some, height| {
+        let mut rows = rows.clone();
+        for (number, row) in rows.iter_mut().enumerate() {
+            // The first box of a row has the numbers of all of it, and the lowest box of a factor on the page those of all of the factor's.
+            let is_lowest = number + 1 == some.end || (number + 1) % responses.len() == 0;
+            for (column, chart) in row.iter_mut().enumerate() {
+                // There is room for it beside the distance to the next row.
+                chart.y.label = shortened(&chart.y.label, TEXT, height + BETWEEN_ROWS);
+                if column > 0 {
+                    chart.y = chart.y.clone().shared();
+                }
+                if !is_lowest {
+                    chart.x = Axis { label: String::new(), numbered: false, ..chart.x.clone() };
+                }
+            }
+        }
+        let mut page = page_of_rows(width, height, &rows, some, meanings);
+        note(&mut page, held);
+        page
+    })
 }
 
 /// A factor as an axis: levels between which the optimum may be, or a value is held, lie on a range of values.
-fn looked_at<'a>(axis: FactorAxis<'a>, range: &Range) -> FactorAxis<'a> {
+fn looked_at<'a>(axis: FactorAxis<'a>, range: &Places) -> FactorAxis<'a> {
     let is_between = match range {
-        Range::Range => true,
-        Range::Settings(settings) => settings.iter().any(|setting| matches!(setting, Setting::Coded(_))),
+        Places::Range => true,
+        Places::Settings(settings) => settings.iter().any(|setting| matches!(setting, Setting::Coded(_))),
     };
     if is_between { axis.as_range() } else { axis }
 }
@@ -137,7 +165,7 @@ fn settings(shown: &Shown<'_>, axis: &FactorAxis<'_>, factor: usize) -> Vec<Sett
             let even = (0..VALUES).map(|at| Setting::Coded(-1.0 + 2.0 * at as f64 / last));
             even.chain([shown.best[factor]]).collect()
         }
-        Range::Settings(settings) if settings.len() > 1 => settings.clone(),
+        Places::Settings(settings) if settings.len() > 1 => settings.clone(),
         _ => axis.settings(VALUES),
     }
 }
@@ -180,14 +208,14 @@ fn curve(
     points
 }
 
-/// One box for each factor, with one scale of values and lines at limits.
+/// One box of this width for each factor, with one scale of values and lines at limits.
 fn row(
     shown: &Shown<'_>,
     axes: &[FactorAxis<'_>],
     curves: &[Vec<Point>],
     y: &Axis,
     limits: &[f64],
-    is_last: bool,
+    box_width: f64,
 ) -> Vec<Chart> {
     let chart = |(factor, (axis, points)): (usize, (&FactorAxis<'_>, &Vec<Point>))| {
         let mut contents = Vec::new();
@@ -213,7 +241,7 @@ fn row(
             contents.push(Content::Line { points: places.clone(), stroke: Stroke::solid(FAINT, LINE) });
             contents.push(Content::Marks { points: places, colour: DATA, mark: Mark::Dot });
         }
-        let x = axis.axis(axis.room());
+        let x = axis.axis(box_width);
         contents.extend(limits.iter().map(|limit| Content::Line {
             points: vec![[*x.range.start(), *limit], [*x.range.end(), *limit]],
             stroke: Stroke { dashes: DASHES, ..Stroke::solid(INK, LINE) },
@@ -221,8 +249,7 @@ fn row(
         let at_best: Vec<[f64; 2]> =
             points.iter().filter(|(place, ..)| *place == best).map(|(place, value, _)| [*place, *value]).collect();
         contents.push(Content::Marks { points: at_best, colour: DERIVED, mark: Mark::Dot });
-        let x = if is_last { x } else { Axis { label: String::new(), numbered: false, ..x } };
-        Chart { title: String::new(), x, y: if factor == 0 { y.clone() } else { y.clone().shared() }, contents }
+        Chart { title: String::new(), x, y: y.clone(), contents }
     };
     axes.iter().zip(curves).enumerate().map(chart).collect()
 }

@@ -4,10 +4,9 @@ use plateau_core::model::mesh::Mesh;
 use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
-use super::map_rows::{Painted, any_of, having, rows};
+use super::map_pages::{pages, width_of};
+use super::map_rows::{Painted, any_of, blocks, groups_of_bodies, having};
 use super::moments::{leave_blank, moment};
-use super::shape::Shape;
 use super::thickness::{BODIES, Body, largest, moments_of_thickness, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{APART, COLOURS, GROUND, colour_index, colour_map};
@@ -36,31 +35,24 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let scales = [scale(&having[0], BODIES[0])?, scale(&having[1], BODIES[1])?];
     let disc_shape = options.disc_shape();
-    let mut blocks = Vec::new();
-    for together in shown.chunks(runs_across(shown.len())) {
-        let mut groups = Vec::new();
-        for (body, scale) in BODIES.into_iter().zip(&scales) {
-            let on_disc = body[0].on_disc();
-            let shape = |mesh: &Mesh| if on_disc { disc_shape } else { Shape::of_pin(mesh) };
-            let wide = on_disc && disc_shape == Shape::Unrolled;
-            let rows = rows(together, shape, wide, moments_of_thickness, |subject, index| {
-                painted(subject, body, index, scale)
-            })?;
-            if rows.iter().flatten().any(Option::is_some) {
-                groups.push(MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) });
-            }
-        }
-        let names = together.iter().map(|subject| subject.label.clone()).collect();
-        blocks.push(MapBlock { names, groups });
-    }
+    let blocks = blocks(&shown, moments_of_thickness, |together, moments| {
+        groups_of_bodies(
+            together,
+            moments,
+            disc_shape,
+            &palette,
+            scales.each_ref().map(Some),
+            |subject, body, index| painted(subject, BODIES[body], index, &scales[body]),
+        )
+    })?;
     let nothing = Meaning { colour: APART, style: KeyStyle::Area, text: "nothing has built up".to_owned() };
     let width = figures.width(width_of(&blocks));
-    figures.add(
+    figures.add_pages(
         NAME,
         "Build-up on disc and pin",
         "Thickness of the compacted debris on disc and pin at the last recorded moment: height less what lies below. The colours \
          go from none to the thickness that 99.5 % of the covered cells of the body are below.",
-        page(width, &[nothing], &blocks),
+        pages(width, &[nothing], &blocks),
     );
     Ok(())
 }

@@ -3,8 +3,9 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
-use super::map_rows::{Painted, having, rows};
+use super::map_page::MapGroup;
+use super::map_pages::{pages, width_of};
+use super::map_rows::{Painted, blocks, having, rows};
 use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment, without_contact};
 use super::shape::Shape;
 use super::{Figures, Subject};
@@ -43,10 +44,9 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let scale = scale(&shown, &chosen)?;
     let moments_of = |subject: &Subject| chosen_for(subject, &shown, &chosen);
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
-    let mut blocks = Vec::new();
     let mut has_none = false;
-    for together in shown.chunks(runs_across(shown.len())) {
-        let rows = rows(together, Shape::of_pin, false, moments_of, |subject, index| {
+    let blocks = blocks(&shown, moments_of, |together, moments| {
+        let rows = rows(together, Shape::of_pin, false, moments, |subject, index| {
             let temperatures = floats(subject.run, Map::Temperature, index)?;
             let colour = |temperature: &f64| match *temperature {
                 temperature if temperature.is_finite() => colour_index(scale.part(look.unit.value(temperature))),
@@ -60,20 +60,17 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             has_none |= cells.contains(&NONE);
             Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
         })?;
-        blocks.push(MapBlock {
-            names: together.iter().map(|subject| subject.label.clone()).collect(),
-            groups: vec![MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) }],
-        });
-    }
+        Ok(vec![MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) }])
+    })?;
     let none = Meaning { colour: APART, style: KeyStyle::Area, text: "no temperature".to_owned() };
     let width = figures.width(width_of(&blocks));
-    figures.add(
+    figures.add_pages(
         NAME,
         "Contact temperature of the pin",
         "Temperature of the pin's cells at the first recorded moment with a contact after the start and at the last. The \
          colours span 99 % of all cells. Pressures count as frozen during a pass, and there is no conduction along the \
          surface: on rough discs the hottest cells may be half of their rise too low.",
-        page(width, if has_none { std::slice::from_ref(&none) } else { &[] }, &blocks),
+        pages(width, if has_none { std::slice::from_ref(&none) } else { &[] }, &blocks),
     );
     Ok(())
 }

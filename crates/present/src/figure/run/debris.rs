@@ -4,13 +4,14 @@
 use plateau_io::run_file::ReadError;
 use plotters::style::RGBColor;
 
-use super::map_page::runs_across;
+use super::map_pages::runs_across;
 use super::{Figures, Subject};
 use crate::colour::{DEBRIS, INK};
 use crate::figure::axes::Axis;
 use crate::figure::canvas::LINE;
 use crate::figure::chart::{COLUMN, Chart, Meaning, TWO_COLUMNS, page_of_rows, up_from_zero};
 use crate::figure::page::{Content, KeyStyle};
+use crate::figure::pages::in_pages;
 use crate::figure::stroke::{SOLID, Stroke};
 use crate::quantity::{Unit, title};
 
@@ -82,14 +83,16 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let supply = SUPPLY[usize::from(balances.iter().any(|(_, balance)| balance.has_returned))];
     meanings.insert(0, Meaning { colour: INK, style: KeyStyle::Line(SOLID), text: supply.to_owned() });
     let width = figures.width(if across == 1 { COLUMN } else { TWO_COLUMNS });
-    figures.add(
+    figures.add_pages(
         NAME,
         "Debris balance",
         "Where the wear debris is, stacked: compacted on disc and pin, out of the contact, or loose in it. The line is what \
          was worn, and what plateaus that lost their support returned: the stack must reach it. Below, the same on an axis of its own \
          without what was emitted. All are sums since the start: debris that was laid down, worn off and laid down again counts twice, so \
          less of it is there at the end.",
-        page_of_rows(width, 480.0, across, &rows, &meanings),
+        in_pages(rows.len() / 2, |pairs| {
+            page_of_rows(width, 480.0, &rows, 2 * pairs.start..2 * pairs.end, &meanings)
+        }),
     );
     Ok(())
 }
@@ -184,14 +187,21 @@ mod tests {
     #[test]
     fn the_second_chart_of_every_run_stands_below_its_first() {
         let run = |title| Written::new(title, &[], |_, time| time);
-        // The last row has one of seven runs.
+        // The last page has one of seven runs, in a box of the same size.
         let names = ["a", "b", "c", "d", "e", "f", "g"];
-        let figures = Written::figures(&names.map(run));
-        let page = &figures.figures.iter().find(|figure| figure.name == NAME).unwrap().page;
-        let place = |text: &str| page.texts.iter().find(|words| words.text == text).unwrap().place;
+        let figures = Written::figures(&names.map(run)).figures;
+        let page = |name: &str| &figures.iter().find(|figure| figure.name == name).unwrap().page;
+        let (first, last) = (page(NAME), page("debris-2"));
         for name in names {
+            let place = |text: &str| {
+                let page = if name == "g" { last } else { first };
+                page.texts.iter().find(|words| words.text == text).unwrap().place
+            };
             let (first, second) = (place(name), place(&format!("{name}, not emitted")));
             assert!(first.0 == second.0 && first.1 < second.1, "{name}: {first:?} {second:?}");
         }
+        assert_eq!(first.panels[0].axes.frame, last.panels[0].axes.frame);
+        let said: Vec<&str> = figures.iter().map(|figure| figure.title.as_str()).collect();
+        assert_eq!(said.iter().filter(|title| title.starts_with("Debris balance, page ")).count(), 2, "{said:?}");
     }
 }

@@ -3,10 +3,17 @@
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
+use plotters::style::RGBColor;
 
+use super::map_page::{MapBlock, MapGroup};
+use super::map_pages::runs_across;
 use super::map_section::MapSection;
 use super::shape::Shape;
 use super::{Figures, Subject};
+use crate::figure::axes::Axis;
+
+/// Moments in a block of maps, at most: of one run, and of several.
+const MOST_MOMENTS: [usize; 2] = [3, 2];
 
 /// The runs that have a map at any moment; of the others it is noted that they are left out.
 pub fn having<'a>(
@@ -42,6 +49,50 @@ pub struct Painted {
     pub remark: String,
     /// Number of the colour of every cell.
     pub cells: Vec<u8>,
+}
+
+/// Moments of a run, as indices of its maps.
+pub type Moments<'m> = dyn Fn(&Subject) -> Vec<usize> + 'm;
+
+/// Blocks with a few runs and a few of their moments each. `groups` gives the maps of such runs at such moments.
+pub fn blocks<'a>(
+    shown: &[&'a Subject<'a>],
+    moments: impl Fn(&Subject) -> Vec<usize>,
+    mut groups: impl FnMut(&[&'a Subject<'a>], &Moments) -> Result<Vec<MapGroup<'a>>, ReadError>,
+) -> Result<Vec<MapBlock<'a>>, ReadError> {
+    let together = MOST_MOMENTS[usize::from(shown.len() > 1)];
+    let mut blocks = Vec::new();
+    for runs in shown.chunks(runs_across(shown.len())) {
+        let most = runs.iter().map(|subject| moments(subject).len()).max().unwrap_or(0);
+        for first in (0..most).step_by(together) {
+            let some = |subject: &Subject| moments(subject).into_iter().skip(first).take(together).collect();
+            let names = runs.iter().map(|subject| subject.label.clone()).collect();
+            blocks.push(MapBlock { names, groups: groups(runs, &some)? });
+        }
+    }
+    Ok(blocks)
+}
+
+/// Maps of the disc and, below, of the pin. `paint` gives the map of a run on a body, 0 is the disc, at a moment.
+pub fn groups_of_bodies<'a>(
+    subjects: &[&'a Subject<'a>],
+    moments: &Moments,
+    disc_shape: Shape,
+    palette: &[RGBColor],
+    scales: [Option<&Axis>; 2],
+    paint: impl Fn(&Subject, usize, usize) -> Result<Option<Painted>, ReadError>,
+) -> Result<Vec<MapGroup<'a>>, ReadError> {
+    let mut groups = Vec::new();
+    for (body, scale) in scales.into_iter().enumerate() {
+        let on_disc = body == 0;
+        let shape = |mesh: &Mesh| if on_disc { disc_shape } else { Shape::of_pin(mesh) };
+        let wide = on_disc && disc_shape == Shape::Unrolled;
+        let rows = rows(subjects, shape, wide, moments, |subject, index| paint(subject, body, index))?;
+        if rows.iter().flatten().any(Option::is_some) {
+            groups.push(MapGroup { rows, palette: palette.to_vec(), scale: scale.cloned() });
+        }
+    }
+    Ok(groups)
 }
 
 /// Rows of maps. The moments of a single run stand below each other if they are `wide`, else beside each other; those of

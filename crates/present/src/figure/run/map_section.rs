@@ -92,7 +92,7 @@ impl MapSection<'_> {
         let windows = self.shape.windows(self.mesh, columns, fit.stretch);
         let proportion = |window: &Window| (y_range.end() - y_range.start()) / (window.x.end() - window.x.start());
         let height = |window: &Window, inner: f64| {
-            (inner * proportion(window)).clamp(LEAST_HEIGHT, inner.min(MOST_HEIGHT)).round()
+            (inner * proportion(window)).min(inner.min(MOST_HEIGHT)).max(LEAST_HEIGHT).round()
         };
         // A higher box has more numbers, which may be longer.
         let room = windows.iter().map(|window| y.room_beside(height(window, width))).fold(0.0, f64::max);

@@ -19,7 +19,7 @@
 //! | where the debris is | [`debris`] |
 //! | distribution of heights, Abbott-Firestone curve | [`heights`] |
 //!
-//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`map_rows`], [`map_section`] and [`shape`], the moments that are
+//! What they have in common: charts in [`chart`](super::chart), maps in [`map_page`], [`map_pages`], [`map_rows`], [`map_section`] and [`shape`], the moments that are
 //! shown in [`moments`], what lines and bands are in [`legend`], many samples as few in [`spans`], [`weighted_mean`] and [`mod@crate::envelope`], what grows as what is added in a time in
 //! [`rates`], names of runs in [`mod@crate::label`].
 
@@ -33,6 +33,7 @@ mod friction;
 mod heights;
 mod legend;
 mod map_page;
+mod map_pages;
 mod map_rows;
 mod map_section;
 mod moments;
@@ -184,7 +185,12 @@ impl Figures {
     }
 
     fn add(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, page: Page) {
-        self.figures.push(Figure { name: name.into(), title: title.into(), caption: caption.into(), page });
+        self.add_pages(name, title, caption, vec![page]);
+    }
+
+    /// Adds a figure on one page or several.
+    fn add_pages(&mut self, name: &'static str, title: &'static str, caption: impl Into<String>, pages: Vec<Page>) {
+        self.figures.extend(Figure::of_pages(name, title, &caption.into(), pages));
     }
 
     /// Notes that a figure, or what it would show of a run, is left out.

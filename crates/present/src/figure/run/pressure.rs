@@ -3,8 +3,9 @@
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
-use super::map_rows::{Painted, having, rows};
+use super::map_page::MapGroup;
+use super::map_pages::{pages, width_of};
+use super::map_rows::{Painted, blocks, having, rows};
 use super::moments::{chosen_for, ends_with_contact, floats, leave_blank, moment, without_contact};
 use super::shape::Shape;
 use super::{Figures, Subject};
@@ -42,9 +43,8 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
     let (scale, unit) = scale(&shown, &chosen)?;
     let moments_of = |subject: &Subject| chosen_for(subject, &shown, &chosen);
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
-    let mut blocks = Vec::new();
-    for together in shown.chunks(runs_across(shown.len())) {
-        let rows = rows(together, Shape::of_pin, false, moments_of, |subject, index| {
+    let blocks = blocks(&shown, moments_of, |together, moments| {
+        let rows = rows(together, Shape::of_pin, false, moments, |subject, index| {
             let pressures = floats(subject.run, Map::Pressure, index)?;
             let look = MapLook::of(Map::Pressure);
             let colour = |pressure: &f64| match *pressure {
@@ -58,19 +58,16 @@ pub fn add(subjects: &[Subject], figures: &mut Figures) -> Result<(), ReadError>
             leave_blank(subject.run, Map::Pressure, &mut cells, NO_CELL);
             Ok((!cells.is_empty()).then_some(Painted { title, remark, cells }))
         })?;
-        blocks.push(MapBlock {
-            names: together.iter().map(|subject| subject.label.clone()).collect(),
-            groups: vec![MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) }],
-        });
-    }
+        Ok(vec![MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) }])
+    })?;
     let none = Meaning { colour: APART, style: KeyStyle::Area, text: "no contact".to_owned() };
     let width = figures.width(width_of(&blocks));
-    figures.add(
+    figures.add_pages(
         NAME,
         "Contact pressure on the pin",
         "Contact pressure on the pin at the first recorded moment with a contact after the start and at the last. The colours span 99 % of \
          the pressures of cells in contact.",
-        page(width, &[none], &blocks),
+        pages(width, &[none], &blocks),
     );
     Ok(())
 }

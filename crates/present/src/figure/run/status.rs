@@ -6,10 +6,9 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
-use super::map_rows::{Painted, any_of, having, rows};
+use super::map_pages::{pages, width_of};
+use super::map_rows::{Painted, any_of, blocks, groups_of_bodies, having};
 use super::moments::{leave_blank, moment, shown_moments, statuses};
-use super::shape::Shape;
 use super::thickness::{BODIES, thickness};
 use super::{Figures, Options, Subject};
 use crate::colour::{GROUND, paler};
@@ -38,28 +37,11 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let film = paler(STATUS_LOOKS[Status::Secondary as usize].colour, 0.45);
     let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([film, GROUND]).collect();
     let disc_shape = options.disc_shape();
-    let mut blocks = Vec::new();
-    for together in shown.chunks(runs_across(shown.len())) {
-        let disc_rows = rows(
-            together,
-            |_| disc_shape,
-            disc_shape == Shape::Unrolled,
-            shown_moments,
-            |subject, index| painted(subject, Map::DiscStatus, index),
-        )?;
-        let pin_rows = rows(together, Shape::of_pin, false, shown_moments, |subject, index| {
-            painted(subject, Map::PinStatus, index)
-        })?;
-        let has_any = |rows: &Vec<Vec<Option<_>>>| rows.iter().flatten().any(Option::is_some);
-        blocks.push(MapBlock {
-            names: together.iter().map(|subject| subject.label.clone()).collect(),
-            groups: [disc_rows, pin_rows]
-                .into_iter()
-                .filter(has_any)
-                .map(|rows| MapGroup { rows, palette: palette.clone(), scale: None })
-                .collect(),
-        });
-    }
+    let blocks = blocks(&shown, shown_moments, |together, moments| {
+        groups_of_bodies(together, moments, disc_shape, &palette, [None; 2], |subject, body, index| {
+            painted(subject, [Map::DiscStatus, Map::PinStatus][body], index)
+        })
+    })?;
     let meaning = |look: &StatusLook| Meaning {
         colour: look.colour,
         style: KeyStyle::Area,
@@ -76,12 +58,12 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     });
     let meanings: Vec<Meaning> = STATUS_LOOKS.iter().map(meaning).chain(films).collect();
     let width = figures.width(width_of(&blocks));
-    figures.add(
+    figures.add_pages(
         NAME,
         "Status of disc and pin",
         "What the cells of disc and pin are at the first and the last recorded moment, with the parts of the area. Any debris makes a cell \
          secondary; where it is thinner than 0.1 um, its colour is paler.",
-        page(width, &meanings, &blocks),
+        pages(width, &meanings, &blocks),
     );
     Ok(())
 }

@@ -1,13 +1,11 @@
 //! Heights of disc and pin at the first and the last moment (paper Figs. 5, 7, 8, 9 and 11).
 
-use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
-use super::map_page::{MapBlock, MapGroup, page, runs_across, width_of};
-use super::map_rows::{Painted, any_of, having, rows};
+use super::map_pages::{pages, width_of};
+use super::map_rows::{Painted, any_of, blocks, groups_of_bodies, having};
 use super::moments::{heights, leave_blank, moment, shown_moments};
-use super::shape::Shape;
 use super::{Figures, Options, Subject};
 use crate::colour::{COLOURS, GROUND, colour_index, colour_map};
 use crate::figure::axes::Axis;
@@ -27,28 +25,23 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     }
     let scales = [scale(&having[0], bodies[0])?, scale(&having[1], bodies[1])?];
     let palette: Vec<_> = colour_map().into_iter().chain([GROUND]).collect();
-    let mut blocks = Vec::new();
-    for together in shown.chunks(runs_across(shown.len())) {
-        let names = together.iter().map(|subject| subject.label.clone()).collect();
-        let mut groups = Vec::new();
-        for (map, scale) in bodies.into_iter().zip(&scales) {
-            let wide = map.on_disc() && disc_shape == Shape::Unrolled;
-            let shape = |mesh: &Mesh| if map.on_disc() { disc_shape } else { Shape::of_pin(mesh) };
-            let rows =
-                rows(together, shape, wide, shown_moments, |subject, index| painted(subject, map, index, scale))?;
-            if rows.iter().flatten().any(Option::is_some) {
-                groups.push(MapGroup { rows, palette: palette.clone(), scale: Some(scale.clone()) });
-            }
-        }
-        blocks.push(MapBlock { names, groups });
-    }
+    let blocks = blocks(&shown, shown_moments, |together, moments| {
+        groups_of_bodies(
+            together,
+            moments,
+            disc_shape,
+            &palette,
+            scales.each_ref().map(Some),
+            |subject, body, index| painted(subject, bodies[body], index, &scales[body]),
+        )
+    })?;
     let width = figures.width(width_of(&blocks));
-    figures.add(
+    figures.add_pages(
         NAME,
         "Topography of disc and pin",
         "Heights of disc and pin at the first and the last recorded moment, positive toward the other body: peaks have the highest. The \
          pin's are counted from their mean. The colours span 99 % of all heights of the body.",
-        page(width, &[], &blocks),
+        pages(width, &[], &blocks),
     );
     Ok(())
 }
