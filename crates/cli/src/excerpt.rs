@@ -1,19 +1,19 @@
-//! What is wrong with a scene, with the line in which it stands and a mark below.
+//! What is wrong with a scene or a study, with the line in which it stands and a mark below.
 
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
 use plateau_io::brief;
-use plateau_io::scene::{Origin, Problem, SceneError};
+use plateau_io::scene::{Origin, Problem};
 
 /// Longest line that is shown, characters: of a longer one its beginning.
 const LONGEST: usize = 160;
 
-/// The problems of a scene, as many as are read, each with its line if it has one.
-pub fn of_scene(error: &SceneError) -> String {
+/// Problems, as many as are read, each with its line if it has one.
+pub fn of(problems: &[Problem]) -> String {
     let mut files = HashMap::new();
-    brief::problems(error.problems().iter().map(|problem| with_line(problem, &mut files)))
+    brief::problems(problems.iter().map(|problem| with_line(problem, &mut files)))
 }
 
 fn with_line<'a>(problem: &'a Problem, files: &mut HashMap<&'a Path, Option<String>>) -> String {

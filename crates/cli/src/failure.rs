@@ -4,6 +4,7 @@ use std::fmt;
 use std::process::ExitCode;
 
 use plateau_io::scene::SceneError;
+use plateau_io::study::StudyError;
 use plateau_run::{Job, Progress, RunError};
 
 use crate::{excerpt, message};
@@ -38,7 +39,12 @@ impl Failure {
 
     /// A scene that cannot be used, with the lines that are wrong.
     pub fn of_scene(error: SceneError) -> Self {
-        Self::Input(excerpt::of_scene(&error))
+        Self::Input(excerpt::of(error.problems()))
+    }
+
+    /// A study that cannot be used, with the lines that are wrong.
+    pub fn of_study(error: StudyError) -> Self {
+        Self::input(excerpt::of(&error.0))
     }
 
     /// How a run failed.

@@ -12,7 +12,7 @@ use serde::Deserialize;
 /// A function in place of a fit.
 struct Function<F>(F);
 
-impl<F: Fn(&[Setting]) -> f64> Surrogate for Function<F> {
+impl<F: Fn(&[Setting]) -> f64 + Sync> Surrogate for Function<F> {
     fn name(&self) -> String {
         "function".to_owned()
     }

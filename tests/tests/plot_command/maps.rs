@@ -185,9 +185,14 @@ fn the_moment_the_width_and_the_colours_can_be_asked_for() {
             .all(|(_, image)| image.pixels().all(|Rgb([red, green, blue])| red == green && green == blue))
     );
 
+    let outcome = directory.plateau(["plot", "run.h5", "-o", "late", "--figure", "pressure", "--at", "1e9 s"]);
+    let said = "plateau: warning: run.h5: 1e9 s is after the last recorded map, that of ";
+    assert!(outcome.status == Some(0) && outcome.stderr.starts_with(said), "{}", outcome.stderr);
+
     for (option, value, reason) in [
         ("--at", "-1 s", "-1 s is before the start of a run"),
         ("--at", "4", "\"4\" has no unit"),
+        ("--width", "10", "10 has no unit, expected a width such as \"88 mm\""),
         ("--width", "3 mm", "3 mm is not a width from 60 mm to 1000 mm"),
         ("--cmap", "jet", "possible values: viridis"),
     ] {

@@ -97,6 +97,9 @@ const WIDTHS: std::ops::RangeInclusive<f64> = 60.0..=1000.0;
 
 /// A width, mm.
 fn width(text: &str) -> Result<f64, String> {
+    if text.trim().parse::<f64>().is_ok() {
+        return Err(format!("{text} has no unit, expected a width such as \"88 mm\""));
+    }
     let width = 1e3 * quantity(text, Dimension::Length)?;
     let (least, most) = (WIDTHS.start(), WIDTHS.end());
     if WIDTHS.contains(&width) { Ok(width) } else { Err(format!("{text} is not a width from {least} mm to {most} mm")) }

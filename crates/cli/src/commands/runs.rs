@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use plateau_io::number;
 use plateau_io::run_file::{RunFile, State};
-use plateau_present::figure::run::{self, Figures, MOST_RUNS, Options};
+use plateau_present::figure::run::{self, Figures, MOST_RUNS, Options, moment};
 
 use crate::failure::Failure;
 use crate::message;
@@ -28,6 +28,27 @@ pub fn warn_of_unfinished(run: &RunFile) {
         state => state.name().to_owned(),
     };
     message::warning(format_args!("{} is not finished: its state is {state}, with {samples}", run.path().display()));
+}
+
+/// Part of the last time that a time may be beyond the maps without a word: maps are of the step that comes to their time.
+const BEYOND: f64 = 1e-3;
+
+/// Warns where a map is asked for, by a time in s, before the first or after the last one of a run.
+pub fn warn_of_times(run: &RunFile, at: &[f64]) {
+    let times = run.map_time();
+    let [Some(first), Some(last)] = [times.first(), times.last()] else { return };
+    for time in at {
+        let (place, index) = match () {
+            () if *time < first - BEYOND * last => ("before the first", 0),
+            () if *time > last + BEYOND * last => ("after the last", times.len() - 1),
+            () => continue,
+        };
+        let (path, time) = (run.path().display(), number::rounded(*time, 4));
+        message::warning(format_args!(
+            "{path}: {time} s is {place} recorded map, that of {} is shown",
+            moment(run, index)
+        ));
+    }
 }
 
 /// Opens run files that are shown together; warns of those that are not finished or named twice.
@@ -56,6 +77,7 @@ pub fn open_runs(paths: &[PathBuf]) -> Result<Vec<RunFile>, Failure> {
 /// # Errors
 /// [`Failure::Input`] when a file turns out to be damaged.
 pub fn figures(runs: &[RunFile], options: &Options) -> Result<Figures, Failure> {
+    runs.iter().for_each(|run| warn_of_times(run, &options.at));
     let figures = run::figures(runs, options).map_err(Failure::input)?;
     for reason in &figures.left_out {
         message::note(reason);

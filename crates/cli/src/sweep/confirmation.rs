@@ -58,7 +58,7 @@ pub fn confirm(
         order: Order::Standard,
         ..plan.study().clone()
     };
-    let extra = Plan::new(study).map_err(Failure::input)?;
+    let extra = Plan::new(study).map_err(Failure::of_study)?;
     let resolved = Resolved::of(&extra)?;
     resolved.warnings.say("confirming runs");
     warn_of_known(known, &resolved);

@@ -46,7 +46,7 @@ use crate::machine;
 /// # Errors
 /// [`Failure::Input`] with everything that is wrong.
 pub fn plan(path: &Path) -> Result<Plan, Failure> {
-    Study::load(path).and_then(Plan::new).map_err(Failure::input)
+    Study::load(path).and_then(Plan::new).map_err(Failure::of_study)
 }
 
 /// Refuses a study that has no scene to run.

@@ -35,7 +35,7 @@ impl Forecast {
 }
 
 /// Something that was fitted to the responses of a study.
-pub trait Surrogate {
+pub trait Surrogate: Sync {
     /// What it is, for people: such as `quadratic in log(contact area)` or `Gaussian process`.
     fn name(&self) -> String;
 

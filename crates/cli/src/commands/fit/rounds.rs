@@ -76,7 +76,7 @@ pub fn fitted(plan: Plan, task: &Task, arguments: &FitArguments, job: &mut Job) 
     let mut shares = Vec::new();
     for round in 1.. {
         let source = DesignSource::File(points.clone());
-        let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::input)?;
+        let plan = Plan::new(Study { source, order: Order::Standard, ..study.clone() }).map_err(Failure::of_study)?;
         let Some((collected, scenes)) = made(&plan, arguments, job, &interrupt, &mut tried, round == 1)? else {
             let next = job.first_says(&[]).map_err(Failure::run)?;
             if next.is_empty() {

@@ -10,7 +10,7 @@ use plateau_io::run_file::{ReadError, RunFile, map_path};
 use plateau_io::surface::{Format, Measured};
 use plateau_present::figure::run::{moment, nearest};
 
-use super::super::runs::warn_of_unfinished;
+use super::super::runs::{warn_of_times, warn_of_unfinished};
 use super::named;
 use crate::arguments::SurfaceArguments;
 use crate::failure::Failure;
@@ -85,6 +85,7 @@ pub fn of(path: &Path, arguments: &SurfaceArguments) -> Result<Option<Vec<NamedH
         at => nearest(&run, at),
     };
     warn_of_unfinished(&run);
+    warn_of_times(&run, &arguments.at);
     let mut found = Vec::new();
     for map in maps {
         for moment in &moments {

@@ -62,7 +62,12 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
         best: &best.settings,
         confidence: arguments.fit.confidence,
     };
-    write(&mut folder, &figures(&shown, contour), &analysed.inputs)?;
+    let pair = contour.or_else(|| shown.pair());
+    let figures = figures(&shown, pair);
+    if pair.is_some() && !figures.iter().any(|figure| figure.name == "contour") {
+        message::note("there is no contour: the desirability is the same all over the two factors");
+    }
+    write(&mut folder, &figures, &analysed.inputs)?;
     let files = folder.files().to_vec();
     let make = || confirm(&analysed.plan, &analysed.identities, &[(&place.levels, &forecasts)], &arguments.cores);
     let confirmed = arguments.confirm.then(make).transpose()?.and_then(|places| places.into_iter().next());

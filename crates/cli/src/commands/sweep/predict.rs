@@ -12,17 +12,20 @@ use plateau_present::study::forecasts::heads;
 use plateau_present::study::place::{Place, Space};
 use plateau_study::design::Setting;
 use plateau_study::surrogate::{Forecast, Surrogate};
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::analysed::Analysed;
 use super::prediction_table;
 use crate::arguments::PredictArguments;
 use crate::failure::Failure;
-use crate::output;
 use crate::sweep;
 use crate::sweep::confirmation::{Confirmed, confirm};
 use crate::table::{columns, print};
+use crate::{message, output};
 
+/// More places than these are announced: with a Gaussian process they take some ten seconds or more.
+const MANY_PLACES: usize = 50_000;
 /// Most places of a grid: 200 MB of table.
 const MOST_PLACES: usize = 1_000_000;
 
@@ -43,7 +46,13 @@ pub fn predict(arguments: &PredictArguments) -> Result<(), Failure> {
     let settings: Vec<&[Setting]> = places.iter().map(|place| &place.settings[..]).collect();
     analysed.warn_of_no_curve(&between_two_values(&analysed.analysis, &settings));
     let surrogates: Vec<_> = analysed.analysis.responses.iter().map(AnalysedResponse::surrogate).collect();
-    let forecasts = places.iter().map(|place| forecasts_at(&analysed, &surrogates, place, confidence));
+    if places.len() > MANY_PLACES {
+        message::note(format_args!(
+            "{} places are predicted, which takes a while",
+            crate::number::grouped(places.len() as u64)
+        ));
+    }
+    let forecasts = places.par_iter().map(|place| forecasts_at(&analysed, &surrogates, place, confidence));
     let forecasts = forecasts.collect::<Result<Vec<_>, Failure>>()?;
     let expected: Vec<_> = places.iter().zip(&forecasts).map(|(place, own)| (&place.levels[..], &own[..])).collect();
     let confirmed = if arguments.confirm {

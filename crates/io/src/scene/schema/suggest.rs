@@ -46,6 +46,9 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
     if find(name).is_some() {
         return "unknown key here, it belongs at the top, before the first table".to_owned();
     }
+    if table == name {
+        return format!("unknown key, below [{table}] keys stand without \"{name}.\" before them");
+    }
     let tables = tables().into_iter().filter(|other| known(&join(other, name)));
     if let Some((first, more)) = of_the_same_body(table, tables.collect()).split_first() {
         let more: String = more.iter().map(|table| format!(" or [{table}]")).collect();
@@ -120,6 +123,10 @@ mod tests {
         assert_eq!(unknown("contact", "level"), "unknown key here, it belongs in [disc.prepare] or [pin.prepare]");
         assert_eq!(unknown("output", "title"), "unknown key here, it belongs at the top, before the first table");
         assert_eq!(unknown("", "normal_forces"), "unknown key, did you mean \"normal_force\" in [operation]?");
+        assert_eq!(
+            unknown("operation", "operation"),
+            "unknown key, below [operation] keys stand without \"operation.\" before them"
+        );
         assert_eq!(unknown("contact", "zzz"), "unknown key, [contact] has foundation_height, load_tolerance");
         assert!(unknown("materials.pin_resin", "specific_wear_rate").contains("give wear_height"));
         assert!(unknown("materials.pin_primary", "wear_height").contains("give specific_wear_rate"));

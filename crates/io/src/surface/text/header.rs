@@ -72,7 +72,7 @@ impl Header {
             "width" | "breite" | "largeur" | "larghezza" | "anchura" | "šířka" => {
                 self.extent[0] = length(value, decimal)
             }
-            "height" | "höhe" | "hauteur" | "altezza" | "altura" | "výška" => {
+            "height" | "höhe" | "hoehe" | "hauteur" | "altezza" | "altura" | "výška" => {
                 self.extent[1] = length(value, decimal)
             }
             "w" | "columns" | "x-pixels" => self.counts[0] = count(),
@@ -110,6 +110,7 @@ mod tests {
     fn reads_german_headers() {
         let german = header(&["Einheit: µm", "Schrittweite: 20 um"]);
         assert_eq!((german.unit, german.pitch), (Some(1e-6), Some([2e-5; 2])));
+        assert_eq!(header(&["Einheit: Mikrometer"]).unit, Some(1e-6));
         assert_eq!(header(&["Werteinheiten: nm", "Punktabstand = 5 um, 10 um"]).pitch, Some([5e-6, 1e-5]));
     }
 

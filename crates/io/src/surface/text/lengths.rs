@@ -23,12 +23,14 @@ pub(super) fn length_unit(text: &str) -> Option<f64> {
     length(text, Decimal::Point).or_else(|| unit_word(text))
 }
 
-/// A unit of length by its symbol or name.
+/// A unit of length by its symbol or name, also a German, French, Italian or Spanish one.
 pub(super) fn unit_word(text: &str) -> Option<f64> {
     match text.to_lowercase().trim_end_matches('s') {
-        "micron" | "micrometer" | "micrometre" => Some(1e-6),
-        "nanometer" | "nanometre" => Some(1e-9),
-        "millimeter" | "millimetre" => Some(1e-3),
+        "micron" | "micrometer" | "micrometre" | "mikrometer" | "micromètre" | "micrometro" | "micrómetro" => {
+            Some(1e-6)
+        }
+        "nanometer" | "nanometre" | "nanomètre" | "nanometro" | "nanómetro" => Some(1e-9),
+        "millimeter" | "millimetre" | "millimètre" | "millimetro" | "milímetro" => Some(1e-3),
         _ => length(&format!("1 {text}"), Decimal::Point),
     }
 }

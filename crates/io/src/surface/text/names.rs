@@ -30,7 +30,7 @@ pub(super) struct Names {
 /// The columns by what is named in them.
 const X: &[&str] = &["x", "lateral"];
 const Y: &[&str] = &["y", "y1"];
-const Z: &[&str] = &["z", "height", "höhe", "raw"];
+const Z: &[&str] = &["z", "height", "höhe", "hoehe", "raw"];
 
 impl Names {
     /// Reads names such as "x [um]; y [um]; z [nm]", or "x in µm, y in µm" of a profile; none if the columns of points or
@@ -107,6 +107,11 @@ mod tests {
         assert_eq!((names.columns, names.count), (Columns::Points([0, 1, 3]), 4));
         assert_eq!(names.units, [Some(1e-3), Some(1e-3), None, Some(1e-9)]);
         assert_eq!(read("\"x (µm)\";\"y (µm)\";\"height\"").units, [Some(1e-6), Some(1e-6), None]);
+        let german = read("X in mm; Y in mm; Hoehe in Mikrometer");
+        assert_eq!(
+            (german.columns, german.units),
+            (Columns::Points([0, 1, 2]), vec![Some(1e-3), Some(1e-3), Some(1e-6)])
+        );
         assert_eq!(read("x y z").columns, Columns::Points([0, 1, 2]));
         assert_eq!(read("X [mm] Y [mm] Z [um]").units, [Some(1e-3), Some(1e-3), Some(1e-6)]);
         assert_eq!(read("X\tY\tZ [2.9e-8 m]").units, [None, None, Some(2.9e-8)]);

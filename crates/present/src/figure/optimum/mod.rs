@@ -32,9 +32,8 @@ pub struct Shown<'a> {
     pub confidence: f64,
 }
 
-/// The figures; the contour is over two factors, by index, or over the two that matter most.
-pub fn figures(shown: &Shown<'_>, contour: Option<[usize; 2]>) -> Vec<Figure> {
-    let pair = contour.or_else(|| shown.pair());
+/// The figures; the contour is over two factors, by index, and left out where the desirability is the same all over.
+pub fn figures(shown: &Shown<'_>, pair: Option<[usize; 2]>) -> Vec<Figure> {
     profiler::figures(shown).into_iter().chain(pair.and_then(|pair| contour::figure(shown, pair))).collect()
 }
 
@@ -80,8 +79,8 @@ impl<'a> Shown<'a> {
         Some(limit.margin(&forecast))
     }
 
-    /// The two ranges along which the desirability changes most about the optimum.
-    fn pair(&self) -> Option<[usize; 2]> {
+    /// The two ranges along which the desirability changes most about the optimum; none where fewer are searched.
+    pub fn pair(&self) -> Option<[usize; 2]> {
         let surrogates = self.surrogates();
         let mut spans: Vec<(usize, f64)> = (0..self.axes.len())
             .filter(|factor| self.axes[*factor] == Axis::Range)
