@@ -78,6 +78,10 @@ class ReportPage(unittest.TestCase):
             for how in ({}, {"dark": True}, {"width": 360, "height": 740, "phone": True}):
                 with self.subTest(page=page.name, **how):
                     self.open(page, **how)
+                    # A phone shows the charts that respond to touch, and figures when they are asked for.
+                    self.assertEqual(self.browser.run("document.querySelector('#figure-fold').open"), not how.get("phone"))
+                    if how.get("phone"):
+                        self.browser.run("document.querySelector('#figure-fold summary').click()")
                     self.assert_drawn()
                     self.assert_no_sideways_scroll()
                     back = self.browser.run("getComputedStyle(document.body).backgroundColor")

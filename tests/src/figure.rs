@@ -7,6 +7,8 @@ use roxmltree::{Document, Node};
 
 /// Colour of axes and text.
 const INK: &str = "#222222";
+/// How far numbers stand lower than their ticks, pixels, so that their letters are in the middle.
+const LOWERED: f64 = 5.0;
 
 /// An SVG figure, taken apart.
 #[derive(Debug, Clone)]
@@ -127,11 +129,10 @@ impl Figure {
         let left = frame.x[0];
         let beside = self.texts.iter().filter(|text| {
             let [x, y] = text.place;
-            text.anchor == "end" && along(x, [left - 40.0, left]) && along(y - 4.0, frame.y)
+            text.anchor == "end" && along(x, [left - 40.0, left]) && along(y - LOWERED, frame.y)
         });
-        // Numbers stand a little lower than their ticks.
         let numbers: Vec<(f64, f64)> =
-            beside.filter_map(|text| Some((text.place[1] - 4.0, value(&text.text)?))).collect();
+            beside.filter_map(|text| Some((text.place[1] - LOWERED, value(&text.text)?))).collect();
         Axis::of(&numbers)
     }
 
@@ -158,7 +159,7 @@ impl Figure {
             let [x, y] = text.place;
             text.anchor == "start" && x > right && x < right + 40.0 && y > bar.y[0] - 8.0 && y < bar.y[1] + 8.0
         });
-        let numbers = numbers.filter_map(|text| Some((text.place[1] - 4.0, value(&text.text)?)));
+        let numbers = numbers.filter_map(|text| Some((text.place[1] - LOWERED, value(&text.text)?)));
         Axis::of(&numbers.collect::<Vec<_>>())
     }
 

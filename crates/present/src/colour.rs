@@ -79,6 +79,8 @@ pub const GROUND: RGBColor = RGBColor(0xff, 0xff, 0xff);
 
 /// What a map shows as no part of its range.
 pub const APART: RGBColor = RGBColor(0xe4, 0xe4, 0xe4);
+/// The same beside a scale of greys.
+pub const APART_OF_GREYS: RGBColor = RGBColor(0xbf, 0xdc, 0xf2);
 
 /// Colours of what becomes of debris: on the disc, on the pin, out of the contact, in it.
 pub const DEBRIS: [RGBColor; 4] =

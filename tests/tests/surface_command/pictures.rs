@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use plateau_tests::figure::Figure;
+use plateau_tests::figure::{Figure, Frame};
 use plateau_tests::program::WorkingDirectory;
 
 use super::{picture, small_sdf};
@@ -69,6 +69,45 @@ fn pictures_have_the_format_of_their_ending() {
                 }
                 _ => assert!(content.starts_with(b"%PDF-") && content.trim_ascii_end().ends_with(b"%%EOF"), "{name}"),
             }
+        }
+    }
+}
+
+#[test]
+fn heights_of_a_run_have_equal_scales_and_stand_on_pages_of_a_journal() {
+    let directory = WorkingDirectory::new();
+    let scene = plateau_tests::program::scene("quick.toml");
+    let maps = "output.maps_at=[\"0 s\", \"1 s\"]";
+    directory
+        .plateau(["run", &scene, "-o", "run.h5", "--set", "operation.duration=2 s", "--set", maps])
+        .quiet_success();
+    let times = ["--at", "0 s", "--at", "1 s", "--at", "2 s"];
+    let list = directory.plateau(["surface", "run.h5", "--plot", "out.svg"].into_iter().chain(times)).quiet_success();
+    assert!(list.contains("wrote out.svg\n") && list.contains("wrote out-2.svg\n"), "{list}");
+    assert!(!directory.path("out-3.svg").exists());
+    // Of a body, the ends of the axes of the heights.
+    let mut ends: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
+    for page in ["out.svg", "out-2.svg"] {
+        let figure = Figure::read(&fs::read_to_string(directory.path(page)).unwrap());
+        let [width, height] = figure.size;
+        assert!(width <= 180.0 && height <= 240.0, "{page}: {width} mm x {height} mm");
+        for (body, ends) in ["disc height", "pin height"].iter().zip(&mut ends) {
+            for title in figure.texts.iter().filter(|text| text.text.contains(body)) {
+                // Beside the windows of the map the histogram, then the curve, which shares its axis.
+                let beside = |frame: &Frame| (title.place[1]..title.place[1] + 250.0).contains(&frame.y[0]);
+                let mut boxes: Vec<Frame> = figure.boxes().into_iter().filter(beside).collect();
+                boxes.sort_by(|one, other| one.x[0].total_cmp(&other.x[0]));
+                let chart = boxes[boxes.len() - 2];
+                let axis = figure.y_axis(chart);
+                ends.push(chart.y.map(|place| axis.value(place)));
+            }
+        }
+    }
+    for ends in ends {
+        assert_eq!(ends.len(), 3, "{ends:?}");
+        for end in &ends {
+            let close = |at: usize| (end[at] - ends[0][at]).abs() < 0.01 * (ends[0][0] - ends[0][1]).abs();
+            assert!(close(0) && close(1), "{ends:?}");
         }
     }
 }

@@ -91,18 +91,23 @@ pub fn page_of_rows(width: f64, height: f64, rows: &[Vec<Chart>], shown: Range<u
     let taken = rooms.iter().sum::<f64>() + BETWEEN * across as f64 + 2.0 * MARGIN;
     let box_width = ((width - taken) / across as f64).floor();
     for row in &rows[shown] {
-        let titled = row.iter().any(|chart| !chart.title.is_empty());
-        top += if titled { LINE_OF_TEXT + 12.0 } else { 16.0 };
+        let titles: Vec<Vec<String>> = row.iter().map(|chart| title_lines(&chart.title, TEXT, box_width)).collect();
+        let most_lines = titles.iter().map(Vec::len).max().unwrap_or(0);
+        let titled = most_lines > 0;
+        top += if titled { LINE_OF_TEXT * most_lines as f64 + 12.0 } else { 16.0 };
         if titled && !meanings.is_empty() && page.panels.is_empty() {
             top += LEGEND;
         }
         let mut left = MARGIN;
         let mut below = 0.0_f64;
-        for (chart, room) in row.iter().zip(&rooms) {
+        for ((chart, room), title) in row.iter().zip(&rooms).zip(titles) {
             left += room;
             let frame = Frame { x: [left, left + box_width], y: [top, top + height] };
-            let title = shortened(&chart.title, TEXT, box_width);
-            page.write(title, (left, top - LINE_OF_TEXT - 4.0), Anchor::BelowRight, TEXT);
+            let count = title.len() as f64;
+            for (number, line) in title.into_iter().enumerate() {
+                let above = LINE_OF_TEXT * (count - number as f64) + 4.0;
+                page.write(line, (left, top - above), Anchor::BelowRight, TEXT);
+            }
             below = below.max(chart.x.room_below());
             let axes = Axes { frame, x: chart.x.clone(), y: chart.y.clone() };
             page.panels.push(Panel { axes, contents: chart.contents.clone() });
@@ -114,8 +119,19 @@ pub fn page_of_rows(width: f64, height: f64, rows: &[Vec<Chart>], shown: Range<u
     page
 }
 
-/// Height of the letters of notes, pixels, and of their lines.
-const NOTE: u32 = 28;
+/// A title in letters of this size, in two lines at most.
+pub fn title_lines(title: &str, size: u32, room: f64) -> Vec<String> {
+    if title.is_empty() {
+        return Vec::new();
+    }
+    // Broken behind a comma if that can be, else between words.
+    let ways = [", ", " "].map(|end| lines(title.split_inclusive(end), size, room));
+    let fits = |lines: &Vec<String>| lines.len() <= 2 && lines.iter().all(|line| text_width(line, size) <= room);
+    ways.into_iter().find(fits).unwrap_or_else(|| vec![shortened(title, size, room)])
+}
+
+/// Height of a line of notes, pixels, and of their lines with the room between them: the letters of all else.
+const NOTE: u32 = TEXT;
 const LINE_OF_NOTE: f64 = 1.35 * NOTE as f64;
 
 /// Writes a note below all else, in as many lines as it needs.

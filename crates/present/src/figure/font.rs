@@ -35,20 +35,84 @@ pub fn lines<'a>(pieces: impl Iterator<Item = &'a str>, size: u32, room: f64) ->
     lines.into_iter().map(|line| line.trim_end().to_owned()).collect()
 }
 
-/// A text that is too long for its room, with its middle left out.
+/// The least part of the room that is left for a name beside its unit.
+const LEAST_NAME: f64 = 0.35;
+/// What stands between the factors of an interaction.
+const TIMES: &str = " \u{d7} ";
+/// Letters of the last part of a key, at least: the ending of a file has fewer.
+const LEAST_OF_KEY: usize = 4;
+
+/// A text that is too long for its room, made shorter: a unit behind the last comma stays whole, of an interaction each factor is shortened,
+/// of a key its first parts are left out, of all else the middle.
 pub fn shortened(text: &str, size: u32, room: f64) -> String {
+    if text_width(text, size) <= room {
+        return text.to_owned();
+    }
+    if let Some((name, _)) = text.rsplit_once(", ") {
+        let unit = &text[name.len()..];
+        let left = room - text_width(unit, size);
+        if left >= LEAST_NAME * room {
+            return shortened(name, size, left) + unit;
+        }
+    }
+    let factors: Vec<&str> = text.split(TIMES).collect();
+    if factors.len() > 1 {
+        return of_factors(&factors, size, room);
+    }
+    let is_key = !text.contains(' ') && text.rsplit('.').next().is_some_and(|last| last.len() >= LEAST_OF_KEY);
+    let ends = text.match_indices('.').filter(|_| is_key).map(|(at, _)| format!("\u{2026}{}", &text[at + 1..]));
+    let fitting = ends.into_iter().find(|end| text_width(end, size) <= room);
+    fitting.unwrap_or_else(|| without_middle(text, size, room))
+}
+
+/// The factors of an interaction in so much room; what short ones leave is shared among the others.
+fn of_factors(factors: &[&str], size: u32, room: f64) -> String {
+    let count = factors.len() as f64;
+    let each = ((room - (count - 1.0) * text_width(TIMES, size)) / count).max(0.0);
+    let widths: Vec<f64> = factors.iter().map(|factor| text_width(factor, size)).collect();
+    let spare: f64 = widths.iter().map(|width| (each - width).max(0.0)).sum();
+    let long = widths.iter().filter(|width| **width > each).count().max(1) as f64;
+    let within = |factor: &&str| shortened(factor, size, each + spare / long);
+    factors.iter().map(within).collect::<Vec<_>>().join(TIMES)
+}
+
+fn without_middle(text: &str, size: u32, room: f64) -> String {
     let letters: Vec<char> = text.chars().collect();
-    let mut kept = letters.len();
+    let mut kept = letters.len().saturating_sub(1);
     loop {
-        let shown: String = if kept == letters.len() {
-            text.to_owned()
-        } else {
-            let (begin, end) = (&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]);
-            begin.iter().chain(&['\u{2026}']).chain(end).collect()
-        };
+        let (begin, end) = (&letters[..kept.div_ceil(2)], &letters[letters.len() - kept / 2..]);
+        let shown: String = begin.iter().chain(&['\u{2026}']).chain(end).collect();
         if kept == 0 || text_width(&shown, size) <= room {
             return shown;
         }
         kept -= 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_tells_texts_apart_stays() {
+        let within = |text: &str, letters: &str| shortened(text, 40, text_width(letters, 40) + 1.0);
+        assert_eq!(within("a short one", "a short one"), "a short one");
+        assert_eq!(within("a name that is long", "a nam\u{2026} long"), "a nam\u{2026} long");
+        assert_eq!(
+            within(
+                "wear rate of the pin, 10\u{207b}\u{b9}\u{2074} 1/Pa",
+                "wea\u{2026}pin, 10\u{207b}\u{b9}\u{2074} 1/Pa"
+            ),
+            "wea\u{2026}pin, 10\u{207b}\u{b9}\u{2074} 1/Pa"
+        );
+        let key = "materials.pin_primary.poisson_ratio";
+        assert_eq!(within(key, "\u{2026}pin_primary.poisson_ratio"), "\u{2026}pin_primary.poisson_ratio");
+        assert_eq!(within(key, "\u{2026}poisson_ratio"), "\u{2026}poisson_ratio");
+        // The ending of a file is not what it is called.
+        assert_eq!(within("a_file_with_a_long_name.h5", "a_fil\u{2026}me.h5"), "a_fil\u{2026}me.h5");
+        let both = format!("{key} \u{d7} load");
+        assert_eq!(within(&both, "\u{2026}poisson_ratio \u{d7} load"), "\u{2026}poisson_ratio \u{d7} load");
+        // Nothing fits: what is left says that something was there.
+        assert_eq!(shortened("name", 40, 0.0), "\u{2026}");
     }
 }

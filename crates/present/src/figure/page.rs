@@ -12,7 +12,7 @@ use super::colour_bar::ColourBar;
 use super::picture::Picture;
 use super::simplify::simplified;
 use super::stroke::{Dashes, Stroke};
-use crate::colour::{COLOURS, ColourMap, GROUND};
+use crate::colour::{APART, APART_OF_GREYS, COLOURS, ColourMap, GROUND};
 
 /// Pixels of a millimetre on paper: letters are of 8 points then.
 pub const PER_MILLIMETRE: f64 = 12.0;
@@ -162,7 +162,24 @@ impl Page {
                 palette.splice(..COLOURS, colours.colours());
             }
         }
+        if colours == ColourMap::Greys && !self.colour_bars.is_empty() {
+            self.replace(APART, APART_OF_GREYS);
+        }
         self.colour_bars.iter_mut().for_each(|bar| bar.colours = colours);
+    }
+
+    /// Shows one colour of maps and of what they mean as another.
+    fn replace(&mut self, from: RGBColor, to: RGBColor) {
+        let contents = self.panels.iter_mut().flat_map(|panel| &mut panel.contents);
+        let maps = contents.filter_map(|content| match content {
+            Content::Map(picture) => Some(&mut picture.palette),
+            _ => None,
+        });
+        let keys = self.keys.iter_mut().map(|key| &mut key.colour);
+        maps.flat_map(|palette| palette.iter_mut().skip(COLOURS))
+            .chain(keys)
+            .filter(|colour| **colour == from)
+            .for_each(|colour| *colour = to);
     }
 
     /// Adds a text.
@@ -193,7 +210,7 @@ impl Panel {
                 Content::Line { points, stroke } => {
                     let places: Vec<Place> = points.iter().map(|[x, y]| self.axes.place_within(*x, *y)).collect();
                     match simplified(&places)[..] {
-                        [place] => canvas.area(&around(place), stroke.colour)?,
+                        [place] => canvas.area(&around(place, stroke.width), stroke.colour)?,
                         ref places => stroke.draw(canvas, places)?,
                     }
                 }
@@ -252,9 +269,9 @@ impl Mark {
     }
 }
 
-/// The corners of a dot: a line through one place only would not be seen.
-fn around((x, y): Place) -> [Place; 4] {
-    let side = [-8.0, 8.0];
+/// The corners of a dot for a line of this width: a line through one place only would not be seen.
+fn around((x, y): Place, width: u32) -> [Place; 4] {
+    let side = [-1.0, 1.0].map(|side| side * f64::from(width));
     Frame { x: side.map(|side| x + side), y: side.map(|side| y + side) }.corners()
 }
 

@@ -57,7 +57,7 @@ impl SurfaceCharts<'_> {
             format!("Sku {}   {} {}", number(heights.kurtosis), farthest.0, height_text(farthest.1, unit)),
         ];
         if outside > 0.0 {
-            lines.push(format!("beyond the axis: {} %", percent(outside)));
+            lines.push(format!("beyond axis: {} %", percent(outside)));
         }
         write_above(page, &frame, lines);
     }
@@ -73,8 +73,21 @@ impl SurfaceCharts<'_> {
         let mut contents = Vec::new();
         if peak_ratio.is_finite() {
             let span = |ratio: f64, ends: [f64; 2]| [100.0 * ratio, unit.value(ends[0]), unit.value(ends[1])];
-            let peaks = vec![span(0.0, [upper, upper + reduced_peak_height]), span(peak_ratio, [upper; 2])];
-            let dales = vec![span(dale_ratio, [lower; 2]), span(1.0, [lower - reduced_dale_depth, lower])];
+            // What reaches beyond the axis is cut off there.
+            let [least, most] = [*self.histogram.range.start(), *self.histogram.range.end()];
+            let cut = |height: f64, room: f64| if height > room { room / height } else { 1.0 };
+            let part = cut(reduced_peak_height, most - upper);
+            let peaks = vec![
+                span(0.0, [upper, upper + part * reduced_peak_height]),
+                span((1.0 - part) * peak_ratio, [upper, upper + part * reduced_peak_height]),
+                span(peak_ratio, [upper; 2]),
+            ];
+            let part = cut(reduced_dale_depth, lower - least);
+            let dales = vec![
+                span(dale_ratio, [lower; 2]),
+                span(dale_ratio + part * (1.0 - dale_ratio), [lower - part * reduced_dale_depth, lower]),
+                span(1.0, [lower - part * reduced_dale_depth, lower]),
+            ];
             let triangle = |spans| Content::Band { spans, colour: DERIVED_AREA, opacity: 1.0 };
             contents.extend([triangle(peaks), triangle(dales)]);
             let [upper, lower] = [upper, lower].map(|height| unit.value(height));

@@ -11,6 +11,7 @@ use super::font::{shortened, text_width};
 use super::format::Figure;
 use super::histogram::Histogram;
 use super::page::{Key, KeyStyle, Page};
+use super::pages::in_pages;
 use super::raster::Raster;
 use super::surface_charts::{CAPTION, SurfaceCharts, meanings, number, percent};
 use super::surface_map::{LEFT, SurfaceMap};
@@ -19,35 +20,61 @@ use crate::quantity::Unit;
 
 /// Room for the axis of a chart, from the longest colour bar to the histogram; from there to the curve beside it, which shares that axis; and to the
 /// end of the page, pixels.
-const BEFORE_CHARTS: f64 = 160.0;
+const BEFORE_CHARTS: f64 = 150.0;
 const BETWEEN_CHARTS: f64 = 60.0;
-const END: f64 = TWO_COLUMNS - 30.0;
+const END: f64 = TWO_COLUMNS - 50.0;
 /// The part of the room for charts that the histogram has.
 const HISTOGRAM: f64 = 0.46;
 /// Their height.
 const CHART: f64 = 360.0;
-/// Room for the title, for the line of remarks above the map, and for the numbers and the label of an axis below a box.
+/// Where the words of charts begin, beside the title; room for the title, for the line of remarks above the map, and for the numbers and the label of an axis below a box.
+const ABOVE_CHARTS: f64 = 20.0;
 const HEAD: f64 = 70.0;
 const REMARKS: f64 = 50.0;
-const FOOT: f64 = 120.0;
+const FOOT: f64 = 106.0;
 /// Heights farther than this many times the interquartile range outside the quartiles do not widen axes and colours.
 const FENCE: f64 = 5.0;
 /// Classes of the histogram.
 const CLASSES: usize = 64;
+
+/// What axes and colours span: the same for surfaces that are compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ranges {
+    /// Heights that histogram and curve show, m above the mean.
+    heights: RangeInclusive<f64>,
+    /// Heights that the colour map spans, m above the mean.
+    colours: RangeInclusive<f64>,
+}
+
+impl Ranges {
+    /// Those of a surface.
+    pub fn of(description: &Description) -> Self {
+        Self { heights: height_range(description), colours: colour_range(description) }
+    }
+
+    /// Those of two surfaces together.
+    pub fn with(self, other: Self) -> Self {
+        let both = |one: RangeInclusive<f64>, other: RangeInclusive<f64>| {
+            one.start().min(*other.start())..=one.end().max(*other.end())
+        };
+        Self { heights: both(self.heights, other.heights), colours: both(self.colours, other.colours) }
+    }
+}
 
 /// What a picture shows of the heights themselves.
 #[derive(Debug, Clone)]
 pub struct Drawn {
     map: Raster,
     histogram: Histogram,
+    colours: RangeInclusive<f64>,
 }
 
 impl Drawn {
-    /// Takes from the heights what is drawn of them.
-    pub fn of(grid: &Grid, description: &Description) -> Self {
+    /// Takes from the heights what is drawn of them within these ranges.
+    pub fn of(grid: &Grid, description: &Description, ranges: &Ranges) -> Self {
         let mean = description.heights.mean;
-        let histogram = Histogram::of(grid.heights, mean, height_range(description), CLASSES);
-        Self { map: Raster::of(grid, mean), histogram }
+        let histogram = Histogram::of(grid.heights, mean, ranges.heights.clone(), CLASSES);
+        Self { map: Raster::of(grid, mean), histogram, colours: ranges.colours.clone() }
     }
 }
 
@@ -67,21 +94,23 @@ pub struct DescribedSurface<'a> {
 }
 
 /// The figure of surfaces below each other: of each map and charts, beside each other. Four of them fit into the page of a journal.
-pub fn figure(surfaces: &[DescribedSurface]) -> Figure {
-    let mut page = Page { size: [TWO_COLUMNS, 0.0], ..Page::default() };
-    let right =
-        |surface: &DescribedSurface| surface.map().right(&colour_range(surface.description), &surface.height_unit());
+pub fn figures(surfaces: &[DescribedSurface]) -> Vec<Figure> {
+    let right = |surface: &DescribedSurface| surface.map().right(&surface.drawn.colours, &surface.height_unit());
     let charts_begin = (surfaces.iter().map(right).fold(0.0, f64::max) + BEFORE_CHARTS).ceil();
-    let top = surfaces.iter().fold(0.0, |top, surface| surface.place(&mut page, top, charts_begin));
     let has_core = surfaces.iter().any(|surface| surface.description.core.peak_ratio.is_finite());
     let meanings = if has_core { meanings() } else { Vec::new() };
-    page.size[1] = legend(&mut page, &meanings, top).ceil();
-    Figure {
-        name: "surfaces".to_owned(),
-        title: "Surfaces".to_owned(),
-        caption: "Map of the heights, their distribution and the Abbott-Firestone curve.".to_owned(),
-        page,
-    }
+    let pages = in_pages(surfaces.len(), |some| {
+        let mut page = Page { size: [TWO_COLUMNS, 0.0], ..Page::default() };
+        let top = surfaces[some].iter().fold(0.0, |top, surface| surface.place(&mut page, top, charts_begin));
+        page.size[1] = legend(&mut page, &meanings, top).ceil();
+        page
+    });
+    Figure::of_pages(
+        "surfaces",
+        "Surfaces",
+        "Map of the heights, their distribution and the Abbott-Firestone curve.",
+        pages,
+    )
 }
 
 impl DescribedSurface<'_> {
@@ -89,8 +118,8 @@ impl DescribedSurface<'_> {
     fn place(&self, page: &mut Page, y: f64, charts_begin: f64) -> f64 {
         self.write_title(page, y, charts_begin);
         let top = y + HEAD + if self.has_remarks() { REMARKS } else { 0.0 };
-        let bottom = self.map().place(page, top, &colour_range(self.description), &self.height_unit());
-        let first = y + HEAD + CAPTION;
+        let bottom = self.map().place(page, top, &self.drawn.colours, &self.height_unit());
+        let first = y + ABOVE_CHARTS + CAPTION;
         let width = HISTOGRAM * (END - charts_begin - BETWEEN_CHARTS);
         let chart = |begin: f64, end: f64| Frame { x: [begin, end], y: [first, first + CHART] };
         let unit = self.height_unit();

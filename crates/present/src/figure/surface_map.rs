@@ -14,9 +14,9 @@ use crate::quantity::Unit;
 
 /// Left end of maps, with room for the numbers and the label of an axis, and what they are as large as, pixels.
 pub const LEFT: f64 = 150.0;
-const MAP: [f64; 2] = [700.0, 495.0];
+const MAP: [f64; 2] = [600.0, 430.0];
 /// Height of a window, at least.
-const LEAST_HEIGHT: f64 = 32.0;
+const LEAST_HEIGHT: f64 = 26.0;
 /// Distance of the windows of one map below each other, with the numbers of an axis.
 const BELOW: f64 = 68.0;
 /// A map that is longer upward than this many times its width is stretched, or nothing could be seen on it.
@@ -60,10 +60,15 @@ impl SurfaceMap<'_> {
             let columns = self.raster.window(window, count);
             let part = |column: usize| column as f64 / self.raster.columns() as f64 * self.extent[0];
             let (name, y_name) = (if window + 1 == count { "x" } else { "" }, if count == 1 { "y" } else { "" });
+            let mut y = self.axis(0.0..=self.extent[1], self.extent[1], y_name);
+            if height < f64::from(TEXT) {
+                // Two numbers would touch.
+                y.marks = Some(vec![(0.0, String::new()), y.ticks(2).pop().unwrap_or_default()]);
+            }
             let axes = Axes {
                 frame: Frame { x: [LEFT, LEFT + width], y: [begin, bottom] },
                 x: self.axis(part(columns.start)..=part(columns.end), self.extent[0], name),
-                y: self.axis(0.0..=self.extent[1], self.extent[1], y_name),
+                y,
             };
             let picture = self.raster.picture(colours, columns, [width as usize, height as usize]);
             page.panels.push(Panel { axes, contents: vec![Content::Map(picture)] });

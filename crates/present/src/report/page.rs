@@ -50,13 +50,9 @@ pub fn page(runs: &[RunFile], pictures: &Pictures, program: &str) -> Result<Stri
     let sections = [
         Section::new("summary", "Summary", parts.summary()),
         Section::new("comparison", "Comparison", parts.comparison()),
-        Section::new(
-            "figures",
-            "Figures",
-            if pictures.pictures.is_empty() { "" } else { "<div id=\"figure-list\"></div>\n" },
-        ),
         Section::new("series", "Series", if has_samples { CHARTS } else { "" }),
         Section::new("maps", "Maps", if has_maps { MAPS } else { "" }),
+        Section::new("figures", "Figures", if pictures.pictures.is_empty() { "" } else { FIGURES }),
         Section::new("events", "Events", events::tables(runs, &labels)?),
         Section::new("residuals", "Residuals", if has_samples { parts.residuals() } else { String::new() }),
         Section::new("scenes", "Scenes and provenance", parts.provenance()),
@@ -84,6 +80,8 @@ const CHARTS: &str = "<p class=\"hint\">Drag over a chart to zoom, double-click 
     <div id=\"charts\"></div>\n";
 
 const MAPS: &str = "<div id=\"map-controls\" class=\"controls\"></div>\n<div id=\"map-views\"></div>\n";
+
+const FIGURES: &str = "<details id=\"figure-fold\" open>\n<summary>Figures for print</summary>\n<div id=\"figure-list\"></div>\n</details>\n";
 
 /// What the parts of the page that are text are made of.
 struct Parts<'a> {

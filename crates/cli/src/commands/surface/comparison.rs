@@ -3,7 +3,7 @@
 use plateau_core::model::mesh::Mesh;
 use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, sampling_errors};
 use plateau_core::surface::{Body, Level, Patch, level};
-use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
+use plateau_present::figure::surface_description::{DescribedSurface, Drawn, Ranges};
 
 use super::describe::describe;
 use crate::failure::Failure;
@@ -20,7 +20,9 @@ pub struct Comparison {
     pub patch: Description,
     /// Those of its averages over cells; none if no cell lies in it.
     pub cells: Option<Cells>,
-    /// Its heights as a picture shows them; none unless one is drawn.
+    /// Its heights; none unless they are to be drawn.
+    undrawn: Option<Vec<f64>>,
+    /// The same as a picture shows them.
     drawn: Option<Drawn>,
 }
 
@@ -70,10 +72,19 @@ impl Comparison {
             name: format!("{name} patch"),
             points: [patch.columns, patch.rows],
             pitch: [patch.column_pitch, patch.row_pitch],
-            drawn: draws.then(|| Drawn::of(&grid, &description)),
             patch: description,
             cells,
+            undrawn: draws.then_some(patch.heights),
+            drawn: None,
         }))
+    }
+
+    /// Draws the patch within these ranges, if it is to be drawn.
+    pub fn draw(&mut self, ranges: &Ranges) {
+        let Some(heights) = self.undrawn.take() else { return };
+        let [columns, rows] = self.points;
+        let grid = Grid { columns, rows, pitch: Some(self.pitch), heights: &heights };
+        self.drawn = Some(Drawn::of(&grid, &self.patch, ranges));
     }
 
     /// What is drawn of the patch, if anything is.

@@ -56,6 +56,7 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.prepare {
         subjects.extend(prepared(path, arguments)?);
     }
+    Subject::draw_together(&mut subjects);
     tell(&subjects, arguments)
 }
 
@@ -134,7 +135,7 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
 
 /// What a scene makes of its disc and pin.
 fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], Failure> {
-    let scene = scene::load(path, &[]).map_err(Failure::input)?;
+    let scene = scene::load(path, &[]).map_err(Failure::of_scene)?;
     for warning in &scene.warnings {
         message::warning(warning);
     }
@@ -183,16 +184,35 @@ fn refuse_many(surfaces: usize) -> Result<(), Failure> {
 
 /// Draws and prints.
 fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failure> {
+    let mut written: Vec<PathBuf> = arguments.to.iter().cloned().collect();
     if let Some(plot) = &arguments.plot {
         // A run file has several.
         refuse_many(subjects.len())?;
         let described: Vec<DescribedSurface> = subjects.iter().flat_map(Subject::described).collect();
-        draw(&surface_description::figure(&described), plot, arguments.force)?;
+        let figures = surface_description::figures(&described);
+        let pages: Vec<PathBuf> = (1..=figures.len()).map(|number| of_page(plot, number)).collect();
+        let inputs: Vec<PathBuf> = arguments.files.iter().chain(&arguments.prepare).cloned().collect();
+        pages.iter().skip(1).try_for_each(|page| output::check(page, arguments.force, &inputs))?;
+        for (figure, page) in figures.iter().zip(&pages) {
+            draw(figure, page, arguments.force)?;
+        }
+        written.extend(pages);
     }
     if arguments.json {
         return print(&document::document(subjects)?);
     }
-    let written = arguments.to.iter().chain(&arguments.plot).chain(&arguments.preview);
+    let written = written.iter().chain(&arguments.preview);
     let written: String = written.map(|path| format!("\nwrote {}\n", path.display())).collect();
     print(&(text::text(subjects) + &written))
+}
+
+/// Where a page of a figure goes: the first to the named file, further ones beside it with their number.
+fn of_page(plot: &Path, number: usize) -> PathBuf {
+    let stem = plot.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = output::ending(plot);
+    if number == 1 {
+        plot.to_owned()
+    } else {
+        plot.with_file_name(format!("{}.{ending}", Figure::name_of_page(&stem, number)))
+    }
 }

@@ -7,7 +7,7 @@ use plateau_core::model::state::InitialSurfaces;
 use plateau_core::surface::describe::{Description, Grid};
 use plateau_core::surface::{Body, Level, implausible, level};
 use plateau_io::surface::Measured;
-use plateau_present::figure::surface_description::{DescribedSurface, Drawn};
+use plateau_present::figure::surface_description::{DescribedSurface, Drawn, Ranges};
 
 use super::comparison::Comparison;
 use super::describe::describe;
@@ -39,8 +39,16 @@ pub struct Subject {
     pub description: Description,
     /// The patch that the scene made it of, if it did of one.
     pub comparison: Option<Comparison>,
+    /// What is to be drawn with the scales of what it is compared with.
+    undrawn: Option<Undrawn>,
     /// Its heights as a picture shows them; none unless one is drawn.
     drawn: Option<Drawn>,
+}
+
+/// The heights of a body of a run or a scene.
+struct Undrawn {
+    body: Body,
+    heights: Vec<f64>,
 }
 
 impl Subject {
@@ -65,6 +73,7 @@ impl Subject {
         for warning in &warnings {
             message::warning(format_args!("{name}: {warning}"));
         }
+        let drawn = (draws && is_measured).then(|| Drawn::of(&grid, &description, &Ranges::of(&description)));
         Ok(Self {
             name,
             map,
@@ -76,7 +85,8 @@ impl Subject {
             notes,
             warnings,
             comparison: None,
-            drawn: draws.then(|| Drawn::of(&grid, &description)),
+            undrawn: body.filter(|_| draws).map(|body| Undrawn { body, heights }),
+            drawn,
             description,
         })
     }
@@ -110,13 +120,37 @@ impl Subject {
                 notes: report.iter().filter(own).cloned().collect(),
                 warnings: Vec::new(),
                 comparison: None,
-                drawn: draws.then(|| Drawn::of(&grid, &description)),
+                undrawn: draws.then_some(Undrawn { body, heights }),
+                drawn: None,
                 description,
             })
         };
         let mut pin_height = surfaces.pin_height;
         turn_pin(&mut pin_height, mesh);
         Ok([of_body(Body::Disc, "disc", surfaces.disc_height)?, of_body(Body::Pin, "pin", pin_height)?])
+    }
+
+    /// Draws the bodies of runs and scenes: all that is shown of a disc with one scale, all that is shown of a pin with another.
+    pub fn draw_together(subjects: &mut [Self]) {
+        for body in [Body::Disc, Body::Pin] {
+            let of_body = |subject: &&mut Self| subject.undrawn.as_ref().is_some_and(|undrawn| undrawn.body == body);
+            let mut together: Vec<&mut Self> = subjects.iter_mut().filter(of_body).collect();
+            let described = together.iter().flat_map(|subject| {
+                let patch = subject.comparison.as_ref().map(|comparison| &comparison.patch);
+                patch.into_iter().chain([&subject.description])
+            });
+            let Some(ranges) = described.map(Ranges::of).reduce(Ranges::with) else { continue };
+            for subject in &mut together {
+                subject.draw(&ranges);
+            }
+        }
+    }
+
+    fn draw(&mut self, ranges: &Ranges) {
+        let Some(Undrawn { heights, .. }) = self.undrawn.take() else { return };
+        let grid = Grid { columns: self.columns, rows: self.rows, pitch: self.pitch, heights: &heights };
+        self.drawn = Some(Drawn::of(&grid, &self.description, ranges));
+        self.comparison.iter_mut().for_each(|comparison| comparison.draw(ranges));
     }
 
     /// Points that the grid has.

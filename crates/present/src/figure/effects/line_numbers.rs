@@ -3,12 +3,12 @@
 use crate::colour::GROUND;
 use crate::figure::axes::{Axes, Frame};
 use crate::figure::brush::Place;
-use crate::figure::canvas::Anchor;
+use crate::figure::canvas::{Anchor, TEXT};
 use crate::figure::font::text_width;
 use crate::figure::page::{Key, KeyStyle, Page};
 
 /// Height of the numbers, and least length of a line that has one, pixels.
-const HEIGHT: u32 = 26;
+const HEIGHT: u32 = TEXT;
 const SHORTEST: f64 = 70.0;
 /// How far numbers are from the rim of the map if that can be, pixels.
 const OFF_RIM: f64 = 14.0;

@@ -79,8 +79,8 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     }
     let several = effects.terms.iter().any(|term| term.freedom > 1);
     let x_label = match measure {
-        Measure::RootOfF if several => "√F (|t| where a term has one degree of freedom)".to_owned(),
-        Measure::RootOfF => "standardised effect |t| = |effect| / standard error".to_owned(),
+        Measure::RootOfF if several => "√F".to_owned(),
+        Measure::RootOfF => "|t|".to_owned(),
         Measure::Size => subject.unit.label("|effect|"),
         Measure::Share => "share of the sum of squares, %".to_owned(),
     };
@@ -99,7 +99,14 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
     };
     let has_asterisks = bars.iter().any(|bar| bar.name.ends_with(ASTERISK));
     let mut page = page(COLUMN, height, 1, vec![chart], &meanings(subject, measure, &bars, simultaneous));
+    let standardised = match measure {
+        Measure::RootOfF if several => "√F is |t| = |effect| / standard error where a term has one degree of freedom",
+        Measure::RootOfF => "|t| = |effect| / standard error",
+        _ => "",
+    };
+    note(&mut page, standardised);
     note(&mut page, if has_asterisks { "* cannot be told from other effects, which the table names" } else { "" });
+    note(&mut page, &if all > MOST_BARS { format!("the {MOST_BARS} largest effects of {all}") } else { String::new() });
     subject.add(figures, "pareto", "Sizes of effects on", caption(subject, measure, all), page);
 }
 
@@ -166,13 +173,14 @@ fn meanings(subject: &Subject, measure: Measure, bars: &[Bar], simultaneous: Opt
         .iter()
         .filter_map(|bar| bar.limit)
         .fold([first; 2], |[low, high], limit| [low.min(limit), high.max(limit)]);
+    let size = |value: f64| subject.unit.with_symbol(&number::rounded(value, 3));
     let at = if is_common {
-        format!(": {}", number::rounded(first, 3))
+        format!(": {}", if measure == Measure::Size { size(first) } else { number::rounded(first, 3) })
     } else {
         format!(": {} by degrees of freedom", ends.map(|end| number::rounded(end, 3)).join(" to "))
     };
     let limit = match measure {
-        Measure::Size => subject.unit.with_symbol(&format!("margin of error (Lenth, {confidence}){at}")),
+        Measure::Size => format!("margin of error (Lenth, {confidence}){at}"),
         _ => format!("limit at {confidence}{at}"),
     };
     let is_beyond = |beyond: bool| bars.iter().any(|bar| bar.limit.is_some_and(|limit| (bar.length > limit) == beyond));
@@ -183,7 +191,7 @@ fn meanings(subject: &Subject, measure: Measure, bars: &[Bar], simultaneous: Opt
     let simultaneous = simultaneous.map(|margin| Meaning {
         colour: INK,
         style: KeyStyle::Line(SOLID),
-        text: subject.unit.with_symbol(&format!("simultaneous margin: {}", number::rounded(margin, 3))),
+        text: format!("simultaneous margin: {}", size(margin)),
     });
     areas.chain([limit]).chain(simultaneous).collect()
 }

@@ -5,19 +5,20 @@ use plotters::style::RGBColor;
 use super::map_section::{Fit, MapSection};
 use crate::figure::axes::{Axis, Frame};
 use crate::figure::canvas::{Anchor, TITLE};
-use crate::figure::chart::{LEGEND, MARGIN, Meaning, legend};
+use crate::figure::chart::{LEGEND, MARGIN, Meaning, legend, title_lines};
 use crate::figure::colour_bar::ColourBar;
-use crate::figure::font::shortened;
 use crate::figure::page::{LINE_OF_TEXT, Page};
 
 /// Room on the right for a colour bar with numbers and label, pixels.
-pub const BAR_ROOM: f64 = 250.0;
+pub const BAR_ROOM: f64 = 280.0;
 /// Width of a colour bar, and its distance from the maps.
 const BAR: f64 = 40.0;
 pub(super) const BESIDE: f64 = 36.0;
 /// Length of a colour bar, pixels.
 const SHORTEST_BAR: f64 = 260.0;
 const LONGEST_BAR: f64 = 900.0;
+/// Height of a line of a name, pixels.
+const LINE_OF_NAME: f64 = 1.25 * TITLE as f64;
 /// Distance of maps beside each other.
 const BETWEEN: f64 = 40.0;
 
@@ -73,11 +74,16 @@ impl Sheet<'_> {
         for block in blocks {
             // Further moments of the same runs stand below the first ones.
             if named != block.names {
+                let mut most_lines = 1;
                 for (column, name) in block.names.iter().enumerate() {
-                    let place = (MARGIN + column as f64 * each, top);
-                    page.write(shortened(name, TITLE, each - BETWEEN), place, Anchor::BelowRight, TITLE);
+                    let lines = title_lines(name, TITLE, each - BETWEEN);
+                    most_lines = most_lines.max(lines.len());
+                    for (line, text) in lines.into_iter().enumerate() {
+                        let place = (MARGIN + column as f64 * each, top + line as f64 * LINE_OF_NAME);
+                        page.write(text, place, Anchor::BelowRight, TITLE);
+                    }
                 }
-                top += 1.5 * f64::from(TITLE);
+                top += 0.25 * f64::from(TITLE) + most_lines as f64 * LINE_OF_NAME;
                 if !self.several {
                     top = meanings_at(&mut page, top);
                 }

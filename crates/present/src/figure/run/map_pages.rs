@@ -12,18 +12,20 @@ use crate::figure::pages::{are_low, in_pages};
 /// Maps beside each other, at most.
 const MOST_ACROSS: usize = 3;
 /// What is tried until no page is too high, one after the other: unrolled maps in fewer, longer windows, then smaller maps.
-const FITS: [Fit; 11] = [
+const FITS: [Fit; 13] = [
     Fit { stretch: 1.0, size: 1.0, words: 0 },
     Fit { stretch: 1.25, size: 1.0, words: 0 },
     Fit { stretch: 1.5, size: 1.0, words: 0 },
     Fit { stretch: 2.0, size: 1.0, words: 0 },
     Fit { stretch: 3.0, size: 1.0, words: 0 },
     Fit { stretch: 4.0, size: 1.0, words: 0 },
+    Fit { stretch: 6.0, size: 1.0, words: 0 },
     Fit { stretch: 4.0, size: 0.9, words: 0 },
     Fit { stretch: 4.0, size: 0.8, words: 0 },
     Fit { stretch: 4.0, size: 0.7, words: 0 },
     Fit { stretch: 4.0, size: 0.6, words: 0 },
     Fit { stretch: 4.0, size: 0.5, words: 0 },
+    Fit { stretch: 8.0, size: 0.5, words: 0 },
 ];
 
 /// How many of so many runs stand beside each other: rows are about equally full.

@@ -62,18 +62,22 @@ impl MapSection<'_> {
     }
 
     /// What the axes below and to the left say: also, where the radius is drawn so many times as long as the arc, how many times. The axis to
-    /// the left says it if it is so tall that there is room, else the one below.
-    fn labels(&self, words: usize, stretch: f64, tall: f64) -> (String, String) {
+    /// the left says it if it is so `tall` that there is room, else the one below if it is so `wide`, else a line of its own, which is last.
+    fn labels(&self, words: usize, stretch: f64, tall: f64, wide: f64) -> [String; 3] {
         let (x, y) = (self.shape.x_label(words), self.shape.y_label());
         if stretch < STRETCHED {
-            return (x.to_owned(), y.to_owned());
+            return [x.to_owned(), y.to_owned(), String::new()];
         }
         let stretched = format!("stretched {}\u{d7}", number::rounded(stretch, 2));
         let upward = format!("{y} ({stretched})");
         if text_width(&upward, TEXT) <= tall {
-            return (x.to_owned(), upward);
+            return [x.to_owned(), upward, String::new()];
         }
-        (x.replacen("mm", &format!("mm (radius {stretched})"), 1), y.to_owned())
+        let sideways = x.replacen("mm", &format!("mm (radius {stretched})"), 1);
+        if text_width(&sideways, TEXT) <= wide {
+            return [sideways, y.to_owned(), String::new()];
+        }
+        [x.to_owned(), y.to_owned(), format!("radius {stretched}")]
     }
 
     /// Puts the map on the page with its upper left corner there, below so many lines of text.
@@ -107,7 +111,7 @@ impl MapSection<'_> {
         let stretch = stretches.fold(1.0, f64::max);
         let between = BELOW + Axis::linear(y_range.clone(), "").room_below();
         let tall = heights().sum::<f64>() + between * (windows.len() - 1) as f64;
-        let (x_label, y_label) = self.labels(fit.words, stretch, tall);
+        let [x_label, y_label, below] = self.labels(fit.words, stretch, tall, inner);
         let mut y_top = top;
         for text in self.words(width) {
             page.write(shortened(&text, TEXT, space), (begin, y_top), Anchor::BelowRight, TEXT);
@@ -133,6 +137,11 @@ impl MapSection<'_> {
             box_end = [box_end[0].max(frame_end).max(words_end), y_top + height];
             y_top = box_end[1] + below + BELOW;
         }
+        if !below.is_empty() {
+            let middle = (0.5 * (begin.round() + box_end[0]), y_top - BELOW);
+            page.write(below, middle, Anchor::Below, TEXT);
+            y_top += LINE_OF_TEXT;
+        }
         let beside = left + 1.1 * f64::from(TEXT);
         page.write(y_label, (beside, 0.5 * (first + box_end[1])), Anchor::Upward, TEXT);
         Placed { box_end, end: y_top }
@@ -151,7 +160,7 @@ mod tests {
     #[test]
     fn long_words_above_a_map_stand_in_several_lines() {
         assert_eq!(wrapped("disc, 0 s", 400.0), ["disc, 0 s"]);
-        let lines = wrapped("none 21.7, primary 29.8, secondary 48.5 %", 400.0);
+        let lines = wrapped("none 21.7, primary 29.8, secondary 48.5 %", 500.0);
         assert_eq!(lines, ["none 21.7, primary 29.8,", "secondary 48.5 %"]);
     }
 
@@ -174,19 +183,22 @@ mod tests {
             // How many pixels a millimetre has along the radius, over how many along the arc.
             let per_mm = |length: f64, axis: &Axis| length / (axis.range.end() - axis.range.start());
             let stretch = per_mm(axes.frame.height(), &axes.y) / per_mm(axes.frame.width(), &axes.x);
-            (axes.x.label.clone(), page.texts.last().unwrap().text.clone(), stretch)
+            let texts: Vec<&str> = [&axes.x.label]
+                .into_iter()
+                .chain(page.texts.iter().map(|words| &words.text))
+                .map(String::as_str)
+                .collect();
+            (texts.join("|"), stretch)
         };
-        let plain = |text: &str| text.to_owned();
-        let (x, y, stretch) = labels(690, 1800.0);
-        assert_eq!((x, y), (plain("arc length, mm"), plain("radius, mm")));
+        let (said, stretch) = labels(690, 1800.0);
+        assert_eq!(said, "arc length, mm|radius, mm");
         assert!((stretch - 1.0).abs() < 0.02, "{stretch}");
-        let (x, y, stretch) = labels(690, 600.0);
-        let times = format!("stretched {stretch:.1}\u{d7}");
-        assert!(stretch > 2.0 && x == "arc length, mm", "{stretch} {x}");
-        assert_eq!(y, format!("radius, mm ({times})"));
-        // A single low window has no room for it on the left.
-        let (x, y, stretch) = labels(40, 300.0);
+        let (said, stretch) = labels(690, 600.0);
+        assert!(stretch > 2.0, "{stretch}");
+        assert_eq!(said, format!("arc length, mm|radius, mm (stretched {stretch:.1}\u{d7})"));
+        // A single low window has no room for it on the left, and a short one none in the label below.
+        let (said, stretch) = labels(40, 300.0);
         assert!(stretch > 1.5, "{stretch}");
-        assert_eq!((x, y), (format!("arc length, mm (radius stretched {stretch:.1}\u{d7})"), plain("radius, mm")));
+        assert_eq!(said, format!("arc length, mm|radius stretched {stretch:.1}\u{d7}|radius, mm"));
     }
 }

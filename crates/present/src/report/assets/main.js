@@ -11,7 +11,18 @@ function asImage(svg) {
     return URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
 }
 
+/** A narrow screen shows charts and maps, which fit it; figures are folded there, but printed. */
+function foldFigures() {
+    const fold = document.getElementById("figure-fold");
+    if (!fold) return;
+    fold.open = !matchMedia("(max-width: 40rem)").matches;
+    let wasOpen = fold.open;
+    addEventListener("beforeprint", () => ((wasOpen = fold.open), (fold.open = true)));
+    addEventListener("afterprint", () => (fold.open = wasOpen));
+}
+
 async function showFigures() {
+    foldFigures();
     const place = document.getElementById("figure-list");
     for (const picture of report.pictures) {
         const image = element("img", { className: "on-light", alt: picture.caption });
