@@ -15,23 +15,23 @@ from plateau.run_file import open_run
 from plateau.study import Study, open_study, read_table
 from plateau.times import seconds
 
-# A path as everywhere in Python.
+# A path, as usual in Python.
 Path = str | os.PathLike[str]
 
 
 class Effects(NamedTuple):
-    """What the factors of a study do.
+    """Effects of the factors of a study.
 
     Attributes
     ----------
     table : pandas.DataFrame
-        The analysis of variance (docs/studies.md): a row for each response and source of its scatter. Terms of the model have an
-        ``effect``, ``standard_error``, ``low`` and ``high``. The other sources have none (NaN there): ``replicate``, ``residual``, ``lack of fit``,
-        ``pure error``, ``total``. ``table["effect"].dropna()`` has the effects alone.
+        The analysis of variance (docs/studies.md): a row for each response and source of its variation. Terms of the model have an
+        ``effect``, ``standard_error``, ``low`` and ``high``. The other sources do not have them (NaN): ``replicate``, ``residual``, ``lack of fit``,
+        ``pure error``, ``total``. ``table["effect"].dropna()`` has only the effects.
     responses : list of dict
-        For each response what was fitted, and how well: ``name``, ``unit``, ``model``, ``mean``, ``r_squared``, ``terms``, ...
+        For each response, the fitted model and its quality: ``name``, ``unit``, ``model``, ``mean``, ``r_squared``, ``terms``, ...
     files : list of str
-        What was written: table, figures, the page for the browser.
+        The written files: table, figures, the page for the browser.
     """
 
     table: pandas.DataFrame
@@ -57,25 +57,25 @@ def run(
     scene : path
         The scene, TOML.
     output : path, optional
-        The run file; that of the scene unless given.
+        The run file; by default the one that the scene names.
     set : mapping, optional
         Keys of the scene and their values; a physical quantity is text with its unit.
     workers : int or "auto", optional
         Threads that share the run.
     force : bool
-        Replace a run file that exists.
+        Replace an existing run file.
     resume : bool
-        Go on with a run that was stopped or killed.
+        Continue a run that was stopped or killed.
     extend_to : float or str, optional
-        Go on beyond the end of a run, to this time, s, or text with a unit such as ``"2 h"``.
+        Continue beyond the end of a run, to this time, s, or text with a unit such as ``"2 h"``.
     progress : bool, optional
-        Whether progress is shown; unless given, in notebooks and terminals.
+        Whether progress is shown; by default in notebooks and terminals.
 
     Returns
     -------
     xarray.DataTree
-        As of `open_run`; its ``attrs["summary"]`` is the summary of the program, a dictionary in SI units. It is not there where
-        ``resume`` found a run that is finished.
+        As for `open_run`; its ``attrs["summary"]`` is the summary of the program, a dictionary in SI units. It does not exist if
+        ``resume`` found a finished run.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def run(
     arguments += [flag for flag, given in (("--force", force), ("--resume", resume)) if given]
     summary = call(arguments, progress)
     if summary is None:
-        # A run to go on with that is finished: nothing was done.
+        # The run to continue is finished: nothing was done.
         return open_run(_output_of(scene, set) if output is None else output)
     opened = open_run(summary["file"])
     opened.attrs["summary"] = summary
@@ -112,12 +112,12 @@ def check(scene: Path, *, set: Mapping[str, Any] | None = None, workers: int | s
     Parameters
     ----------
     scene, set, workers
-        As of `run`.
+        As for `run`.
 
     Returns
     -------
     dict
-        What the scene resolves to (``scene``, TOML), needs and costs: ``steps``, ``samples``, ``memory`` (bytes),
+        The resolved scene (``scene``, TOML), and what the run needs: ``steps``, ``samples``, ``memory`` (bytes),
         ``estimated_time`` (s), ``warnings``, ...
 
     Examples
@@ -137,22 +137,22 @@ def sweep(
     retry: bool = False,
     progress: bool | None = None,
 ) -> Study:
-    """Makes the runs of a study that are not there yet, and opens its results.
+    """Makes the missing runs of a study, and opens its results.
 
     Parameters
     ----------
     study : path
         The study, TOML.
     jobs : int, optional
-        Runs at a time; as many as there are cores unless given.
+        Number of runs at the same time; by default the number of cores.
     workers : int, optional
         Threads of each run.
     max_failures : int, optional
-        Stop when so many runs have failed; unless given, the others go on.
+        Stop after this number of failed runs; by default the other runs continue.
     retry : bool
-        Make runs again that failed before.
+        Make failed runs again.
     progress : bool, optional
-        Whether progress is shown; unless given, in notebooks and terminals.
+        Whether progress is shown; by default in notebooks and terminals.
 
     Returns
     -------
@@ -179,7 +179,7 @@ def sweep(
 
 
 def collect(study: Path) -> Study:
-    """Collects what there is of the results of a study, complete or not, and opens it.
+    """Collects the existing results of a study, complete or not, and opens them.
 
     Parameters
     ----------
@@ -203,16 +203,16 @@ def effects(
     output: Path | None = None,
     force: bool = False,
 ) -> Effects:
-    """Tells what the factors of a study do to its responses.
+    """Finds the effects of the factors of a study on its responses.
 
     Parameters
     ----------
     study : path
-        The study, TOML, of which runs have been made.
+        The study, TOML; its runs must have been made.
     model : {"main", "interactions", "full", "quadratic"}, optional
-        What is fitted; chosen by the design unless given.
+        The model to fit; by default the design chooses it.
     confidence : float, optional
-        Confidence level of intervals, 0.95 unless given.
+        Confidence level of intervals, default 0.95.
     output : path, optional
         Folder for tables, figures and the page.
     force : bool, optional
@@ -221,7 +221,7 @@ def effects(
     Returns
     -------
     Effects
-        Table, what was fitted, and files.
+        Table, fitted models, and files.
 
     Examples
     --------
@@ -247,19 +247,19 @@ def command(*arguments: Any, json: bool = False, progress: bool | None = None, *
     Parameters
     ----------
     *arguments : str or path
-        The command and what follows it: ``"surface", "disc.sdf"``.
+        The command and its arguments: ``"surface", "disc.sdf"``.
     json : bool
-        Whether the command prints JSON, which is given as Python has it. ``plateau COMMAND --help`` says which commands can.
+        Whether the command prints JSON, which is returned as Python objects. ``plateau COMMAND --help`` says which commands can do this.
     progress : bool, optional
-        Whether progress is shown; unless given, in notebooks and terminals.
+        Whether progress is shown; by default in notebooks and terminals.
     **options
-        Options of the command, with ``_`` in place of ``-``: ``force=True`` is ``--force``, ``output="figures"`` is ``--output figures``, a
-        list is the option several times. ``set`` takes a mapping, as of `run`. What is None or False is left out.
+        Options of the command, with ``_`` instead of ``-``: ``force=True`` is ``--force``, ``output="figures"`` is ``--output figures``, a
+        list repeats the option. ``set`` takes a mapping, as for `run`. Options that are None or False are left out.
 
     Returns
     -------
     object
-        With ``json`` the document: dictionaries, lists, numbers and text; None if nothing was printed. Else the text that was printed.
+        With ``json``, the document: dictionaries, lists, numbers and text; None if nothing was printed. Otherwise the printed text.
 
     Raises
     ------
@@ -291,7 +291,7 @@ def command(*arguments: Any, json: bool = False, progress: bool | None = None, *
 def _output_of(scene: Path, changes: Mapping[str, Any] | None) -> str:
     """The run file that a scene names."""
     with warnings.catch_warnings():
-        # That it exists is known.
+        # It is known to exist.
         warnings.simplefilter("ignore", PlateauWarning)
         files = check(scene, set=changes)["files"]
     return str(next(file["resolved"] for file in files if file["access"] == "writes"))
@@ -311,7 +311,7 @@ def _scene_arguments(changes: Mapping[str, Any] | None, workers: int | str | Non
 
 
 def _toml(value: Any) -> str:
-    """A value as TOML has it."""
+    """A value in the form of TOML."""
     if hasattr(value, "tolist"):  # of NumPy
         value = value.tolist()
     if isinstance(value, bool):

@@ -1,10 +1,10 @@
-"""Exceptions and warnings: what the program says, in the classes of its exit statuses and in the words of Python."""
+"""Exceptions and warnings: messages of the program, with classes for its exit statuses and in the words of Python."""
 
 import os
 import re
 from collections.abc import Sequence
 
-# Commands and options as messages of the program have them, and what they are called here; what is longer comes first.
+# Commands and options in messages of the program, and their names here; longer ones come first.
 WORDS = [
     (r"(?:[\w./-]*/)?plateau sweep run\b", "plateau.sweep"),
     (r"(?:[\w./-]*/)?plateau (?:sweep )?(run|check|collect|effects)\b", r"plateau.\1"),
@@ -17,25 +17,25 @@ WORDS = [
     (r"-o FILE\b", "output=FILE"),
     (r"-o\b", "output"),
 ]
-# Not within the name of a file.
+# Not inside the name of a file.
 IN_MESSAGES = [(re.compile(rf"(?<![\w./-]){word}"), here) for word, here in WORDS]
 
 
 class PlateauWarning(UserWarning):
-    """What the program warns of."""
+    """A warning of the program."""
 
 
 class PlateauError(RuntimeError):
-    """What was asked could not be done.
+    """The program could not do what was asked.
 
     Parameters
     ----------
     message : str
-        What was found, what was expected, where, and what to do.
+        What was found, what was expected, where the problem is, and what to do.
     command : sequence of str
-        The command line of the program; empty where the program was not called.
+        The command line of the program; empty if the program was not called.
     status : int, optional
-        Exit status of the program; negative if a signal ended it; None where it was not called.
+        Exit status of the program; negative if a signal ended it; None if it was not called.
     """
 
     def __init__(self, message: str, command: Sequence[str] = (), status: int | None = None) -> None:
@@ -44,7 +44,7 @@ class PlateauError(RuntimeError):
         self.status = status
 
     def __str__(self) -> str:
-        # That of KeyError has quotes around the message.
+        # The text of KeyError has quotes around the message.
         return str(self.args[0])
 
 
@@ -57,7 +57,7 @@ class MissingFileError(InputError, FileNotFoundError):
 
 
 class MissingPackageError(PlateauError, ImportError):
-    """A package of Python that is needed for this is not installed."""
+    """A Python package that is needed is not installed."""
 
 
 class UnknownNameError(InputError, KeyError):
@@ -65,7 +65,7 @@ class UnknownNameError(InputError, KeyError):
 
 
 class InputTypeError(InputError, TypeError):
-    """A value is of a type that has no meaning there."""
+    """A value has a type that is not allowed there."""
 
 
 class RunFailed(PlateauError):
@@ -73,11 +73,11 @@ class RunFailed(PlateauError):
 
 
 class RunStopped(PlateauError):
-    """A signal stopped the run (exit status 128 and the number of the signal); ``resume=True`` goes on with it."""
+    """A signal stopped the run (exit status 128 and the number of the signal); ``resume=True`` continues it."""
 
 
 def in_python(message: str) -> str:
-    """A message of the program with options and commands as they are called in Python.
+    """A message of the program, with the Python names of options and commands.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How maps are coloured: as in the figures of the program (docs/figures.md)."""
+"""Colours of maps, as in the figures of the program (docs/figures.md)."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import xarray
 
-# What no cell is; cells that have no part in the range of a map, as those without contact; statuses in their order.
+# Places without a cell; cells outside the range of a map, such as cells without contact; statuses in their order.
 GROUND = "#ffffff"
 APART = "#e4e4e4"
 STATUS_COLOURS = [APART, "#005a9c", "#e69f00", GROUND]
-# Part of the cells beyond each end of the colours.
+# Fraction of the cells beyond each end of the colours.
 BEYOND = 0.005
-# Pressures that differ more than this many times are shown on a scale of equal ratios.
+# If pressures differ by more than this factor, their scale is logarithmic.
 MOST_LINEAR = 100.0
 # Units in which quantities are drawn: factor and name.
 DRAWN = {"m2": (1e6, "mm²"), "m3": (1e9, "mm³"), "Pa": (1e-6, "MPa")}
@@ -22,18 +22,18 @@ SMALL = 1e-3
 
 @dataclass
 class Look:
-    """What is drawn of a map, and how."""
+    """The drawn values of a map, and their colours."""
 
     values: Any
-    # What the colours stand for, with the unit.
+    # The quantity of the colours, with the unit.
     label: str
     # Which ends of the colour bar are points: neither, min, max or both.
     extend: str = "neither"
-    # What grey cells are; empty where there are none.
+    # The meaning of grey cells; empty if there are none.
     apart: str = ""
-    # What the map is, where it is drawn in another way than it is recorded.
+    # The name of the map, if it is not drawn as it is recorded.
     title: str = ""
-    # Those of pcolormesh.
+    # Options of pcolormesh.
     options: dict[str, Any] = field(default_factory=dict)
 
 
@@ -48,7 +48,7 @@ def in_drawn_unit(values: xarray.DataArray) -> tuple[Any, str]:
     Returns
     -------
     tuple of array and str
-        The name is empty where there is no unit.
+        The name is empty if there is no unit.
     """
     unit, numbers = str(values.attrs.get("units", "1")), values.values
     if unit == "m" and numbers.size and np.nanmax(np.abs(numbers), initial=0.0) < SMALL:
@@ -83,7 +83,7 @@ def look_of(cells: xarray.DataArray, names: dict[int, str]) -> Look:
     if "thickness" in what:
         return from_zero(values, f"thickness, {unit}", "nothing has built up")
     if cells.name in ("height", "substrate") and "pin_angle" in cells.dims:
-        # The z of the pin grows away from the disc, and its peaks are to be high.
+        # The z of the pin increases away from the disc, but its peaks must be high.
         with_ground = np.isfinite(values)
         values = values[with_ground].mean() - values if with_ground.any() else values
         look = spanning(values, f"height toward the disc, {unit}")
@@ -93,14 +93,14 @@ def look_of(cells: xarray.DataArray, names: dict[int, str]) -> Look:
 
 
 def spanning(values: Any, label: str) -> Look:
-    """Colours from nearly the least to nearly the greatest value.
+    """Colours from nearly the smallest to nearly the largest value.
 
     Parameters
     ----------
     values : array
-        NaN where there is no cell.
+        NaN if there is no cell.
     label : str
-        What they are.
+        The name of the quantity.
 
     Returns
     -------
@@ -112,16 +112,16 @@ def spanning(values: Any, label: str) -> Look:
 
 
 def from_zero(values: Any, label: str, apart: str, most_linear: float = np.inf) -> Look:
-    """Colours from zero to nearly the greatest value; zero itself has none of them.
+    """Colours from zero to nearly the largest value; zero itself has another colour.
 
     Parameters
     ----------
     values : array
-        NaN where there is no cell.
+        NaN if there is no cell.
     label, apart : str
-        What they are, and what cells with zero are.
+        The name of the quantity, and the name of cells with zero.
     most_linear : float
-        Values that differ more than this many times are on a scale of equal ratios.
+        If values differ by more than this factor, the scale is logarithmic.
 
     Returns
     -------
@@ -135,7 +135,7 @@ def from_zero(values: Any, label: str, apart: str, most_linear: float = np.inf) 
     options: dict[str, Any] = {"cmap": colours("viridis", APART), "vmin": 1e-9 * high, "vmax": high}
     if high > most_linear * low:
         options = {"cmap": colours("viridis", APART), "norm": LogNorm(low, high)}
-        # A logarithm has no place for zero, which lies below all others then.
+        # Zero has no logarithm: it is below all other values.
         values = np.where(values == 0, 1e-3 * above.min(), np.where(values > 0, np.maximum(values, low), values))
     return Look(values, label, "max", apart if above.size < np.isfinite(values).sum() else "", options=options)
 
@@ -146,14 +146,14 @@ def colours(name: str, under: str | None = None) -> Any:
     Parameters
     ----------
     name : str
-        That of a colour map of matplotlib.
+        Name of a colour map of matplotlib.
     under : str, optional
-        The colour of what is below the range; the lowest one unless given.
+        The colour below the range; by default the lowest colour.
 
     Returns
     -------
     matplotlib.colors.Colormap
-        White where there is no number.
+        White if there is no number.
     """
     import matplotlib
 

@@ -10,7 +10,7 @@ from plateau.errors import InputError, UnknownNameError
 from plateau.times import seconds
 
 ANGLES = ("disc_angle", "pin_angle")
-# Status of a cell beyond the outline of a round pin.
+# Status of a cell outside the outline of a round pin.
 ABSENT = 3
 
 
@@ -18,7 +18,7 @@ ABSENT = 3
 class MapAccessor:
     """Maps of disc and pin: cells with the dimensions ``disc_angle`` or ``pin_angle`` (rad) and ``radius`` (m).
 
-    Cells further out are larger, so every mean here counts them with their area.
+    Cells at a larger radius are larger, so every mean here is weighted with the area of the cells.
 
     Examples
     --------
@@ -43,7 +43,7 @@ class MapAccessor:
         raise InputError(f"dimensions {self._cells.dims}: this is not a map; expected disc_angle or pin_angle, and radius")
 
     def area_mean(self) -> xarray.DataArray:
-        """Mean over all cells, each counted with its area; cells beyond a round pin are left out.
+        """Mean over all cells, weighted with their areas; cells outside a round pin are left out.
 
         Returns
         -------
@@ -57,7 +57,7 @@ class MapAccessor:
 
     @property
     def status_names(self) -> dict[int, str]:
-        """Statuses and their names; of other maps nothing.
+        """Statuses and their names; empty for other maps.
 
         Examples
         --------
@@ -79,7 +79,7 @@ class MapAccessor:
         Returns
         -------
         xarray.DataArray of bool
-            Of the shape of the map.
+            With the shape of the map.
         """
         values = [value for value, known in self.status_names.items() if known == name]
         if not values:
@@ -88,13 +88,13 @@ class MapAccessor:
         return self._cells == values[0]
 
     def area_fraction(self, name: str) -> xarray.DataArray:
-        """Area of the cells that have a status over that of all cells of the body.
+        """Area of the cells with a status, divided by the area of all cells of the body.
 
         Parameters
         ----------
         name : str
-            ``"none"``, ``"primary"`` or ``"secondary"``: what the cells of a round pin are, which add up to 1. ``"absent"`` is refused,
-            for such cells are no part of the pin.
+            ``"none"``, ``"primary"`` or ``"secondary"``. Their fractions add up to 1, also for a round pin. ``"absent"`` is refused,
+            because such cells are not part of the pin.
 
         Returns
         -------
@@ -116,12 +116,12 @@ class MapAccessor:
         return (self.has_status(name) * area).sum(over) / there.sum(over)
 
     def unrolled(self) -> xarray.DataArray:
-        """The map over arc length at the mean radius in place of the angle.
+        """The map with the arc length at the mean radius instead of the angle.
 
         Returns
         -------
         xarray.DataArray
-            With the dimension ``arc_length``, m, in place of the angle.
+            With the dimension ``arc_length``, m, instead of the angle.
         """
         radius = float(self._cells["radius"].mean())
         attributes = {"units": "m", "long_name": "arc length at the mean radius"}
@@ -130,7 +130,7 @@ class MapAccessor:
         return self._cells.assign_coords(arc_length=arc).swap_dims({self._angle: "arc_length"})
 
     def cartesian(self) -> xarray.DataArray:
-        """The map with places in the plane of the disc, of which its own coordinates are the polar ones.
+        """The map with Cartesian coordinates in the plane of the disc, beside its polar coordinates.
 
         Returns
         -------
@@ -143,17 +143,17 @@ class MapAccessor:
         return self._cells.assign_coords(named)
 
     def at_time(self, time: float | str | None = None) -> xarray.DataArray:
-        """The map that was recorded nearest to a time.
+        """The map with the recorded time nearest to a given time.
 
         Parameters
         ----------
         time : float or str, optional
-            s, or text with a unit such as ``"1 min"``; the last one unless given.
+            s, or text with a unit such as ``"1 min"``; by default the last map.
 
         Returns
         -------
         xarray.DataArray
-            Without the dimension ``map_time``; a map that has none is given as it is.
+            Without the dimension ``map_time``; a map without this dimension is returned unchanged.
         """
         if "map_time" not in self._cells.dims:
             return self._cells
@@ -167,20 +167,20 @@ class MapAccessor:
         return self._cells.sel(map_time=wanted, method="nearest")
 
     def plot(self, time: float | str | None = None, *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
-        """Draws the map, unrolled or as the ring that it is, with the colours of the program's figures; needs matplotlib.
+        """Draws the map, unrolled or as a ring, with the colours of the program's figures; needs matplotlib.
 
-        Heights of the pin are drawn as they rise toward the disc, from their mean.
+        Heights of the pin are drawn positive toward the disc, relative to their mean.
 
         Parameters
         ----------
         time : float or str, optional
-            As of `at_time`.
+            As for `at_time`.
         polar : bool
             As a ring in the plane of the disc.
         ax : matplotlib.axes.Axes, optional
-            Where; new axes unless given, of an unrolled ring several below each other.
+            The axes to draw in; by default new axes, for an unrolled ring several below each other.
         **options
-            Those of ``pcolormesh``, such as ``cmap``.
+            Options of ``pcolormesh``, such as ``cmap``.
 
         Returns
         -------

@@ -11,7 +11,7 @@ Array = np.ndarray[Any, np.dtype[np.float64]]
 
 LAST_PART = 0.1
 LEAST_REVOLUTIONS = 10.0
-# Parts of a window from which an error is told.
+# Least number of parts of a window for an error.
 LEAST_PARTS = 5
 ROUNDING = 1e-9
 
@@ -24,7 +24,7 @@ class Mean(NamedTuple):
     value : float
         The mean, in the unit of the quantity.
     error : float
-        Its standard error; NaN where the part is too short to tell (fewer than five samples or revolutions).
+        Its standard error; NaN if the part is too short (fewer than five samples or revolutions).
     start, end : float
         The part, s.
     revolutions : float
@@ -39,10 +39,10 @@ class Mean(NamedTuple):
 
 
 def standard_error(values: Array) -> float:
-    """Standard error of the mean of values that follow one another in time and may be alike.
+    """Standard error of the mean of successive values in time, which may be correlated.
 
     The autocovariances are summed up to the end of the initial monotone sequence (Geyer, Statistical Science 7 (1992) 473-483), and
-    corrected for the mean being that of the same values (Straatsma, Berendsen, Stam, Molecular Physics 57 (1986) 89-95).
+    corrected because the mean is calculated from the same values (Straatsma, Berendsen, Stam, Molecular Physics 57 (1986) 89-95).
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def standard_error(values: Array) -> float:
     Returns
     -------
     float
-        In the unit of the values; of independent ones that is s/√n.
+        In the unit of the values; for independent values it is s/√n.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def standard_error(values: Array) -> float:
 
 
 def last_tenth(time: Array, revolutions: Array | None) -> tuple[float, float]:
-    """The last tenth of a run, from a sample to the last one; at least ten simulated revolutions if the run has as many.
+    """The last tenth of a run, from a sample to the last one; at least ten simulated revolutions, if the run has that many.
 
     Parameters
     ----------
@@ -94,10 +94,10 @@ def last_tenth(time: Array, revolutions: Array | None) -> tuple[float, float]:
 
 
 def mean_between(time: Array, integral: Array, revolutions: Array | None, start: float, end: float) -> Mean:
-    """Mean between two times, from the integral over time: exact where these are times of samples.
+    """Mean between two times, from the integral over time: exact if these are times of samples.
 
-    For the error the part is cut into blocks of equal length, as many as there are intervals between samples, but none shorter than a
-    simulated revolution; `standard_error` allows for blocks that are alike.
+    For the error, the part is divided into blocks of equal length: one for each interval between samples, but none shorter than a
+    simulated revolution; `standard_error` takes into account that blocks are correlated.
 
     Parameters
     ----------

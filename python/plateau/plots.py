@@ -1,4 +1,4 @@
-"""Quick figures of series and maps. matplotlib is asked for when something is drawn, and not before."""
+"""Quick figures of series and maps. matplotlib is imported only when something is drawn."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -10,10 +10,10 @@ from plateau.errors import MissingPackageError
 from plateau.looks import APART, Look, colours, in_drawn_unit, look_of
 from plateau.run_file import array
 
-# Length of a window of an unrolled ring over its height, about, and windows at most.
+# Approximate length of a window of an unrolled ring divided by its height, and the largest number of windows.
 ELONGATION = 8.6
 MOST_WINDOWS = 6
-# In inches: a map that would be lower in its axes is stretched; from one number of an axis to the next.
+# In inches: the smallest height of a map without stretching; the distance between numbers of an axis.
 LEAST_HEIGHT = 0.3
 BETWEEN_NUMBERS = 0.3
 
@@ -24,7 +24,7 @@ def new_axes(**options: Any) -> Any:
     Parameters
     ----------
     **options
-        Those of ``matplotlib.pyplot.subplots``.
+        Options of ``matplotlib.pyplot.subplots``.
 
     Returns
     -------
@@ -43,11 +43,11 @@ def draw_series(run: xarray.DataTree, series: Sequence[str], *, ax: Any = None) 
     Parameters
     ----------
     run : xarray.DataTree
-        As `plateau.open_run` gives it.
+        A run, opened by `plateau.open_run`.
     series : sequence of str
-        Names; the contact area unless there are any.
+        Names; the contact area if there are none.
     ax : matplotlib.axes.Axes, optional
-        Where; new axes unless given.
+        The axes to draw in; by default new axes.
 
     Returns
     -------
@@ -74,12 +74,12 @@ def draw_series(run: xarray.DataTree, series: Sequence[str], *, ax: Any = None) 
 
 
 def while_rubbing(run: xarray.DataTree, values: Any) -> Any:
-    """Values of a contact, NaN where the pin is lifted or the disc stands still: means of a revolution are those of before then.
+    """Values of a contact, NaN while the pin is lifted or the disc stands still, because revolution means are then older.
 
     Parameters
     ----------
     run : xarray.DataTree
-        As `plateau.open_run` gives it.
+        A run, opened by `plateau.open_run`.
     values : array, shape (samples,)
         One for every sample.
 
@@ -94,7 +94,7 @@ def while_rubbing(run: xarray.DataTree, values: Any) -> Any:
 
 
 def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = False, ax: Any = None, **options: Any) -> Any:
-    """Draws a map at one moment, with the colours and scales of the figures of the program, in proportion.
+    """Draws a map at one moment, with the colours and scales of the figures of the program, in true proportions.
 
     Parameters
     ----------
@@ -103,16 +103,16 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     names : dict
         Statuses and their names; empty for other maps.
     polar : bool
-        In the plane of the disc; else unrolled, over arc length at the mean radius.
+        In the plane of the disc; otherwise unrolled, over arc length at the mean radius.
     ax : matplotlib.axes.Axes, optional
-        Where; new axes unless given, of a long ring several below each other.
+        The axes to draw in; by default new axes, for a long ring several below each other.
     **options
-        Those of ``pcolormesh``.
+        Options of ``pcolormesh``.
 
     Returns
     -------
     matplotlib.axes.Axes
-        The lowest of them.
+        The lowest of the axes.
     """
     [angle] = [name for name in cells.dims if name != "radius"]
     cells = cells.transpose("radius", angle)
@@ -131,7 +131,7 @@ def draw_map(cells: xarray.DataArray, names: dict[int, str], *, polar: bool = Fa
     bar = last.figure.colorbar(picture, ax=panels, label=look.label, extend="neither" if names else look.extend)
     if names:
         bar.set_ticks(list(names), labels=list(names.values()))
-    # Where the disc moves, toward higher columns (model 1), is said as in the figures of the program.
+    # The direction of the disc, toward higher columns (model 1), is named as in the figures of the program.
     across = "x, mm; the disc turns against the clock" if polar else "arc length, mm; the disc moves \N{RIGHTWARDS ARROW}"
     moment = f", {float(cells['map_time']):.6g} s" if "map_time" in cells.coords else ""
     grey = f"; grey: {look.apart}" if look.apart else ""
@@ -160,13 +160,13 @@ def panels_for(x: Any, y: Any, polar: bool) -> list[Any]:
         return [new_axes(figsize=(6, 5))]
     elongation = float(np.ptp(x) / np.ptp(y))
     windows = min(max(round(elongation / ELONGATION), 1), MOST_WINDOWS, x.shape[1] - 1)
-    # Seven inches are for the map, and above each window half of one for numbers.
+    # Seven inches for the map, and half an inch above each window for numbers.
     height = 0.8 + windows * (0.5 + min(7 * windows / elongation, 5))
     return list(np.atleast_1d(new_axes(figsize=(9, height), nrows=windows)))
 
 
 def fit(panel: Any, polar: bool) -> bool:
-    """Puts a map in proportion, or stretches it where it would be too low to be seen; numbers of the radius stand clear of each other.
+    """Gives a map true proportions, or stretches it if it would be too low to see; numbers of the radius do not overlap.
 
     Parameters
     ----------
@@ -183,7 +183,7 @@ def fit(panel: Any, polar: bool) -> bool:
     from matplotlib.ticker import MaxNLocator
 
     box = panel.get_position(original=True)
-    # Also of a part of a figure.
+    # Also for a part of a figure.
     whole = panel.figure.bbox.size / panel.figure.dpi
     width, room = box.width * whole[0], box.height * whole[1]
     height = min(width * np.ptp(panel.get_ylim()) / np.ptp(panel.get_xlim()), room)
@@ -199,14 +199,14 @@ def fit(panel: Any, polar: bool) -> bool:
 
 
 def options_of(look: Look, options: dict[str, Any]) -> dict[str, Any]:
-    """Those of ``pcolormesh``: what a look says, but for what the user says.
+    """Options of ``pcolormesh``: those of a look, changed by those of the user.
 
     Parameters
     ----------
     look : Look
         How the map is drawn.
     options : dict
-        What the user says.
+        The options of the user.
 
     Returns
     -------
@@ -235,7 +235,7 @@ def edges(centres: Any) -> Any:
     Returns
     -------
     array, shape (n + 1,)
-        Of a single cell, of which the width is not known, a hundredth around it.
+        For a single cell, whose width is not known, a hundredth around it.
 
     Examples
     --------

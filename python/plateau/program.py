@@ -1,4 +1,4 @@
-"""The program: where it is, and how it is called."""
+"""The program: its place, and how to call it."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from typing import Any
 from plateau.errors import InputError, InputTypeError, PlateauError, PlateauWarning, error_of, in_python
 from plateau.progress import Follow, follow_pipe, follow_terminal, shower
 
-# What every message of the program begins with.
+# The beginning of every message of the program.
 BEGIN = re.compile(r"^plateau: ", re.MULTILINE)
 
 
@@ -26,8 +26,8 @@ def find_program() -> str:
     Returns
     -------
     str
-        ``PLATEAU_PROGRAM`` where it is set; else the program that was installed with this package, that of the checkout in which
-        this package is, or ``plateau`` on ``PATH``.
+        ``PLATEAU_PROGRAM`` if it is set; otherwise the program that was installed with this package, the program of the checkout of
+        this package, or ``plateau`` on ``PATH``.
 
     Raises
     ------
@@ -71,19 +71,19 @@ def _scheme(key: Any) -> str:
 
 
 def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None) -> Any:
-    """Calls the program with ``--json`` and gives what it prints, as `listen` does.
+    """Calls the program with ``--json`` and returns its output, as `listen` does.
 
     Parameters
     ----------
     arguments : sequence of str or path
         Command and arguments.
     progress : bool, optional
-        Whether progress is shown; unless given, in a notebook and in a terminal.
+        Whether progress is shown; by default in a notebook and in a terminal.
 
     Returns
     -------
     object
-        The JSON document: dictionaries, lists, numbers and text; None where the program prints nothing, for there was nothing to do.
+        The JSON document: dictionaries, lists, numbers and text; None if the program prints nothing because there was nothing to do.
 
     Raises
     ------
@@ -95,13 +95,13 @@ def call(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = No
 
 
 def file_name(path: str | os.PathLike[str], what: str) -> str:
-    """A path as an argument that is not taken for an option.
+    """A path as an argument that the program does not read as an option.
 
     Parameters
     ----------
     path : str or path
     what : str
-        What it is to be the path of, for messages.
+        The name of the file in messages, such as "a scene".
 
     Returns
     -------
@@ -110,7 +110,7 @@ def file_name(path: str | os.PathLike[str], what: str) -> str:
     Raises
     ------
     InputTypeError
-        If it is no path.
+        If it is not a path.
 
     Examples
     --------
@@ -125,16 +125,16 @@ def file_name(path: str | os.PathLike[str], what: str) -> str:
 
 
 def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = None, stacklevel: int = 3) -> str:
-    """Calls the program and gives what it prints on standard output.
+    """Calls the program and returns its standard output.
 
     Parameters
     ----------
     arguments : sequence of str or path
         Command and arguments.
     progress : bool, optional
-        Whether progress is shown; unless given, in a notebook and in a terminal.
+        Whether progress is shown; by default in a notebook and in a terminal.
     stacklevel : int
-        Whose line warnings are to name, as of ``warnings.warn``.
+        The caller whose line is named in warnings, as in ``warnings.warn``.
 
     Returns
     -------
@@ -170,7 +170,7 @@ def listen(arguments: Sequence[str | os.PathLike[str]], progress: bool | None = 
 def _wait(command: list[str], output: Any, follow: Follow, show: Callable[[str], None] | None) -> tuple[int, str]:
     """Exit status and messages of a command."""
     process: subprocess.Popen[bytes] | None = None
-    # No bar is drawn on a terminal that says that it is dumb.
+    # There is no bar on a terminal of the type "dumb".
     environment = None if show is None else {**os.environ, "TERM": "xterm"}
 
     def start(error: int) -> subprocess.Popen[bytes]:
@@ -183,7 +183,7 @@ def _wait(command: list[str], output: Any, follow: Follow, show: Callable[[str],
         assert process is not None
         return process.wait(), said
     except BaseException:
-        # Ctrl-C in a notebook may reach this process alone. The run file is closed in good order before it goes on here.
+        # Ctrl-C in a notebook may reach this process alone. The run file is closed cleanly before this process continues.
         if process is not None and process.poll() is None:
             process.send_signal(signal.SIGINT)
             process.wait()

@@ -1,4 +1,4 @@
-"""Progress of the program in notebooks and terminals: the program's own line, which it gives to a terminal only."""
+"""Progress of the program in notebooks and terminals: the program's own line, which it writes only to a terminal."""
 
 import codecs
 import fcntl
@@ -15,17 +15,17 @@ from typing import Any
 
 # Starts the program with this file descriptor as its standard error.
 Start = Callable[[int], "subprocess.Popen[bytes]"]
-# Gives what the program said on standard error, without the lines of its bar.
+# Returns the standard error of the program, without the lines of its bar.
 Follow = Callable[[Start, Callable[[str], None] | None], str]
 
-# How long a line of the bar may be, characters.
+# Largest length of a line of the bar, characters.
 COLUMNS = 120
 ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 BAR = re.compile(r"\d+ %.* left$")
 
 
 def shower(wanted: bool | None) -> Callable[[str], None] | None:
-    """What shows a line of progress: in a notebook, in a terminal, or none where there is neither or it is not wanted."""
+    """The function that shows a line of progress in a notebook or a terminal; None if there is neither, or if no progress is wanted."""
     if wanted is False:
         return None
     if _in_notebook():
@@ -69,7 +69,7 @@ def follow_terminal(start: Start, show: Callable[[str], None] | None) -> str:
 
 def _pieces(descriptor: int) -> Any:
     """What comes from a terminal, until nobody has its other end any more."""
-    # A letter may come in two pieces.
+    # A character may arrive in two pieces.
     decoder = codecs.getincrementaldecoder("utf-8")(errors="replace")
     while True:
         try:

@@ -23,7 +23,7 @@ TOTALS = frozenset(
 
 @xarray.register_datatree_accessor("plateau")
 class RunAccessor:
-    """A run as `plateau.open_run` gives it.
+    """A run, opened by `plateau.open_run`.
 
     Examples
     --------
@@ -53,7 +53,7 @@ class RunAccessor:
 
     @property
     def events(self) -> pandas.DataFrame:
-        """A row for each event of the cycle that has ended, SI units; of a run without cycle no row."""
+        """A row for each event of the cycle that has ended, SI units; no row for a run without a cycle."""
         if "event" not in self._run.children:
             return pandas.DataFrame()
         events = self._run.children["event"].to_dataset(inherit=False)
@@ -62,16 +62,16 @@ class RunAccessor:
     def mean(self, series: str = "contact_area", start: float | str | None = None, end: float | str | None = None) -> Mean:
         """Mean of a series over a part of the run, with its standard error.
 
-        That of the contact area is taken from its integral, which knows every step, and is the number that ``plateau run`` prints.
-        Of other series a sample stands for the time since the one before. How the error is told says
-        `plateau.means.mean_between`; it allows for neighbours in time that are alike.
+        The mean of the contact area is calculated from its integral, which includes every step. It is the number that ``plateau run``
+        prints. In other series, a sample represents the time since the previous sample. `plateau.means.mean_between` describes the
+        standard error. It takes into account that neighbouring values are correlated.
 
         Parameters
         ----------
         series : str
             Name of a series.
         start, end : float or str, optional
-            The part, s, or text with a unit such as ``"30 s"`` or ``"5 min"``; unless given, the last tenth of the run, at least ten simulated revolutions.
+            The part, s, or text with a unit such as ``"30 s"`` or ``"5 min"``; by default the last tenth of the run, at least ten simulated revolutions.
 
         Returns
         -------
@@ -106,7 +106,7 @@ class RunAccessor:
         return self._mean_of(time, integral, start, end)
 
     def rate(self, series: str, start: float | str | None = None, end: float | str | None = None) -> Mean:
-        """How fast a total grows, in the mean over a part of the run, with its standard error.
+        """Mean growth rate of a total over a part of the run, with its standard error.
 
         Parameters
         ----------
@@ -114,12 +114,12 @@ class RunAccessor:
             A series that is a total since the start of the run: ``worn_pin``, ``worn_resin``, ``worn_disc``, ``emitted``, ``sliding_distance``,
             ``friction_work``, ``pm10_mass``, ...
         start, end : float or str, optional
-            As of `mean`.
+            As for `mean`.
 
         Returns
         -------
         Mean
-            Value and error in the unit of the series in a second.
+            Value and error in the unit of the series per second.
 
         Raises
         ------
@@ -145,7 +145,7 @@ class RunAccessor:
         return mean_between(time, integral, revolutions, *part)
 
     def build_up(self, body: str) -> xarray.DataArray:
-        """Thickness of the build-up on every cell: how far the height is beyond the substrate, away from the body.
+        """Thickness of the build-up on every cell: the distance of the height from the substrate, away from the body.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class RunAccessor:
         Raises
         ------
         UnknownNameError
-            If there is no such body, or the run has not its maps of height and substrate.
+            If there is no such body, or the run does not have its maps of height and substrate.
 
         Examples
         --------
@@ -174,7 +174,7 @@ class RunAccessor:
             if body not in self._run.children or name not in self._run[body]:
                 raise UnknownNameError(f"the run has no map {body}/{name}: name {body}_{name} in output.maps of the scene")
         height, substrate = array(self._run, f"{body}/height"), array(self._run, f"{body}/substrate")
-        # The z of the pin grows away from the disc, into its body.
+        # The z of the pin increases away from the disc, into the body of the pin.
         thickness = height - substrate if body == "disc" else substrate - height
         return thickness.assign_attrs(units="m", long_name=f"thickness of the build-up on the {body}")
 
@@ -184,7 +184,7 @@ class RunAccessor:
         Returns
         -------
         xarray.Dataset
-            ``disc_secondary``, ``pin_primary``, ``pin_secondary`` with the dimension ``map_time``, as far as the maps are there.
+            ``disc_secondary``, ``pin_primary``, ``pin_secondary`` with the dimension ``map_time``, if the maps exist.
 
         Examples
         --------
@@ -207,9 +207,9 @@ class RunAccessor:
         Parameters
         ----------
         *series : str
-            Names, of equal units; unless given, the contact area of single steps and of the last revolution.
+            Names of series with equal units; by default the contact area of single steps and of the last revolution.
         ax : matplotlib.axes.Axes, optional
-            Where; new axes unless given.
+            The axes to draw in; by default new axes.
 
         Returns
         -------
@@ -227,14 +227,14 @@ class RunAccessor:
         return np.asarray(array(self._run, name).values, dtype=np.float64)
 
     def _sample_times(self) -> Array:
-        """Times of the samples, of which there has to be one."""
+        """Times of the samples; there must be at least one."""
         time = self._values("time")
         if time.size == 0:
             raise InputError("the run has no sample yet, so there is no mean: open it again when it has gone on")
         return time
 
     def _revolutions(self) -> Array | None:
-        """Simulated revolutions until every sample: one stands for as many as the time acceleration says."""
+        """Simulated revolutions until every sample; one stands for as many revolutions as the time acceleration."""
         series = self._run["series"]
         if "sliding_distance" not in series:
             return None

@@ -1,4 +1,4 @@
-"""Run files as trees of xarray, also of runs that go on or were killed."""
+"""Run files as trees of xarray, also of runs that are in progress or were killed."""
 
 import difflib
 import importlib.util
@@ -11,21 +11,21 @@ import xarray
 
 from plateau.errors import InputError, InputTypeError, MissingFileError, MissingPackageError, PlateauError, UnknownNameError
 
-# What every HDF5 file begins with.
+# The beginning of every HDF5 file.
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # Bytes of a superblock of version 3, which files have that are written while others read them, and where the end of the file stands in it.
 SUPERBLOCK, END_OF_FILE = 48, slice(28, 36)
-# Seconds for which a file may be shorter than its superblock says: the writer sets the end first.
+# Seconds during which a file may be shorter than its superblock says: the writer sets the end first.
 PATIENCE = 1.0
-# What HDF5 and netCDF keep in attributes for themselves.
+# Attributes that HDF5 and netCDF use themselves.
 INTERNAL = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
 
 
 def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     """Opens a run file.
 
-    A run that has ended is read when its values are asked for. Of a run that goes on, or was killed, all that is complete by now
-    is read at once: open it again for what comes later.
+    If the run has ended, values are read when they are used. If the run is in progress or was killed, all complete data are
+    read at once: open it again to see later data.
 
     Parameters
     ----------
@@ -41,11 +41,11 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     Raises
     ------
     MissingFileError
-        If there is no such file; it is a `FileNotFoundError`, too.
+        If there is no such file; it is also a `FileNotFoundError`.
     InputError
         If it is not a run file.
     MissingPackageError
-        If h5netcdf is not installed, with which xarray reads run files.
+        If h5netcdf is not installed; xarray needs it to read run files.
 
     Examples
     --------
@@ -63,7 +63,7 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
         raise InputError("the path of a run file is empty: name one")
     if os.path.isdir(path):
         raise InputError(f"{path}: this is a folder, expected a run file; plateau.open_study opens the results of a study")
-    # To open a pipe would wait for whoever writes into it.
+    # Opening a pipe would wait for a process that writes into it.
     if os.path.exists(path) and not os.path.isfile(path):
         raise InputError(f"{path}: this is not a regular file, expected a run file")
     try:
@@ -75,7 +75,7 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     except FileNotFoundError:
         raise MissingFileError(f"{path}: there is no such run file") from None
     except (OSError, KeyError, RuntimeError):
-        # In a file that nobody writes, HDF5 would look again and again for what is not there. It may have ended meanwhile.
+        # In a file that no process writes, HDF5 would look for missing data many times. The run may have ended meanwhile.
         ended = not _is_marked(path)
     if ended:
         if importlib.util.find_spec("h5netcdf") is None:
@@ -101,7 +101,7 @@ def array(run: xarray.DataTree, path: str) -> xarray.DataArray:
     Parameters
     ----------
     run : xarray.DataTree
-        As of `open_run`.
+        As for `open_run`.
     path : str
         Such as ``"series/contact_area"``.
 
@@ -137,7 +137,7 @@ def _unreadable(path: str | os.PathLike[str], error: Exception) -> InputError:
 
 
 def _is_marked(path: str | os.PathLike[str]) -> bool:
-    """Whether the superblock of an HDF5 file says that it is being written, or was when its writer was killed."""
+    """Whether the superblock of an HDF5 file says that a process writes it, or wrote it when it was killed."""
     with open(path, "rb") as file:
         superblock = file.read(12)
     return superblock.startswith(SIGNATURE) and len(superblock) == 12 and superblock[8] >= 3 and superblock[11] != 0

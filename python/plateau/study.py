@@ -17,10 +17,10 @@ class Study(NamedTuple):
     Attributes
     ----------
     table : pandas.DataFrame
-        A row for each run: state, factors, responses. Quantities are in the unit in the head of their column.
+        A row for each run: state, factors, responses. Quantities are in the unit of their column head.
     data : xarray.Dataset
-        Factors, responses and series of all runs, with the dimensions ``run`` and ``time`` (``sample`` where times differ from
-        run to run), SI units.
+        Factors, responses and series of all runs, with the dimensions ``run`` and ``time`` (``sample`` if the runs have
+        different times), SI units.
     """
 
     table: pandas.DataFrame
@@ -80,7 +80,7 @@ def _directory(study: Path) -> str:
 
 
 def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:
-    """A table in CSV, with the numbers of the file to the bit.
+    """Reads a table in CSV, with exactly the numbers of the file.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def read_table(path: str | os.PathLike[str]) -> pandas.DataFrame:
     -------
     pandas.DataFrame
     """
-    # From version 3.1 on pandas does so anyway, and no longer wants to be told.
+    # From version 3.1, pandas does this by default and no longer accepts the option.
     version = tuple(map(int, pandas.__version__.split(".")[:2]))
     options = {} if version >= (3, 1) else {"float_precision": "round_trip"}
     return pandas.read_csv(path, **options)

@@ -4,7 +4,7 @@ import re
 
 from plateau.errors import InputError, InputTypeError
 
-# s; those that the program reads.
+# In s; the units that the program reads.
 UNITS = {"us": 1e-6, "µs": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
 
@@ -25,7 +25,7 @@ def seconds(time: float | str) -> float:
     Raises
     ------
     InputError
-        If it is no time.
+        If it is not a time.
 
     Examples
     --------
