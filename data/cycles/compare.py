@@ -1,20 +1,21 @@
 #!/usr/bin/env python3
 """Contact area and filling in a drive and in constant operation with the same work over the same distance.
 
-python3 data/cycles/compare.py drive.h5 constant.h5 docs/images/cycles-drive.png          # needs h5py and matplotlib
+    PYTHONPATH=python python3 data/cycles/compare.py drive.h5 constant.h5 docs/images/cycles-drive.png
 
 Both are held against the volume worn, which is proportional to the work (docs/model.md, 4.2), whatever carries the load where. Means
-of the contact area are weighted by what is worn meanwhile.
+of the contact area are weighted by what is worn meanwhile. Needs the package plateau (docs/python.md) and matplotlib.
 """
 
 import sys
 
-import h5py
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+import plateau
 
 SPANS = 40
 COLOURS = {"drive": "#0072b2", "constant": "#d55e00"}
@@ -22,10 +23,9 @@ COLOURS = {"drive": "#0072b2", "constant": "#d55e00"}
 
 def read(path):
     """At the samples: volume worn (m3), contact area as the mean of the last revolution (m2), filled fraction."""
-    with h5py.File(path) as run:
-        series = run["series"]
-        worn = sum(series[f"worn_{part}"][:] for part in ("pin", "resin", "disc"))
-        return worn, series["contact_area_mean"][:], series["filled_fraction"][:]
+    series = plateau.open_run(path).plateau.series
+    worn = series["worn_pin"] + series["worn_resin"] + series["worn_disc"]
+    return worn.to_numpy(), series["contact_area_mean"].to_numpy(), series["filled_fraction"].to_numpy()
 
 
 def means(worn, area, edges):
