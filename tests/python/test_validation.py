@@ -8,12 +8,17 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from package_scenes import InFolder
+
+import plateau
 
 STUDY = Path(__file__).parents[2] / "data/studies/riva2019"
 sys.path[:0] = [str(STUDY), str(STUDY.parents[2] / "python")]
 import discs  # noqa: E402, where the study is
 import friction  # noqa: E402, where the study is
+import history  # noqa: E402, where the study is
 import make_points  # noqa: E402, where the study is
+import maps  # noqa: E402, where the study is
 import measures  # noqa: E402
 import tables  # noqa: E402, where the study is
 import write_docs  # noqa: E402, where the study is
@@ -141,7 +146,58 @@ class Friction(unittest.TestCase):
         self.assertEqual(friction.order(values)["hits"], 2)
 
 
+class RunFiles(InFolder):
+    """What scripts read of a run file agrees with what the program wrote there."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        super().setUpClass()
+        plateau.run("quick.toml", "minute.h5", set={"output.maps_at": ["0 s", "60 s"]})
+
+    def test_maps_agree_with_series(self) -> None:
+        with plateau.open_run("minute.h5") as run:
+            series, pin, disc, sizes = history.series_of(run), maps.at_the_end(run, 60.0), maps.of_the_disc(run, 60.0), maps.sizes(run, 60.0)
+            self.assertEqual(len(series), len(run["series"].data_vars) + 1)
+        self.assertAlmostEqual(disc["filled"], series["filled_fraction"][-1], places=12)
+        self.assertAlmostEqual(pin["pin_covered"], series["pin_secondary"][-1], places=12)
+        self.assertEqual(pin["maps"], 1.0)
+        self.assertTrue(all(found["count"] > 0 for found in sizes.values()), sizes)
+        # What the disc holds, over the area of the ring, is the mean thickness of its build-up.
+        ring = np.pi * (21e-3**2 - 20e-3**2)
+        self.assertAlmostEqual(disc["mean_build_up"] * 1e9, series["deposited_disc"][-1] / ring * 1e9, places=6)
+        self.assertEqual(history.reached(Path("minute.h5")), series["time"][-1])
+        self.assertEqual(history.reached(Path("none.h5")), 0.0)
+
+    def script(self, *arguments: str) -> str:
+        """Calls a script as the documents say."""
+        command = [sys.executable, "-B", str(ROOT / arguments[0]), *arguments[1:]]
+        environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+        return subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
+
+    def test_a_reference_has_the_series_of_its_run(self) -> None:
+        self.script("data/reference/make.py", "minute.h5", "reference.h5")
+        with plateau.open_run("minute.h5") as run, plateau.open_run("reference.h5") as reference:
+            self.assertEqual(reference.attrs["scene"], run.attrs["scene"])
+            for name, values in reference["series"].data_vars.items():
+                np.testing.assert_array_equal(values, run[f"series/{name}"])
+
+    def test_a_drive_is_held_against_constant_operation(self) -> None:
+        told = self.script("data/cycles/compare.py", "minute.h5", "minute.h5", "drive.png")
+        drive, constant = (line.split(": ")[1] for line in told.splitlines())
+        self.assertEqual(drive, constant)
+        with plateau.open_run("minute.h5") as run:
+            self.assertIn(f"filled {float(run['series/filled_fraction'][-1]) * 100:.2f} %", drive)
+
+
 class Documents(unittest.TestCase):
+    def test_packages_of_the_study_are_those_of_the_checks(self) -> None:
+        """One version of each, so that a run file is read alike in both environments."""
+        lists = (ROOT / "tests/python/requirements.txt", STUDY / "requirements.txt")
+        checks, study = (dict(re.findall(r"^(\S+)==(\S+)", path.read_text(), re.MULTILINE)) for path in lists)
+        self.assertLessEqual({"numpy", "h5py", "h5netcdf", "xarray", "pandas"}, study.keys())
+        both = checks.keys() & study.keys()
+        self.assertEqual({name: study[name] for name in both}, {name: checks[name] for name in both})
+
     def test_documents_have_the_numbers_of_the_study(self) -> None:
         check = [sys.executable, "-B", str(STUDY / "write_docs.py"), "--check"]
         environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}

@@ -6,13 +6,15 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 
 import claims
-import h5py
 import measures
 import numpy as np
+import xarray
 from discs import SCENES
 from history import history
 from make_points import DEFAULT, VARIANTS
 from readings import READINGS, SEEDS
+
+import plateau
 
 # Of every choice and disc the numbers of each set of surfaces.
 Found = dict[str, dict[str, list[dict[str, float]]]]
@@ -41,28 +43,36 @@ def whole(found: Found) -> Found:
     return {name: discs for name, discs in found.items() if name not in missing}
 
 
-def runs_of(path: Path, variants: Collection[str]) -> Iterator[tuple[str, str, dict[str, np.ndarray]]]:
+def collected(study: Path) -> xarray.Dataset | None:
+    """What was collected of a study; none where nothing was."""
+    try:
+        return plateau.open_study(study).data
+    except plateau.MissingFileError:
+        return None
+
+
+def runs_of(study: Path, variants: Collection[str]) -> Iterator[tuple[str, str, dict[str, np.ndarray]]]:
     """Variant, disc and series of every run of some variants in the collected study, sets of surfaces in their order."""
-    if not path.exists():
+    data = collected(study)
+    if data is None:
         return
     # In the order of points.csv.
     keys = [(name, heights) for name in VARIANTS for heights in SCENES]
-    with h5py.File(path) as file:
-        finished = np.flatnonzero(file["state"].asstr()[:] == "finished")
-        names = [name for name, data in file.items() if data.ndim == 2 and name != "sample_time"]
-        points, replicates = file["point"][:], file["replicate"][:]
-        for row in sorted(finished, key=lambda row: replicates[row]):
-            name, heights = keys[int(points[row]) - 1]
-            if name in variants:
-                time = file["time"][:] if "time" in file else file["sample_time"][row]
-                there = np.isfinite(time)
-                yield name, heights, {key: file[key][row][there] for key in names} | {"time": time[there]}
+    series = [name for name, values in data.data_vars.items() if values.ndim == 2 and name != "sample_time"]
+    finished = data.isel(run=np.flatnonzero(data["state"] == "finished")).sortby("replicate")
+    for number in range(finished.sizes["run"]):
+        run = finished.isel(run=number)
+        name, heights = keys[int(run["point"]) - 1]
+        if name in variants:
+            time = run["time" if "time" in run else "sample_time"].values
+            there = np.isfinite(time)
+            yield name, heights, {key: run[key].values[there] for key in series} | {"time": time[there]}
 
 
-def of_scenes(path: Path) -> Found:
+def of_scenes(study: Path) -> Found:
     """The variants that scenes have, from the collected study."""
     found = {name: {heights: [] for heights in SCENES} for name in VARIANTS}
-    for name, heights, series in runs_of(path, VARIANTS):
+    for name, heights, series in runs_of(study, VARIANTS):
         found[name][heights].append(history(series, load=wear_of(name)))
     return whole(found)
 

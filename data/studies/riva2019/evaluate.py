@@ -1,34 +1,37 @@
 """What the runs of the study say, as numbers: writes results.json from the run files and the collected study.
 
-usage: evaluate.py, in the environment .venv of the checkout; run.sh calls it
+usage: evaluate.py, in the environment .venv of the checkout with PYTHONPATH=python; run.sh calls it
 """
 
 import itertools
 import json
 import re
 import sys
-import tomllib
 from dataclasses import asdict
 from pathlib import Path
 
 import choices
 import claims
 import friction
-import h5py
 import maps
 import measures
 import numpy as np
+import xarray
 from discs import SCENES
 from history import END, LONG_END, at, history, opened, reached, run_of, series_of, window_means
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
+# The study of other choices.
+CHOICES = HERE / "open-questions"
 # As run.sh has them. What is not there yet is left out, and said.
 SETS = range(1, 11)
 RULES = ("local", "pooled")
 # Runs with other pins on one and the same disc, the baseline of the first set and of the runs of one set of surfaces.
 PINS = ["set-local-1-1", *(f"pin-{number}" for number in (2, 3, 4, 5))]
 WAYS = ["as-they-are", "other-direction", "inside-out", "half-a-turn"]
+# Their surfaces, which symmetry.py writes beside the runs.
+SURFACES = "symmetry-surfaces.h5"
 # Duration of a step, s: 2764 columns, 850 rpm.
 STEP = 60 / 850 / 2764
 # Wear rate of plateaus on the pin times load, m3/m.
@@ -39,26 +42,26 @@ START = 100.0
 
 def run_numbers(path: Path) -> dict[str, object]:
     """All numbers of a run, or of what there is of one that came past the end of the paper's."""
-    with opened(path) as file:
-        series, times = series_of(file), file["map_time"][1:]
-        ends = [end for end in (END, LONG_END) if end < series["time"][-1] + 1]
-        assert ends, f"{path} came to {series['time'][-1]:.0f} s only"
-        middles, area = window_means(series["time"], series["contact_area_integral"], (series["time"][-1] + 1) // 50 * 50)
-        # Of the maps near an end, which pin.py averages, the last is enough for the disc.
-        late = [moment for moment in times if any(end - maps.LATE < moment < end - 1 for end in ends)]
-        return {
-            "program": str(file.attrs["program"]),
-            "revision": str(file.attrs["source_revision"]),
-            "host": str(file.attrs["host"]),
-            "wall_time": float(file.attrs.get("wall_time", np.nan)),
-            "acceleration": acceleration(file),
-            "steps": round(float(series["time"][-1]) / STEP / acceleration(file)),
-            "history": {f"{end:.0f}": history(series, end, WEAR) | {"friction": friction.at_the_end(series, end)} for end in ends},
-            "pin": {f"{end:.0f}": maps.at_the_end(file, end) for end in ends},
-            "disc": {f"{moment:.0f}": maps.of_the_disc(file, moment) for moment in times if moment not in late},
-            "sizes": {f"{end:.0f}": maps.sizes(file, end) for end in ends},
-            "contact_area": [[float(t), float(a)] for t, a in zip(middles, area, strict=True)],
-        }
+    run = opened(path)
+    series, times = series_of(run), run["map_time"].values[1:]
+    ends = [end for end in (END, LONG_END) if end <= series["time"][-1]]
+    assert ends, f"{path} came to {series['time'][-1]:.0f} s only"
+    middles, area = window_means(series["time"], series["contact_area_integral"], (series["time"][-1] + 1) // 50 * 50)
+    # Of the maps near an end, which pin.py averages, the last is enough for the disc.
+    late = [moment for moment in times if any(end - maps.LATE < moment < end - 1 for end in ends)]
+    return {
+        "program": str(run.attrs["program"]),
+        "revision": str(run.attrs["source_revision"]),
+        "host": str(run.attrs["host"]),
+        "wall_time": float(run.attrs.get("wall_time", np.nan)),
+        "acceleration": acceleration(run),
+        "steps": round(float(series["time"][-1]) / STEP / acceleration(run)),
+        "history": {f"{end:.0f}": history(series, end, WEAR) | {"friction": friction.at_the_end(series, end)} for end in ends},
+        "pin": {f"{end:.0f}": maps.at_the_end(run, end) for end in ends},
+        "disc": {f"{moment:.0f}": maps.of_the_disc(run, moment) for moment in times if moment not in late},
+        "sizes": {f"{end:.0f}": maps.sizes(run, end) for end in ends},
+        "contact_area": [[float(t), float(a)] for t, a in zip(middles, area, strict=True)],
+    }
 
 
 def there(paths: list[Path]) -> list[Path]:
@@ -86,9 +89,9 @@ def of_the_model() -> dict[str, object]:
     return {heights: run_numbers(path) for heights, path in paths.items()}
 
 
-def acceleration(file: h5py.File) -> float:
+def acceleration(run: xarray.DataTree) -> float:
     """The time acceleration of a run."""
-    return float(tomllib.loads(file.attrs["scene"])["numerics"]["time_acceleration"])
+    return float(run.plateau.scene["numerics"]["time_acceleration"])
 
 
 def exactness() -> dict[str, dict[str, object]]:
@@ -101,11 +104,11 @@ def exactness() -> dict[str, dict[str, object]]:
             continue
         pairs = []
         for name in (scene, f"quick-{heights}"):
-            with opened(RUNS / f"{name}.h5") as file:
-                series = series_of(file)
-                numbers = history(series, until) | {"acceleration": acceleration(file), "friction": friction.at_the_end(series, until)}
-                areas = window_means(series["time"], series["contact_area_integral"], until, 100.0)[1]
-                pairs.append((numbers | (maps.at_the_end(file, END) if until == END else {}), areas))
+            run = opened(RUNS / f"{name}.h5")
+            series = series_of(run)
+            numbers = history(series, until) | {"acceleration": acceleration(run), "friction": friction.at_the_end(series, until)}
+            areas = window_means(series["time"], series["contact_area_integral"], until, 100.0)[1]
+            pairs.append((numbers | (maps.at_the_end(run, END) if until == END else {}), areas))
         (exact, exact_areas), (near, near_areas) = pairs
         found[heights] = {
             "until": until,
@@ -125,12 +128,12 @@ def starts() -> dict[str, dict[str, object]]:
         for path in [RUNS / f"{name}-{heights}.h5" for name in ("start", "quick")] + [RUNS / f"{scene}.h5"]:
             if reached(path) < START:
                 continue
-            with opened(path) as file:
-                series = series_of(file)
-                numbers = {key: at(series["time"], series[key], START) for key in ("filled_fraction", "disc_secondary")}
-                # Its mean from half of the time on.
-                area = window_means(series["time"], series["contact_area_integral"], START, START / 2)[1][1]
-                of_disc.append({"acceleration": acceleration(file), "contact_area": float(area), **numbers})
+            run = opened(path)
+            series = series_of(run)
+            numbers = {key: at(series["time"], series[key], START) for key in ("filled_fraction", "disc_secondary")}
+            # Its mean from half of the time on.
+            area = window_means(series["time"], series["contact_area_integral"], START, START / 2)[1][1]
+            of_disc.append({"acceleration": acceleration(run), "contact_area": float(area), **numbers})
         found[heights] = sorted(of_disc, key=lambda one: one["acceleration"])
     return found
 
@@ -156,10 +159,10 @@ def pins_on_one_disc() -> dict[str, object]:
     if len(paths) < 2:
         return {}
     for path in paths:
-        with opened(path) as file:
-            depths.append(maps.open_depth(file, END))
-            inner.append(maps.of_the_disc(file, END)["inner_over_outer"])
-            initial = file["disc/height"][0]
+        run = opened(path)
+        depths.append(maps.open_depth(run, END))
+        inner.append(maps.of_the_disc(run, END)["inner_over_outer"])
+        initial = run["disc/height"][0].values
     pairs = [np.corrcoef(one.ravel(), other.ravel())[0, 1] for one, other in itertools.combinations(depths, 2)]
     return {
         "pins": len(paths),
@@ -174,24 +177,20 @@ def symmetry() -> dict[str, dict[str, float]]:
     """Runs of the same surfaces seen otherwise."""
     found = {}
     for path in there([RUNS / f"{way}.h5" for way in WAYS]):
-        with opened(path) as file:
-            found[path.stem] = history(series_of(file), load=WEAR)
+        found[path.stem] = history(series_of(opened(path)), load=WEAR)
     return found
 
 
 def of_friction(paths: dict[str, dict[str, list[Path]]], pooled: dict[str, object]) -> dict[str, object]:
     """Friction over sets of surfaces with both rules, of the runs of one set, with other numbers of its law and under other loads."""
     series = {rule: {heights: [friction.read(path) for path in of] for heights, of in discs.items()} for rule, discs in paths.items()}
-    accelerations = {}
-    for rule, discs in paths.items():
-        with opened(discs["1"][0]) as file:
-            accelerations[rule] = acceleration(file)
+    accelerations = {rule: acceleration(opened(discs["1"][0])) for rule, discs in paths.items()}
     return {rule: friction.of_sets(discs, accelerations[rule]) for rule, discs in series.items()} | {
         "runs": friction.of_runs({heights: run_of(RUNS, heights) for heights in SCENES}),
         "pooled_runs": friction.of_means({heights: run["contact_area"] for heights, run in pooled.items()}),
         "choices": friction.of_choices(series["local"]) if "local" in series else {},
         "law": asdict(friction.CHOSEN) | {"area_at_ceiling": friction.CHOSEN.area_at_ceiling(friction.LOAD)},
-        "loads": friction.of_loads(HERE / "open-questions/results.h5"),
+        "loads": friction.of_loads(CHOICES),
     }
 
 
@@ -204,11 +203,11 @@ def books(runs: list[dict[str, float]]) -> dict[str, float]:
 def core_hours() -> float:
     """Wall time of all runs of the program, each of which has one worker, h."""
     seconds = 0.0
-    for path in [*RUNS.glob("*.h5"), *HERE.glob("open-questions/results.h5")]:
-        with opened(path) as file:
-            seconds += float(file.attrs.get("wall_time", 0.0))
-            seconds += float(file["wall_time"][:].sum()) if "wall_time" in file else 0.0
-    return seconds / 3600
+    for path in RUNS.glob("*.h5"):
+        if path.name != SURFACES:
+            seconds += float(opened(path).attrs.get("wall_time", 0.0))
+    others = choices.collected(CHOICES)
+    return (seconds + (0.0 if others is None else float(others["wall_time"].values.sum()))) / 3600
 
 
 def rounded(value: object) -> object:
@@ -234,7 +233,7 @@ def main() -> None:
     paths = {rule: of_rule for rule in RULES if (of_rule := paths_of_sets(rule))["1"]}
     sets = {rule: {heights: [flat(run_numbers(path)) for path in of] for heights, of in discs.items()} for rule, discs in paths.items()}
     seen_otherwise = symmetry()
-    scenes = choices.of_scenes(HERE / "open-questions/results.h5")
+    scenes = choices.of_scenes(CHOICES)
     readings, check = choices.of_readings(RUNS / "readings.json")
     every = [
         *(list(run["history"].values())[-1] for run in runs.values()),

@@ -1,14 +1,14 @@
 """Figures of the study: the paper's by their numbers, and those of what it leaves open.
 
-usage: figures.py, in the environment .venv of the checkout, after evaluate.py; figures.sh calls it
+usage: figures.py, in the environment .venv of the checkout with PYTHONPATH=python, after evaluate.py; figures.sh calls it
 """
 
 import json
 from pathlib import Path
 
 import matplotlib
-import measures
 import numpy as np
+import xarray
 from discs import NAMES
 from history import END, LONG_END, opened, run_of
 from maps import BANDS
@@ -38,34 +38,38 @@ OTHER_READINGS = ("shared as a_p to a_d", "disc up to the disc ahead", "disc up 
 plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "figure.dpi": 140, "axes.spines.top": False,
                      "axes.spines.right": False, "legend.frameon": False, "savefig.bbox": "tight"})
 
+# The maps of a run that are drawn, by their names.
+Maps = dict[str, xarray.DataArray]
 
-def load(path: Path) -> dict[str, object]:
+
+def load(path: Path) -> Maps:
     """What is drawn of a run: maps of the start and the ends. Statuses follow from heights, and the coating does not wear."""
-    with opened(path) as file:
-        times = file["map_time"][:]
-        chosen = sorted({int(np.argmin(np.abs(times - moment))) for moment in (0.0, END, LONG_END)})
-        run = {field: file[field][chosen] for field in ("disc/height", "pin/height", "pin/substrate", "pin/pressure")}
-        run |= {"times": times[chosen], "radius": file["radius"][:], "base": file["pin/base"][:]}
-    run["disc/build-up"] = run["disc/height"] - run["disc/height"][0]
-    run["disc/status"] = np.where(run["disc/build-up"] > 0, 2, 1)
-    run["pin/status"] = np.where(run["pin/height"] < run["pin/substrate"], 2, run["base"])
-    # Columns are as long as at the mean radius.
-    run["column"] = 2 * np.pi * run["radius"].mean() / run["disc/height"].shape[1]
-    return run
+    times = opened(path)["map_time"].values
+    run = opened(path).isel(map_time=sorted({int(np.argmin(np.abs(times - moment))) for moment in (0.0, END, LONG_END)}))
+    maps = {name: run[name] for name in ("disc/height", "pin/height", "pin/pressure")}
+    maps |= {"pin/build-up": run.plateau.build_up("pin"), "base": run["pin/base"]}
+    maps["disc/build-up"] = maps["disc/height"] - maps["disc/height"][0]
+    maps["disc/status"] = xarray.where(maps["disc/build-up"] > 0, 2, 1)
+    maps["pin/status"] = xarray.where(maps["pin/build-up"] > 0, 2, maps["base"])
+    return maps
 
 
-def at(run: dict[str, object], field: str, moment: float) -> np.ndarray:
-    """A map at a moment."""
-    return run[field][measures.number_at(run["times"], moment)]
+def at(run: Maps, name: str, moment: float) -> xarray.DataArray:
+    """A map at a moment, s; an error where none was recorded within a second of it."""
+    return run[name].sel(map_time=moment, method="nearest", tolerance=1.0)
 
 
-def draw(axes, run: dict[str, object], values: np.ndarray, title: str, **how):
+def edges(centres: np.ndarray) -> tuple[float, float]:
+    """Where cells of equal width begin and end."""
+    half = (centres[1] - centres[0]) / 2
+    return centres[0] - half, centres[-1] + half
+
+
+def draw(axes, values: xarray.DataArray, title: str, **how):
     """A map with the sliding direction along x and the radius along y, mm."""
-    width = values.shape[0] * run["column"] * 1e3
-    radius = run["radius"] * 1e3
-    half = (radius[1] - radius[0]) / 2
-    image = axes.imshow(values.T, origin="lower", extent=(0, width, radius[0] - half, radius[-1] + half),
-                        interpolation="nearest", **how)
+    cells = values.plateau.unrolled()
+    extent = (*edges(cells["arc_length"].values * 1e3), *edges(cells["radius"].values * 1e3))
+    image = axes.imshow(values.T, origin="lower", extent=extent, interpolation="nearest", **how)
     axes.set(title=title, xlabel="along the track, mm", ylabel="radius, mm")
     return image
 
@@ -79,14 +83,14 @@ def save(figure, name: str) -> None:
     plt.close(figure)
 
 
-def of_three(runs: dict[str, dict], name: str, values, label: str, norms) -> None:
+def of_three(runs: dict[str, Maps], name: str, values, label: str, norms) -> None:
     """A map of each disc's run, side by side; norms: the scale of each, or one for all."""
     common = isinstance(norms, Normalize)
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.4), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
         # Where nothing is to be drawn.
         panel.set_facecolor(STATUS(0))
-        image = draw(panel, run, values(run), NAMES[heights], norm=norms if common else norms(run))
+        image = draw(panel, values(run), NAMES[heights], norm=norms if common else norms(run))
         if not common:
             figure.colorbar(image, ax=panel, label=label, shrink=0.8)
     if common:
@@ -94,50 +98,52 @@ def of_three(runs: dict[str, dict], name: str, values, label: str, norms) -> Non
     save(figure, name)
 
 
-def scale(fields: list[np.ndarray]) -> Normalize:
+def scale(fields: list[xarray.DataArray]) -> Normalize:
     """From nearly the lowest to nearly the highest."""
-    every = np.concatenate([field[np.isfinite(field)] for field in fields])
+    every = np.concatenate([field.values[np.isfinite(field.values)] for field in fields])
     return Normalize(*np.quantile(every, [0.005, 0.995]))
 
 
-def of_the_start(run: dict[str, object]) -> Normalize:
+def of_the_start(run: Maps) -> Normalize:
     """The scale of the disc's heights at the start, so that what is open looks as it did then."""
     return scale([at(run, "disc/height", 0) * 1e6])
 
 
-def status_of_three(runs: dict[str, dict], name: str, field: str, columns: int | None = None) -> None:
+def status_of_three(runs: dict[str, Maps], name: str, field: str, columns: int | None = None) -> None:
     """Status maps, side by side."""
     figure, axes = plt.subplots(1, 3, figsize=(10, 2.5), layout="constrained")
     for panel, (heights, run) in zip(axes, runs.items(), strict=True):
-        draw(panel, run, at(run, field, END)[:columns], NAMES[heights], **OF_STATUS)
+        draw(panel, at(run, field, END)[:columns], NAMES[heights], **OF_STATUS)
     patches = [plt.Rectangle((0, 0), 1, 1, color=STATUS(number)) for number in range(3)]
     figure.legend(patches, STATUSES, loc="outside lower center", ncols=3)
     save(figure, name)
 
 
-def inputs(run: dict[str, object]) -> None:
+def inputs(run: Maps) -> None:
     """The paper's figures 5 to 7: what the runs begin with."""
     disc, pin = at(run, "disc/height", 0) * 1e6, at(run, "pin/height", 0) * 1e6
     figure, (above, below) = plt.subplots(2, 1, figsize=(5, 4), layout="constrained", height_ratios=[2, 1])
-    figure.colorbar(draw(above, run, disc[:PIECE], "disc at the start, 8 mm of the ring"), ax=above,
+    figure.colorbar(draw(above, disc[:PIECE], "disc at the start, 8 mm of the ring"), ax=above,
                     label="height, µm")
-    below.plot(np.arange(PIECE) * run["column"] * 1e3, disc[:PIECE, 40], color="black", lw=0.8)
+    arc = disc.plateau.unrolled()["arc_length"].values * 1e3
+    below.plot(arc[:PIECE] - arc[0], disc[:PIECE, 40], color="black", lw=0.8)
     below.set(xlabel="along the track, mm", ylabel="height, µm", title="the same at the mean radius")
     save(figure, "fig05")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
-    draw(axes, run, run["base"], "pin: fibres (grey) in resin", **OF_STATUS)
+    draw(axes, run["base"], "pin: fibres (grey) in resin", **OF_STATUS)
     save(figure, "fig06")
     figure, axes = plt.subplots(figsize=(4.5, 2.6), layout="constrained")
-    figure.colorbar(draw(axes, run, -pin, "pin at the start, toward the disc"), ax=axes, label="height, µm")
+    figure.colorbar(draw(axes, -pin, "pin at the start, toward the disc"), ax=axes, label="height, µm")
     save(figure, "fig07")
 
 
-def filling_of_the_baseline(run: dict[str, object]) -> None:
+def filling_of_the_baseline(run: Maps) -> None:
     """The paper's figure 8, and the length of the real test."""
-    moments = [moment for moment in (0.0, END, LONG_END) if np.abs(run["times"] - moment).min() < 1]
+    times = run["disc/height"]["map_time"].values
+    moments = [moment for moment in (0.0, END, LONG_END) if np.abs(times - moment).min() < 1]
     figure, axes = plt.subplots(1, len(moments), figsize=(10, 2.4), layout="constrained")
     for panel, moment in zip(axes, moments, strict=True):
-        image = draw(panel, run, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s",
+        image = draw(panel, at(run, "disc/height", moment)[:PIECE] * 1e6, f"disc, baseline, {moment:.0f} s",
                      norm=Normalize(-10, 10))
     figure.colorbar(image, ax=axes, label="height, µm", shrink=0.8, extend="both")
     save(figure, "fig08")
@@ -228,21 +234,21 @@ def tornado() -> None:
     save(figure, "tornado")
 
 
-def build_up(run: dict[str, object]) -> np.ndarray:
+def build_up(run: Maps) -> xarray.DataArray:
     """Of the piece of the ring that is shown, µm."""
     return at(run, "disc/build-up", END)[:PIECE] * 1e6
 
 
-def pin_height(run: dict[str, object]) -> np.ndarray:
+def pin_height(run: Maps) -> xarray.DataArray:
     """Toward the disc, above the mean fibre, µm."""
     height = -at(run, "pin/height", END) * 1e6
-    return height - height[run["base"] == 1].mean()
+    return height - height.values[run["base"].values == 1].mean()
 
 
-def pressure(run: dict[str, object]) -> np.ndarray:
+def pressure(run: Maps) -> xarray.DataArray:
     """Where there is contact, MPa."""
     field = at(run, "pin/pressure", END) * 1e-6
-    return np.where(field > 0, field, np.nan)
+    return field.where(field > 0)
 
 
 def main() -> None:

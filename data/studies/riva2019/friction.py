@@ -13,6 +13,8 @@ from discs import SCENES
 from history import END, WINDOW, opened, series_of
 from readings import SEEDS
 
+from plateau.means import mean_between
+
 # Load of the paper's scene, N.
 LOAD = 47.0
 # Times over which the mean is taken, s: run-in is the change from the first 100 s to the last tenth.
@@ -61,8 +63,7 @@ Discs = dict[str, list[Series]]
 
 def mean_area(series: Series, start: float, end: float) -> float:
     """Mean contact area over a time, m2, from its integral, which knows every step."""
-    integral = np.interp([start, end], np.r_[0.0, series["time"]], np.r_[0.0, series["contact_area_integral"]])
-    return float(integral[1] - integral[0]) / (end - start)
+    return mean_between(series["time"], series["contact_area_integral"], None, start, end).value
 
 
 def samples(series: Series, start: float, end: float, load: float, law: Law) -> tuple[np.ndarray, float]:
@@ -173,11 +174,11 @@ def of_choices(discs: Discs) -> dict[str, object]:
     }
 
 
-def of_loads(path: Path) -> dict[str, object]:
+def of_loads(study: Path) -> dict[str, object]:
     """Friction in the last tenth under other loads: runs on the reduced mesh that had them from the start."""
     found: dict[str, Discs] = {load: {heights: [] for heights in SCENES} for load in LOADS}
     loads = {name: load for load, name in LOADS.items()}
-    for name, heights, series in choices.runs_of(path, set(loads)):
+    for name, heights, series in choices.runs_of(study, set(loads)):
         found[loads[name]][heights].append(series)
     if any(len(of_disc) < len(SEEDS) for discs in found.values() for of_disc in discs.values()):
         return {}
@@ -218,5 +219,4 @@ def of_means(discs: dict[str, list[list[float]]]) -> dict[str, object]:
 
 def read(path: Path) -> Series:
     """The series of a run."""
-    with opened(path) as file:
-        return series_of(file)
+    return series_of(opened(path))

@@ -1,6 +1,6 @@
 """Figures of friction: against time, and with other numbers in its law.
 
-usage: friction_figures.py, in the environment .venv of the checkout, after evaluate.py; figures.sh calls it
+usage: friction_figures.py, in the environment .venv of the checkout with PYTHONPATH=python, after evaluate.py; figures.sh calls it
 """
 
 import numpy as np

@@ -1,11 +1,14 @@
 """What the series of a run say up to a time."""
 
+from functools import cache
 from pathlib import Path
 
-import h5py
 import measures
 import numpy as np
+import xarray
 from discs import SCENES
+
+import plateau
 
 # Times of the paper's results and, for the baseline, of the end of the real test, s.
 END, LONG_END = 3000.0, 7200.0
@@ -18,20 +21,15 @@ AVERAGED = ("pressure_variation", "pressure_gini", "mean_pressure", "pin_sq", "d
 AT_THE_END = ("disc_secondary", "worn_pin", "worn_resin", "worn_disc")
 
 
-def opened(path: Path) -> h5py.File:
-    """A run file, also one that is being written."""
-    try:
-        return h5py.File(path)
-    except OSError:
-        return h5py.File(path, swmr=True)
+@cache
+def opened(path: Path) -> xarray.DataTree:
+    """A run, also one that goes on. Opening takes longer than reading, so that it is done once for each."""
+    return plateau.open_run(path)
 
 
 def reached(path: Path) -> float:
     """The time that a run came to; 0 where there is none."""
-    if not path.exists():
-        return 0.0
-    with opened(path) as file:
-        return float(file["time"][-1])
+    return float(opened(path)["time"][-1]) if path.exists() else 0.0
 
 
 def run_of(runs: Path, heights: str) -> Path:
@@ -40,10 +38,10 @@ def run_of(runs: Path, heights: str) -> Path:
     return path if reached(path) >= END else runs / f"quick-{heights}.h5"
 
 
-def series_of(file: h5py.File) -> dict[str, np.ndarray]:
+def series_of(run: xarray.DataTree) -> dict[str, np.ndarray]:
     """All series of a run as far as it came, and their time."""
-    time = file["time"][:]
-    return {name: values[: len(time)] for name, values in file["series"].items()} | {"time": time}
+    table = run.plateau.series
+    return {name: table[name].to_numpy() for name in table} | {"time": table.index.to_numpy()}
 
 
 def at(time: np.ndarray, values: np.ndarray, moment: float) -> float:

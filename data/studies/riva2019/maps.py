@@ -1,8 +1,8 @@
 """What the maps of a run say."""
 
-import h5py
 import measures
 import numpy as np
+import xarray
 from pin import THICK, of_the_pin
 
 # Build-up from which a cell of the disc counts as covered by more than a film, m.
@@ -14,45 +14,51 @@ LATE = 56.0
 BANDS = 16
 
 
-def at_the_end(file: h5py.File, end: float) -> dict[str, float]:
+def maps_at(run: xarray.DataTree, moment: float) -> xarray.DataTree:
+    """A run with the maps of a moment, s, alone; an error where none were recorded within a second of it."""
+    return run.sel(map_time=moment, method="nearest", tolerance=1.0)
+
+
+def at_the_end(run: xarray.DataTree, end: float) -> dict[str, float]:
     """Build-up and roughness of the pin, means of the maps near the end."""
-    times, base, radius = file["map_time"][:], file["pin/base"][:], file["radius"][:]
-    late = np.flatnonzero((times > end - LATE) & (times < end + 1))
-    found = [
-        of_the_pin(file["pin/height"][number], file["pin/substrate"][number], base, file["pin/pressure"][number], radius)
-        for number in late
-    ]
+    times, base, radius = (run[name].values for name in ("map_time", "pin/base", "radius"))
+    late = run.isel(map_time=np.flatnonzero((times > end - LATE) & (times < end + 1)))
+    fields = (late["pin/height"], late.plateau.build_up("pin"), late["pin/pressure"])
+    maps = zip(*(field.values for field in fields), strict=True)
+    found = [of_the_pin(height, film, base, pressure, radius) for height, film, pressure in maps]
     return {key: float(np.mean([one[key] for one in found])) for key in found[0]} | {"maps": float(len(found))}
 
 
-def of_the_disc(file: h5py.File, moment: float) -> dict[str, float]:
+def of_the_disc(run: xarray.DataTree, moment: float) -> dict[str, float]:
     """Filling and build-up of the disc. What it lies on is the initial surface: the coating does not wear."""
-    number, radius = measures.number_at(file["map_time"][:], moment), file["radius"][:]
-    initial, height = file["disc/height"][0], file["disc/height"][number]
-    build_up, profile = height - initial, measures.radial_filling(initial, height, radius, BANDS)
+    initial, height = run["disc/height"][0].load(), maps_at(run, moment)["disc/height"].load()
+    build_up, depth = height - initial, initial.max() - initial
+    before, now, radius = initial.values, height.values, run["radius"].values
+    profile = measures.radial_filling(before, now, radius, BANDS)
     return {
-        "filled": measures.filled_volume(initial, height, radius),
-        "filled_area": measures.filled_area(initial, height, radius, NEAR),
-        "covered_disc": measures.share(build_up >= THICK_ON_THE_DISC, radius),
-        "initial_depth": float(measures.mean(initial.max() - initial, radius)),
-        "mean_build_up": float(measures.mean(build_up, radius)),
-        "highest": float(height.max() - initial.max()),
+        "filled": measures.filled_volume(before, now, radius),
+        "filled_area": measures.filled_area(before, now, radius, NEAR),
+        "covered_disc": float((build_up >= THICK_ON_THE_DISC).plateau.area_mean()),
+        "initial_depth": float(depth.plateau.area_mean()),
+        "mean_build_up": float(build_up.plateau.area_mean()),
+        "highest": float(now.max() - before.max()),
         "inner_over_outer": float(profile[: BANDS // 2].mean() - profile[BANDS // 2 :].mean()),
         # Where the deepest fifth of the area was.
-        "open_where_deepest": measures.open_where_deepest(initial, height, radius, 0.2),
+        "open_where_deepest": measures.open_where_deepest(before, now, radius, 0.2),
         **{f"band_{band}": float(filled) for band, filled in enumerate(profile)},
     }
 
 
-def sizes(file: h5py.File, moment: float) -> dict[str, dict]:
+def sizes(run: xarray.DataTree, moment: float) -> dict[str, dict]:
     """Diameters of plateaus that hold 10, 50 and 90 % of their area, and how many there are."""
-    number, radius = measures.number_at(file["map_time"][:], moment), file["radius"][:]
-    initial, height = file["disc/height"][0], file["disc/height"][number]
-    reference, film = initial.max(), file["pin/substrate"][number] - file["pin/height"][number]
+    initial, radius = run["disc/height"][0].values, run["radius"].values
+    then = maps_at(run, moment)
+    height, film, pressure = (then["disc/height"].values, then.plateau.build_up("pin").values, then["pin/pressure"].values)
+    reference = initial.max()
     cell = radius.mean() * 2 * np.pi / height.shape[0] * np.diff(radius).mean()
     pieces = {
-        "pin_contact": measures.plateau_sizes(file["pin/pressure"][number] > 0, False),
-        "pin_plateaus": measures.plateau_sizes((film > 0) | (file["pin/base"][:] == 1), False),
+        "pin_contact": measures.plateau_sizes(pressure > 0, False),
+        "pin_plateaus": measures.plateau_sizes((film > 0) | (run["pin/base"].values == 1), False),
         "pin_thick": measures.plateau_sizes(film >= THICK, False),
         "disc_secondary": measures.plateau_sizes(height > initial, True),
         "disc_lowlands_filled": measures.plateau_sizes((initial < reference) & (height >= reference - NEAR), True),
@@ -64,7 +70,6 @@ def sizes(file: h5py.File, moment: float) -> dict[str, dict]:
     }
 
 
-def open_depth(file: h5py.File, moment: float) -> np.ndarray:
+def open_depth(run: xarray.DataTree, moment: float) -> np.ndarray:
     """How far every cell of the disc still is below the highest of the start, m."""
-    height = file["disc/height"][measures.number_at(file["map_time"][:], moment)]
-    return (file["disc/height"][0].max() - height).clip(0)
+    return (run["disc/height"][0].max() - maps_at(run, moment)["disc/height"]).clip(0).values

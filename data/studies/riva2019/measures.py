@@ -4,13 +4,6 @@ import numpy as np
 from scipy import ndimage, stats
 
 
-def number_at(times: np.ndarray, moment: float) -> int:
-    """Number of the maps of a moment, s."""
-    number = int(np.argmin(np.abs(times - moment)))
-    assert abs(times[number] - moment) < 1.0, f"no maps at {moment} s"
-    return number
-
-
 def mean(values: np.ndarray, radius: np.ndarray) -> float:
     """Mean over cells, each counted with its area, which goes with its radius."""
     return float((values * radius).sum() / (radius.sum() * values.shape[0]))

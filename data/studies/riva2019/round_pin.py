@@ -1,6 +1,6 @@
 """The rig's round pin beside the paper's patch of 4 by 8 mm, under the same load: writes round-pin.json.
 
-usage: round_pin.py, in the environment .venv of the checkout; run.sh calls it
+usage: round_pin.py, in the environment .venv of the checkout with PYTHONPATH=python; run.sh calls it
 """
 
 import sys
@@ -21,8 +21,7 @@ KEYS = ("contact_area_mean", "filled", "disc_secondary", "pin_secondary", "mean_
 
 def numbers(path: Path) -> dict[str, float]:
     """Those of one run."""
-    with opened(path) as file:
-        series = series_of(file)
+    series = series_of(opened(path))
     found = history(series)
     area = series["contact_area"][-1] / series["contact_ratio"][-1]
     return {key: found[key] for key in KEYS} | {"contact_fraction": float(found["contact_area_mean"] / area), "pin_area": float(area)}

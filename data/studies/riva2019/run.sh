@@ -20,9 +20,10 @@ runs=$study/runs
 sh scripts/build.sh || exit 1
 with_lock .venv.lock install_readers || exit 1
 python="$root/.venv/bin/python -B"
-# The package of the checkout.
+# The package of the checkout, with its program.
 PYTHONPATH=$root/python
-export PYTHONPATH
+PLATEAU_PROGRAM=$program
+export PYTHONPATH PLATEAU_PROGRAM
 mkdir -p "$runs"
 
 # The environment in which other readings of the rule are compiled, .venv-study.
@@ -103,7 +104,7 @@ long=$!
     of_symmetry
     of_sets
     of_the_rig
-    "$root/.venv-study/bin/python" -B "$study/variants.py" "$program" || exit 1
+    "$root/.venv-study/bin/python" -B "$study/variants.py" || exit 1
     "$program" sweep run "$study/open-questions.toml" --jobs 1 --task 2/2 >/dev/null 2>"$runs/open-questions-2.log"
 ) || die 'the study is not complete; call this again to go on'
 wait $long || die 'the baseline is not complete; call this again to go on'

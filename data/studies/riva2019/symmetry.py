@@ -1,11 +1,13 @@
 """Writes the baseline's initial surfaces for symmetry.toml: as they are, mirrored, and turned.
 
-usage: symmetry.py BASELINE SURFACES, the baseline's run file and the file to write
+usage: symmetry.py BASELINE SURFACES, in the same environment as evaluate.py: the baseline's run file and the file to write
 """
 
 import sys
 
 import h5py
+
+import plateau
 
 # The other sliding direction is the same as both surfaces mirrored along it. A disc that is turned lets the run begin elsewhere.
 # Mirrored across the track, what was at the inner radius is at the outer.
@@ -18,8 +20,9 @@ WAYS = {
 
 
 def main() -> None:
-    with h5py.File(sys.argv[1]) as run, h5py.File(sys.argv[2], "w") as file:
-        disc, pin, base = run["disc/height"][0], run["pin/height"][0], run["pin/base"][:]
+    with plateau.open_run(sys.argv[1]) as run, h5py.File(sys.argv[2], "w") as file:
+        disc, pin = (run[f"{body}/height"][0].values for body in ("disc", "pin"))
+        base = run["pin/base"].values
         for name, seen in WAYS.items():
             file[f"{name}/disc"], file[f"{name}/pin"] = seen(disc, pin)
             file[f"{name}/base"] = seen(disc, base)[1]

@@ -1,25 +1,25 @@
 """Other readings of the local debris rule, which no scene has (rule.py), on the reduced mesh.
 
-usage: variants.py PROGRAM, in an environment with requirements.txt; run.sh calls it
+usage: variants.py, in an environment with requirements.txt and with the package plateau; run.sh calls it
 
 Writes runs/readings.json: the rule as it stands checked against the program, and of every reading, disc and set of
 surfaces what evaluate.py reads of a run. Numbers that are there already are not made again.
 """
 
 import json
-import subprocess
-import sys
-import tomllib
+import warnings
 from pathlib import Path
 
-import h5py
 import measures
 import numpy as np
+import xarray
 from discs import SCENES
 from history import END, history
 from pin import of_the_pin
 from readings import READINGS, SEEDS
 from rule import SUMS, steps
+
+import plateau
 
 HERE = Path(__file__).parent
 RUNS = HERE / "runs"
@@ -28,29 +28,23 @@ RESULTS = RUNS / "readings.json"
 CHECKED = (1, 5000, 10_000, 20_000)
 
 
-def with_seed(seed: int, heights: str) -> list[str]:
-    """A set of surfaces, as the program's command line has it."""
+def run(name: str, seed: int, heights: str, count: int) -> xarray.DataTree:
+    """A run of the program on the reduced mesh with a set of surfaces, of some steps."""
     keys = ("disc.surface.synthetic.seed", "pin.base.synthetic.seed", "pin.surface.synthetic.seed")
-    sets = [f"{key}={seed}" for key in keys] + [f"disc.prepare.scale={heights}"]
-    return [word for entry in sets for word in ("--set", entry)]
-
-
-def run(program: str, name: str, options: list[str]) -> Path:
-    """A run of the program on the reduced mesh."""
-    path = RUNS / f"{name}.h5"
-    command = [program, "run", HERE / "reduced.toml", "--force", "--workers", "1", "-o", path, *options]
-    subprocess.run(command, check=True, capture_output=True)
-    return path
+    changes = dict.fromkeys(keys, seed) | {"disc.prepare.scale": float(heights), "operation.steps": count, "output.maps_at": ["0 s"]}
+    with warnings.catch_warnings():
+        # That a run of one step has a single sample is meant.
+        warnings.simplefilter("ignore", plateau.PlateauWarning)
+        return plateau.run(HERE / "reduced.toml", RUNS / f"{name}.h5", set=changes, workers=1, force=True, progress=False)
 
 
 class Model:
-    """A run of the rule from the initial state of a run file, with that file's scene."""
+    """The rule from the initial state of a run on, with the scene of that run."""
 
-    def __init__(self, path: Path, reading: tuple[int, int]) -> None:
-        with h5py.File(path) as file:
-            scene = tomllib.loads(file.attrs["scene"])
-            disc, self.radius = file["disc/height"][0], file["radius"][:]
-            pin, self.base = file["pin/height"][0], file["pin/base"][:].astype(np.int64)
+    def __init__(self, run: xarray.DataTree, reading: tuple[int, int]) -> None:
+        scene = run.plateau.scene
+        disc, pin = (run[f"{body}/height"][0].values for body in ("disc", "pin"))
+        self.radius, self.base = run["radius"].values, run["pin/base"].values.astype(np.int64)
         self.disc, self.pin = (disc, disc.copy()), (pin, pin.copy(), self.base)
         self.initial, self.reading = disc.copy(), reading
         number = lambda text: float(str(text).split()[0])  # noqa: E731, with the units of reduced.toml
@@ -114,41 +108,40 @@ def numbers_of(model: Model) -> dict[str, float]:
         model.advance(min(every, total - model.taken))
         samples.append(model.sample())
         if samples[-1]["time"] > END - 56.0:
-            pins.append(of_the_pin(*model.pin, model.pressure, model.radius))
+            height, substrate, base = model.pin
+            pins.append(of_the_pin(height, substrate - height, base, model.pressure, model.radius))
     series = {key: np.array([sample[key] for sample in samples]) for key in samples[0]}
     return history(series) | {key: float(np.mean([pin[key] for pin in pins])) for key in pins[0]}
 
 
-def check(program: str) -> list[dict[str, float]]:
+def check() -> list[dict[str, float]]:
     """Largest differences of heights between the program and the rule as it stands, after some steps, m."""
     found = []
     for heights in SCENES:
         model = None
         for count in CHECKED:
-            options = [*with_seed(1, heights), "--set", f"operation.steps={count}", "--set", "output.maps_at=['0 s']"]
-            path = run(program, "check", options)
-            model = model or Model(path, READINGS["the rule as it stands"])
-            model.advance(count - model.taken)
-            with h5py.File(path) as file:
-                pairs = [(file["disc/height"][-1], model.disc[0]), (file["pin/height"][-1], model.pin[0])]
-                of_disc, of_pin = (float(np.abs(one - other).max()) for one, other in pairs)
+            with run("check", 1, heights, count) as made:
+                model = model or Model(made, READINGS["the rule as it stands"])
+                model.advance(count - model.taken)
+                pairs = [(made["disc/height"], model.disc[0]), (made["pin/height"], model.pin[0])]
+                of_disc, of_pin = (float(np.abs(one[-1].values - other).max()) for one, other in pairs)
             found.append({"heights": heights, "steps": count, "disc": of_disc, "pin": of_pin})
     return found
 
 
 def main() -> None:
-    program = sys.argv[1]
     found = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
     if "check" not in found:
-        found["check"] = check(program)
+        found["check"] = check()
     for name, reading in READINGS.items():
         for heights in SCENES:
             for seed in SEEDS:
                 key = f"{name}, {heights}, {seed}"
                 if key in found:
                     continue
-                options = [*with_seed(seed, heights), "--set", "operation.steps=1", "--set", "output.maps_at=['0 s']"]
-                found[key] = numbers_of(Model(run(program, "initial", options), reading))
+                with run("initial", seed, heights, 1) as initial:
+                    model = Model(initial, reading)
+                found[key] = numbers_of(model)
                 RESULTS.write_text(json.dumps(found, indent=1) + "\n")
 
 
