@@ -1,6 +1,7 @@
 #!/bin/sh
 # The recipes of the containers, step by step on clean systems with Debian 12: the first stage builds and installs the program with MPI, the
-# second one runs it, alone and on two ranks. Only root can make such systems. Rust comes from this machine, read-only.
+# second one runs it, alone and on two ranks. Only root can make such systems. Rust comes from this machine, read-only. No program for
+# containers is needed; apptainer.sh tries plateau.def with Apptainer itself.
 # What is between single quotes is for the shells of those systems.
 # shellcheck disable=SC2016
 set -u
@@ -32,7 +33,7 @@ trap 'exit 143' TERM
 
 # Both recipes have the same steps.
 for recipe in Containerfile plateau.def; do
-    for step in 'sh /src/packaging/container/build.sh /opt/plateau' 'sh /tmp/runtime.sh'; do
+    for step in 'sh /src/packaging/container/build.sh /opt/plateau' 'sh /opt/runtime.sh'; do
         grep -q "$step" "packaging/container/$recipe" || { echo "$recipe does not say '$step'" && exit 1; }
     done
 done
@@ -49,8 +50,8 @@ inside "$systems/build" env PATH=/opt/rust/bin:/usr/sbin:/usr/bin:/sbin:/bin sh 
 echo "first stage: $(inside "$systems/build" /opt/plateau/bin/plateau --version | head -n 1)"
 
 make_debian bookworm "$systems/final"
-cp packaging/container/runtime.sh "$systems/final/tmp/runtime.sh"
-inside "$systems/final" sh /tmp/runtime.sh >"$lab/said" 2>&1 || { tail -n 20 "$lab/said" && echo 'the second stage failed' && exit 1; }
+cp packaging/container/runtime.sh "$systems/final/opt/runtime.sh"
+inside "$systems/final" sh /opt/runtime.sh >"$lab/said" 2>&1 || { tail -n 20 "$lab/said" && echo 'the second stage failed' && exit 1; }
 rm -rf "$systems/final/opt/plateau" && cp -r "$systems/build/opt/plateau" "$systems/final/opt/plateau" || exit 1
 # The environment of both recipes, and the test of plateau.def.
 as_user "$systems/final" 'export PATH=/opt/plateau/bin:$PATH
