@@ -34,7 +34,8 @@ pub fn no_warnings() {
 
 /// Says why the program cannot do what was asked.
 pub fn error(message: impl fmt::Display) {
-    say(coloured("plateau:", Style::new().red().bold()), message);
+    let style = Style::new().red().bold().for_stderr();
+    say_in(style.apply_to("plateau:"), message, |text| with_coloured_marks(text, &style));
 }
 
 /// Says what deserves attention though the program goes on.
@@ -63,6 +64,34 @@ fn may_be_said() -> bool {
 /// Text of others cannot do anything to the terminal, nor fill it. Where standard error takes nothing (a full disc, a reader gone) the exit
 /// status still tells; `eprintln!` would panic.
 fn say(who: impl fmt::Display, message: impl fmt::Display) {
+    say_in(who, message, str::to_owned);
+}
+
+/// Says it in the look that is given to it last.
+fn say_in(who: impl fmt::Display, message: impl fmt::Display, look: impl Fn(&str) -> String) {
     let message = message.to_string();
-    let _ = writeln!(io::stderr().lock(), "{who} {}", shown_message(&shown(&message)));
+    let _ = writeln!(io::stderr().lock(), "{who} {}", look(&shown_message(&shown(&message))));
+}
+
+/// The marks below lines of a file in a style.
+fn with_coloured_marks(message: &str, style: &Style) -> String {
+    let with_mark = |line: &str| match line.strip_suffix('^') {
+        Some(before) if before.trim() == "|" => format!("{before}{}", style.apply_to("^")),
+        _ => line.to_owned(),
+    };
+    message.split('\n').map(with_mark).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_alone_are_coloured() {
+        let message = "study.toml:2:5: x^\n  2 | a = 2^\n    |     ^\nend";
+        let red = Style::new().red().force_styling(true);
+        let expected = "study.toml:2:5: x^\n  2 | a = 2^\n    |     \u{1b}[31m^\u{1b}[0m\nend";
+        assert_eq!(with_coloured_marks(message, &red), expected);
+        assert_eq!(with_coloured_marks(message, &Style::new().red().force_styling(false)), message);
+    }
 }
