@@ -46,10 +46,11 @@ fn tip(answer: &clap::Error) -> Option<String> {
         ErrorKind::InvalidSubcommand => {
             let word = word(ContextKind::InvalidSubcommand)?;
             match word.rsplit_once('.').map_or("", |(_, ending)| ending) {
+                "toml" if is_sweep() => Some(format!("to run a study: {} sweep run {word}", called::program())),
                 "toml" => Some(format!("to run a scene: {} run {word}", called::program())),
                 "h5" => Some(format!("to see a run: {0} report {word}, or {0} plot {word}", called::program())),
                 _ if word == "version" => Some(format!("the version: {} --version", called::program())),
-                _ => command_like(&word),
+                _ => command_like(&word).or_else(|| command_of_sweep(&word)),
             }
         }
         ErrorKind::UnknownArgument => {
@@ -59,6 +60,18 @@ fn tip(answer: &clap::Error) -> Option<String> {
         }
         _ => None,
     }
+}
+
+/// Whether a command of studies was begun.
+fn is_sweep() -> bool {
+    std::env::args_os().nth(1).is_some_and(|first| first == "sweep")
+}
+
+/// The command of studies with this name.
+fn command_of_sweep(word: &str) -> Option<String> {
+    let all = Arguments::command();
+    all.find_subcommand("sweep")?.find_subcommand(word)?;
+    Some(format!("did you mean {} sweep {word}?", called::program()))
 }
 
 /// The command whose name is the nearest to a word, if it is near: two letters that change places, one that is missing or

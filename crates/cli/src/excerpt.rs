@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use plateau_io::brief;
+use console::measure_text_width;
 use plateau_io::scene::{Origin, Problem};
+use plateau_io::{brief, text};
 
 /// Longest line that is shown, characters: of a longer one its beginning.
 const LONGEST: usize = 160;
@@ -26,7 +27,7 @@ fn with_line<'a>(problem: &'a Problem, files: &mut HashMap<&'a Path, Option<Stri
 /// A line with its number, and a mark below the column; both count from 1. None if there is no such place, as when the file has
 /// changed meanwhile.
 fn marked(text: &str, line: usize, column: usize) -> Option<String> {
-    let found = text.lines().nth(line.checked_sub(1)?)?;
+    let found = text.lines().nth(line.checked_sub(1)?)?.trim_start_matches('\u{feff}');
     if column > found.chars().count().min(LONGEST) + 1 {
         return None;
     }
@@ -34,7 +35,9 @@ fn marked(text: &str, line: usize, column: usize) -> Option<String> {
     let shown: String = found.chars().take(LONGEST).map(|each| if each.is_control() { ' ' } else { each }).collect();
     let number = line.to_string();
     let blank = " ".repeat(number.len());
-    let mark = " ".repeat(column - 1);
+    // Letters of some languages are two columns wide, and what turns the direction of writing is shown by its number.
+    let before: String = shown.chars().take(column - 1).collect();
+    let mark = " ".repeat(measure_text_width(&text::shown(&before)));
     Some(format!("  {number} | {}\n  {blank} | {mark}^", shown.trim_end()))
 }
 
@@ -47,6 +50,7 @@ mod tests {
         let text = "version = 1\n\tname = \"a\u{7}\"\n";
         assert_eq!(marked(text, 2, 9).as_deref(), Some("  2 |  name = \"a \"\n    |         ^"));
         assert_eq!(marked(text, 1, 12).as_deref(), Some("  1 | version = 1\n    |            ^"));
+        assert_eq!(marked("\u{540d} = 1", 1, 5).as_deref(), Some("  1 | \u{540d} = 1\n    |      ^"));
         assert_eq!(marked(text, 3, 1), None);
         assert_eq!(marked(text, 1, 40), None);
         assert_eq!(marked(&"x".repeat(1000), 1, 170), None);

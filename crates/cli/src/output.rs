@@ -131,7 +131,8 @@ fn unwritable(path: &Path, error: &io::Error) -> Failure {
     ))
 }
 
-fn directory(path: &Path) -> &Path {
+/// The folder in which a path is.
+pub fn directory(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 

@@ -111,3 +111,37 @@ fn heights_of_a_run_have_equal_scales_and_stand_on_pages_of_a_journal() {
         }
     }
 }
+
+#[test]
+fn no_page_takes_the_place_of_an_input_or_of_another_output() {
+    let directory = WorkingDirectory::new();
+    let scene = plateau_tests::program::scene("micrograph.toml");
+    let picture = |name: &str| directory.path(name).is_file();
+    // Surfaces of a run and of a scene have two pages.
+    let quick = plateau_tests::program::scene("quick.toml");
+    let maps = "output.maps_at=[\"0 s\", \"1 s\"]";
+    directory
+        .plateau(["run", &quick, "-o", "run.h5", "--set", "operation.duration=2 s", "--set", maps])
+        .quiet_success();
+    let call = |plot: &str, preview: &str| {
+        let always = ["surface", "run.h5", "--prepare", &scene, "--plot", plot, "--preview", preview, "--force"];
+        directory.plateau(always)
+    };
+    for (plot, preview, named) in [("p.png", "./p.png", "./p.png"), ("p.png", "./p-2.png", "./p-2.png")] {
+        let outcome = call(plot, preview);
+        assert_eq!(outcome.status, Some(2), "{}", outcome.stderr);
+        assert!(outcome.stderr.contains(&format!("{named} is named for two outputs")), "{}", outcome.stderr);
+        assert!(!picture("p.png") && !picture("p-2.png"));
+    }
+    let outcome = call("p.png", "q.png");
+    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert!(picture("p.png") && picture("p-2.png") && picture("q.png"));
+    // The micrograph of a scene, where a page would be.
+    let micrograph = plateau_tests::program::repository().join("data/surfaces/micrograph.png");
+    fs::copy(micrograph, directory.path("own-2.png")).unwrap();
+    directory.write("own.toml", format!("extends = \"{scene}\"\n[pin.base]\nimage = \"own-2.png\"\n"));
+    let before = fs::read(directory.path("own-2.png")).unwrap();
+    let outcome = directory.plateau(["surface", "run.h5", "--prepare", "own.toml", "--plot", "own.png", "--force"]);
+    assert!(outcome.stderr.contains("own-2.png is an input and is not replaced"), "{}", outcome.stderr);
+    assert!(fs::read(directory.path("own-2.png")).unwrap() == before && !picture("own.png"));
+}

@@ -49,7 +49,7 @@ impl PulseReport {
         );
         if !enough(pulses, WANTED) {
             let wanted = seconds(10.0 * WANTED * pulse_time);
-            text += &format!(", and a mean needs at least {WANTED}: the run must be {wanted} long or longer");
+            text += &format!(", and a mean needs at least {WANTED}: the run must be longer than {wanted}");
             // As long as the mean is that the run will tell, where the run has so many revolutions.
             if !enough(revolutions, LEAST_REVOLUTIONS) && enough(10.0 * revolutions, LEAST_REVOLUTIONS) {
                 let window = seconds(last_tenth * LEAST_REVOLUTIONS / revolutions);
@@ -74,10 +74,10 @@ mod tests {
         let of = |last_tenth: f64, revolutions: f64| PulseReport { pulse_time: 27.0, last_tenth, revolutions }.text();
         assert_eq!(
             of(6.0, 8.5),
-            "the shortest pulse takes 27 s; the last tenth of the run, 6 s, has at most 0.22, and a mean needs at least 5: the run must be 1350 s long or longer; \
+            "the shortest pulse takes 27 s; the last tenth of the run, 6 s, has at most 0.22, and a mean needs at least 5: the run must be longer than 1350 s; \
              its mean is over the last 7.06 s, 10 simulated revolutions"
         );
-        assert!(of(6.0, 0.85).ends_with("the run must be 1350 s long or longer"), "{}", of(6.0, 0.85));
+        assert!(of(6.0, 0.85).ends_with("the run must be longer than 1350 s"), "{}", of(6.0, 0.85));
         assert_eq!(of(270.0, 380.0), "the shortest pulse takes 27 s; the last tenth of the run, 270 s, has at most 10");
         assert!(
             of(270.0, 3.8).ends_with("these are 3.8: a smaller time_acceleration gives more"),

@@ -7,9 +7,14 @@ use crate::text::{short, shown_title};
 const BEGINNING: &str = "unknown field `";
 
 /// What the reader says, and in other words.
-const WORDS: [(&str, &str); 3] = [
+const WORDS: [(&str, &str); 5] = [
     ("unknown field `", "unknown key `"),
     ("missing field `", "missing key `"),
+    (
+        "invalid type: map, expected a sequence",
+        "this is one table, expected a list of them: write [[factor]], [[response]]",
+    ),
+    ("expected a sequence", "expected a list in brackets, such as [\"5 N\", \"20 N\"]"),
     ("an array of length 2", "two values in brackets, such as [\"5 N\", \"20 N\"]"),
 ];
 
@@ -43,6 +48,11 @@ mod tests {
         for other in ["unknown field `foo`, expected `keys` or `seeds`", "missing field `design`"] {
             assert_eq!(with_advice(other), said(other));
         }
+        let one = "invalid type: map, expected a sequence";
+        assert_eq!(with_advice(one), "this is one table, expected a list of them: write [[factor]], [[response]]");
+        let text = "invalid type: string \"5 N\", expected a sequence";
+        let told = "invalid type: string \"5 N\", expected a list in brackets, such as [\"5 N\", \"20 N\"]";
+        assert_eq!(with_advice(text), told);
         let number = "invalid type: floating point `0.5`, expected an array of length 2";
         let told = "invalid type: floating point `0.5`, expected two values in brackets, such as [\"5 N\", \"20 N\"]";
         assert_eq!(with_advice(number), told);

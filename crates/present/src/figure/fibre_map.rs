@@ -14,7 +14,7 @@ use super::picture::Picture;
 use crate::colour::GROUND;
 
 /// Length of the longer side of a box, pixels, and the points of its picture along it: two are beside each other in the width of a journal.
-const LONGEST: f64 = 880.0;
+const LONGEST: f64 = 864.0;
 /// Distance of the boxes, pixels.
 const BETWEEN: f64 = 60.0;
 const MILLIMETRES: f64 = 1e3;
@@ -152,12 +152,12 @@ mod tests {
         let figure = figure(&mesh, &base, Some(Micrograph { map: &map, pixel: 20e-6 }));
         let pictures = figure.page.pictures();
         // 3.2 mm by 2.4 mm.
-        assert!(pictures.iter().all(|(_, picture)| (picture.columns, picture.rows) == (880, 660)));
-        // By pixels of the picture, each 880/160 points.
+        assert!(pictures.iter().all(|(_, picture)| (picture.columns, picture.rows) == (864, 648)));
+        // By pixels of the picture, each 864/160 points.
         let at = |panel: usize, x: f64, line: f64| {
             let picture = &pictures[panel].1;
-            let point = [x, line].map(|place| (place * 880.0 / 160.0) as usize);
-            let RGBColor(red, green, blue) = picture.palette[usize::from(picture.indices[point[1] * 880 + point[0]])];
+            let point = [x, line].map(|place| (place * 864.0 / 160.0) as usize);
+            let RGBColor(red, green, blue) = picture.palette[usize::from(picture.indices[point[1] * 864 + point[0]])];
             [red, green, blue]
         };
         assert_eq!((at(0, 140.5, 100.5), at(0, 20.5, 100.5)), ([200; 3], [50; 3]));
@@ -165,6 +165,6 @@ mod tests {
         assert_eq!((at(1, 100.5, 80.5), at(1, 60.5, 80.5)), ([240, 190, 60], [60, 60, 70]));
         assert_eq!((at(1, 0.5, 0.5), at(1, 159.5, 119.5)), ([255; 3], [255; 3]));
         let alone = super::figure(&mesh, &base, None).page.pictures();
-        assert_eq!((alone.len(), alone[0].1.columns), (1, 880));
+        assert_eq!((alone.len(), alone[0].1.columns), (1, 864));
     }
 }

@@ -42,27 +42,37 @@ const TIMES: &str = " \u{d7} ";
 /// Letters of the last part of a key, at least: the ending of a file has fewer.
 const LEAST_OF_KEY: usize = 4;
 
-/// A text that is too long for its room, made shorter: a unit behind the last comma stays whole, of an interaction each factor is shortened,
-/// of a key its first parts are left out, of all else the middle.
+/// A text that is too long for its room, made shorter: of an interaction each factor is shortened, a unit behind the last comma stays whole,
+/// of a key its last two parts tell what it is, of all else the middle is left out.
 pub fn shortened(text: &str, size: u32, room: f64) -> String {
     if text_width(text, size) <= room {
         return text.to_owned();
-    }
-    if let Some((name, _)) = text.rsplit_once(", ") {
-        let unit = &text[name.len()..];
-        let left = room - text_width(unit, size);
-        if left >= LEAST_NAME * room {
-            return shortened(name, size, left) + unit;
-        }
     }
     let factors: Vec<&str> = text.split(TIMES).collect();
     if factors.len() > 1 {
         return of_factors(&factors, size, room);
     }
-    let is_key = !text.contains(' ') && text.rsplit('.').next().is_some_and(|last| last.len() >= LEAST_OF_KEY);
-    let ends = text.match_indices('.').filter(|_| is_key).map(|(at, _)| format!("\u{2026}{}", &text[at + 1..]));
-    let fitting = ends.into_iter().find(|end| text_width(end, size) <= room);
-    fitting.unwrap_or_else(|| without_middle(text, size, room))
+    if let Some((name, _)) = text.rsplit_once(", ") {
+        let unit = &text[name.len()..];
+        let left = room - text_width(unit, size);
+        if left >= LEAST_NAME * room {
+            return of_name(name, size, left) + unit;
+        }
+    }
+    of_name(text, size, room)
+}
+
+/// A key with its last parts, two at least, any other name without its middle.
+fn of_name(name: &str, size: u32, room: f64) -> String {
+    if text_width(name, size) <= room {
+        return name.to_owned();
+    }
+    let is_key = !name.contains(' ') && name.rsplit('.').next().is_some_and(|last| last.len() >= LEAST_OF_KEY);
+    let dots: Vec<usize> = if is_key { name.match_indices('.').map(|(at, _)| at).collect() } else { Vec::new() };
+    let ends = dots.split_last().map_or(&[][..], |(_, before)| before);
+    let end = |at: &usize| &name[at + 1..];
+    let fitting = ends.iter().map(|at| format!("\u{2026}{}", end(at))).find(|end| text_width(end, size) <= room);
+    fitting.unwrap_or_else(|| without_middle(ends.last().map_or(name, end), size, room))
 }
 
 /// The factors of an interaction in so much room; what short ones leave is shared among the others.
@@ -107,11 +117,18 @@ mod tests {
         );
         let key = "materials.pin_primary.poisson_ratio";
         assert_eq!(within(key, "\u{2026}pin_primary.poisson_ratio"), "\u{2026}pin_primary.poisson_ratio");
-        assert_eq!(within(key, "\u{2026}poisson_ratio"), "\u{2026}poisson_ratio");
+        // Its body is not left out, or keys of two bodies would look the same.
+        assert_eq!(within(key, "pin_pri\u{2026}_ratio"), "pin_pri\u{2026}_ratio");
         // The ending of a file is not what it is called.
         assert_eq!(within("a_file_with_a_long_name.h5", "a_fil\u{2026}me.h5"), "a_fil\u{2026}me.h5");
         let both = format!("{key} \u{d7} load");
-        assert_eq!(within(&both, "\u{2026}poisson_ratio \u{d7} load"), "\u{2026}poisson_ratio \u{d7} load");
+        assert_eq!(within(&both, "pin_pri\u{2026}_ratio \u{d7} load"), "pin_pri\u{2026}_ratio \u{d7} load");
+        // Commas in names are not those before a unit, and what begins otherwise looks otherwise.
+        assert_eq!(within("Ra 0.5 um, 5 N, seed 1", "Ra 0\u{2026} 5 N, seed 1"), "Ra 0\u{2026} 5 N, seed 1");
+        assert_eq!(
+            within("side A, hard \u{d7} load", "si\u{2026}A, hard \u{d7} load"),
+            "si\u{2026}A, hard \u{d7} load"
+        );
         // Nothing fits: what is left says that something was there.
         assert_eq!(shortened("name", 40, 0.0), "\u{2026}");
     }

@@ -131,7 +131,9 @@ pub fn scaled(range: &RangeInclusive<f64>, unit: &Unit) -> RangeInclusive<f64> {
     unit.value(*range.start())..=unit.value(*range.end())
 }
 
-fn height_text(height: f64, unit: &Unit) -> String {
+/// A height in the unit that suits it, for the one of the axes may suit a rougher surface; nothing in that of the axes.
+fn height_text(height: f64, of_axes: &Unit) -> String {
+    let unit = if height.abs() < 1e-12 { of_axes.clone() } else { Unit::for_size("m", height.abs()) };
     unit.with_symbol(&number(unit.value(height)))
 }
 

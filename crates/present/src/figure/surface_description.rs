@@ -23,6 +23,8 @@ use crate::quantity::Unit;
 const BEFORE_CHARTS: f64 = 150.0;
 const BETWEEN_CHARTS: f64 = 60.0;
 const END: f64 = TWO_COLUMNS - 50.0;
+/// Distance of the title from the words of charts.
+const BEFORE_WORDS: f64 = 40.0;
 /// The part of the room for charts that the histogram has.
 const HISTOGRAM: f64 = 0.46;
 /// Their height.
@@ -138,7 +140,7 @@ impl DescribedSurface<'_> {
 
     /// The name, and what is to know of the map.
     fn write_title(&self, page: &mut Page, y: f64, end: f64) {
-        let title = shortened(&self.title, TITLE, end - LEFT);
+        let title = shortened(&self.title, TITLE, end - BEFORE_WORDS - LEFT);
         page.write(title, (LEFT, y + 20.0), Anchor::BelowRight, TITLE);
         let (middle, mut begin) = (y + 90.0, LEFT);
         let missing = 1.0 - self.description.measured as f64 / (self.points[0] * self.points[1]) as f64;

@@ -53,11 +53,14 @@ pub fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
             subjects.push(Subject::of_heights(heights, level, draws(arguments))?);
         }
     }
+    let (mut read, mut preview) = (Vec::new(), None);
     if let Some(path) = &arguments.prepare {
-        subjects.extend(prepared(path, arguments)?);
+        let prepared = prepared(path, arguments)?;
+        (read, preview) = (prepared.inputs, prepared.preview);
+        subjects.extend(prepared.subjects);
     }
     Subject::draw_together(&mut subjects);
-    tell(&subjects, arguments)
+    tell(&subjects, arguments, &read, preview)
 }
 
 /// Refuses to convert several maps of a run into one file.
@@ -94,12 +97,19 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
     }
     let outputs: Vec<&PathBuf> = to.iter().chain(plot).chain(preview).collect();
     for (at, path) in outputs.iter().enumerate() {
-        if outputs[..at].contains(path) {
-            return Err(Failure::input(format_args!("{} is named for two outputs", path.display())));
-        }
+        refuse_twice(path, &outputs[..at])?;
     }
     let inputs: Vec<PathBuf> = files.iter().chain(prepare).cloned().collect();
     outputs.into_iter().try_for_each(|path| output::check(path, *force, &inputs))
+}
+
+/// Refuses a place that another output has.
+fn refuse_twice(path: &Path, others: &[&PathBuf]) -> Result<(), Failure> {
+    let place = |path: &Path| Some((output::directory(path).canonicalize().ok()?, path.file_name()?.to_owned()));
+    match others.iter().any(|other| *other == path || (place(other).is_some() && place(other) == place(path))) {
+        true => Err(Failure::input(format_args!("{} is named for two outputs", path.display()))),
+        false => Ok(()),
+    }
 }
 
 /// Reads a file as the arguments say.
@@ -133,8 +143,14 @@ fn convert(path: &Path, from: &mut NamedHeights, to: &Path, force: bool) -> Resu
     })
 }
 
-/// What a scene makes of its disc and pin.
-fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], Failure> {
+/// What a scene makes of its disc and pin, with the files that it reads, and its fibre map if that is to be drawn.
+struct Prepared {
+    subjects: [Subject; 2],
+    inputs: Vec<PathBuf>,
+    preview: Option<Figure>,
+}
+
+fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<Prepared, Failure> {
     let scene = scene::load(path, &[]).map_err(Failure::of_scene)?;
     for warning in &scene.warnings {
         message::warning(warning);
@@ -142,15 +158,12 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
     let (loaded, patches) = surface::load_with_patches(&scene).map_err(Failure::input)?;
     loaded.warnings().for_each(message::warning);
     let Loaded { surfaces, report, inputs, .. } = loaded;
-    let inputs: Vec<PathBuf> = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
-    for picture in arguments.plot.iter().chain(&arguments.preview) {
-        output::check(picture, arguments.force, &inputs)?;
-    }
-    if let Some(preview) = &arguments.preview {
+    let inputs = scene.files.iter().chain(inputs.iter().map(|(path, _)| path)).cloned().collect();
+    let mut preview = None;
+    if arguments.preview.is_some() {
         let micrograph = surface::micrograph(&scene).map_err(Failure::input)?;
         let micrograph = micrograph.as_ref().map(|(map, pixel)| Micrograph { map, pixel: *pixel });
-        let figure = fibre_map::figure(&scene.parameters.mesh, &surfaces.pin_base, micrograph);
-        draw(&figure, preview, arguments.force)?;
+        preview = Some(fibre_map::figure(&scene.parameters.mesh, &surfaces.pin_base, micrograph));
     }
     let (mesh, level) = (&scene.parameters.mesh, arguments.level.unwrap_or(Level::None));
     let mut subjects = Subject::of_scene(path, mesh, surfaces, &report, level, draws(arguments))?;
@@ -159,19 +172,12 @@ fn prepared(path: &Path, arguments: &SurfaceArguments) -> Result<[Subject; 2], F
         let compare = |patch| Comparison::of(body, &subject.name, patch, mesh, level, draws(arguments));
         subject.comparison = patch.map(compare).transpose()?.flatten();
     }
-    Ok(subjects)
+    Ok(Prepared { subjects, inputs, preview })
 }
 
 /// An error of a file.
 fn named(path: &Path, reason: impl std::fmt::Display) -> Failure {
     Failure::input(format_args!("{}: {reason}", path.display()))
-}
-
-/// Writes a figure in the format of the file's ending.
-fn draw(figure: &Figure, path: &Path, force: bool) -> Result<(), Failure> {
-    // An ending that tells no format was refused before.
-    let content = figure.draw(Format::of(path).unwrap_or(Format::Png)).map_err(Failure::run)?;
-    output::write(path, &content, force)
 }
 
 /// Refuses to draw more than can be told apart.
@@ -183,26 +189,38 @@ fn refuse_many(surfaces: usize) -> Result<(), Failure> {
 }
 
 /// Draws and prints.
-fn tell(subjects: &[Subject], arguments: &SurfaceArguments) -> Result<(), Failure> {
-    let mut written: Vec<PathBuf> = arguments.to.iter().cloned().collect();
+fn tell(
+    subjects: &[Subject],
+    arguments: &SurfaceArguments,
+    read: &[PathBuf],
+    preview: Option<Figure>,
+) -> Result<(), Failure> {
+    let mut drawings: Vec<(PathBuf, Figure)> = Vec::new();
     if let Some(plot) = &arguments.plot {
         // A run file has several.
         refuse_many(subjects.len())?;
         let described: Vec<DescribedSurface> = subjects.iter().flat_map(Subject::described).collect();
-        let figures = surface_description::figures(&described);
-        let pages: Vec<PathBuf> = (1..=figures.len()).map(|number| of_page(plot, number)).collect();
-        let inputs: Vec<PathBuf> = arguments.files.iter().chain(&arguments.prepare).cloned().collect();
-        pages.iter().skip(1).try_for_each(|page| output::check(page, arguments.force, &inputs))?;
-        for (figure, page) in figures.iter().zip(&pages) {
-            draw(figure, page, arguments.force)?;
-        }
-        written.extend(pages);
+        let pages = surface_description::figures(&described);
+        drawings.extend(pages.into_iter().enumerate().map(|(at, page)| (of_page(plot, at + 1), page)));
+    }
+    drawings.extend(arguments.preview.clone().zip(preview));
+    // Before the first is written: either all are, or none.
+    let inputs: Vec<PathBuf> = arguments.files.iter().chain(&arguments.prepare).chain(read).cloned().collect();
+    let mut taken: Vec<&PathBuf> = arguments.to.iter().collect();
+    for (path, _) in &drawings {
+        refuse_twice(path, &taken)?;
+        output::check(path, arguments.force, &inputs)?;
+        taken.push(path);
+    }
+    for (path, figure) in &drawings {
+        // An ending that tells no format was refused before.
+        let content = figure.draw(Format::of(path).unwrap_or(Format::Png)).map_err(Failure::run)?;
+        output::write(path, &content, arguments.force)?;
     }
     if arguments.json {
         return print(&document::document(subjects)?);
     }
-    let written = written.iter().chain(&arguments.preview);
-    let written: String = written.map(|path| format!("\nwrote {}\n", path.display())).collect();
+    let written: String = taken.iter().map(|path| format!("\nwrote {}\n", path.display())).collect();
     print(&(text::text(subjects) + &written))
 }
 

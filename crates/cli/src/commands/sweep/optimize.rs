@@ -65,7 +65,9 @@ pub fn optimize(arguments: &OptimizeArguments) -> Result<(), Failure> {
     let pair = contour.or_else(|| shown.pair());
     let figures = figures(&shown, pair);
     if pair.is_some() && !figures.iter().any(|figure| figure.name == "contour") {
-        message::note("there is no contour: the desirability is the same all over the two factors");
+        message::note(
+            "there is no contour: over two factors the desirability is the same everywhere, such as 0 where a limit is missed",
+        );
     }
     write(&mut folder, &figures, &analysed.inputs)?;
     let files = folder.files().to_vec();

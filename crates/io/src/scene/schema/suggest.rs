@@ -46,8 +46,8 @@ pub(crate) fn unknown(table: &str, name: &str) -> String {
     if find(name).is_some() {
         return "unknown key here, it belongs at the top, before the first table".to_owned();
     }
-    if table == name {
-        return format!("unknown key, below [{table}] keys stand without \"{name}.\" before them");
+    if table.split('.').any(|part| part == name) {
+        return format!("unknown key, keys below [{table}] stand without the name of the table before them");
     }
     let tables = tables().into_iter().filter(|other| known(&join(other, name)));
     if let Some((first, more)) = of_the_same_body(table, tables.collect()).split_first() {
@@ -125,8 +125,9 @@ mod tests {
         assert_eq!(unknown("", "normal_forces"), "unknown key, did you mean \"normal_force\" in [operation]?");
         assert_eq!(
             unknown("operation", "operation"),
-            "unknown key, below [operation] keys stand without \"operation.\" before them"
+            "unknown key, keys below [operation] stand without the name of the table before them"
         );
+        assert!(unknown("disc.prepare", "disc").contains("keys below [disc.prepare] stand without the name"));
         assert_eq!(unknown("contact", "zzz"), "unknown key, [contact] has foundation_height, load_tolerance");
         assert!(unknown("materials.pin_resin", "specific_wear_rate").contains("give wear_height"));
         assert!(unknown("materials.pin_primary", "wear_height").contains("give specific_wear_rate"));

@@ -18,8 +18,8 @@ use crate::figure::stroke::Stroke;
 const MOST_FACTORS: usize = 6;
 /// Height of a box, pixels, and its least and greatest ratio to the width.
 const HEIGHTS: [f64; 2] = [330.0, 560.0];
-/// Room between boxes beside each other.
-const BETWEEN: f64 = 36.0;
+/// Room between boxes beside each other: the last number of one and the first of the next stand in it.
+const BETWEEN: f64 = 72.0;
 /// Room on the right for what lines mean.
 const LEGEND: f64 = 420.0;
 /// Width of the sample of a colour.

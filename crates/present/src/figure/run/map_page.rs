@@ -4,9 +4,10 @@ use plotters::style::RGBColor;
 
 use super::map_section::{Fit, MapSection};
 use crate::figure::axes::{Axis, Frame};
-use crate::figure::canvas::{Anchor, TITLE};
+use crate::figure::canvas::{Anchor, TEXT, TITLE};
 use crate::figure::chart::{LEGEND, MARGIN, Meaning, legend, title_lines};
 use crate::figure::colour_bar::ColourBar;
+use crate::figure::font::text_width;
 use crate::figure::page::{LINE_OF_TEXT, Page};
 
 /// Room on the right for a colour bar with numbers and label, pixels.
@@ -137,8 +138,10 @@ impl MapGroup<'_> {
             let first = (last_box - 28.0 - SHORTEST_BAR).clamp(begin + 36.0, below);
             let end = (last_box - 28.0).clamp(first + SHORTEST_BAR, first + LONGEST_BAR);
             let frame = Frame { x: [left, left + BAR], y: [first, end].map(f64::round) };
+            // What it measures may be longer than the bar.
+            let label_end = 0.5 * (first + end + text_width(&axis.label, TEXT));
             page.colour_bars.push(ColourBar::new(frame, axis.clone()));
-            top = top.max(end + 40.0);
+            top = top.max(end + 40.0).max(label_end);
         }
         top + 12.0
     }

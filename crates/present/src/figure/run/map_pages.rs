@@ -129,6 +129,13 @@ mod tests {
         let (frame, bar) = (page.panels[0].axes.frame, page.colour_bars[0].frame);
         assert!(COLUMN - bar.x[1] < BAR_ROOM && bar.x[0] - frame.x[1] < 2.0 * BESIDE, "{frame:?} {bar:?}");
         assert!(bar.y[1] < frame.y[1] + 120.0 && page.size[1] < frame.y[1] + 200.0, "{frame:?} {bar:?}");
+        // A label that is longer than its bar is not cut off below.
+        let long = "height toward the disc, in micrometres";
+        let low = vec![MapGroup { scale: Some(Axis::linear(0.0..=1.0, long)), ..group(pin.clone()) }];
+        let [page] = &pages(COLUMN, &[], &block(low))[..] else { panic!("one page") };
+        let bar = page.colour_bars[0].frame;
+        assert!(text_width(long, TEXT) > bar.height());
+        assert!(0.5 * (bar.y[0] + bar.y[1] + text_width(long, TEXT)) <= page.size[1], "{bar:?} {:?}", page.size);
         // Below a ring it is as wide as that.
         let disc = MapSection { cells: vec![0; mesh.disc_columns() * mesh.rows()], ..pin.clone() };
         let both = block(vec![group(disc), group(pin)]);

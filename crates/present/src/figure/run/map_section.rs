@@ -137,9 +137,8 @@ impl MapSection<'_> {
             box_end = [box_end[0].max(frame_end).max(words_end), y_top + height];
             y_top = box_end[1] + below + BELOW;
         }
-        if !below.is_empty() {
-            let middle = (0.5 * (begin.round() + box_end[0]), y_top - BELOW);
-            page.write(below, middle, Anchor::Below, TEXT);
+        for line in wrapped(&below, width) {
+            page.write(line, (0.5 * (begin.round() + box_end[0]), y_top - BELOW), Anchor::Below, TEXT);
             y_top += LINE_OF_TEXT;
         }
         let beside = left + 1.1 * f64::from(TEXT);
@@ -148,9 +147,10 @@ impl MapSection<'_> {
     }
 }
 
-/// A text in lines of at most this width, broken behind commas.
+/// A text in lines of at most this width, broken behind commas, and between words where that is not enough.
 fn wrapped(text: &str, room: f64) -> Vec<String> {
-    lines(text.split_inclusive(", "), TEXT, room)
+    let parts = lines(text.split_inclusive(", "), TEXT, room);
+    parts.iter().flat_map(|part| lines(part.split_inclusive(' '), TEXT, room)).collect()
 }
 
 #[cfg(test)]
@@ -160,6 +160,7 @@ mod tests {
     #[test]
     fn long_words_above_a_map_stand_in_several_lines() {
         assert_eq!(wrapped("disc, 0 s", 400.0), ["disc, 0 s"]);
+        assert_eq!(wrapped("from its mean, z = 5.57 \u{b5}m", 200.0), ["from its", "mean,", "z = 5.57", "\u{b5}m"]);
         let lines = wrapped("none 21.7, primary 29.8, secondary 48.5 %", 500.0);
         assert_eq!(lines, ["none 21.7, primary 29.8,", "secondary 48.5 %"]);
     }
@@ -199,6 +200,6 @@ mod tests {
         // A single low window has no room for it on the left, and a short one none in the label below.
         let (said, stretch) = labels(40, 300.0);
         assert!(stretch > 1.5, "{stretch}");
-        assert_eq!(said, format!("arc length, mm|radius stretched {stretch:.1}\u{d7}|radius, mm"));
+        assert_eq!(said, format!("arc length, mm|radius stretched|{stretch:.1}\u{d7}|radius, mm"));
     }
 }
