@@ -5,6 +5,10 @@ use super::lengths::{length, length_unit, pitch, positive};
 use super::names::Names;
 use crate::surface::decimal::Decimal;
 
+/// What stands between a name and its value, and before another name.
+const BEFORE_VALUES: [char; 3] = ['=', ':', '：'];
+const BEFORE_NAMES: [char; 2] = [',', ';'];
+
 /// What a header states.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Header {
@@ -43,13 +47,9 @@ impl Header {
             words().flatten().for_each(|(name, value)| self.fact(name, value, decimal));
             return !text.is_empty();
         }
-        match text.split_once(['=', ':', '：']) {
-            Some((name, value)) if name.starts_with(char::is_alphabetic) => {
-                self.fact(name.trim(), value.trim(), decimal);
-                true
-            }
-            _ => false,
-        }
+        let found = pairs(text);
+        found.iter().for_each(|(name, value)| self.fact(name, value, decimal));
+        !found.is_empty()
     }
 
     /// A name with its value. What is not known, or not understood, states nothing.
@@ -95,6 +95,25 @@ impl Header {
     }
 }
 
+/// Names with their values, several on a line where a comma or a semicolon stands before the next name: "unit: um, pitch: 15 um, 20 um".
+/// Empty if it is no such line.
+fn pairs(text: &str) -> Vec<(&str, &str)> {
+    let is_next = |at: &usize| text[at + 1..].split(BEFORE_NAMES).next().and_then(pair).is_some();
+    let ends = text.match_indices(BEFORE_NAMES).map(|(at, _)| at).filter(is_next);
+    let ends: Vec<usize> = ends.chain([text.len()]).collect();
+    let starts = std::iter::once(0).chain(ends.iter().map(|end| end + 1));
+    let several: Option<Vec<_>> = starts.zip(&ends).map(|(start, end)| pair(&text[start..*end])).collect();
+    // A comma may be part of a name: "size (x, y): 3 mm".
+    several.unwrap_or_else(|| pair(text).into_iter().collect())
+}
+
+/// A name with its value.
+fn pair(text: &str) -> Option<(&str, &str)> {
+    let (name, value) = text.split_once(BEFORE_VALUES)?;
+    let name = name.trim();
+    name.starts_with(char::is_alphabetic).then_some((name, value.trim()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,6 +131,22 @@ mod tests {
         assert_eq!((german.unit, german.pitch), (Some(1e-6), Some([2e-5; 2])));
         assert_eq!(header(&["Einheit: Mikrometer"]).unit, Some(1e-6));
         assert_eq!(header(&["Werteinheiten: nm", "Punktabstand = 5 um, 10 um"]).pitch, Some([5e-6, 1e-5]));
+    }
+
+    #[test]
+    fn reads_several_names_on_a_line() {
+        for line in ["# unit: um, pitch: 15 um", "unit = um; pitch = 15 um", "pitch: 15 um , unit: um"] {
+            let found = header(&[line]);
+            assert_eq!((found.unit, found.pitch), (Some(1e-6), Some([1.5e-5; 2])), "{line}");
+        }
+        let both = header(&["# pitch: 15 um, 20 um, unit: nm, of: sample 3, left"]);
+        assert_eq!((both.unit, both.pitch), (Some(1e-9), Some([1.5e-5, 2e-5])));
+        let mut german = Header::default();
+        assert!(german.read(1, "Schrittweite: 1,5 um, Einheit: um", Decimal::Comma));
+        assert_eq!((german.unit, german.pitch), (Some(1e-6), Some([1.5e-6; 2])));
+        assert_eq!(header(&["size (x, y): 3 mm, made by: hand"]), Header::default());
+        // A value may have a colon.
+        assert_eq!(header(&["date: 12:30:05", "unit: um"]).unit, Some(1e-6));
     }
 
     #[test]
