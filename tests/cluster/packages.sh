@@ -1,6 +1,14 @@
 # Packages that a check needs. Sourced.
 # shellcheck shell=sh
 
+# only_when_long WHY: ends the script with 77, as skipped, unless the long checks were asked for.
+only_when_long() {
+    if [ -z "${PLATEAU_LONG:-}" ]; then
+        echo "$1: ./check --long extra runs it, and so do the weekly checks"
+        exit 77
+    fi
+}
+
 # provide WHAT COMMAND PACKAGE...: if COMMAND, which tells whether WHAT is there, says no, the packages are installed.
 # Ends the script with 77, as skipped, where they cannot be.
 provide() {

@@ -10,10 +10,7 @@ root=$PWD
 . tests/cluster/packages.sh
 . tests/cluster/debian.sh
 
-if [ -z "${PLATEAU_LONG:-}" ]; then
-    echo "builds for a quarter of an hour: ./check --long extra runs it, and so do the weekly checks"
-    exit 77
-fi
+only_when_long 'builds for a quarter of an hour'
 if ! command -v apptainer >/dev/null 2>&1 && [ "$(id -u)" -ne 0 ]; then
     echo 'Apptainer is not installed, and only root may make the system with it'
     exit 77

@@ -10,10 +10,7 @@ root=$PWD
 . tests/cluster/packages.sh
 . tests/cluster/debian.sh
 
-if [ -z "${PLATEAU_LONG:-}" ]; then
-    echo "builds for ten minutes: ./check --long extra runs it, and so do the weekly checks"
-    exit 77
-fi
+only_when_long 'builds for ten minutes'
 if [ "$(id -u)" -ne 0 ]; then
     echo 'only root may make the systems on which it is tried'
     exit 77

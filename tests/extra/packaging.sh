@@ -12,10 +12,7 @@ root=$PWD
 . scripts/say.sh
 . scripts/python.sh
 
-if [ -z "${PLATEAU_LONG:-}" ]; then
-    echo "takes some minutes: ./check --long extra runs it, and so do the weekly checks"
-    exit 77
-fi
+only_when_long 'takes some minutes'
 
 have_modules() { [ -f /usr/share/modules/init/sh ]; }
 provide 'Environment Modules' have_modules environment-modules

@@ -18,10 +18,7 @@ PYTHON_SOURCE=http://deb.debian.org/debian/pool/main/p/python3.11/python3.11_3.1
 PYTHON_SHA256=2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849
 
 # The wheel and Python are built: a quarter of an hour, which a change does not wait for.
-if [ -z "${PLATEAU_LONG:-}${PLATEAU_WHEEL:-}" ]; then
-    echo "builds for a quarter of an hour: ./check --long extra runs it, and so do the weekly checks"
-    exit 77
-fi
+[ -n "${PLATEAU_WHEEL:-}" ] || only_when_long 'builds for a quarter of an hour'
 
 lab=$(mktemp -d) || exit 1
 eleven=${PLATEAU_DEBIAN_11:-$lab/eleven}

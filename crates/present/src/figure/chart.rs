@@ -130,21 +130,17 @@ pub fn title_lines(title: &str, size: u32, room: f64) -> Vec<String> {
     ways.into_iter().find(fits).unwrap_or_else(|| vec![shortened(title, size, room)])
 }
 
-/// Height of a line of notes, pixels, and of their lines with the room between them: the letters of all else.
-const NOTE: u32 = TEXT;
-const LINE_OF_NOTE: f64 = 1.35 * NOTE as f64;
-
 /// Writes a note below all else, in as many lines as it needs.
 pub fn note(page: &mut Page, text: &str) {
     if text.is_empty() {
         return;
     }
     let room = page.size[0] - 2.0 * MARGIN;
-    for line in lines(text.split_inclusive(' '), NOTE, room) {
-        let line = shortened(&line, NOTE, room);
+    for line in lines(text.split_inclusive(' '), TEXT, room) {
+        let line = shortened(&line, TEXT, room);
         let top = page.size[1] - MARGIN;
-        page.write(line, (MARGIN, top), Anchor::BelowRight, NOTE);
-        page.size[1] = (page.size[1] + LINE_OF_NOTE).ceil();
+        page.write(line, (MARGIN, top), Anchor::BelowRight, TEXT);
+        page.size[1] = (page.size[1] + LINE_OF_TEXT).ceil();
     }
 }
 

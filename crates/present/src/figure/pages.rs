@@ -12,7 +12,11 @@ const TRIED: u32 = 8;
 
 /// Whether each of the pages fits into a journal.
 pub fn are_low(pages: &[Page]) -> bool {
-    pages.iter().all(|page| page.size[1] <= HIGHEST)
+    pages.iter().all(is_low)
+}
+
+fn is_low(page: &Page) -> bool {
+    page.size[1] <= HIGHEST
 }
 
 /// Pages with so many parts of a figure in their order, as many on each as fit, at least one. `page` puts some of them on one page.
@@ -24,7 +28,7 @@ pub fn in_pages(parts: usize, page: impl Fn(Range<usize>) -> Page) -> Vec<Page> 
         let mut most = page(first..end);
         while end < parts {
             let more = page(first..end + 1);
-            if !are_low(std::slice::from_ref(&more)) {
+            if !is_low(&more) {
                 break;
             }
             (end, most) = (end + 1, more);
@@ -39,7 +43,7 @@ pub fn in_pages(parts: usize, page: impl Fn(Range<usize>) -> Page) -> Vec<Page> 
 /// lowest and of the highest boxes.
 pub fn with_lower_boxes(parts: usize, [low, high]: [f64; 2], page: impl Fn(Range<usize>, f64) -> Page) -> Vec<Page> {
     let heights = (0..=TRIED).map(|step| high + (low - high) * f64::from(step) / f64::from(TRIED));
-    let whole = heights.map(|height| page(0..parts, height.floor())).find(|page| page.size[1] <= HIGHEST);
+    let whole = heights.map(|height| page(0..parts, height.floor())).find(is_low);
     whole.map_or_else(|| in_pages(parts, |some| page(some, high)), |page| vec![page])
 }
 

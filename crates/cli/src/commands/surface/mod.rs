@@ -106,10 +106,11 @@ fn refuse_impossible(arguments: &SurfaceArguments) -> Result<(), Failure> {
 /// Refuses a place that another output has.
 fn refuse_twice(path: &Path, others: &[&PathBuf]) -> Result<(), Failure> {
     let place = |path: &Path| Some((output::directory(path).canonicalize().ok()?, path.file_name()?.to_owned()));
-    match others.iter().any(|other| *other == path || (place(other).is_some() && place(other) == place(path))) {
-        true => Err(Failure::input(format_args!("{} is named for two outputs", path.display()))),
-        false => Ok(()),
+    let own = place(path);
+    if others.iter().any(|other| *other == path || (own.is_some() && place(other) == own)) {
+        return Err(Failure::input(format_args!("{} is named for two outputs", path.display())));
     }
+    Ok(())
 }
 
 /// Reads a file as the arguments say.

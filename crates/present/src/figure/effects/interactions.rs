@@ -72,8 +72,6 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         note(&mut page, &subject.held(&[], "predicted with the others at"));
     }
     note(&mut page, &subject.note_of_impossible(lines().flat_map(|line| &line.points).map(|[_, value]| *value)));
-    let most = format!("the {MOST_FACTORS} of {all} factors with the largest share");
-    note(&mut page, if all > MOST_FACTORS { &most } else { "" });
     let mut caption =
         "Mean response at pairs of levels: one factor along the axis, the other one as lines. Where lines are \
                        not parallel, the effect of one factor depends on the other."
@@ -89,6 +87,7 @@ pub fn add(subject: &Subject, figures: &mut ResponseFigures) {
         );
     }
     if all > MOST_FACTORS {
+        note(&mut page, &format!("the {MOST_FACTORS} of {all} factors with the largest share"));
         caption.push_str(&format!(
             " Shown are the {MOST_FACTORS} of {all} factors that have the largest share in the differences between runs."
         ));

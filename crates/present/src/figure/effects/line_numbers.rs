@@ -7,8 +7,7 @@ use crate::figure::canvas::{Anchor, TEXT};
 use crate::figure::font::text_width;
 use crate::figure::page::{Key, KeyStyle, Page};
 
-/// Height of the numbers, and least length of a line that has one, pixels.
-const HEIGHT: u32 = TEXT;
+/// Least length of a line that has a number, pixels.
 const SHORTEST: f64 = 70.0;
 /// How far numbers are from the rim of the map if that can be, pixels.
 const OFF_RIM: f64 = 14.0;
@@ -36,7 +35,7 @@ impl LineNumber {
         let (half, (x, y)) = (half_size(&self.text), self.place);
         let frame = Frame { x: [x - half[0], x + half[0]], y: [y - half[1], y + half[1]] };
         page.keys.push(Key { frame, colour: GROUND, style: KeyStyle::Area });
-        page.write(self.text, (x - half[0] + BESIDE, y), Anchor::Right, HEIGHT);
+        page.write(self.text, (x - half[0] + BESIDE, y), Anchor::Right, TEXT);
     }
 }
 
@@ -66,7 +65,7 @@ pub fn all_numbered(
 
 /// Half of the width and height that a number takes.
 fn half_size(text: &str) -> [f64; 2] {
-    [0.5 * text_width(text, HEIGHT) + BESIDE, 0.5 * f64::from(HEIGHT) + 2.0]
+    [0.5 * text_width(text, TEXT) + BESIDE, 0.5 * f64::from(TEXT) + 2.0]
 }
 
 /// Length of a line on the page, pixels.

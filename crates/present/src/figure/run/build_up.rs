@@ -5,7 +5,7 @@ use plateau_io::number;
 use plateau_io::run_file::ReadError;
 
 use super::map_pages::{pages, width_of};
-use super::map_rows::{Painted, any_of, blocks, groups_of_bodies, having};
+use super::map_rows::{Painted, any_of, blocks_of_bodies, having};
 use super::moments::{leave_blank, moment};
 use super::thickness::{BODIES, Body, largest, moments_of_thickness, thickness};
 use super::{Figures, Options, Subject};
@@ -35,16 +35,11 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let palette: Vec<_> = colour_map().into_iter().chain([APART, GROUND]).collect();
     let scales = [scale(&having[0], BODIES[0])?, scale(&having[1], BODIES[1])?];
     let disc_shape = options.disc_shape();
-    let blocks = blocks(&shown, moments_of_thickness, |together, moments| {
-        groups_of_bodies(
-            together,
-            moments,
-            disc_shape,
-            &palette,
-            scales.each_ref().map(Some),
-            |subject, body, index| painted(subject, BODIES[body], index, &scales[body]),
-        )
-    })?;
+    let of_scales = scales.each_ref().map(Some);
+    let blocks =
+        blocks_of_bodies(&shown, moments_of_thickness, disc_shape, &palette, of_scales, |subject, body, index| {
+            painted(subject, BODIES[body], index, &scales[body])
+        })?;
     let nothing = Meaning { colour: APART, style: KeyStyle::Area, text: "nothing has built up".to_owned() };
     let width = figures.width(width_of(&blocks));
     figures.add_pages(

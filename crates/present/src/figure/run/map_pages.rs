@@ -11,21 +11,22 @@ use crate::figure::pages::{are_low, in_pages};
 
 /// Maps beside each other, at most.
 const MOST_ACROSS: usize = 3;
-/// What is tried until no page is too high, one after the other: unrolled maps in fewer, longer windows, then smaller maps.
-const FITS: [Fit; 13] = [
-    Fit { stretch: 1.0, size: 1.0, words: 0 },
-    Fit { stretch: 1.25, size: 1.0, words: 0 },
-    Fit { stretch: 1.5, size: 1.0, words: 0 },
-    Fit { stretch: 2.0, size: 1.0, words: 0 },
-    Fit { stretch: 3.0, size: 1.0, words: 0 },
-    Fit { stretch: 4.0, size: 1.0, words: 0 },
-    Fit { stretch: 6.0, size: 1.0, words: 0 },
-    Fit { stretch: 4.0, size: 0.9, words: 0 },
-    Fit { stretch: 4.0, size: 0.8, words: 0 },
-    Fit { stretch: 4.0, size: 0.7, words: 0 },
-    Fit { stretch: 4.0, size: 0.6, words: 0 },
-    Fit { stretch: 4.0, size: 0.5, words: 0 },
-    Fit { stretch: 8.0, size: 0.5, words: 0 },
+/// What is tried until no page is too high, one after the other: unrolled maps in fewer, longer windows, then smaller maps. How much longer the
+/// windows are, and the part of the width that a map takes.
+const FITS: [[f64; 2]; 13] = [
+    [1.0, 1.0],
+    [1.25, 1.0],
+    [1.5, 1.0],
+    [2.0, 1.0],
+    [3.0, 1.0],
+    [4.0, 1.0],
+    [6.0, 1.0],
+    [4.0, 0.9],
+    [4.0, 0.8],
+    [4.0, 0.7],
+    [4.0, 0.6],
+    [4.0, 0.5],
+    [8.0, 0.5],
 ];
 
 /// How many of so many runs stand beside each other: rows are about equally full.
@@ -50,20 +51,26 @@ pub fn pages(width: f64, meanings: &[Meaning], blocks: &[MapBlock]) -> Vec<Page>
     let across = blocks.iter().map(|block| block.names.len()).max().unwrap_or(0).max(1);
     let several = across > 1 || blocks.windows(2).any(|pair| pair[0].names != pair[1].names);
     let sheet = Sheet { width, meanings, across, several };
-    let mut pages = fitted(&sheet, blocks, FITS[0]);
-    for fit in &FITS[1..] {
-        if are_low(&pages) {
+    let mut fit = fitted(&sheet, blocks, FITS[0]);
+    for tried in &FITS[1..] {
+        if are_low(&laid_out(&sheet, blocks, fit)) {
             break;
         }
-        pages = fitted(&sheet, blocks, *fit);
+        fit = fitted(&sheet, blocks, *tried);
     }
-    pages
+    laid_out(&sheet, blocks, Fit { paints: true, ..fit })
 }
 
-/// The pages with maps that are fitted in this way: the axes below them say the same, in the most words that fit everywhere.
-fn fitted(sheet: &Sheet, blocks: &[MapBlock], fit: Fit) -> Vec<Page> {
-    let with_words = |words: usize| in_pages(blocks.len(), |some| sheet.page(&blocks[some], Fit { words, ..fit }));
-    let has_room = |pages: &Vec<Page>| {
+fn laid_out(sheet: &Sheet, blocks: &[MapBlock], fit: Fit) -> Vec<Page> {
+    in_pages(blocks.len(), |some| sheet.page(&blocks[some], fit))
+}
+
+/// How maps are fitted in this way: the axes below them say the same, in the most words that fit everywhere. What the maps show does not matter
+/// for that, so nothing is painted.
+fn fitted(sheet: &Sheet, blocks: &[MapBlock], [stretch, size]: [f64; 2]) -> Fit {
+    let with_words = |words: usize| Fit { stretch, size, words, paints: false };
+    let has_room = |fit: &Fit| {
+        let pages = laid_out(sheet, blocks, *fit);
         let mut axes = pages.iter().flat_map(|page| &page.panels).map(|panel| &panel.axes);
         axes.all(|axes| text_width(&axes.x.label, TEXT) <= axes.frame.width())
     };
@@ -149,8 +156,9 @@ mod tests {
     fn the_maps_of_a_round_pin_fit_into_a_page() {
         // A pin of 10 mm on its ring at 22 mm, in cells of half a millimetre.
         let mesh = Mesh::new(20, 276, 21, 17e-3, 27e-3).unwrap().with_outline(Outline::Disc { radius: 5e-3 }).unwrap();
-        let plain =
-            |block| Sheet { width: TWO_COLUMNS, meanings: &[], across: 1, several: false }.page(&[block], FITS[0]);
+        let [stretch, size] = FITS[0];
+        let fit = Fit { stretch, size, words: 0, paints: true };
+        let plain = |block| Sheet { width: TWO_COLUMNS, meanings: &[], across: 1, several: false }.page(&[block], fit);
         assert!(!are_low(&[plain(block(&mesh))]) && are_low(&[page(&[block(&mesh)])]));
         // Three rings that are 129 times as long as they are wide, beside each other.
         let mesh = Mesh::new(20, 690, 40, 20e-3, 21e-3).unwrap();

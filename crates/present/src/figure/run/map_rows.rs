@@ -73,8 +73,19 @@ pub fn blocks<'a>(
     Ok(blocks)
 }
 
-/// Maps of the disc and, below, of the pin. `paint` gives the map of a run on a body, 0 is the disc, at a moment.
-pub fn groups_of_bodies<'a>(
+/// Blocks with maps of the disc and, below, of the pin. `paint` gives the map of a run on a body, 0 is the disc, at a moment.
+pub fn blocks_of_bodies<'a>(
+    shown: &[&'a Subject<'a>],
+    moments: impl Fn(&Subject) -> Vec<usize>,
+    disc_shape: Shape,
+    palette: &[RGBColor],
+    scales: [Option<&Axis>; 2],
+    paint: impl Fn(&Subject, usize, usize) -> Result<Option<Painted>, ReadError>,
+) -> Result<Vec<MapBlock<'a>>, ReadError> {
+    blocks(shown, moments, |runs, some| groups_of_bodies(runs, some, disc_shape, palette, scales, &paint))
+}
+
+fn groups_of_bodies<'a>(
     subjects: &[&'a Subject<'a>],
     moments: &Moments,
     disc_shape: Shape,

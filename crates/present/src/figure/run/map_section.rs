@@ -43,6 +43,8 @@ pub struct Fit {
     pub size: f64,
     /// Which words say what the axes below measure: the same for all maps of a page.
     pub words: usize,
+    /// Whether maps are painted, or boxes are laid out for them alone.
+    pub paints: bool,
 }
 
 /// Where a map lies on its page.
@@ -129,11 +131,13 @@ impl MapSection<'_> {
             let label = if number == last { x_label.as_str() } else { "" };
             let x = Axis::linear(window.x.clone(), label);
             let y = Axis { label: String::new(), ..y.clone() };
-            let picture = self.shape.picture(self.mesh, window, &self.cells, palette, [wide as usize, height as usize]);
+            let size = [wide as usize, height as usize];
+            let picture = fit.paints.then(|| self.shape.picture(self.mesh, window, &self.cells, palette, size));
             let below = x.room_below();
             // What the axis measures may be wider than the map.
             let words_end = 0.5 * (begin.round() + frame_end + text_width(&x.label, TEXT));
-            page.panels.push(Panel { axes: Axes { frame, x, y }, contents: vec![Content::Map(picture)] });
+            page.panels
+                .push(Panel { axes: Axes { frame, x, y }, contents: picture.into_iter().map(Content::Map).collect() });
             box_end = [box_end[0].max(frame_end).max(words_end), y_top + height];
             y_top = box_end[1] + below + BELOW;
         }
@@ -179,7 +183,14 @@ mod tests {
             };
             let mut page = Page::default();
             let palette = [RGBColor(0, 0, 0), RGBColor(255, 255, 255)];
-            section.place(&mut page, [0.0; 2], width, Fit { stretch: 1.0, size: 1.0, words: 2 }, &palette, 0);
+            section.place(
+                &mut page,
+                [0.0; 2],
+                width,
+                Fit { stretch: 1.0, size: 1.0, words: 2, paints: true },
+                &palette,
+                0,
+            );
             let axes = &page.panels.last().unwrap().axes;
             // How many pixels a millimetre has along the radius, over how many along the arc.
             let per_mm = |length: f64, axis: &Axis| length / (axis.range.end() - axis.range.start());

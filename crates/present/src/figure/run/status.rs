@@ -7,7 +7,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_pages::{pages, width_of};
-use super::map_rows::{Painted, any_of, blocks, groups_of_bodies, having};
+use super::map_rows::{Painted, any_of, blocks_of_bodies, having};
 use super::moments::{leave_blank, moment, shown_moments, statuses};
 use super::thickness::{BODIES, thickness};
 use super::{Figures, Options, Subject};
@@ -37,10 +37,8 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     let film = paler(STATUS_LOOKS[Status::Secondary as usize].colour, 0.45);
     let palette: Vec<_> = STATUS_LOOKS.iter().map(|look| look.colour).chain([film, GROUND]).collect();
     let disc_shape = options.disc_shape();
-    let blocks = blocks(&shown, shown_moments, |together, moments| {
-        groups_of_bodies(together, moments, disc_shape, &palette, [None; 2], |subject, body, index| {
-            painted(subject, [Map::DiscStatus, Map::PinStatus][body], index)
-        })
+    let blocks = blocks_of_bodies(&shown, shown_moments, disc_shape, &palette, [None; 2], |subject, body, index| {
+        painted(subject, [Map::DiscStatus, Map::PinStatus][body], index)
     })?;
     let meaning = |look: &StatusLook| Meaning {
         colour: look.colour,

@@ -4,7 +4,7 @@ use plateau_core::observe::Map;
 use plateau_io::run_file::ReadError;
 
 use super::map_pages::{pages, width_of};
-use super::map_rows::{Painted, any_of, blocks, groups_of_bodies, having};
+use super::map_rows::{Painted, any_of, blocks_of_bodies, having};
 use super::moments::{heights, leave_blank, moment, shown_moments};
 use super::{Figures, Options, Subject};
 use crate::colour::{COLOURS, GROUND, colour_index, colour_map};
@@ -25,15 +25,9 @@ pub fn add(subjects: &[Subject], options: &Options, figures: &mut Figures) -> Re
     }
     let scales = [scale(&having[0], bodies[0])?, scale(&having[1], bodies[1])?];
     let palette: Vec<_> = colour_map().into_iter().chain([GROUND]).collect();
-    let blocks = blocks(&shown, shown_moments, |together, moments| {
-        groups_of_bodies(
-            together,
-            moments,
-            disc_shape,
-            &palette,
-            scales.each_ref().map(Some),
-            |subject, body, index| painted(subject, bodies[body], index, &scales[body]),
-        )
+    let of_scales = scales.each_ref().map(Some);
+    let blocks = blocks_of_bodies(&shown, shown_moments, disc_shape, &palette, of_scales, |subject, body, index| {
+        painted(subject, bodies[body], index, &scales[body])
     })?;
     let width = figures.width(width_of(&blocks));
     figures.add_pages(
