@@ -167,7 +167,7 @@ impl Chain {
         } else {
             let mut excess = state.excess();
             for _ in 0..count {
-                let rise = step.rise(&excess, true);
+                let rise = step.rise(&excess);
                 for (node, sum) in state.excess.iter_mut().enumerate() {
                     sum.add(rise[node]);
                     excess[node] = sum.value();

@@ -1,86 +1,92 @@
 //! Very many equal sub-steps of the chain at once: a pause may last for years.
 //!
-//! A sub-step is a linear map, and the map of twice as many sub-steps is that map applied twice. The map is not of the
-//! temperatures but of the stored heat and of the differences from node to node: what hardly changes in a sub-step, as
-//! the heat of a chain that nothing cools, then has small coefficients of its own that no rounding of larger ones
-//! disturbs.
+//! A sub-step is a linear map, and the map of twice as many sub-steps is that map applied twice. The map is kept as the heat that
+//! each node gives to each other one, which is the same in both directions, and to the ambient. All of it is positive and only
+//! added and multiplied, so every part keeps its digits, also where the capacities are very unlike; what stays in a node is its
+//! capacity less what it gives, so no heat is lost or made.
 
 use super::sub_step::{Excess, NODES, SubStep};
 
-/// The stored heat (J), the differences from node to node (K), heat lost so far (J), and 1 for the power.
-const SIZE: usize = NODES + 2;
-const LOST: usize = NODES;
-const ONE: usize = NODES + 1;
-
-/// What each quantity (row) rises by for a unit of each (column).
-type Rises = [[f64; SIZE]; SIZE];
+/// So many sub-steps as one map.
+struct Exchange {
+    /// Heat that a node at 1 K gives to each other one, J/K, and what stays in it.
+    given: [[f64; NODES]; NODES],
+    /// Heat that it gives to the ambient, J/K.
+    lost: [f64; NODES],
+    /// What the power alone makes of a chain at the temperature of the ambient, K.
+    heated: Excess,
+    /// Heat of the power that goes to the ambient, J.
+    lost_of_power: f64,
+}
 
 /// Takes so many sub-steps; the heat lost in them, J.
 pub(super) fn advance(step: &SubStep, excess: &mut Excess, count: u64) -> f64 {
-    let mut quantities = [0.0; SIZE];
-    quantities[0] = step.capacity.iter().zip(&*excess).map(|(capacity, excess)| capacity * excess).sum();
-    for (difference, pair) in quantities[1..].iter_mut().zip(excess.windows(2)) {
-        *difference = pair[0] - pair[1];
-    }
-    quantities[ONE] = 1.0;
-    let (mut rises, mut left) = (rises(step), count);
+    let (mut exchange, mut left, mut lost) = (Exchange::of(step), count, 0.0);
     loop {
         if left % 2 == 1 {
-            let rise = rises.map(|row| row.iter().zip(&quantities).map(|(one, other)| one * other).sum::<f64>());
-            quantities.iter_mut().zip(rise).for_each(|(quantity, rise)| *quantity += rise);
+            lost += dot(&exchange.lost, excess) + exchange.lost_of_power;
+            *excess = exchange.after(&step.capacity, excess);
         }
         left /= 2;
         if left == 0 {
-            break;
+            return lost;
         }
-        rises = twice(&rises);
+        exchange = exchange.twice(&step.capacity);
     }
-    *excess = temperatures(step, &quantities);
-    quantities[LOST]
 }
 
-/// θ of every node, K, from the stored heat and the differences.
-fn temperatures(step: &SubStep, quantities: &[f64; SIZE]) -> Excess {
-    let whole: f64 = step.capacity.iter().sum();
-    let mut excess = [quantities[0] / whole; NODES];
-    let mut before = 0.0;
-    for (node, (difference, capacity)) in quantities[1..NODES].iter().zip(&step.capacity).enumerate() {
-        // A difference warms all nodes before it and cools the others, so that the stored heat stays.
-        before += capacity;
-        let share = before / whole;
-        for (other, excess) in excess.iter_mut().enumerate() {
-            *excess += difference * if other <= node { 1.0 - share } else { -share };
-        }
-    }
-    excess
+fn dot(one: &[f64; NODES], other: &[f64; NODES]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
-/// The map of a single sub-step.
-fn rises(step: &SubStep) -> Rises {
-    let mut rises = [[0.0; SIZE]; SIZE];
-    for column in (0..NODES).chain([ONE]) {
-        let mut unit = [0.0; SIZE];
-        unit[column] = 1.0;
-        let (excess, heated) = (temperatures(step, &unit), column == ONE);
-        let rise = step.rise(&excess, heated);
-        let lost = step.lost(&std::array::from_fn(|node| excess[node] + rise[node]));
-        let gained = if heated { step.power.iter().sum::<f64>() * step.time } else { 0.0 };
-        rises[0][column] = gained - lost;
-        rises[LOST][column] = lost;
-        for node in 1..NODES {
-            rises[node][column] = rise[node - 1] - rise[node];
+impl Exchange {
+    /// A single sub-step.
+    fn of(step: &SubStep) -> Self {
+        let (mut given, mut lost) = ([[0.0; NODES]; NODES], [0.0; NODES]);
+        for node in 0..NODES {
+            let mut inflow = [0.0; NODES];
+            inflow[node] = step.capacity[node] / step.time;
+            let excess = step.balanced(inflow);
+            given[node] = std::array::from_fn(|other| step.capacity[other] * excess[other]);
+            lost[node] = step.lost(&excess);
         }
+        let heated = step.balanced(step.power);
+        Self::new(&step.capacity, given, lost, heated, step.lost(&heated))
     }
-    rises
-}
 
-/// The map of twice as many sub-steps: (1 + D)² − 1 = 2 D + D².
-fn twice(rises: &Rises) -> Rises {
-    let mut twice = rises.map(|row| row.map(|rise| 2.0 * rise));
-    for (row, rises_of_row) in twice.iter_mut().zip(rises) {
-        for (rise, other) in rises_of_row.iter().zip(rises) {
-            row.iter_mut().zip(other).for_each(|(sum, other)| *sum += rise * other);
+    /// Of nodes with these capacities (J/K), with what stays in them.
+    fn new(
+        capacity: &[f64; NODES],
+        mut given: [[f64; NODES]; NODES],
+        lost: [f64; NODES],
+        heated: Excess,
+        lost_of_power: f64,
+    ) -> Self {
+        for node in 0..NODES {
+            given[node][node] = 0.0;
+            for other in 0..node {
+                // The same in both directions, also as it is rounded.
+                given[node][other] = given[other][node];
+            }
         }
+        for node in 0..NODES {
+            given[node][node] = (capacity[node] - given[node].iter().sum::<f64>() - lost[node]).max(0.0);
+        }
+        Self { given, lost, heated, lost_of_power }
     }
-    twice
+
+    /// θ of every node after them, K.
+    fn after(&self, capacity: &[f64; NODES], excess: &Excess) -> Excess {
+        std::array::from_fn(|node| dot(&self.given[node], excess) / capacity[node] + self.heated[node])
+    }
+
+    /// Twice as many.
+    fn twice(&self, capacity: &[f64; NODES]) -> Self {
+        // θ of each node that a node at 1 K brings about, K.
+        let excess = self.given.map(|given| std::array::from_fn(|node| given[node] / capacity[node]));
+        let given = excess.map(|excess: Excess| std::array::from_fn(|node| dot(&excess, &self.given[node])));
+        let lost = std::array::from_fn(|node| self.lost[node] + dot(&excess[node], &self.lost));
+        let lost_of_power = 2.0 * self.lost_of_power + dot(&self.lost, &self.heated);
+        Self::new(capacity, given, lost, self.after(capacity, &self.heated), lost_of_power)
+    }
 }

@@ -35,9 +35,9 @@ impl SubStep {
         Self { time, capacity, conductance, outward, power, elimination }
     }
 
-    /// By how much each node gets warmer, K, with or without the power.
-    pub fn rise(&self, excess: &Excess, heated: bool) -> Excess {
-        let mut gain = if heated { self.power } else { [0.0; NODES] };
+    /// By how much each node gets warmer, K.
+    pub fn rise(&self, excess: &Excess) -> Excess {
+        let mut gain = self.power;
         for node in 0..NODES {
             gain[node] -= self.outward[node] * excess[node];
             if let Some(conductance) = self.conductance.get(node) {
@@ -48,6 +48,12 @@ impl SubStep {
         }
         // Solved for the rise, not for the temperature: what is stored keeps its digits over many sub-steps.
         self.elimination.solve(gain)
+    }
+
+    /// θ of every node, K, that balances what flows into each, W: nothing is subtracted, so where all flows are positive every one
+    /// keeps its digits.
+    pub fn balanced(&self, inflow: [f64; NODES]) -> Excess {
+        self.elimination.solve(inflow)
     }
 
     /// Heat that goes to the ambient in a sub-step that ends with these temperatures, J.
