@@ -101,10 +101,14 @@ def start(parameters, disc_height, pin_height, base):
     return State(z_d, z_d.copy(), z_p, z_p.copy(), np.array(base, dtype=int), pool, z_d.max(), open_volume)
 
 
-def statuses(state):
-    """Statuses of all cells of the pin and of the disc."""
-    pin = np.where(state.pin_height < state.pin_substrate, SECONDARY, state.base)
-    disc = np.where(state.disc_height > state.disc_substrate, SECONDARY, PRIMARY)
+def statuses(state, thinner=0):
+    """Statuses of all cells of the pin and of the disc; build-ups thinner than `thinner` (m) are none."""
+
+    def is_secondary(thickness):
+        return (thickness > 0) & (thickness >= thinner)
+
+    pin = np.where(is_secondary(state.pin_substrate - state.pin_height), SECONDARY, state.base)
+    disc = np.where(is_secondary(state.disc_height - state.disc_substrate), SECONDARY, PRIMARY)
     return pin, disc
 
 
@@ -282,7 +286,8 @@ def advance(state, parameters):
 def sample(state, parameters):
     """What is reported, under the names of the run file; `contact_area` and what rests on it belong to the last step."""
     p = parameters
-    pin, disc = statuses(state)
+    # Model 2: reports leave out what is thinner than 1e-15 m.
+    pin, disc = statuses(state, 1e-15)
     contact_area = state.contact_areas[-1]
     step_time = p.time_acceleration * p.step_time
     open_volume = (p.area * np.maximum(state.reference - state.disc_height, 0)).sum()

@@ -149,7 +149,7 @@ proptest! {
         prop_assert!(pin.height.iter().chain(&pin.substrate).chain(&disc.height).chain(&disc.substrate).all(|z| z.is_finite()));
         prop_assert!(pin.height.iter().zip(&pin.substrate).all(|(z, b)| z <= b), "z_p ≤ b_p");
         prop_assert!(disc.height.iter().zip(&disc.substrate).all(|(z, b)| z >= b), "z_d ≥ b_d");
-        prop_assert!(disc.statuses().all(|status| status != Status::Resin));
+        prop_assert!(disc.reported_statuses().all(|status| status != Status::Resin));
     }
 
     #[test]

@@ -12,7 +12,7 @@ use plateau_core::model::heat::account::HeatReport;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::model::parameters::{DebrisRule, Parameters, PlateauRules};
 use plateau_core::model::state::{Base, Disc, InitialSurfaces, Pin};
-use plateau_core::observe::Sample;
+use plateau_core::observe::{Map, Sample};
 use plateau_core::simulation::{Engine, Execution, Simulation};
 
 /// Accepted deviation of heights, m.
@@ -214,5 +214,43 @@ fn the_first_contact_is_that_of_the_first_step() {
         assert!((first.displacement - sample.displacement).abs() < 1e-9 * 3e-6, "{first:?}, {sample:?}");
         assert!((first.contact_area / sample.contact_area - 1.0).abs() < 1e-12);
         assert!((first.mean_pressure / sample.mean_pressure - 1.0).abs() < 1e-8);
+    }
+}
+
+/// Model 2: reports count build-ups of 1e-15 m and more, the rules all of them.
+#[test]
+fn a_build_up_thinner_than_1e_minus_15_m_is_reported_as_none() {
+    let mut parameters = crate::scenes::wear_only(6, 60, 16);
+    parameters.plateaus = PlateauRules::LOCAL;
+    // Some 1e-17 m in a step, and none from resin.
+    parameters.materials.wear_height = 0.0;
+    for material in [&mut parameters.materials.pin_primary, &mut parameters.materials.pin_secondary] {
+        material.specific_wear_rate = 3e-20;
+    }
+    let (mesh, surfaces) = (parameters.mesh.clone(), random_surfaces(&parameters.mesh, 7));
+    for engine in [Engine::Fast, Engine::Plain] {
+        let execution = Execution { engine, ..Execution::default() };
+        let mut simulation =
+            Simulation::with_execution(parameters.clone(), surfaces.clone(), execution).expect("surfaces that fit");
+        simulation.advance_to(200).unwrap();
+        let maps =
+            [Map::PinStatus, Map::PinHeight, Map::PinSubstrate, Map::DiscStatus, Map::DiscHeight, Map::DiscSubstrate];
+        let maps = simulation.snapshot(&maps).unwrap().maps;
+        let fields: Vec<Vec<f64>> = maps.into_iter().map(|(_, values)| values.into_numbers()).collect();
+        let sample = simulation.sample().unwrap();
+        for (fields, sign, all, reported) in [
+            (&fields[..3], 1.0, mesh.pin_area(), sample.pin_secondary),
+            (&fields[3..], -1.0, mesh.disc_area(), sample.disc_secondary),
+        ] {
+            let (mut thin, mut area) = (0, 0.0);
+            for (cell, status) in fields[0].iter().enumerate() {
+                let build_up = sign * (fields[2][cell] - fields[1][cell]);
+                thin += usize::from(build_up > 0.0 && build_up < 1e-15);
+                area += if build_up >= 1e-15 { mesh.area()[cell % mesh.rows()] } else { 0.0 };
+                assert_eq!(*status == 2.0, build_up >= 1e-15, "{engine:?}, cell {cell}: {status} with {build_up:e} m");
+            }
+            assert!(thin > 0 && area > 0.0, "{engine:?}: {thin} thin, {area} m²");
+            assert!((reported - area / all).abs() < 1e-12, "{engine:?}: {reported}, {}", area / all);
+        }
     }
 }

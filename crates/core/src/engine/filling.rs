@@ -5,8 +5,9 @@ use std::ops::Range;
 use crate::engine::exact::RingSum;
 use crate::engine::lanes::LANES;
 use crate::engine::strips::DiscSector;
+use crate::model::material::Status;
 use crate::model::mesh::Mesh;
-use crate::model::state::InitialSurfaces;
+use crate::model::state::{InitialSurfaces, reported_disc_status};
 
 /// Filling and coverage of a worker's disc columns, kept up to date for the columns that passed under the pin.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +102,10 @@ impl Filling {
             let (heights, substrates) = (&sector.height.chunk(strip, column).0, &substrate.chunk(strip, column).0);
             measured.0.add(open_volume(self.reference, heights, area));
             let cells = heights.iter().zip(substrates).zip(area);
-            let secondary = cells.filter(|((height, substrate), _)| height > substrate).map(|(_, area)| area).sum();
+            let is_secondary =
+                |height: &f64, substrate: &f64| reported_disc_status(*height, *substrate) == Status::Secondary;
+            let secondary =
+                cells.filter(|((height, substrate), _)| is_secondary(height, substrate)).map(|(_, area)| area).sum();
             measured.1.add(RingSum::of(secondary));
         }
         let before = std::mem::replace(&mut self.columns[sector.first + column], measured);

@@ -31,10 +31,10 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Status of every cell, column by column: secondary where the surface stands above the substrate.
-    pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
+    /// Status of every cell as it is reported, column by column.
+    pub fn reported_statuses(&self) -> impl Iterator<Item = Status> + '_ {
         let cells = self.height.iter().zip(&self.substrate);
-        cells.map(|(height, substrate)| disc_status(*height, *substrate))
+        cells.map(|(height, substrate)| reported_disc_status(*height, *substrate))
     }
 }
 
@@ -50,10 +50,20 @@ pub struct Pin {
 }
 
 impl Pin {
-    /// Status of every cell, column by column.
+    /// Status of every cell as the rules take it, column by column.
     pub fn statuses(&self) -> impl Iterator<Item = Status> + '_ {
+        self.cells().map(|(height, substrate, is_resin)| pin_status(height, substrate, is_resin))
+    }
+
+    /// Status of every cell as it is reported, column by column.
+    pub fn reported_statuses(&self) -> impl Iterator<Item = Status> + '_ {
+        self.cells().map(|(height, substrate, is_resin)| reported_pin_status(height, substrate, is_resin))
+    }
+
+    /// z_p and b_p of every cell, m, and whether its base is resin.
+    fn cells(&self) -> impl Iterator<Item = (f64, f64, bool)> + '_ {
         let cells = self.height.iter().zip(&self.substrate).zip(&self.base);
-        cells.map(|((height, substrate), base)| pin_status(*height, *substrate, base.is_resin()))
+        cells.map(|((height, substrate), base)| (*height, *substrate, base.is_resin()))
     }
 }
 
@@ -69,6 +79,20 @@ pub fn pin_status(height: f64, substrate: f64, is_resin: bool) -> Status {
         true => Status::Resin,
         false => Status::Primary,
     }
+}
+
+/// Thickness from which on a build-up is reported as a plateau, m: below, rounding would decide over what is one. The rules take every
+/// build-up.
+const LEAST_REPORTED: f64 = 1e-15;
+
+/// Status of a disc cell as it is reported.
+pub fn reported_disc_status(height: f64, substrate: f64) -> Status {
+    if height - substrate >= LEAST_REPORTED { Status::Secondary } else { Status::Primary }
+}
+
+/// Status of a pin cell as it is reported.
+pub fn reported_pin_status(height: f64, substrate: f64, is_resin: bool) -> Status {
+    if substrate - height >= LEAST_REPORTED { Status::Secondary } else { pin_status(substrate, substrate, is_resin) }
 }
 
 /// The two surfaces before the first step.

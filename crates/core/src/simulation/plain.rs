@@ -167,10 +167,10 @@ impl Plain {
             let field = match map {
                 Map::DiscHeight => MapValues::Float(disc.height.clone()),
                 Map::DiscSubstrate => MapValues::Float(disc.substrate.clone()),
-                Map::DiscStatus => MapValues::Status(disc.statuses().map(|status| status as u8).collect()),
+                Map::DiscStatus => MapValues::Status(disc.reported_statuses().map(|status| status as u8).collect()),
                 Map::PinHeight => MapValues::Float(pin.height.clone()),
                 Map::PinSubstrate => MapValues::Float(pin.substrate.clone()),
-                Map::PinStatus => MapValues::Status(pin.statuses().map(|status| status as u8).collect()),
+                Map::PinStatus => MapValues::Status(pin.reported_statuses().map(|status| status as u8).collect()),
                 Map::Pressure => MapValues::Float(match self.watched()? {
                     Some(step) => step.pressure.clone(),
                     None => vec![0.0; pin.height.len()],
@@ -189,10 +189,11 @@ impl Plain {
         let step = self.watched()?;
         let areas = || mesh.area().iter().copied().cycle();
         let pin_share = |status: Status| {
-            let cells = self.state.pin.statuses().zip(mesh.pin_areas()).filter(|(each, _)| *each == status);
+            let cells = self.state.pin.reported_statuses().zip(mesh.pin_areas()).filter(|(each, _)| *each == status);
             cells.map(|(_, area)| area).sum::<f64>() / mesh.pin_area()
         };
-        let disc_secondary = self.state.disc.statuses().zip(areas()).filter(|(each, _)| *each == Status::Secondary);
+        let disc_secondary =
+            self.state.disc.reported_statuses().zip(areas()).filter(|(each, _)| *each == Status::Secondary);
         let contact_area = self.course.contact_area;
         let pressures = step.map_or(&[][..], |step| &step.pressure);
         let load: f64 = pressures.iter().zip(areas()).map(|(pressure, area)| pressure * area).sum();

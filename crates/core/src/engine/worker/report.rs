@@ -9,7 +9,7 @@ use crate::engine::exact::{self, RingSum};
 use crate::engine::strips::DiscSector;
 use crate::model::accounts::AccountsReport;
 use crate::model::material::Status;
-use crate::model::state::{disc_status, pin_status};
+use crate::model::state::{reported_disc_status, reported_pin_status};
 use crate::observe::{Map, MapValues, Sample, Snapshot};
 
 impl<C: Communicator> Worker<C> {
@@ -97,7 +97,9 @@ impl<C: Communicator> Worker<C> {
 
     fn pin_statuses(&self, column: usize) -> impl Iterator<Item = Status> + '_ {
         let cells = self.pin.height.column(column).zip(self.pin.substrate().column(column)).enumerate();
-        cells.map(move |(row, (height, substrate))| pin_status(height, substrate, self.pin.is_resin(row, column)))
+        cells.map(move |(row, (height, substrate))| {
+            reported_pin_status(height, substrate, self.pin.is_resin(row, column))
+        })
     }
 
     /// The maps asked for, as they are now.
@@ -170,7 +172,7 @@ fn disc_words(sector: &DiscSector, column: usize, map: Map) -> Vec<u64> {
     match map {
         Map::DiscHeight => height.map(f64::to_bits).collect(),
         Map::DiscSubstrate => substrate.map(f64::to_bits).collect(),
-        _ => height.zip(substrate).map(|(height, substrate)| disc_status(height, substrate) as u64).collect(),
+        _ => height.zip(substrate).map(|(height, substrate)| reported_disc_status(height, substrate) as u64).collect(),
     }
 }
 
