@@ -182,6 +182,67 @@ fn the_program_and_the_model_as_it_is_read_agree_on_heat() {
     }
 }
 
+/// What grows over a run, and the events that it is made of, whatever the run ends with: after a step, in a pause within a step that is
+/// not taken any more, or after an event without a step.
+#[test]
+fn events_add_up_to_the_run() {
+    let directory = WorkingDirectory::new();
+    // 5.9 s of load, lifted for 2 s, 6.3 s of load, standing for 2.1 s, 0.02 s of load, lifted.
+    let operation = "[operation]\nduration = \"20 s\"\n[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"300 rpm\"], [\"5.9 s\", \"5 N\", \"200 rpm\"], \
+                     [\"5.9 s\", \"0 N\", \"200 rpm\"], [\"7.9 s\", \"0 N\", \"150 rpm\"], [\"7.9 s\", \"4 N\", \"150 rpm\"], [\"14.2 s\", \"6 N\", \"0 rpm\"], \
+                     [\"16.3 s\", \"6 N\", \"0 rpm\"], [\"16.32 s\", \"6 N\", \"40 rpm\"], [\"16.32 s\", \"0 N\", \"40 rpm\"], [\"21 s\", \"0 N\", \"0 rpm\"]]\n";
+    let scene = hot("quick.toml", "sample_every = \"0.5 s\"")
+        .replace("number_factor = [[\"23 degC\", 1.0], [\"30 degC\", 10.0]]\n", "");
+    directory.write("scene.toml", scene + operation);
+    for m in [1, 3, 7, 20, 49] {
+        for (end, rests) in [("20 s", true), ("15 s", true), ("16.31 s", false), ("12 s", false), ("6.5 s", true)] {
+            let sets = [format!("operation.duration={end}"), format!("numerics.time_acceleration={m}")];
+            let outcome = directory.plateau([
+                "run",
+                "scene.toml",
+                "-o",
+                "run.h5",
+                "--force",
+                "--set",
+                &sets[0],
+                "--set",
+                &sets[1],
+            ]);
+            assert_eq!(outcome.status, Some(0), "{outcome:?}");
+            let (run, what) = (RunFile::open(directory.path("run.h5")), format!("m = {m} until {end}"));
+            let last = |names: &[&str]| -> f64 {
+                names.iter().map(|name| *run.floats(&format!("/series/{name}")).last().unwrap()).sum()
+            };
+            let event = |name: &str| run.floats(&format!("/event/{name}"));
+            let worn = ["worn_pin", "worn_resin", "worn_disc"];
+            let sums: [(&str, &[&str]); 6] = [
+                ("worn", &worn),
+                ("emitted", &["emitted"]),
+                ("work", &["friction_work"]),
+                ("pm10_mass", &["pm10_mass"]),
+                ("particle_number", &["particle_number"]),
+                ("distance", &["sliding_distance"]),
+            ];
+            for (quantity, series) in sums {
+                // What is left of the cycle after the last step is slid in the event, and in no step.
+                let tolerance = if quantity == "distance" && !rests { f64::from(m) / 690.0 } else { 1e-12 };
+                let (found, all): (f64, f64) = (event(quantity).iter().sum(), last(series));
+                assert!((found - all).abs() <= tolerance * all, "{what}, {quantity}: {found:e}, expected {all:e}");
+            }
+            let (worn, peaks) = (event("worn"), event("temperature_peak"));
+            let contact = run.floats("/series/contact_temperature");
+            for (place, (number, mass)) in event("particle_number").iter().zip(event("pm10_mass")).enumerate() {
+                let is_closed = rests || place + 1 < worn.len();
+                // No factor: 1e15 for each kilogramme, of every event that a pause has ended.
+                assert!(!is_closed || (number - 1e15 * mass).abs() <= 1e-12 * number, "{what}: event {place}");
+                assert!(!is_closed || peaks[place].is_nan() == (worn[place] == 0.0), "{what}: event {place}");
+            }
+            let warmest = contact.iter().copied().fold(f64::NAN, f64::max);
+            assert!(peaks.iter().copied().fold(f64::NAN, f64::max) >= warmest, "{what}: {peaks:?}, {warmest}");
+        }
+    }
+}
+
 #[test]
 fn a_study_asks_friction_and_events_are_exported() {
     let directory = WorkingDirectory::new();

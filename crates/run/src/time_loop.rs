@@ -89,7 +89,11 @@ impl Assembly {
                 self.simulation.keep_contact()?;
             }
             if noted == Some(event) {
-                self.events.note(&self.simulation.sample()?);
+                let mut sample = self.simulation.sample()?;
+                if let Some(moment) = self.events.closing(event) {
+                    sample.accounts = self.simulation.accounts_at(moment)?;
+                }
+                self.events.note(&sample);
             }
             if sampled {
                 sink.sample(self.sample(&moment)?)?;

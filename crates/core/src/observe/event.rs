@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::dissipation::{EMISSION, FRICTION, HEAT};
 use super::extra::Extra;
 use super::sample::Sample;
+use super::schedule::Moment;
 use crate::model::accounts::AccountsReport;
 use crate::model::cycle::{Cycle, Event};
 use crate::model::parameters::Parameters;
@@ -109,6 +110,8 @@ struct Planned {
     before: u64,
     /// Its last step.
     last: u64,
+    /// The start of the pause that ends it, where the step around that pause is not taken any more.
+    closing: Option<Moment>,
 }
 
 /// What an event that has begun needs to know of its start.
@@ -146,8 +149,8 @@ pub struct EventProgress {
     /// Those that have ended.
     pub records: Vec<EventRecord>,
     begun: Option<Begun>,
-    /// The last of them: the end of a run may have cut it short, and the next one begins with its sums.
-    ended: Option<Ended>,
+    /// Those of them with the last step: the end of a run may have cut them short, and the next one begins with the sums of the last.
+    ended: Vec<Ended>,
 }
 
 /// What an event that has ended leaves.
@@ -173,10 +176,18 @@ impl EventLog {
     pub fn new(parameters: &Parameters, cycle: Option<&Cycle>, until: f64, steps: u64) -> Self {
         let Some(cycle) = cycle else { return Self::default() };
         let angle = parameters.step_angle();
-        let step = |time: f64| cycle.steps_until(time, angle).min(steps);
         let plan = cycle.events(until).into_iter().map(|event| {
-            let distance = cycle.angle_of(&event) * parameters.mesh.mean_radius();
-            Planned { event, distance, before: step(event.start.time), last: step(event.end.time) }
+            let [before, end] =
+                [event.start_angle, event.start_angle + event.angle].map(|at| Cycle::steps_to(at, angle));
+            let pause = cycle.pause_in(event.end.time, until).filter(|pause| end > steps && pause.start < until);
+            let closing = pause.map(|pause| Moment {
+                step: steps,
+                time: event.end.time,
+                pause: Some(pause.kind),
+                ..Moment::default()
+            });
+            let distance = event.angle * parameters.mesh.mean_radius();
+            Planned { event, distance, before: before.min(steps), last: end.min(steps), closing }
         });
         let mut log = Self { plan: plan.collect(), progress: EventProgress::default() };
         log.take(Sums::default(), &Sample::default());
@@ -192,12 +203,12 @@ impl EventLog {
     pub fn restore(&mut self, progress: EventProgress) {
         self.progress = progress;
         let EventProgress { records, begun, ended } = &mut self.progress;
-        let planned = records.len().checked_sub(1).and_then(|place| self.plan.get(place));
-        if let (Some(planned), Some(record), Some(last)) = (planned, records.last(), *ended)
+        while let (Some(record), Some(last)) = (records.last(), ended.last())
+            && let Some(planned) = self.plan.get(records.len() - 1)
             && (planned.event.end.time != record.end || planned.last != last.step)
         {
-            records.pop();
-            (*begun, *ended) = (Some(last.begun), None);
+            *begun = Some(last.begun);
+            (records.pop(), ended.pop());
         }
     }
 
@@ -207,6 +218,13 @@ impl EventLog {
         [*before, before + 1, *last].into_iter().find(|step| *step > steps_done)
     }
 
+    /// The pause that ends an event with this step, so that its account is that of this moment, where the step around the pause is not
+    /// taken any more.
+    pub fn closing(&self, step: u64) -> Option<&Moment> {
+        let Planned { last, closing, .. } = self.plan.get(self.progress.records.len())?;
+        closing.as_ref().filter(|_| step >= *last)
+    }
+
     /// Takes what a sample of the step just done says of the event to which it belongs, and of those that begin or end with it.
     pub fn note(&mut self, sample: &Sample) {
         self.take(Sums::of(sample), sample);
@@ -214,10 +232,10 @@ impl EventLog {
 
     fn take(&mut self, sums: Sums, sample: &Sample) {
         while let Some(planned) = self.plan.get(self.progress.records.len()).copied() {
-            let Planned { event, distance, before, last } = planned;
+            let Planned { event, distance, before, last, .. } = planned;
             if sample.step >= before {
                 // Nothing wears in the pause before it.
-                let former = self.progress.ended.map_or(Sums::default(), |ended| ended.sums);
+                let former = self.progress.ended.last().map_or(Sums::default(), |ended| ended.sums);
                 let begun = self.progress.begun.get_or_insert(Begun { sums: former, ..Begun::default() });
                 if sample.step > before {
                     begun.contact_area.get_or_insert(sample.contact_area);
@@ -225,7 +243,10 @@ impl EventLog {
                 }
             }
             let Some(begun) = self.progress.begun.filter(|_| sample.step >= last) else { return };
-            (self.progress.begun, self.progress.ended) = (None, Some(Ended { begun, step: last, sums }));
+            self.progress.begun = None;
+            self.progress.ended.retain(|ended| ended.step == last);
+            self.progress.ended.push(Ended { begun, step: last, sums });
+            let heat = sample.accounts.heat.filter(|_| last > before);
             self.progress.records.push(EventRecord {
                 start: event.start.time,
                 end: event.end.time,
@@ -239,7 +260,7 @@ impl EventLog {
                 work: sums.work - begun.sums.work,
                 friction_coefficient: (sums.work - begun.sums.work) / (sums.load_work - begun.sums.load_work),
                 temperature_start: begun.temperature.unwrap_or(f64::NAN),
-                temperature_peak: sample.accounts.heat.map_or(f64::NAN, |heat| heat.event_peak),
+                temperature_peak: heat.map_or(f64::NAN, |heat| heat.event_peak),
                 pm10_mass: sums.pm10_mass - begun.sums.pm10_mass,
                 particle_number: sums.particle_number - begun.sums.particle_number,
             });

@@ -109,7 +109,8 @@ impl Schedule {
     pub fn next(&self, step: u64, time: f64) -> Option<Moment> {
         let now = (step, time);
         let sample = self.next_sample(now)?;
-        let map = self.map_moments.iter().copied().find(|map| is_after(*map, now)).unwrap_or(sample);
+        let map = self.map_moments.get(self.map_moments.partition_point(|map| !is_after(*map, now)));
+        let map = map.copied().unwrap_or(sample);
         let (step, time) = earlier(sample, map);
         let is_due = |other| !is_after(other, (step, time));
         let pause = self.pause_at(step, time);
@@ -162,35 +163,28 @@ impl Schedule {
         while done > 0 && self.end_of(done) > time {
             done -= 1;
         }
-        let mut at_step = end;
+        let mut found = end;
         let mut at = multiple_after(self.end_of(done), every);
-        while at <= end.1 {
+        while at <= found.1 {
             let next = self.due(at);
-            // A multiple in a pause is reported there.
-            at = match cycle.pause_in(at, at) {
-                Some(pause) if next.1 == at => multiple_from(pause.end, every),
-                _ if is_after(next, now) => {
-                    at_step = next;
-                    break;
+            let is_resting = next.1 == at && cycle.pause_in(at, at).is_some();
+            at = match (is_after(next, now), is_resting) {
+                // A multiple in a pause is reported there; those after it are due later.
+                (true, true) => return earlier(next, found),
+                (false, true) => match cycle.rests_to(at, time) {
+                    end if end <= time => multiple_from(end, every),
+                    _ => multiple_after(time, every),
+                },
+                (false, false) if next.0 < self.last => multiple_after(at, every),
+                // Until the step has ended, only those in a pause within it come before.
+                (is_new, false) => {
+                    found = if is_new { earlier(next, found) } else { found };
+                    let Some(pause) = cycle.pause_in(at, found.1) else { break };
+                    multiple_after(at, every).max(multiple_from(pause.start, every))
                 }
-                _ => multiple_after(at, every),
             };
         }
-        let mut from = multiple_after(time, every);
-        while let Some(pause) = cycle.pause_in(from, at_step.1) {
-            let at = from.max(multiple_from(pause.start, every));
-            if at >= pause.end {
-                from = at;
-                continue;
-            }
-            let next = self.due(at);
-            if is_after(next, now) {
-                return earlier(next, at_step);
-            }
-            // Where the pause begins with the end of a step, that has been reported.
-            from = multiple_after(at, every);
-        }
-        at_step
+        found
     }
 
     /// The step whose surfaces are those of a time (s), and its end, or that time if it lies in a pause.
@@ -210,7 +204,9 @@ impl Schedule {
         }
         // A time at which a pause ends is due with the step after it.
         let step = if end < time { (step + 1).min(self.last) } else { step };
-        (step, cycle.end_of(step, *angle))
+        let end = cycle.end_of(step, *angle);
+        // What is left out has what the run ends with.
+        if end < time { self.end() } else { (step, end) }
     }
 
     /// The pause that a time (s) of a moment lies in, if it is not the end of a step.
@@ -231,14 +227,10 @@ impl Schedule {
         }
     }
 
-    /// The last moment: the end of the last step, or the end of a run in a pause.
+    /// The last moment: the end of the last step, or that of the last pause of the run after it.
     fn end(&self) -> (u64, f64) {
         match (self.end, &self.cycle) {
-            (End::Time(time), Some((cycle, _)))
-                if time > self.end_of(self.last) && cycle.before(time) != Kind::Active =>
-            {
-                (self.last, time)
-            }
+            (End::Time(time), Some((cycle, _))) => (self.last, cycle.rested_until(time).max(self.end_of(self.last))),
             _ => (self.last, self.end_of(self.last)),
         }
     }

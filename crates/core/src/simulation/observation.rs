@@ -109,8 +109,11 @@ impl Simulation {
         quantities.into_iter().find(wrong).map_or(Ok(()), |quantity| Err(error(quantity)))
     }
 
-    /// Friction, heat and emission at a moment; none of them where the scene asks for none.
-    fn accounts_at(&mut self, moment: &Moment) -> Result<AccountsReport, SimulationError> {
+    /// Friction, heat and emission at a moment that the last step belongs to; none of them where the scene asks for none.
+    ///
+    /// # Errors
+    /// [`SimulationError::Worker`] when a worker failed.
+    pub fn accounts_at(&mut self, moment: &Moment) -> Result<AccountsReport, SimulationError> {
         let parameters = &self.parameters;
         if parameters.friction.is_none() && parameters.emission.is_none() {
             return Ok(AccountsReport::default());

@@ -15,45 +15,59 @@ pub struct Event {
     pub start: Node,
     /// When it ends, with F and ω then.
     pub end: Node,
+    /// ψ at its start, rad.
+    pub start_angle: f64,
+    /// By how much the disc turns in it, rad.
+    pub angle: f64,
 }
 
 impl Cycle {
     /// The maximal stretches of active intervals until a time (s).
     pub fn events(&self, until: f64) -> Vec<Event> {
-        let rounds = (0..self.rounds).map(|round| round as f64 * self.period).take_while(|start| *start < until);
         let mut events: Vec<Event> = Vec::new();
-        let mut is_open = false;
-        for (start, interval) in rounds.flat_map(|start| self.intervals.iter().map(move |interval| (start, interval))) {
-            let (start, length) = (start + interval.start.time, interval.length());
-            if interval.kind != Kind::Active || start >= until {
-                is_open = false;
+        // The round and the angle in it, rad, with which the event begins that goes on.
+        let mut open = None;
+        let places = (0..self.rounds).flat_map(|round| self.intervals.iter().map(move |interval| (round, interval)));
+        for (round, interval) in places {
+            let before = round as f64 * self.period;
+            let (start, rounding) = (before + interval.start.time, Self::rounding(until));
+            if start >= until - rounding {
+                break;
+            }
+            if interval.kind != Kind::Active {
+                open = None;
                 continue;
             }
-            let last = interval.after(length.min(until - start));
-            let end = Node { time: (start + length).min(until), ..last };
-            match events.last_mut() {
-                Some(event) if is_open => event.end = end,
-                _ => events.push(Event { start: Node { time: start, ..interval.start }, end }),
+            let is_whole = before + interval.end.time <= until + rounding;
+            let end = if is_whole {
+                Node { time: before + interval.end.time, ..interval.end }
+            } else {
+                Node { time: until, ..interval.after(until - start) }
+            };
+            let first = interval.angle - interval.turned();
+            let (first_round, first) = *open.get_or_insert_with(|| {
+                let start_angle = round as f64 * self.angle + first;
+                events.push(Event { start: Node { time: start, ..interval.start }, end, start_angle, angle: 0.0 });
+                (round, first)
+            });
+            let last = if is_whole { interval.angle } else { interval.angle_after(until - start) };
+            if let Some(event) = events.last_mut() {
+                event.end = end;
+                event.angle = (round - first_round) as f64 * self.angle + (last - first);
             }
-            is_open = true;
         }
         events
     }
 
-    /// By how much the disc turns in an event, rad.
-    pub fn angle_of(&self, event: &Event) -> f64 {
-        self.angle_at(event.end.time) - self.angle_at(event.start.time)
-    }
-
     /// The largest m with which every event until a time (s) has ten simulated revolutions: below 1 none has.
     pub fn largest_acceleration(&self, until: f64) -> f64 {
-        let angles = self.events(until).into_iter().map(|event| self.angle_of(&event));
+        let angles = self.events(until).into_iter().map(|event| event.angle);
         angles.fold(f64::INFINITY, f64::min) / (LEAST_REVOLUTIONS * TAU)
     }
 
     /// How many of the events until a time (s) have fewer, with an acceleration.
     pub fn short_events(&self, until: f64, acceleration: f64) -> usize {
         let least = acceleration * LEAST_REVOLUTIONS * TAU * (1.0 - 1e-9);
-        self.events(until).iter().filter(|event| self.angle_of(event) < least).count()
+        self.events(until).iter().filter(|event| event.angle < least).count()
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Load F(t) and speed ω(t) are given at nodes. Steps are at equal angles ψ = ∫ω dt, counted where there is load and speed, and the load of a step is
 //! such that Σ F̄ ds = r ∫F ω dt for every m. Every value comes in closed form from the two ends of an interval, the sums
-//! over one round and the number of rounds: nothing is added up step by step, so nothing drifts.
+//! over one round and the number of rounds: nothing is added up step by step, so nothing drifts, and nothing is read off a
+//! time since the start, which many rounds or a long pause leave few digits of.
 
 mod event;
 mod interval;
@@ -191,12 +192,17 @@ impl Cycle {
 
     /// Steps of angle `step` (rad) that are done at a time (s): floor(ψ/(m Δθ) + 1e-9).
     pub fn steps_done(&self, time: f64, step: f64) -> u64 {
-        (self.angle_at(time) / step + SLACK).floor() as u64
+        let angle = self.angle_at(time);
+        ((angle + Self::slack(angle, step)) / step).floor() as u64
     }
 
     /// The first step of angle `step` (rad) that ends at a time (s) or later, or in whose pause that time is.
     pub fn steps_until(&self, time: f64, step: f64) -> u64 {
-        let angle = self.angle_at(time);
+        Self::steps_to(self.angle_at(time), step)
+    }
+
+    /// The first step of angle `step` (rad) with whose end ψ has come to an angle (rad).
+    pub fn steps_to(angle: f64, step: f64) -> u64 {
         ((angle - Self::slack(angle, step)) / step).ceil().max(0.0) as u64
     }
 
@@ -208,50 +214,84 @@ impl Cycle {
     /// The `number`-th step, from 1, of angle `step` (rad).
     pub fn step(&self, number: u64, step: f64) -> StepOperation {
         let (from, to) = (self.reached(number - 1, step), self.reached(number, step));
-        let (mut work, mut angle, mut only, mut turns, mut active) = (0.0, 0.0, None, None, 0.0);
-        for place in self.path(from, to) {
-            let interval = &self.intervals[place.interval];
-            let is_last = (place.round, place.interval) == (to.round, to.interval);
-            let end = if is_last { to.time } else { interval.length() };
-            if interval.kind != Kind::Active || end <= place.time {
-                continue;
-            }
+        let (mut turns, mut active) = (None, 0.0);
+        for (place, end) in self.active_parts(from, to) {
             turns = turns.or(Some(place));
             active += end - place.time;
-            let (force, turned) = interval.mean_force(place.time..end);
-            // A load that never changes is that load, to the bit.
-            only = if angle == 0.0 || only == Some(force) { Some(force) } else { None };
-            work += force * turned;
-            angle += turned;
         }
         let [before, turns, after] = [from, turns.unwrap_or(to), to].map(|place| self.loaded_at(place));
         StepOperation {
             end: self.time_of(to),
-            load: only.unwrap_or(work / angle),
+            load: self.mean_load(number, step),
             standing_before: turns - before,
             loaded: after - turns,
             active,
         }
     }
 
+    /// F̄ of the `number`-th step of angle `step` (rad), N: W is one of ψ alone, so no work is lost where the end of a step counts
+    /// as that of an interval.
+    fn mean_load(&self, number: u64, step: f64) -> f64 {
+        let (from, to) = (self.turned_to(number - 1, step, 0.0), self.turned_to(number, step, 0.0));
+        let (mut work, mut angle, mut only) = (0.0, 0.0, None);
+        for (place, end) in self.active_parts(from, to) {
+            let (force, turned) = self.intervals[place.interval].mean_force(place.time..end);
+            // A load that never changes is that load, to the bit.
+            only = if angle == 0.0 || only == Some(force) { Some(force) } else { None };
+            work += force * turned;
+            angle += turned;
+        }
+        // The last step may end a trace beyond the cycle.
+        let beyond = self.angle_in_round(number, step, self.rounds);
+        let part = if beyond > Self::rounding(number as f64 * step) { 1.0 - beyond / step } else { 1.0 };
+        only.unwrap_or(work / angle) * part
+    }
+
+    /// The parts of the active intervals from one place to another: where each begins, and when it ends, s since the start of its
+    /// interval.
+    fn active_parts(&self, from: Place, to: Place) -> impl Iterator<Item = (Place, f64)> {
+        let end = move |place: &Place| {
+            let is_last = (place.round, place.interval) == (to.round, to.interval);
+            if is_last { to.time } else { self.intervals[place.interval].length() }
+        };
+        let parts = self.path(from, to).map(move |place| (place, end(&place)));
+        parts.filter(|(place, end)| self.intervals[place.interval].kind == Kind::Active && *end > place.time)
+    }
+
     /// By how much an angle (rad) may be off by rounding, in steps of angle `step` (rad).
     fn slack(angle: f64, step: f64) -> f64 {
         // Many steps on, the angle itself is rounded by more.
-        (SLACK * step).max(4.0 * f64::EPSILON * angle)
+        (SLACK * step).max(Self::rounding(angle))
     }
 
-    /// Where so many steps are done first.
+    /// By how much an angle (rad), or a time (s), may be rounded that is a multiple of a rounded one.
+    fn rounding(multiple: f64) -> f64 {
+        4.0 * f64::EPSILON * multiple
+    }
+
+    /// Where so many steps of angle `step` (rad) are done first.
     fn reached(&self, number: u64, step: f64) -> Place {
+        self.turned_to(number, step, Self::slack(number as f64 * step, step))
+    }
+
+    /// Where the disc first has turned by so many steps of angle `step` (rad), or by less than `slack` (rad) short of that.
+    fn turned_to(&self, number: u64, step: f64, slack: f64) -> Place {
         if number == 0 {
             return Place { round: 0, interval: 0, time: 0.0 };
         }
-        let angle = number as f64 * step;
-        let slack = Self::slack(angle, step);
-        let round = (((angle - slack) / self.angle).ceil() - 1.0).clamp(0.0, (self.rounds - 1) as f64);
-        let angle = angle - round * self.angle;
+        let round = (((number as f64 * step - slack) / self.angle).ceil() - 1.0).clamp(0.0, (self.rounds - 1) as f64);
+        let angle = self.angle_in_round(number, step, round as u64);
         let found = self.intervals.partition_point(|interval| interval.angle < angle - slack);
         let interval = found.min(self.intervals.len() - 1);
         Place { round: round as u64, interval, time: self.intervals[interval].time_to(angle) }
+    }
+
+    /// By how much so many steps of angle `step` (rad) turn the disc beyond so many whole rounds, rad: both products are taken with
+    /// all their digits.
+    fn angle_in_round(&self, number: u64, step: f64, round: u64) -> f64 {
+        let (number, round) = (number as f64, round as f64);
+        let (angle, before) = (number * step, round * self.angle);
+        (angle - before) + (number.mul_add(step, -angle) - round.mul_add(self.angle, -before))
     }
 
     /// The places at which the intervals from one place to another begin, the first being that place itself.
@@ -265,15 +305,19 @@ impl Cycle {
         iter::successors(Some(from), next)
     }
 
-    /// Where a time (s) is; where two intervals meet, in the later one.
+    /// Where a time (s) is; where two intervals meet, in the later one. A time that is the end of an interval but for rounding is
+    /// that end.
     fn place(&self, time: f64) -> Place {
-        let round = (time / self.period).floor().clamp(0.0, (self.rounds - 1) as f64);
-        let within = (time - round * self.period).clamp(0.0, self.period);
-        let found = self.intervals.partition_point(|interval| interval.end.time <= within);
-        let interval = found.min(self.intervals.len() - 1);
-        let Interval { start, .. } = self.intervals[interval];
-        let since = (within - start.time).clamp(0.0, self.intervals[interval].length());
-        Place { round: round as u64, interval, time: since }
+        let rounding = Self::rounding(time);
+        let round = ((time + rounding) / self.period).floor().clamp(0.0, (self.rounds - 1) as f64);
+        let within = (-round).mul_add(self.period, time);
+        let found = self.intervals.partition_point(|interval| interval.end.time <= within + rounding);
+        let Some(Interval { start, .. }) = self.intervals.get(found) else {
+            let interval = self.intervals.len() - 1;
+            return Place { round: round as u64, interval, time: self.intervals[interval].length() };
+        };
+        let since = within - start.time;
+        Place { round: round as u64, interval: found, time: if since <= rounding { 0.0 } else { since } }
     }
 
     fn time_of(&self, place: Place) -> f64 {

@@ -9,6 +9,8 @@ pub struct Pause {
     pub start: f64,
     /// When it ends, s.
     pub end: f64,
+    /// How long it is, s: with all digits, which its times do not have after a long while.
+    pub length: f64,
     /// Lifted or standing.
     pub kind: Kind,
 }
@@ -29,9 +31,31 @@ impl Cycle {
     pub fn pause_in(&self, time: f64, until: f64) -> Option<Pause> {
         let last = Place { round: self.rounds - 1, interval: self.intervals.len() - 1, time: 0.0 };
         let places = self.path(self.place(time), last);
-        let pauses = places.map(|place| (self.intervals[place.interval].kind, self.pause(place)));
-        let mut pauses = pauses.take_while(|(_, pause)| pause.start <= until).filter(|(_, pause)| pause.end > time);
-        pauses.find(|(kind, _)| *kind != Kind::Active).map(|(_, pause)| pause)
+        let mut pauses = places.map(|place| self.pause(place)).take_while(|pause| pause.start <= until);
+        pauses.find(|pause| pause.kind != Kind::Active && pause.end > time)
+    }
+
+    /// When the last of the pauses ends, s, that follow one another from the one at a time (s) on and begin until another.
+    pub fn rests_to(&self, time: f64, until: f64) -> f64 {
+        let last = Place { round: self.rounds - 1, interval: self.intervals.len() - 1, time: 0.0 };
+        let pauses = self.path(self.place(time), last).map(|place| self.pause(place));
+        let rest = pauses.take_while(|pause| pause.kind != Kind::Active && pause.start <= until);
+        rest.last().map_or(time, |pause| pause.end)
+    }
+
+    /// The last time up to a time (s) that lies in a pause, or ends one, s; 0 where there is none.
+    pub fn rested_until(&self, time: f64) -> f64 {
+        let Place { round, interval, time: since } = self.place(time);
+        let rests = |interval: &Interval| interval.kind != Kind::Active;
+        if since > 0.0 && rests(&self.intervals[interval]) {
+            return time;
+        }
+        let last = |intervals: &[Interval]| {
+            intervals.iter().rev().find(|interval| rests(interval)).map(|pause| pause.end.time)
+        };
+        let before = last(&self.intervals[..interval]).map(|end| (round, end));
+        let found = before.or_else(|| Some((round.checked_sub(1)?, last(&self.intervals)?)));
+        found.map_or(0.0, |(round, end)| round as f64 * self.period + end)
     }
 
     /// For how long there was a pause until a time (s), s.
@@ -44,24 +68,23 @@ impl Cycle {
     }
 
     fn resting_after(&self, number: u64, step: f64) -> impl Iterator<Item = Place> {
-        let from = if number == 0 { 0.0 } else { (number - 1) as f64 * step };
-        let to = number as f64 * step;
         // Until when a step counts as ended: as for the ends of steps.
-        let is_after = move |angle: f64, end: f64| angle > end + Self::slack(end, step);
+        let is_after = move |place: &Place, number: u64| {
+            let angle = self.intervals[place.interval].angle;
+            angle - self.angle_in_round(number, step, place.round) > Self::slack(number as f64 * step, step)
+        };
         let last = Place { round: self.rounds - 1, interval: self.intervals.len() - 1, time: 0.0 };
-        let first = self.reached(number.saturating_sub(1), step);
-        self.path(first, last)
-            .map(move |place| (place, place.round as f64 * self.angle + self.intervals[place.interval].angle))
-            .skip_while(move |(_, angle)| number > 0 && !is_after(*angle, from))
-            .take_while(move |(_, angle)| !is_after(*angle, to))
-            .map(|(place, _)| place)
+        let before = number.saturating_sub(1);
+        self.path(self.reached(before, step), last)
+            .skip_while(move |place| number > 0 && !is_after(place, before))
+            .take_while(move |place| !is_after(place, number))
             .filter(|place| self.intervals[place.interval].kind != Kind::Active)
     }
 
     fn pause(&self, Place { round, interval, .. }: Place) -> Pause {
-        let start = round as f64 * self.period;
-        let interval = &self.intervals[interval];
-        Pause { start: start + interval.start.time, end: start + interval.end.time, kind: interval.kind }
+        let (before, interval) = (round as f64 * self.period, &self.intervals[interval]);
+        let [start, end] = [interval.start, interval.end].map(|node| before + node.time);
+        Pause { start, end, length: interval.length(), kind: interval.kind }
     }
 }
 
@@ -131,7 +154,12 @@ mod tests {
             let found: Vec<Pause> = (0..=steps).flat_map(|number| cycle.pauses_after(number, step)).collect();
             let expected: Vec<Pause> = (0..rounds)
                 .flat_map(|round| PAUSES.map(|pause| (round as f64 * 8.0, pause)))
-                .map(|(round, (start, end, kind, _))| Pause { start: round + start, end: round + end, kind })
+                .map(|(round, (start, end, kind, _))| Pause {
+                    start: round + start,
+                    end: round + end,
+                    length: end - start,
+                    kind,
+                })
                 .collect();
             assert_eq!(found, expected, "{rounds} rounds in steps of {step} rad");
         }

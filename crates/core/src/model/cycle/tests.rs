@@ -161,7 +161,7 @@ fn events_are_the_longest_active_stretches() {
     let stop = cycle.events(12.0)[1];
     assert_eq!((stop.start.speed, stop.end.speed), (40.0, 0.0));
     // A run that ends within one, and a round that goes on where the last ended.
-    assert_eq!(cycle.events(2.0), [Event { start: STOPS[0], end: STOPS[2] }]);
+    assert_eq!(cycle.events(2.0), [Event { start: STOPS[0], end: STOPS[2], start_angle: 0.0, angle: 57.5 + 85.0 }]);
     let drag = [node(0.0, 1.0, 1.0), node(1.0, 2.0, 1.0)];
     assert_eq!(linear(&drag, 4).events(9.0).len(), 1);
     // The shortest turns the disc by 25 rad and 15 rad of the 20π rad of ten revolutions.
@@ -213,4 +213,57 @@ fn load_and_speed_are_told_of_a_step_or_of_the_pause_after_it() {
     assert_eq!(cycle.operation_at(step, 5.0, 3.5, Some(Kind::Lifted)), [0.0, 40.0]);
     let step = cycle.steps_until(6.0, 5.0);
     assert_eq!(cycle.operation_at(step, 5.0, 6.0, Some(Kind::Standing)), [7.0, 0.0]);
+}
+
+/// Steps, events and their angles of a table of 6 rad under load and a long pause, before or after it.
+#[test]
+fn no_step_and_no_angle_is_lost_over_many_rounds_and_long_pauses() {
+    for (rounds, period) in [(30, 86401.3), (7, 100_001.1), (211, 12_345.678), (3, 1e8 + 0.1), (5, 1e9 + 1.3)] {
+        // As the table has them, there are 1.0 s and 6 rad of it; a node that is not rounded there.
+        let late = period - 1.0;
+        let length = period - late;
+        let before = [node(0.0, 0.0, 0.0), node(late, 0.0, 0.0), node(late, 3.0, 6.0), node(period, 3.0, 6.0)];
+        let after = [node(0.0, 3.0, 6.0), node(1.0, 3.0, 6.0), node(1.0, 0.0, 0.0), node(period, 0.0, 0.0)];
+        for (nodes, length) in [(before, length), (after, 1.0)] {
+            let (cycle, what) = (linear(&nodes, rounds), format!("{rounds} times {period} s"));
+            let step = 6.0 * length / 60.0;
+            assert_eq!(cycle.steps_done(cycle.duration(), step), 60 * rounds, "{what}");
+            let events = cycle.events(cycle.duration());
+            assert_eq!(events.len() as u64, rounds, "{what}");
+            for (round, event) in events.iter().enumerate() {
+                near(event.angle, 6.0 * length);
+                let steps = [event.start_angle, event.start_angle + event.angle].map(|at| Cycle::steps_to(at, step));
+                assert_eq!(steps, [60 * round as u64, 60 * (round as u64 + 1)], "{what}");
+                // A time between two intervals is that, however it is rounded.
+                near(cycle.angle_at(event.start.time), 6.0 * length * round as f64);
+                near(cycle.angle_at(event.end.time), 6.0 * length * (round + 1) as f64);
+            }
+        }
+    }
+}
+
+/// The end of a step counts as that of an interval if it is 1e-9 of a step from it; its work is taken to the last digit.
+#[test]
+fn no_work_is_lost_where_the_end_of_a_step_is_rounded_to_that_of_an_interval() {
+    for short in [5e-11, -5e-11, 9e-11, 0.0] {
+        let (early, late) = (10.0 * (1.0 - short), 10.0 * (1.0 + short));
+        let nodes = [
+            node(0.0, 1.0, 1.0),
+            node(early, 1.0, 1.0),
+            node(early, 0.0, 0.0),
+            node(20.0, 0.0, 0.0),
+            node(20.0, 100.0, 1.0),
+            node(20.0 + late, 50.0, 1.0),
+        ];
+        let cycle = linear(&nodes, 3);
+        assert_eq!(cycle.steps_done(cycle.duration(), 1.0), 60);
+        assert!((cycle.end_of(10, 1.0) - early).abs() < 1e-9);
+        let found: f64 = (1..=60).map(|number| cycle.step(number, 1.0).load).sum();
+        let expected = 3.0 * (early + 75.0 * late);
+        assert!((found / expected - 1.0).abs() < 1e-13, "{short}: {found}, expected {expected}");
+    }
+    // The last step ends 5e-10 of a step beyond the cycle: there is no more work than that of the cycle.
+    let cycle = linear(&[node(0.0, 3.0, 1.0), node(1.0 - 5e-10, 3.0, 1.0)], 1);
+    assert_eq!(cycle.steps_done(1.0, 1.0), 1);
+    near(cycle.step(1, 1.0).load, 3.0 * (1.0 - 5e-10));
 }

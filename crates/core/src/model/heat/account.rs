@@ -174,7 +174,7 @@ impl HeatAccount {
 
     /// Takes the sub-steps of a pause that have ended until a time (s); whether that is all of them.
     pub fn pause(&mut self, model: &HeatModel, pause: &Pause, until: f64) -> bool {
-        let (length, elapsed) = (pause.end - pause.start, until - pause.start);
+        let (length, elapsed) = (pause.length, until - pause.start);
         let count = sub_steps(length);
         // Rounding of the times must not hide a sub-step that ends with `until`; late in a run, they are rounded by
         // more.

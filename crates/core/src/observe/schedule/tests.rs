@@ -97,3 +97,47 @@ fn a_pause_that_begins_with_the_end_of_a_step_has_all_its_samples() {
         assert_eq!(count, 39);
     }
 }
+
+/// Stops of a second with a pause of nine: every multiple of 10 s is in a pause, so none is that of a step. To look at all that
+/// remain for each would take hours.
+#[test]
+fn multiples_that_all_lie_in_pauses_are_found_one_after_the_other() {
+    let nodes = [(0.0, 0.0), (5.0, 0.0), (5.0, 1.0), (6.0, 1.0), (6.0, 0.0), (10.0, 0.0)];
+    let nodes = nodes.map(|(time, force)| Node::new(time, force, PI));
+    let mesh = Mesh::new(1, 2, 1, 1.0, 2.0).unwrap();
+    let rounds = 150_000;
+    let cycle = Cycle::new(&nodes, Interpolation::Linear, rounds).unwrap();
+    let parameters = Parameters { mesh, time_acceleration: 1.0, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
+    let schedule = Schedule::new(&parameters, End::Time(10.0 * rounds as f64), SampleEvery::Time(10.0), &[]);
+    let (mut now, mut count) = ((0, 0.0), 0);
+    while let Some(moment) = schedule.next(now.0, now.1) {
+        count += 1;
+        now = (moment.step, moment.time);
+        assert_eq!(now, (count, 10.0 * count as f64));
+    }
+    assert_eq!(count, rounds);
+}
+
+/// A pause of which the table has many rows, within a step: 0.5 rad before it, and 0.5 rad after it.
+#[test]
+fn multiples_in_a_pause_of_many_rows_are_found_one_after_the_other() {
+    let rows = 10_000_u32;
+    let mut nodes = vec![Node::new(0.0, 1.0, 1.0), Node::new(0.5, 1.0, 1.0)];
+    nodes.extend((0..=rows).map(|row| Node::new(0.5 + f64::from(row), 0.0, 1.0)));
+    nodes.extend([1.0, 3.0].map(|more| Node::new(0.5 + f64::from(rows) + more - 1.0, 1.0, 1.0)));
+    let cycle = Cycle::new(&nodes, Interpolation::Linear, 1).unwrap();
+    let end = cycle.duration();
+    let mesh = Mesh::new(1, 2, 1, 1.0, 2.0).unwrap();
+    let parameters =
+        Parameters { mesh, time_acceleration: 1.0 / PI, cycle: Some(Arc::new(cycle)), ..Parameters::paper() };
+    let schedule = Schedule::new(&parameters, End::Time(end), SampleEvery::Time(0.25), &[]);
+    let (mut now, mut count) = ((0, 0.0), 0);
+    while let Some(moment) = schedule.next(now.0, now.1) {
+        assert!(moment.time > now.1 || count == 0, "{moment:?}");
+        now = (moment.step, moment.time);
+        count += u32::from(moment.pause.is_some());
+    }
+    // From 0.5 s on, before the pause ends, and the step that 0.25 s is due with.
+    assert_eq!(count, 4 * rows);
+    assert_eq!(now.0, 2);
+}
