@@ -42,6 +42,47 @@ fn a_cycle_that_never_changes_is_constant_operation_bit_for_bit() {
     assert_eq!((run.floats("/event/start"), run.floats("/event/end")), (vec![0.0], vec![20.0]));
 }
 
+/// ⌊ψ(T)/(m Δθ) + 1e-9⌋ steps, as of any other cycle.
+#[test]
+fn a_cycle_that_never_changes_takes_no_step_beyond_its_end() {
+    let directory = WorkingDirectory::new();
+    let lines = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"3.33 s\", \"5 N\", \"850 rpm\"]]\nrepeat = 3\n";
+    directory.write("scene.toml", quick_with_operation(lines));
+    for m in [1, 20, 45] {
+        let set = format!("numerics.time_acceleration={m}");
+        let sets = ["--set", &set, "--set", "output.sample_every_steps=1"];
+        let outcome = directory.plateau([&["run", "scene.toml", "-o", "run.h5", "--force"][..], &sets].concat());
+        assert_eq!(outcome.status, Some(0), "{outcome:?}");
+        let time = RunFile::open(directory.path("run.h5")).floats("/time");
+        let steps = 9.99 * 850.0 / 60.0 * 690.0 / f64::from(m);
+        assert_eq!(time.len() as f64, (steps + 1e-9).floor(), "m = {m}");
+        assert!(time.last().is_some_and(|end| *end <= 9.99 * (1.0 + 1e-12)), "m = {m}: {:?}", time.last());
+    }
+}
+
+/// As it is printed, in the table and in the warning.
+#[test]
+fn the_largest_acceleration_without_a_warning_gives_none() {
+    let directory = WorkingDirectory::new();
+    let stops = scene("stops.toml");
+    for scale in ["1", "1.1", "1.234", "0.937", "0.771", "2.0001"] {
+        let set = format!("operation.cycle.speed_scale={scale}");
+        let check = |m: &str| {
+            let m = format!("numerics.time_acceleration={m}");
+            directory.plateau(["check", &stops, "--set", &set, "--set", &m])
+        };
+        let none = check("1");
+        let row = none.stdout.lines().find(|line| line.contains("largest acceleration without a warning"));
+        let printed = row.and_then(|row| row.split_whitespace().last()).unwrap();
+        let many = check("1000");
+        let advice = many.stderr.split(" is the largest acceleration").next().unwrap();
+        assert!(advice.len() < many.stderr.len(), "{many:?}");
+        for largest in [printed, advice.split_whitespace().last().unwrap()] {
+            assert!(!check(largest).stderr.contains("largest acceleration"), "{scale}: {largest}");
+        }
+    }
+}
+
 #[test]
 fn the_work_of_a_run_is_that_of_its_cycle_for_every_acceleration() {
     let directory = WorkingDirectory::new();

@@ -58,6 +58,19 @@ pub fn to_nine_digits(number: f64) -> f64 {
     format!("{number:.8e}").parse().unwrap_or(number)
 }
 
+/// The largest number with so many significant digits that is not above a positive one but for rounding: a limit that people may
+/// write down.
+pub fn not_above(number: f64, digits: usize) -> f64 {
+    let nearest = format!("{number:.*e}", digits.saturating_sub(1)).parse().unwrap_or(number);
+    if nearest <= number * (1.0 + 1e-12) {
+        return nearest;
+    }
+    // All digits that a double has, without those beyond.
+    let text = format!("{number:.17e}");
+    let cut = text.split_once('e').and_then(|(mantissa, power)| Some(format!("{}e{power}", mantissa.get(..=digits)?)));
+    cut.and_then(|text| text.parse().ok()).unwrap_or(number)
+}
+
 /// The number to fifteen significant digits: what is left of one that was stated with fewer, without what arithmetic added.
 pub fn to_fifteen_digits(number: f64) -> f64 {
     format!("{number:.14e}").parse().unwrap_or(number)
@@ -139,6 +152,12 @@ pub fn percent(fraction: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_limit_is_rounded_down() {
+        let found = [1.41652, 2.0, 3.0 - 1e-15, 0.9999999, 12345.67, 1e-7].map(|number| not_above(number, 4));
+        assert_eq!(found, [1.416, 2.0, 3.0, 0.9999, 12340.0, 1e-7]);
+    }
 
     #[test]
     fn numbers_read_well() {

@@ -31,8 +31,8 @@ impl CycleReport {
         let events = cycle.events(until);
         let angle = parameters.step_angle();
         let steps = || {
-            let step = |time| cycle.steps_until(time, angle).min(scene.steps);
-            events.iter().map(move |event| step(event.end.time) - step(event.start.time))
+            let step = |at| Cycle::steps_to(at, angle).min(scene.steps);
+            events.iter().map(move |event| step(event.start_angle + event.angle) - step(event.start_angle))
         };
         Some(Self {
             events: events.len(),
@@ -70,7 +70,7 @@ impl CycleReport {
                 if largest < 1.0 {
                     "none: the shortest event has less than ten revolutions".to_owned()
                 } else {
-                    number::short(largest)
+                    number::short(number::not_above(largest, 4))
                 },
             ),
         ]

@@ -144,12 +144,12 @@ pub(super) fn short_events(settings: &Settings, parameters: &Parameters, cycle: 
         place: settings.origin(ACCELERATION),
         key: ACCELERATION.to_owned(),
         found: format!(
-            "with {m} the shortest of the cycle's events has {:.2} simulated revolutions, {short} of {all} have less than 10",
-            10.0 * largest / m
+            "with {m} the shortest of the cycle's events has {} simulated revolutions, {short} of {all} have less than 10",
+            number::short(number::not_above(10.0 * largest / m, 4))
         ),
         bound: "expected at least 10 in every event".to_owned(),
         advice: if largest >= 1.0 {
-            format!("{} is the largest acceleration with which all have them", number::to_nine_digits(largest))
+            format!("{} is the largest acceleration with which all have them", number::not_above(largest, 9))
         } else {
             "no acceleration gives them to all: that event is that short".to_owned()
         },

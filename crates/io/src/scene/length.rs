@@ -48,8 +48,8 @@ pub(super) fn length(
                      where a scene that is extended gives another one, or raise operation.cycle.repeat to play it again"
                 )));
             }
-            // One that never changes is operation as ever, whose last step ends at the end or goes beyond it.
-            let steps = parameters.steps_of(duration);
+            // Also one that never changes: no step goes beyond the end.
+            let steps = cycle.steps_done(duration, angle);
             if steps == 0 {
                 let [duration, turned, step] = [duration, cycle.angle_at(duration), angle].map(number::plain);
                 return Err(problem(format!(
