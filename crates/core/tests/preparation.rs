@@ -100,7 +100,7 @@ fn missing_points_are_an_error_that_says_how_many() {
     let found = apply(filled, raw, Body::Pin, &mesh).unwrap();
     close(&found, &[mean, 2.0, 3.0, 6.0, mean, 2.0, 3.0, 6.0], 1e-15);
     let none = RawHeights::OnMesh(vec![f64::NAN; 8]);
-    assert_eq!(apply(filled, none, Body::Pin, &mesh), Err(PreparationError::AllMissing { points: 8 }));
+    assert_eq!(apply(filled, none, Body::Pin, &mesh), Err(PreparationError::AllMissing { outliers: 0, points: 8 }));
 }
 
 #[test]

@@ -20,9 +20,7 @@ impl Preparation {
     ) -> Result<usize, PreparationError> {
         let points = patch.heights.len() - beyond.len();
         let measured = patch.heights.len() - patch.missing();
-        if measured == 0 {
-            return Err(PreparationError::AllMissing { points });
-        }
+        refuse_none(patch, points, 0)?;
         self.level(patch, closed, report);
         let mut outliers = 0;
         if let Some(limit) = self.outlier_slope {
@@ -32,6 +30,7 @@ impl Preparation {
                 "outliers by slope: {outliers} of {measured} points are on spikes or in pits with slopes above {limit}: {}",
                 change(before, &patch.heights)
             ));
+            refuse_none(patch, points, outliers)?;
             if outliers > 0 {
                 self.level(patch, closed, report);
             }
@@ -46,6 +45,7 @@ impl Preparation {
                 Length(distance),
                 change(before, &patch.heights)
             ));
+            refuse_none(patch, points, outliers)?;
             if count > 0 {
                 self.level(patch, closed, report);
             }
@@ -81,4 +81,12 @@ impl Preparation {
         level(&mut patch.heights, patch.rows, self.level, closed);
         report.push(format!("levelled by {what}: {}", change(before, &patch.heights)));
     }
+}
+
+/// Refuses a patch of so many points of which none has a height, so many of them because they were outliers.
+fn refuse_none(patch: &Patch, points: usize, outliers: usize) -> Result<(), PreparationError> {
+    if patch.missing() == patch.heights.len() {
+        return Err(PreparationError::AllMissing { outliers, points });
+    }
+    Ok(())
 }

@@ -70,7 +70,8 @@ pub(super) fn fill(patch: &mut Patch, fill: Fill, closed: bool) {
 /// method of Bornemann and Deuflhard, Numerische Mathematik 75, 1996), so that the cost grows as the number of points.
 fn interpolate(grid: &Grid, heights: &mut [f64]) {
     let gaps: Vec<usize> = (0..heights.len()).filter(|index| heights[*index].is_nan()).collect();
-    if gaps.is_empty() {
+    // Without any height there is nothing to span from, on no coarser grid either.
+    if gaps.is_empty() || gaps.len() == heights.len() {
         return;
     }
     let (coarse, mut coarse_heights) = grid.halved(heights);

@@ -48,8 +48,10 @@ pub enum PreparationError {
     )]
     NoDeviation,
     /// No point has a height.
-    #[error("all {points} points are missing")]
+    #[error("all {points} points are missing{}", AsAllOutliers(*outliers))]
     AllMissing {
+        /// Those of them that were taken out as outliers.
+        outliers: usize,
         /// All points.
         points: usize,
     },
@@ -220,6 +222,16 @@ struct AsOutliers(usize);
 impl fmt::Display for AsOutliers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.0 == 0 { Ok(()) } else { write!(f, ", {} of them as outliers", self.0) }
+    }
+}
+
+/// How many of the points, of which none is left, are outliers, in words, and what to do then.
+struct AsAllOutliers(usize);
+
+impl fmt::Display for AsAllOutliers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let advice = if self.0 == 0 { "" } else { ": give outliers or outlier_slope a larger limit, or leave it out" };
+        write!(f, "{}{advice}", AsOutliers(self.0))
     }
 }
 

@@ -112,7 +112,7 @@ impl Seen {
             (count, mean_radius, sums) = (count + 1.0, mean_radius + radius, [sums[0] + x, sums[1] + y]);
         }
         if count == 0.0 {
-            return Err(PreparationError::AllMissing { points: patch.heights.len() });
+            return Err(PreparationError::AllMissing { outliers: 0, points: patch.heights.len() });
         }
         let middle = libm::atan2(sums[1], sums[0]);
         let (sine, cosine) = (libm::sin(middle), libm::cos(middle));

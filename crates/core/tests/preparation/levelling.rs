@@ -125,3 +125,20 @@ fn outliers_are_taken_out_and_the_surface_is_levelled_again_without_them() {
     let error = apply(refused, RawHeights::OnMesh(spiked.heights), Body::Pin, &mesh).unwrap_err();
     assert!(error.to_string().starts_with("8 of 1024 points are missing, 8 of them as outliers; fill = "), "{error}");
 }
+
+#[test]
+fn outliers_that_leave_no_point_are_refused_however_gaps_are_filled() {
+    // Half of the heights at +1 um and half at -1 um: the median is 0, every deviation 1 um, and half a robust standard deviation
+    // 0.74 um.
+    let mesh = ring(400, 32, 32);
+    let chessboard = patch(32, 32, 1e-3, |column, row| if (column + row) % 2 == 0 { 1e-6 } else { -1e-6 });
+    let stripes = patch(32, 32, 1e-3, |column, _| if column % 2 == 0 { 1e-6 } else { -1e-6 });
+    for fill in [None, Some(Fill::Level), Some(Fill::Interpolate)] {
+        for (pixels, level) in [(&chessboard, Level::None), (&stripes, Level::Plane)] {
+            let preparation = Preparation { level, outliers: Some(0.5), fill, ..Preparation::default() };
+            let error = apply(preparation, RawHeights::OnMesh(pixels.heights.clone()), Body::Pin, &mesh).unwrap_err();
+            assert_eq!(error, PreparationError::AllMissing { outliers: 1024, points: 1024 });
+            assert!(error.to_string().contains("1024 of them as outliers: give outliers or outlier_slope a larger"));
+        }
+    }
+}
