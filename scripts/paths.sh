@@ -20,6 +20,13 @@ can_start() {
     [ ! -f "$program" ] || [ -x "$program" ] ||
         die "$program may not be started: the file system is mounted noexec, or the file lost its permission;" \
             "set CARGO_TARGET_DIR to a folder elsewhere, or remove the file"
+    # With less address space than the program itself takes, the system ends it by a signal before it can say anything.
+    limit=$(ulimit -v 2>/dev/null)
+    case $limit in
+        '' | *[!0-9]*) ;;
+        *) [ "$limit" -ge 32768 ] || die "the program needs 64 MiB of memory and may have $limit KiB of address space:" \
+            "allow more of it (ulimit -v)" ;;
+    esac
 }
 
 # Status 2: nobody can tell, for there is no find.
