@@ -19,11 +19,14 @@ fn a_measured_patch_and_the_numbers_of_a_rig_become_a_figure() {
     let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
     let own = text.lines().filter(|line| line.contains("# <-")).count();
     assert!((8..15).contains(&own), "{own} keys are the user's:\n{text}");
-    assert!(text.contains("pixel = \"50 um\""), "the scan is smaller than a cell:\n{text}");
+    // The scan is smaller than a cell: it is not read as larger unless that is asked for.
+    assert!(text.contains("\n# pixel = \"50 um\" ") && text.contains("less than 4 cells"), "{text}");
+    let refused = directory.plateau(["check", "mine.toml"]);
+    assert!(refused.status == Some(2) && refused.stderr.contains("take smaller cells"), "{}", refused.stderr);
     // Sq of the scan is 10.08 nm, as other programs have it (crates/io/tests/sdf.rs).
     assert!(text.contains("\n# cutoff = \"10 nm\" "), "{text}");
     assert!(outcome.stdout.contains("no peaks are cut. With cutoff = \"10 nm\", one rms height"), "{}", outcome.stdout);
-    fs::write(directory.path("mine.toml"), text.replace("pixel = \"50 um\"", "pixel = \"2 um\"")).unwrap();
+    fs::write(directory.path("mine.toml"), text.replace("# pixel = \"50 um\"", "pixel = \"2 um\"")).unwrap();
     for command in [&["check", "mine.toml"][..], &["run", "mine.toml"], &["plot", "mine.h5", "-o", "figures"]] {
         let outcome = directory.plateau(command);
         assert_eq!(outcome.status, Some(0), "{command:?}: {}", outcome.stderr);
@@ -45,8 +48,8 @@ fn the_path_of_the_surface_is_relative_to_the_scene() {
     directory.plateau(["new", "scenes/mine.toml", "--disc", "scenes/patch.sdf", "--diameter=10 mm"]).quiet_success();
     let text = fs::read_to_string(directory.path("scenes/mine.toml")).unwrap();
     assert!(text.contains("file = \"patch.sdf\"") && text.contains("shape = \"disc\""), "{text}");
-    // The scan is too small for such a ring, which is a warning.
-    let checked = directory.plateau(["check", "scenes/mine.toml"]);
+    // It is found from elsewhere; as it stands the scan is too small.
+    let checked = directory.plateau(["check", "scenes/mine.toml", "--set", "disc.prepare.pixel=50 um"]);
     assert_eq!(checked.status, Some(0), "{}", checked.stderr);
 }
 
@@ -127,7 +130,47 @@ fn spikes_and_a_sliding_speed_are_taken_as_they_are_meant() {
     assert!(RunFile::open(directory.path("mine.h5")).text("scene").contains("sliding_speed"), "{}", outcome.stdout);
     fs::copy(repository().join("data/surfaces/afm_256x256.sdf"), directory.path("afm.sdf")).unwrap();
     let said = directory.plateau(["new", "afm.toml", "--disc", "afm.sdf"]).quiet_success();
-    assert!(said.contains("is read as 12.8 mm by 12.8 mm"), "{said}");
+    assert!(said.contains("the scene does not run as it is: take a cell_size of at most 125 nm"), "{said}");
+    assert!(said.contains("With pixel = \"50 um\" it would be read as 12.8 mm by 12.8 mm"), "{said}");
+}
+
+#[test]
+fn a_lay_is_told_and_rotate_offered() {
+    let directory = WorkingDirectory::new();
+    // 100 x 100 points of 20 um: grooves of 1 um, 0.2 mm apart, at an angle a to x, and steps of 0.1 um beside them.
+    let write = |degrees: f64| {
+        let (sine, cosine) = (degrees.to_radians().sin(), degrees.to_radians().cos());
+        let height = |i: u32, j: u32| {
+            let along = f64::from(j) * cosine - f64::from(i) * sine;
+            (along * std::f64::consts::TAU / 10.0).sin()
+                + 0.1 * f64::from((i * 7919 + j * 104_729 + i * j * 31) % 17) / 17.0
+        };
+        let row = |j: u32| (0..100).map(|i| format!("{:.4}", height(i, j))).collect::<Vec<_>>().join("\t") + "\n";
+        directory.write("lay.txt", format!("# unit: um\n# pitch: 20 um\n{}", (0..100).map(row).collect::<String>()));
+    };
+    let rotated = |name: &str| {
+        let new = ["new", "mine.toml", "--disc", "lay.txt", "--force"];
+        let said = directory.plateau(new).quiet_success();
+        let text = fs::read_to_string(directory.path("mine.toml")).unwrap();
+        let told = text.lines().find(|line| line.starts_with("# rotate")).unwrap_or_default().to_owned();
+        fs::write(directory.path(name), text.replace("\n# rotate", "\nrotate")).unwrap();
+        let described = directory.plateau(["surface", "--prepare", name, "--json"]);
+        let surfaces: serde_json::Value = serde_json::from_str(&described.stdout).unwrap();
+        (said, told, surfaces[0]["comparison"]["patch"]["Std"].as_f64().unwrap())
+    };
+    for (degrees, rotate, runs, then) in [
+        (90.0, "90 deg", "across sliding, along y of the file", 0.0),
+        (30.0, "-30 deg", "oblique to sliding, x of the file", 0.0),
+        (-50.0, "50 deg", "oblique to sliding", 0.0),
+        (0.0, "90 deg", "along sliding, x of the file", 90.0),
+    ] {
+        write(degrees);
+        let (said, told, turned) = rotated("turned.toml");
+        assert!(told.contains(&format!("rotate = \"{rotate}\"")) && told.contains(runs), "{degrees}: {told}");
+        assert!(said.contains(&format!("its lay runs {runs}")) && said.contains("Str"), "{degrees}: {said}");
+        let off = (turned - then).rem_euclid(180.0);
+        assert!(off.min(180.0 - off) < 1.0, "{degrees}: turned by {rotate} it runs at {turned} deg");
+    }
 }
 
 #[test]

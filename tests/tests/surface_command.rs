@@ -73,7 +73,7 @@ fn json_has_the_symbols_of_the_standard() {
     let units = surface["units"].as_object().expect("units");
     for (symbol, unit) in units {
         assert!(surface.get(symbol).is_some(), "{symbol}");
-        assert!(["um", "1", "%"].iter().any(|known| unit == known), "{symbol}: {unit}");
+        assert!(["um", "1", "%", "deg"].iter().any(|known| unit == known), "{symbol}: {unit}");
     }
     let counts = ["columns", "rows", "points", "measured"];
     for (key, value) in surface.as_object().expect("an object") {

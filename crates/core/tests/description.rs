@@ -134,6 +134,36 @@ fn autocorrelation_of_a_checkerboard_of_waves_is_that_of_either_direction() {
 }
 
 #[test]
+fn the_direction_of_a_lay_is_that_of_its_grooves() {
+    // Grooves at an angle a to x are heights that depend on y cos a - x sin a alone: Std is a. With noise of half their rms height and
+    // a tenth of the points missing; on square points, on such as are 4 times as far apart along x, and with waves of 7 points.
+    let noise = gaussian_sample(8, 40_000);
+    for degrees in [0.0, 10.0, 30.0, 45.0, 60.0, 87.0, 90.0, -20.0, -75.0] {
+        let (sine, cosine) = (f64::to_radians(degrees).sin(), f64::to_radians(degrees).cos());
+        for (columns, rows, pitch, wave) in
+            [(200, 200, [1e-6, 1e-6], 12.3e-6), (100, 400, [4e-6, 1e-6], 33e-6), (200, 200, [1e-6, 1e-6], 7.3e-6)]
+        {
+            let groove = |point: usize| {
+                let (x, y) = ((point / rows) as f64 * pitch[0], (point % rows) as f64 * pitch[1]);
+                let height = SQRT_2 * (TAU * (y * cosine - x * sine) / wave).cos() + 0.5 * noise[point];
+                if point % 10 == 3 { f64::NAN } else { height }
+            };
+            let heights: Vec<f64> = (0..columns * rows).map(groove).collect();
+            let grid = Grid { columns, rows, pitch: Some(pitch), heights: &heights };
+            let found = Autocorrelation::of(&grid, 0.0).expect("a pitch");
+            let off = (found.direction.to_degrees() - degrees).rem_euclid(180.0);
+            // A wave of the length w over the reach R has a width of w/R: here from 4 to 9 degrees.
+            assert!(off.min(180.0 - off) < 0.3, "{degrees}, {pitch:?}, {wave:e}: {found:?}");
+            assert!(found.direction > -PI / 2.0 && found.direction <= PI / 2.0, "{found:?}");
+        }
+    }
+    // The sum of both directions has none.
+    let both = heights(400, 400, |x, y| (TAU * x / 40.0).cos() + (TAU * y / 40.0).cos());
+    let found = Autocorrelation::of(&Grid { pitch: Some([1e-6; 2]), ..grid(400, 400, &both) }, 0.0).expect("a pitch");
+    assert!(found.aspect_ratio > 0.5 && found.direction.is_nan(), "{found:?}");
+}
+
+#[test]
 fn missing_points_take_no_part() {
     // The same field with a third of its points missing, at random: each parameter within the sampling error of 40 000
     // independent heights (relative: about 1/√N for Sq, a few times that for the others).
@@ -163,9 +193,9 @@ fn what_varies_from_point_to_point_has_no_length() {
     let lines: Vec<f64> = (0..60_000).map(|point| noise[point % 200]).collect();
     for heights in [&noise, &part, &lines] {
         let found = Autocorrelation::of(&grid(300, 200, heights), 0.0).expect("a pitch");
-        let Autocorrelation { length, aspect_ratio, aspect_ratio_below, below_pitch } = found;
+        let Autocorrelation { length, aspect_ratio, aspect_ratio_below, direction, below_pitch } = found;
         assert!(
-            below_pitch && [length, aspect_ratio, aspect_ratio_below].iter().all(|value| value.is_nan()),
+            below_pitch && [length, aspect_ratio, aspect_ratio_below, direction].iter().all(|value| value.is_nan()),
             "{found:?}"
         );
     }
@@ -213,7 +243,7 @@ fn a_plane_is_flat_once_it_is_taken_out() {
     let flat = Description::of(&grid(300, 200, &heights)).expect("heights");
     for parameter in PARAMETERS {
         let value = (parameter.value)(&flat).expect("a pitch");
-        let has_shape = ["sk", "ku", "Smr", "Sal", "Str"].iter().any(|part| parameter.symbol.contains(part));
+        let has_shape = ["sk", "ku", "Smr", "Sal", "Str", "Std"].iter().any(|part| parameter.symbol.contains(part));
         // Sk, Spk and Svk are heights, Ssk, Sku, Rsk and Rku are not.
         assert!(if has_shape { value.is_nan() } else { value == 0.0 }, "{} is {value}", parameter.symbol);
     }

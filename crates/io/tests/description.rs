@@ -87,6 +87,7 @@ impl Compared {
             Unit::Height | Unit::Length => value * 1e6,
             Unit::Percent => value * 100.0,
             Unit::Number => value,
+            Unit::Angle => value.to_degrees(),
         }
     }
 

@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
-use plateau_core::surface::describe::HeightParameters;
+use plateau_core::surface::describe::{Autocorrelation, Description, Grid, HeightParameters};
 use plateau_core::surface::{Condition, Extension, Length, Level, Spikes, implausible, level};
+use plateau_io::memory::refuse_beyond;
 use plateau_io::surface::{self, FileError, Lay, Measured, TextError};
 
 use super::{CELL, line};
@@ -28,11 +29,21 @@ pub fn disc(scene: &Path, disc: &Path, reading: &ReadArguments) -> Result<(Strin
     lines.extend(reading.keys().into_iter().map(|(key, value)| line(key, value, "<-")));
     let mut notes = Vec::new();
     lines.extend([String::new(), "[disc.prepare]".to_owned()]);
-    if measured.profile_lay.is_none() {
-        let rotate = "# rotate = \"90 deg\"";
-        lines.push(format!("{rotate:40}# x of the file is along sliding: turn it where the lay would be across"));
-    }
     let condition = condition(&measured);
+    if measured.profile_lay.is_none() {
+        let form = condition.map_or(Level::Plane, |condition| condition.form);
+        let (rotate, remark) = match lay(&measured, form) {
+            None => (
+                "90 deg".to_owned(),
+                "x of the file is along sliding: turn it where the lay would be across".to_owned(),
+            ),
+            Some(lay) => {
+                notes.push(format!("{}: {}", disc.display(), lay.told()));
+                (lay.rotate(), lay.remark())
+            }
+        };
+        lines.push(format!("{:40}# {remark}", format!("# rotate = \"{rotate}\"")));
+    }
     match &condition {
         Some(Condition { form: Level::Quadratic, rms_of_forms: [plane, quadratic], .. }) => {
             let bow = format!(
@@ -143,6 +154,69 @@ fn read(disc: &Path, reading: &ReadArguments) -> Result<Measured, String> {
     ))
 }
 
+/// Str below which a lay is told.
+const CLEAR_LAY: f64 = 0.3;
+/// A lay that runs along or across sliding but for this angle is said to, deg.
+const ALONG: f64 = 5.0;
+
+/// The lay of a patch.
+struct ClearLay {
+    /// Str, or what it is less than.
+    aspect_ratio: String,
+    /// Std, deg, from along sliding towards outward.
+    direction: f64,
+}
+
+/// The lay of a patch, if it has a clear one and there is memory to look for it.
+fn lay(measured: &Measured, form: Level) -> Option<ClearLay> {
+    let Measured { columns, rows, pitch, ref heights, .. } = *measured;
+    refuse_beyond(Description::memory_needed(columns, rows)).ok()?;
+    let mut heights = heights.clone();
+    level(&mut heights, rows, form, false);
+    let mean = HeightParameters::of(&heights)?.mean;
+    let found = Autocorrelation::of(&Grid { columns, rows, pitch, heights: &heights }, mean)?;
+    let ratio = number::rounded(found.largest_aspect_ratio(), 2);
+    let aspect_ratio = format!("Str {}{ratio}", if found.aspect_ratio.is_nan() { "< " } else { "" });
+    let is_clear = found.largest_aspect_ratio() < CLEAR_LAY && !found.direction.is_nan();
+    is_clear.then(|| ClearLay { aspect_ratio, direction: found.direction.to_degrees() })
+}
+
+impl ClearLay {
+    /// Which way it runs, in words.
+    fn runs(&self) -> String {
+        let Self { aspect_ratio, direction } = self;
+        let way = match direction.abs() {
+            ..=ALONG => "along sliding, x of the file",
+            angle if angle >= 90.0 - ALONG => "across sliding, along y of the file",
+            _ => "oblique to sliding, x of the file",
+        };
+        format!("{way} ({aspect_ratio}, Std {} deg)", number::rounded(*direction, 2))
+    }
+
+    /// The angle that turns it along sliding; of one that runs along, across.
+    fn rotate(&self) -> String {
+        let is_oblique = (ALONG..90.0 - ALONG).contains(&self.direction.abs());
+        let degrees = if is_oblique { -self.direction.round() } else { 90.0 };
+        format!("{} deg", number::plain(degrees))
+    }
+
+    /// Where that turns it.
+    fn to(&self) -> &'static str {
+        if self.direction.abs() <= ALONG { "across sliding" } else { "along sliding" }
+    }
+
+    /// What stands beside the key in the scene.
+    fn remark(&self) -> String {
+        format!("<- the lay runs {}: this turns it {}", self.runs(), self.to())
+    }
+
+    /// What is said of it.
+    fn told(&self) -> String {
+        let (runs, rotate, to) = (self.runs(), self.rotate(), self.to());
+        format!("its lay runs {runs}: rotate = \"{rotate}\" turns it {to}, where the disc has it so")
+    }
+}
+
 /// The path of the surface as the scene has it: relative where it is in or below the scene's folder.
 fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
     let folder = std::path::absolute(scene).ok().and_then(|scene| scene.parent().map(Path::to_owned));
@@ -151,7 +225,8 @@ fn path_from(scene: &Path, disc: &Path) -> Result<String, String> {
     path.to_str().map(str::to_owned).ok_or_else(|| "its path is not UTF-8, as a scene is: rename it".to_owned())
 }
 
-/// Lines of the scene that read a patch as larger that is smaller than the fewest cells that are needed of it, and what that means.
+/// Lines of the scene about a patch that is smaller than the fewest cells that are needed of it, and what that means; it is not read as
+/// larger unless the user says so.
 fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
     let Measured { columns, rows, pitch, profile_lay, .. } = *measured;
     let [x, y] = pitch?;
@@ -169,15 +244,16 @@ fn smaller_than_cells(measured: &Measured) -> Option<(Vec<String>, String)> {
         None => format!("{} by {}", Length(columns as f64 * x), Length(rows as f64 * y)),
     };
     let (is, read_as) = (size(x, y), size(CELL * 1e-6, CELL * 1e-6));
-    let remark = format!("<- the patch is {is}, less than {cells}: read it as larger,");
+    let pixel = format!("pixel = \"{CELL} um\"");
+    let most = Length(least / fewest as f64);
     let lines = vec![
-        line("pixel", format!("{CELL} um"), &remark),
-        format!("{:40}# or leave this out and take smaller cells", ""),
+        format!("{:40}# <- the patch is {is}, less than {cells}: it does not run before you", format!("# {pixel}")),
+        format!("{:40}# take smaller cells (cell_size of at most {most}) or a larger patch, or read it as larger", ""),
     ];
     let note = format!(
-        "it is {is}, less than {cells} of {CELL} um, and is read as {read_as} (pixel = \"{CELL} um\") with the heights as \
-         they are: a much smoother disc than the measured one. At its own size it needs smaller cells, or a larger area. If this is \
-         not its size, correct the pitch"
+        "it is {is}, less than {cells} of {CELL} um, and the scene does not run as it is: take a cell_size of at most {most}, or \
+         measure a larger area. With {pixel} it would be read as {read_as}, with the heights as they are: a much smoother disc than \
+         the measured one. If this is not its size, correct the pitch"
     );
     Some((lines, note))
 }

@@ -1,7 +1,9 @@
 //! What a scene makes of a patch beside the patch itself.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use plateau_core::model::mesh::Mesh;
-use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, sampling_errors};
+use plateau_core::surface::describe::{Description, Grid, PARAMETERS, Parameter, Unit, sampling_errors};
 use plateau_core::surface::{Body, Level, Patch, level};
 use plateau_present::figure::surface_description::{DescribedSurface, Drawn, Ranges};
 
@@ -105,7 +107,12 @@ impl Comparison {
             let cells = self.cells.as_ref().map_or(f64::NAN, |cells| value(&cells.description));
             let error = self.cells.as_ref().and_then(|cells| cells.errors.get(place)).copied().unwrap_or(f64::NAN);
             let body = value(body);
-            Row { parameter, patch: value(&self.patch), cells, error, body, difference: body - cells }
+            let mut difference = body - cells;
+            if parameter.unit == Unit::Angle && difference.abs() > FRAC_PI_2 {
+                // A direction and its opposite are the same.
+                difference -= PI.copysign(difference);
+            }
+            Row { parameter, patch: value(&self.patch), cells, error, body, difference }
         })
     }
 }

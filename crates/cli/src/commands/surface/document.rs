@@ -24,6 +24,7 @@ pub fn scale(parameter: &Parameter) -> (&'static str, f64) {
         Unit::Height | Unit::Length => ("um", 1e6),
         Unit::Number => ("1", 1.0),
         Unit::Percent => ("%", 100.0),
+        Unit::Angle => ("deg", 180.0 / std::f64::consts::PI),
     }
 }
 

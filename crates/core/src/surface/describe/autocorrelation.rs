@@ -1,4 +1,4 @@
-//! Autocorrelation length and aspect ratio (ISO 25178-2:2021, 4.3.2 and 4.3.3, spatial parameters).
+//! Autocorrelation length, aspect ratio and direction (ISO 25178-2:2021, 4.3.2 to 4.3.4, spatial parameters).
 
 use rayon::prelude::*;
 
@@ -7,6 +7,9 @@ use super::correlate::{self, Lags, correlate};
 
 /// s: value to which the autocorrelation decays.
 const CORRELATION_THRESHOLD: f64 = 0.2;
+
+/// Directions that are compared, at least.
+const FEWEST_DIRECTIONS: usize = 720;
 
 /// Spatial parameters, from the autocorrelation for lags up to half the grid's extent in either direction.
 ///
@@ -23,12 +26,23 @@ pub struct Autocorrelation {
     /// What Str is less than where it is NaN because of a direction in which the autocorrelation does not decay: Sal over
     /// half the extent in that direction.
     pub aspect_ratio_below: f64,
+    /// Std, rad, above −π/2 and up to π/2, from x towards y: the direction of the lay; NaN if Str is not below
+    /// [`LAY`](Self::LAY).
+    pub direction: f64,
     /// Whether the shortest distance ends before the next point: it then is somewhere below the pitch, where the grid has
     /// nothing to tell.
     pub below_pitch: bool,
 }
 
 impl Autocorrelation {
+    /// Str below which a surface has a direction.
+    pub const LAY: f64 = 0.5;
+
+    /// Str, or what it is less than; NaN where neither is determined.
+    pub fn largest_aspect_ratio(&self) -> f64 {
+        if self.aspect_ratio.is_nan() { self.aspect_ratio_below } else { self.aspect_ratio }
+    }
+
     /// Bytes that [`of`](Self::of) takes for a grid of that size, at most.
     pub(super) fn memory_needed(columns: usize, rows: usize) -> u64 {
         let lags = Lags::of(columns, rows);
@@ -50,7 +64,7 @@ impl Autocorrelation {
         let lags = Lags::of(grid.columns, grid.rows);
         let columns: Vec<&[f64]> = grid.column_slices().collect();
         let [length, aspect_ratio, aspect_ratio_below] = [f64::NAN; 3];
-        let none = Self { length, aspect_ratio, aspect_ratio_below, below_pitch: false };
+        let none = Self { length, aspect_ratio, aspect_ratio_below, direction: f64::NAN, below_pitch: false };
         if lags.x == 0 || lags.y == 0 || columns.len() != grid.columns {
             return Some(none);
         }
@@ -72,13 +86,15 @@ impl Autocorrelation {
             }
         }
         let (length, below_pitch) = shortest;
-        Some(match (length.is_finite(), beyond > 0.0) {
+        let found = match (length.is_finite(), beyond > 0.0) {
             (false, _) => none,
             (true, _) if below_pitch => Self { below_pitch, ..none },
             (true, true) => Self { length, aspect_ratio_below: length / beyond.max(longest.0), ..none },
             (true, false) if longest.1 => Self { length, ..none },
             (true, false) => Self { length, aspect_ratio: length / longest.0, ..none },
-        })
+        };
+        let has_lay = found.largest_aspect_ratio() < Self::LAY;
+        Some(if has_lay { Self { direction: field.direction(), ..found } } else { found })
     }
 }
 
@@ -156,6 +172,50 @@ impl Field {
             before = value;
         }
         Reach::Beyond(length)
+    }
+
+    /// The direction along which the autocorrelation is largest in the mean, from the next lag to the nearer edge of the window; as
+    /// for `direction` of [`Autocorrelation`].
+    ///
+    /// The mean along a direction is the power of the waves whose crests run along it: a wave across the direction keeps its sign
+    /// there, any other changes it and takes no part. Where the surface has one lay it is the direction across the maximum of the
+    /// angular spectrum (ISO 25178-2:2021, 4.3.4), without the leakage of a transform that closes the field.
+    fn direction(&self) -> f64 {
+        let step = self.pitch[0].min(self.pitch[1]);
+        let reach = (self.lags.x as f64 * self.pitch[0]).min(self.lags.y as f64 * self.pitch[1]);
+        let steps = ((reach / step) as usize).max(1);
+        // Two waves of the shortest length that points can show differ by 1/steps rad over the reach.
+        let count = FEWEST_DIRECTIONS.max(4 * steps);
+        let angle = |place: f64| std::f64::consts::PI * (place / count as f64 - 0.5);
+        let mean = |place: usize| {
+            let (sine, cosine) = (libm::sin(angle(place as f64)), libm::cos(angle(place as f64)));
+            let values = (1..=steps).map(|index| {
+                let distance = index as f64 * step;
+                self.at([distance * cosine / self.pitch[0], distance * sine / self.pitch[1]])
+            });
+            let known = values.filter(|value| !value.is_nan());
+            let (sum, known) = known.fold((0.0, 0.0), |(sum, known), value| (sum + value, known + 1.0));
+            sum / known
+        };
+        let means: Vec<f64> = (0..count).into_par_iter().map(mean).collect();
+        let known = means.iter().enumerate().filter(|(_, mean)| !mean.is_nan());
+        let Some((best, _)) = known.max_by(|(_, one), (_, other)| one.total_cmp(other)) else { return f64::NAN };
+        let [before, top, after] = [count - 1, 0, 1].map(|shift| means[(best + shift) % count]);
+        // The summit of the parabola through the largest mean and its neighbours.
+        let shift = 0.5 * (before - after) / (before - 2.0 * top + after);
+        let place = best as f64 + if shift.is_finite() { shift } else { 0.0 };
+        let place = if place <= 0.0 { place + count as f64 } else { place };
+        angle(place)
+    }
+
+    /// Linear between the four lags about a place within the window, in pitches, x not negative.
+    fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let ((left, x_part), (below, y_part)) = (whole_and_part(x), whole_and_part(y));
+        let edge = [self.lags.x as isize, self.lags.y as isize];
+        let lag = |x: isize, y: isize| (x.clamp(0, edge[0]) as usize, y.clamp(-edge[1], edge[1]));
+        let column = |x| self.between([lag(x, below), lag(x, below + 1)], y_part);
+        let first = column(left);
+        if x_part == 0.0 { first } else { first + x_part * (column(left + 1) - first) }
     }
 
     /// Linear between two neighbouring lags, so far from the first to the second.

@@ -28,6 +28,8 @@ pub enum Unit {
     Number,
     /// A fraction that is given in percent.
     Percent,
+    /// An angle, rad.
+    Angle,
 }
 
 /// Parameters that belong together.
@@ -99,6 +101,7 @@ pub const PARAMETERS: &[Parameter] = parameters! {
         |d| d.gradient.map(|gradient| gradient.developed_area_ratio);
     "Sal", Spatial, Length, "autocorrelation length", |d| d.autocorrelation.map(|spatial| spatial.length);
     "Str", Spatial, Number, "texture aspect ratio", |d| d.autocorrelation.map(|spatial| spatial.aspect_ratio);
+    "Std", Spatial, Angle, "texture direction: lay from x towards y", |d| d.autocorrelation.map(|spatial| spatial.direction);
     "Ra_x", Profile, Height, "arithmetical mean height, along", |d| along(d, |p| p.arithmetical_mean_height);
     "Rq_x", Profile, Height, "root-mean-square height, along", |d| along(d, |p| p.root_mean_square_height);
     "Rsk_x", Profile, Number, "skewness, along", |d| along(d, |p| p.skewness);

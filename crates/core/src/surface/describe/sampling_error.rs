@@ -4,11 +4,12 @@ use super::{Description, Grid, PARAMETERS};
 
 /// Blocks into which a surface is divided, about.
 const BLOCKS: f64 = 25.0;
-/// Parameters that are set by single points, of which blocks tell nothing (Miller 1974, doi:10.1093/biomet/61.1.1).
-const EXTREMES: [&str; 3] = ["Sp", "Sv", "Sz"];
+/// Parameters of which blocks tell nothing: those that are set by single points (Miller 1974, doi:10.1093/biomet/61.1.1), and a
+/// direction, which has no mean.
+const WITHOUT: [&str; 4] = ["Sp", "Sv", "Sz", "Std"];
 
 /// The standard error of every parameter of [`PARAMETERS`], SI units: what it varies by from one part of this size of a
-/// larger surface to another. NaN where it is not determined, for extremes, and with less than four blocks.
+/// larger surface to another. NaN where it is not determined, for extremes and the direction, and with less than four blocks.
 ///
 /// The surface is divided into some 25 blocks, as square as may be. Of the parameters without one block each, θ_i of B, the
 /// variance is (B − 1)/B Σ (θ_i − θ̄)²: the jackknife over blocks (Künsch 1989, doi:10.1214/aos/1176347265). Blocks have to be
@@ -39,8 +40,8 @@ pub fn sampling_errors(grid: &Grid) -> Vec<f64> {
         let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
         (squares * (count - 1.0) / count).sqrt()
     };
-    let is_extreme = |index: usize| EXTREMES.contains(&PARAMETERS[index].symbol);
-    parameters.iter().enumerate().map(|(n, values)| if is_extreme(n) { f64::NAN } else { error(values) }).collect()
+    let has_none = |index: usize| WITHOUT.contains(&PARAMETERS[index].symbol);
+    parameters.iter().enumerate().map(|(n, values)| if has_none(n) { f64::NAN } else { error(values) }).collect()
 }
 
 /// Blocks along x and y.
