@@ -42,6 +42,7 @@ mod said_of_studies;
 mod schedule;
 mod shell;
 mod surface_command;
+mod surfaces_of_runs;
 mod sweep;
 mod sweep_answers;
 mod sweep_effects;

@@ -207,6 +207,23 @@ fn a_base_may_be_an_enumeration_as_in_run_files() {
 }
 
 #[test]
+fn a_base_whose_dimensions_are_named_y_and_x_is_laid_out_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("base.h5");
+    let file = hdf5::File::create(&path).unwrap();
+    let base = Array2::from_shape_fn((ROWS, PIN_COLUMNS), |(row, column)| u8::from(column == 1 && row == 0));
+    let dataset = file.new_dataset_builder().with_data(&base).create("base").unwrap();
+    let labels: Vec<VarLenUnicode> = ["y", "x"].map(|label| label.parse().unwrap()).into();
+    dataset.new_attr::<VarLenUnicode>().shape(2).create("DIMENSION_LABELS").unwrap().write_raw(&labels).unwrap();
+    drop((dataset, file));
+    let mut scene = scene();
+    scene.pin_base = BaseSource::File { path, dataset: None };
+    let loaded = load(&scene).unwrap().surfaces.pin_base;
+    let fibres: Vec<usize> = (0..loaded.len()).filter(|cell| loaded[*cell] == Base::Primary).collect();
+    assert_eq!(fibres, [ROWS]);
+}
+
+#[test]
 fn unsuitable_hdf5_content_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = hdf5_file(folder.path());

@@ -270,6 +270,78 @@ fn what_is_written_reads_back_bit_for_bit() {
 }
 
 #[test]
+fn dimensions_named_x_and_y_are_laid_out_by_name() {
+    // The formulas with which xarray and h5py wrote the files, as their README has them.
+    for (name, dataset, notes) in [
+        (
+            "packed.nc",
+            None,
+            &[
+                "dataset /height",
+                "dimensions (y, x), y decreases in the file",
+                "heights are the stored numbers times scale_factor 1e-6 plus add_offset 5e-6",
+            ][..],
+        ),
+        ("labels.h5", Some("z"), &["dataset /z", "dimensions (y, x)"]),
+    ] {
+        let dataset = dataset.map(str::to_owned);
+        let measured = read(&corpus(name), &ReadOptions { dataset, ..options() }).unwrap();
+        assert_eq!((measured.columns, measured.rows), (5, 3), "{name}");
+        let pitch = measured.pitch.unwrap();
+        assert!((pitch[0] - 2e-6).abs() < 1e-18 && (pitch[1] - 5e-6).abs() < 1e-18, "{name}: {pitch:?}");
+        for (at, height) in measured.heights.iter().enumerate() {
+            let (x, y) = (at / 3, at % 3);
+            let expected = 1e-6 * (10 * x + y) as f64;
+            let is_right = if (x, y) == (2, 1) { height.is_nan() } else { (height - expected).abs() < 1e-20 };
+            assert!(is_right, "{name}: {height} at column {x}, row {y}");
+        }
+        assert_eq!(measured.notes, notes, "{name}");
+    }
+    // The scene must not say another pitch than the coordinates.
+    let found = message(&corpus("packed.nc"), &ReadOptions { pitch: Some([5e-6, 2e-6]), ..options() });
+    assert!(found.starts_with("the file states a pitch of 2 um, the scene 5 um"), "{found}");
+    let found = message(&corpus("packed.nc"), &ReadOptions { at: Some(1.0), ..options() });
+    assert_eq!(found, "at is a time of a map of heights of a run file, which this file is not: leave it out");
+    let found = message(&corpus("f8.npy"), &ReadOptions { at: Some(1.0), ..um() });
+    assert!(found.starts_with("this is a NumPy array file (.npy), for which at has no meaning"), "{found}");
+}
+
+#[test]
+fn coordinates_that_are_no_grid_are_refused() {
+    use ::hdf5::types::VarLenUnicode;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.nc");
+    // Every coordinate of x, and its unit, in a copy of the file of xarray.
+    let case = |x: [f64; 5], units: &str| {
+        fs::copy(corpus("packed.nc"), &path).unwrap();
+        let file = ::hdf5::File::open_rw(&path).unwrap();
+        let dataset = file.dataset("x").unwrap();
+        dataset.write_raw(&x).unwrap();
+        dataset.delete_attr("units").unwrap();
+        let units: VarLenUnicode = units.parse().unwrap();
+        // In a list of one, as netCDF has texts.
+        dataset.new_attr::<VarLenUnicode>().shape(1).create("units").unwrap().write_raw(&[units]).unwrap();
+        drop((dataset, file));
+        read(&path, &options()).map(|measured| measured.pitch.unwrap()[0]).map_err(|error| error.to_string())
+    };
+    let pitch = case([0.0, 2.0, 4.0, 6.0, 8.0], "mm").unwrap();
+    assert!((pitch - 2e-3).abs() < 1e-17, "{pitch}");
+    let found = case([0.0, 2.0, 4.0, 6.1, 8.0], "um").unwrap_err();
+    assert_eq!(
+        found,
+        "dataset /height: the coordinates of its dimension /x are not equidistant: number 3 is 6.1, expected 6: expected \
+         equidistant ones, resample the heights on a regular grid"
+    );
+    assert!(case([3.0; 5], "um").unwrap_err().contains("its dimension /x run from 3 to 3: expected"));
+    assert!(case([0.0, 1.0, f64::NAN, 3.0, 4.0], "m").unwrap_err().contains("number 2 is NaN"));
+    let found = case([0.0, 1.0, 2.0, 3.0, 4.0], "degrees_east").unwrap_err();
+    assert_eq!(
+        found,
+        "dataset /x has the attribute units = \"degrees_east\", expected a unit of length, for it has the coordinates of heights"
+    );
+}
+
+#[test]
 fn attributes_that_say_otherwise_are_refused() {
     use ::hdf5::types::VarLenUnicode;
     let folder = tempfile::tempdir().unwrap();
@@ -290,6 +362,12 @@ fn attributes_that_say_otherwise_are_refused() {
         let found = case("m", pitch).unwrap_err().to_string();
         assert!(found.starts_with("dataset /z has the attribute pitch = ["), "{found}");
     }
+    let file = ::hdf5::File::create(&path).unwrap();
+    let dataset = file.new_dataset_builder().with_data(&ndarray::arr2(&[[1.0, 2.0]])).create("Surface").unwrap();
+    dataset.new_attr::<f64>().create("Z Converter").unwrap().write_scalar(&1.0).unwrap();
+    drop((dataset, file));
+    let found = message(&path, &options());
+    assert!(found.starts_with("dataset /Surface is of a Zygo file (.datx), which is not read; convert it"), "{found}");
 }
 
 #[test]

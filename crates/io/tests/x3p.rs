@@ -78,7 +78,8 @@ fn all_types_with_increment_and_offset() {
         assert_eq!((found.patch.column_pitch, found.patch.row_pitch), (1e-6, 2e-6));
         assert_eq!(found.patch.heights, expected, "{letter}");
         assert_eq!(found.warnings, [""; 0]);
-        assert_eq!(found.notes, ["instrument M&M"]);
+        let note = "heights are the stored numbers times the increment of the z axis, 5e-1 m";
+        assert_eq!(found.notes, ["instrument M&M", note]);
     }
     // Signed: the smallest number is a height as any other.
     let main = main_xml(&counted("1"), &counted("1"), &stored("I", ""), [2, 1, 1], LINK);
@@ -90,17 +91,89 @@ fn all_types_with_increment_and_offset() {
 fn missing_points_are_nan_or_marked() {
     let data = bytes([0.0, f64::NAN, 20.0, 1.0, 11.0, f64::INFINITY].map(f64::to_le_bytes));
     let main = main_xml(&counted("1"), &counted("1"), &stored("D", ""), [3, 2, 1], LINKS);
-    // Point 3 (column 0, row 1) is marked as invalid. The infinite one is a height, and no height is infinite.
+    // Point 3 (column 0, row 1) is marked as invalid. The infinite one is a mark of Alicona's instruments.
     let valid = [0b0011_0111];
     let binary = |data| [("bindata/data.bin", data), ("bindata/valid.bin", valid.as_slice())];
-    let found = surface(&main, &binary(data.as_slice())).unwrap_err().to_string();
-    assert_eq!(found, "the point (column 2, row 1) has inf, expected a finite number of m, or NaN");
-    let data = bytes([0.0, f64::NAN, 20.0, 1.0, 11.0, 21.0].map(f64::to_le_bytes));
-    let heights = surface(&main, &binary(data.as_slice())).unwrap().patch.heights;
-    let missing: Vec<usize> = (0..6).filter(|index| heights[*index].is_nan()).collect();
-    // Column by column: (0, 1) and (1, 0).
-    assert_eq!(missing, [1, 2]);
-    assert_eq!((heights[0], heights[3], heights[4], heights[5]), (0.0, 11.0, 20.0, 21.0));
+    let found = surface(&main, &binary(data.as_slice())).unwrap();
+    let missing: Vec<usize> = (0..6).filter(|index| found.patch.heights[*index].is_nan()).collect();
+    // Column by column: (0, 1), (1, 0) and (2, 1).
+    assert_eq!(missing, [1, 2, 5]);
+    assert_eq!(found.patch.heights[3..5], [11.0, 20.0]);
+    assert_eq!(found.notes, ["instrument M&M", "1 missing points are stored as +inf"]);
+    // No point is infinitely deep, and none too high for a number.
+    let mut numbers = [0.0, f64::NAN, 20.0, 1.0, 11.0, f64::NEG_INFINITY];
+    for (last, increment, expected) in [(f64::NEG_INFINITY, "1", "-inf"), (1e300, "1e10", "inf")] {
+        numbers[5] = last;
+        let z = stored("D", &format!("<Increment>{increment}</Increment>"));
+        let main = main_xml(&counted("1"), &counted("1"), &z, [3, 2, 1], LINKS);
+        let data = bytes(numbers.map(f64::to_le_bytes));
+        let binary = [("bindata/data.bin", &data[..]), ("bindata/valid.bin", &valid)];
+        let found = surface(&main, &binary).unwrap_err().to_string();
+        assert!(
+            found.starts_with(&format!("the point (column 2, row 1) has {expected}, expected a finite")),
+            "{found}"
+        );
+    }
+}
+
+#[test]
+fn an_infinite_coordinate_of_a_decimal_axis_marks_a_missing_point() {
+    let xyz = |x: f32, z: f32| [x.to_le_bytes(), z.to_le_bytes()].concat();
+    let data: Vec<u8> = [xyz(5.0, 0.0), xyz(f32::INFINITY, 10.0), xyz(6.0, f32::INFINITY), xyz(6.5, 30.0)].concat();
+    let main = main_xml(&stored("F", ""), &counted("1"), &stored("F", ""), [4, 1, 1], LINK);
+    let found = surface(&main, &[("bindata/data.bin", &data)]).unwrap().patch;
+    assert_eq!(found.column_pitch, 0.5);
+    let missing: Vec<bool> = found.heights.iter().map(|height| height.is_nan()).collect();
+    assert_eq!(missing, [false, true, true, false]);
+    // In the text, too: xs:double of XML Schema writes it INF.
+    let list = |point: &str| {
+        let data = format!("<DataList><Datum>1</Datum><Datum>{point}</Datum></DataList>");
+        surface(&main_xml(&counted("1"), &counted("1"), &stored("D", ""), [2, 1, 1], &data), &[])
+    };
+    assert!(list("INF").unwrap().patch.heights[1].is_nan());
+    assert!(list("1e400").unwrap_err().to_string().contains("found the coordinate \"1e400\", expected a number"));
+}
+
+#[test]
+fn a_packed_folder_is_read() {
+    let main = main_xml(&counted("1e-6"), &counted("2e-6"), &stored("D", ""), [3, 2, 1], LINK);
+    let data = bytes(PROFILES.map(f64::to_le_bytes));
+    let named = |folder: &str| {
+        let names = ["main.xml", "bindata/data.bin", "md5checksum.hex"].map(|name| format!("{folder}{name}"));
+        let contents = [main.as_bytes(), &data, b"0123 *main.xml\n"];
+        names.into_iter().zip(contents.map(<[u8]>::to_vec)).collect::<Vec<_>>()
+    };
+    let read_all = |entries: &[(String, Vec<u8>)]| {
+        let entries: Vec<(&str, &[u8])> = entries.iter().map(|(name, content)| (name.as_str(), &content[..])).collect();
+        read(Cursor::new(archive(&entries)))
+    };
+    let found = read_all(&named("scan-1/")).unwrap();
+    assert_eq!(found.patch.heights, COLUMN_BY_COLUMN);
+    assert!(found.warnings[0].contains("but md5checksum.hex says 0123"), "{:?}", found.warnings);
+    // What stands at the top is the surface, whatever folders there are; of two folders nobody can tell.
+    let found = read_all(&[named(""), named("copy/")].concat()).unwrap();
+    assert_eq!(found.patch.heights, COLUMN_BY_COLUMN);
+    let error = read_all(&[named("scan-1/"), named("scan-2/")].concat()).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "the archive has \"scan-1/main.xml\" and \"scan-2/main.xml\", expected one surface: pack one of the folders alone"
+    );
+}
+
+#[test]
+fn only_elements_that_are_used_must_not_say_two_things() {
+    let data = bytes(PROFILES.map(f64::to_le_bytes));
+    let main = main_xml(&counted("1"), &counted("1"), &stored("D", ""), [3, 2, 1], LINK);
+    let read = |from: &str, to: &str| {
+        assert!(main.contains(from));
+        surface(&main.replacen(from, to, 1), &[("bindata/data.bin", &data)]).map(|found| found.patch.heights)
+    };
+    let revisions = "<Revision>ISO5436 - 2000</Revision>";
+    let twice = "<Revision>ISO5436 - 2000</Revision><Revision>ISO25178</Revision><Note>a</Note><Note>b</Note>";
+    assert_eq!(read(revisions, twice).unwrap(), COLUMN_BY_COLUMN);
+    assert_eq!(read("<SizeX>3</SizeX>", "<SizeX>3</SizeX><SizeX>3</SizeX>").unwrap(), COLUMN_BY_COLUMN);
+    let error = read("<SizeX>3</SizeX>", "<SizeX>3</SizeX><SizeX>2</SizeX>").unwrap_err().to_string();
+    assert!(error.contains("Record3/MatrixDimension/SizeX stands twice, as \"3\" and \"2\""), "{error}");
 }
 
 #[test]
@@ -204,7 +277,7 @@ fn what_is_not_one_layer_of_heights_on_a_regular_grid_is_refused() {
         ("<SizeX>3", "<SizeX>2147483648"),
         ("<SizeX>3", "<SizeX>99999999999999999999"),
         ("<SizeX>3</SizeX><SizeY>2</SizeY>", "<SizeX>4294967296</SizeX><SizeY>4294967296</SizeY>"),
-        ("<SizeX>3</SizeX>", "<SizeX>3</SizeX><SizeX>3</SizeX>"),
+        ("<SizeX>3</SizeX>", "<SizeX>3</SizeX><SizeX>2</SizeX>"),
         ("<Increment>1e-6", "<Increment>0"),
         ("<Increment>1e-6", "<Increment>-1e-6"),
         ("<Increment>1e-6", "<Increment>NaN"),

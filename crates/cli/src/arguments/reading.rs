@@ -45,6 +45,7 @@ impl ReadArguments {
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
             dataset: self.dataset.clone(),
+            at: None,
             unit: self.unit.as_ref().map(|said| said.value),
             pitch: self.pitch.as_ref().map(|said| said.value),
             height_range: self.height_range.as_ref().map(|said| said.value),

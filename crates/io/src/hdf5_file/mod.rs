@@ -137,11 +137,12 @@ pub(crate) fn text_of(attribute: &Attribute) -> hdf5::Result<Option<String>> {
     if attribute.space()?.size() != 1 {
         return Ok(None);
     }
+    // A list of one, too, as netCDF writes texts.
     match attribute.dtype()?.to_descriptor()? {
-        TypeDescriptor::VarLenUnicode => text(attribute.read_scalar::<VarLenUnicode>()),
-        TypeDescriptor::VarLenAscii => text(attribute.read_scalar::<VarLenAscii>()),
-        TypeDescriptor::FixedAscii(_) => text(attribute.read_scalar::<FixedAscii<64>>()),
-        TypeDescriptor::FixedUnicode(_) => text(attribute.read_scalar::<FixedUnicode<64>>()),
+        TypeDescriptor::VarLenUnicode => text(attribute.read_raw::<VarLenUnicode>()),
+        TypeDescriptor::VarLenAscii => text(attribute.read_raw::<VarLenAscii>()),
+        TypeDescriptor::FixedAscii(_) => text(attribute.read_raw::<FixedAscii<64>>()),
+        TypeDescriptor::FixedUnicode(_) => text(attribute.read_raw::<FixedUnicode<64>>()),
         _ => Ok(None),
     }
 }
@@ -163,8 +164,8 @@ fn attribute_of_one(location: &Location, name: &str) -> hdf5::Result<Option<Attr
 }
 
 /// The bytes of a damaged file may be no text.
-fn text(read: hdf5::Result<impl AsRef<[u8]>>) -> hdf5::Result<Option<String>> {
-    read.map(|text| Some(String::from_utf8_lossy(text.as_ref()).into_owned()))
+fn text(read: hdf5::Result<Vec<impl AsRef<[u8]>>>) -> hdf5::Result<Option<String>> {
+    Ok(read?.first().map(|text| String::from_utf8_lossy(text.as_ref()).into_owned()))
 }
 
 /// Whether the superblock says that a program has the file open for writing; if it was killed, it still does.

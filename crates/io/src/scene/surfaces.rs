@@ -145,6 +145,7 @@ fn read_options(
     }
     Ok(ReadOptions {
         dataset,
+        at: settings.optional_number(&key("at"))?,
         unit: settings.optional_number(&key("unit"))?,
         pitch: settings.optional_pair(&key("pitch"))?,
         height_range,

@@ -8,7 +8,7 @@ use zip::ZipArchive;
 
 use super::error::FileError;
 use super::format::Format;
-use super::instrument::{PLUX, recognise};
+use super::instrument::{PLUX, WORKBOOK, by_ending, recognise};
 use super::sdf::{SdfKind, without_margin};
 use super::text::is_utf16;
 use crate::regular;
@@ -32,17 +32,19 @@ pub(super) fn detect(path: &Path) -> Result<Format, FileError> {
     if head.starts_with(b"PK\x03\x04") {
         return from_archive(file);
     }
-    if is_utf16(&head) {
+    if is_utf16(&head) && recognise(&head).is_none() {
         return Ok(Format::Text);
     }
-    from_head(&head).ok_or_else(|| FileError::Unknown { found: describe(&head) })
+    let format = from_head(&head).or_else(|| by_ending(path).filter(|_| !head.is_empty()).map(Format::Instrument));
+    format.ok_or_else(|| FileError::Unknown { found: describe(&head), is_binary: !head.iter().all(is_printable) })
 }
 
 /// What a zip archive is, told by its entries.
 fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
     let archive = ZipArchive::new(file).map_err(|error| FileError::Zip(error.to_string()))?;
     let has = |name: &[u8]| archive.file_names_raw().any(|entry| entry == name);
-    if has(b"main.xml") {
+    // Some archives have the folder itself in them.
+    if has(b"main.xml") || archive.file_names_raw().any(|entry| entry.ends_with(b"/main.xml")) {
         return Ok(Format::X3p);
     }
     if !archive.is_empty() && archive.file_names_raw().all(|entry| entry.ends_with(b".npy")) {
@@ -51,12 +53,15 @@ fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
     if has(b"index.xml") && archive.file_names_raw().any(|entry| entry.ends_with(b"recipe.txt")) {
         return Ok(Format::Instrument(PLUX));
     }
+    if has(b"xl/workbook.xml") {
+        return Ok(Format::Instrument(WORKBOOK));
+    }
     let first = archive.file_names_raw().next().map(|name| name[..name.len().min(40)].escape_ascii());
     let entries = match first {
         None => "an empty zip archive".to_owned(),
         Some(first) => format!("a zip archive of {} entries, the first is \"{first}\"", archive.len()),
     };
-    Err(FileError::Unknown { found: entries })
+    Err(FileError::Unknown { found: entries, is_binary: !archive.is_empty() })
 }
 
 fn from_head(head: &[u8]) -> Option<Format> {
@@ -87,8 +92,11 @@ fn from_head(head: &[u8]) -> Option<Format> {
     {
         return Some(Format::Sdf(kind));
     }
-    let printable = |byte: &u8| !byte.is_ascii_control() || byte.is_ascii_whitespace();
-    (text.iter().any(u8::is_ascii_digit) && head.iter().all(printable)).then_some(Format::Text)
+    (text.iter().any(u8::is_ascii_digit) && head.iter().all(is_printable)).then_some(Format::Text)
+}
+
+fn is_printable(byte: &u8) -> bool {
+    !byte.is_ascii_control() || byte.is_ascii_whitespace()
 }
 
 fn describe(head: &[u8]) -> String {

@@ -1,5 +1,6 @@
 //! Why the initial surfaces of a scene cannot be made.
 
+use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
@@ -10,7 +11,7 @@ use thiserror::Error;
 use super::format::Format;
 use super::hdf5::Hdf5Error;
 use super::image::ImageError;
-use super::instrument::Instrument;
+use super::instrument::{BY_SURFACE_TOPOGRAPHY, Instrument};
 use super::npy::NpyError;
 use super::options::Disagreement;
 use super::sdf::SdfError;
@@ -72,10 +73,12 @@ pub enum FileError {
     #[error("this is not a regular file")]
     NotAFile,
     /// Nobody knows what it is.
-    #[error("this is not a surface file that is known ({found}); {READABLE}")]
+    #[error("this is not a surface file that is known ({found}); {READABLE}{}", ByConversion(*is_binary))]
     Unknown {
         /// What the file starts with.
         found: String,
+        /// It may be of an instrument whose format another program knows.
+        is_binary: bool,
     },
     /// An instrument's own format.
     #[error("this is {}, which is not read; convert it to SDF: {}", .0.name, .0.conversion)]
@@ -122,6 +125,11 @@ pub enum FileError {
     /// File and scene disagree.
     #[error(transparent)]
     Disagree(#[from] Disagreement),
+    /// Heights that a run recorded of the other body.
+    #[error(
+        "the dataset is of the other body, whose z has the other sign: disc.surface takes /disc/height, pin.surface /pin/height"
+    )]
+    OtherBody,
     /// The pitch of measured heights is unknown.
     #[error(
         "the file does not say the distance of its points: pitch = \"50 um\" below file in the scene does, for example"
@@ -149,13 +157,22 @@ pub enum FileError {
     X3p(Box<X3pError>),
     /// A damaged or unsuitable HDF5 file.
     #[error(transparent)]
-    Hdf5(#[from] Hdf5Error),
+    Hdf5(Box<Hdf5Error>),
     /// A damaged or unsuitable NumPy file.
     #[error(transparent)]
     Npy(#[from] NpyError),
     /// A damaged or unsuitable image.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// A TIFF file whose first image gives no surface.
+    #[error(
+        "{reason}; a TIFF of an instrument (JPK .jpk, Park, Olympus .lext) has its heights elsewhere in the file: {}",
+        BY_SURFACE_TOPOGRAPHY
+    )]
+    Tiff {
+        /// What is wrong with the first image.
+        reason: ImageError,
+    },
     /// An image that gives no fibre map.
     #[error(transparent)]
     Micrograph(#[from] MicrographError),
@@ -173,5 +190,24 @@ impl From<X3pError> for FileError {
     }
 }
 
+impl From<Hdf5Error> for FileError {
+    fn from(error: Hdf5Error) -> Self {
+        Self::Hdf5(Box::new(error))
+    }
+}
+
 /// What to do about a file that cannot be read.
 const READABLE: &str = "convert it to SDF, X3P or HDF5";
+
+/// The line that converts a file that another program may know, behind what to do about any file; nothing for another.
+struct ByConversion(bool);
+
+impl fmt::Display for ByConversion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 {
+            write!(f, "; SurfaceTopography reads many instruments' formats: {BY_SURFACE_TOPOGRAPHY}")
+        } else {
+            Ok(())
+        }
+    }
+}

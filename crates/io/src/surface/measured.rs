@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use plateau_core::surface::{Length, Patch};
+use plateau_core::surface::{Body, Length, Patch};
 
 use super::error::FileError;
 use super::format::Format;
@@ -30,6 +30,8 @@ pub struct Measured {
     pub heights: Vec<f64>,
     /// Peaks are positive whatever the body, as an instrument gives them; else heights are those of the model.
     pub instrument: bool,
+    /// A run recorded them of the cells of this body.
+    pub body: Option<Body>,
     /// The heights are a profile, in one row, and its lay has this direction.
     pub profile_lay: Option<Lay>,
     /// What the file says of itself that a user may want to see, one fact a line.
@@ -49,6 +51,7 @@ impl Measured {
             is_pitch_assumed: false,
             heights,
             instrument: true,
+            body: None,
             profile_lay: None,
             notes: Vec::new(),
             warnings: Vec::new(),

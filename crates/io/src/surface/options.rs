@@ -11,6 +11,8 @@ use super::stylus_profile::Lay;
 pub struct ReadOptions {
     /// Dataset in an HDF5 file, or array in an .npz archive.
     pub dataset: Option<String>,
+    /// Time of the map of a run file, s; without it the last one is taken.
+    pub at: Option<f64>,
     /// What the number 1 stands for, m; for text that does not state its unit, for NumPy arrays in another unit than m
     /// and for images of decimal heights.
     pub unit: Option<f64>,

@@ -8,6 +8,7 @@ use plateau_core::surface::Patch;
 use super::detect::detect;
 use super::error::FileError;
 use super::format::Format;
+use super::image::ImageError;
 use super::measured::Measured;
 use super::options::{ReadOptions, agreed_pitch};
 use super::stylus_profile::ProfileError;
@@ -35,11 +36,11 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
     refuse_meaningless(options, format)?;
     match format {
         Format::Hdf5 => {
-            let hdf5::Heights { dataset, columns, rows, pitch, heights } =
-                hdf5::heights(path, options.dataset.as_deref())?;
-            let notes = vec![format!("dataset {dataset}")];
+            let hdf5::Heights { columns, rows, pitch, heights, body, notes, warnings } =
+                hdf5::heights(path, options.dataset.as_deref(), options.at)?;
             let pitch = agreed_pitch(pitch, options.pitch)?;
-            Ok(Measured { notes, instrument: false, ..Measured::new(format, [columns, rows], pitch, heights) })
+            let plain = Measured::new(format, [columns, rows], pitch, heights);
+            Ok(Measured { notes, warnings, body, instrument: false, ..plain })
         }
         Format::Sdf(_) => {
             let file = regular::open(path)?;
@@ -67,8 +68,15 @@ fn read_format(path: &Path, options: &ReadOptions) -> Result<Measured, FileError
             Ok(measured)
         }
         Format::Png | Format::Tiff => {
-            let image::HeightMap { columns, rows, heights, notes, warnings } =
-                image::heights(&regular::read(path, limits::SURFACE)?, format, options)?;
+            let image::HeightMap { columns, rows, heights, notes, warnings } = image::heights(
+                &regular::read(path, limits::SURFACE)?,
+                format,
+                options,
+            )
+            .map_err(|reason| match reason {
+                ImageError::Tiff(_) | ImageError::Pixels { .. } if format == Format::Tiff => FileError::Tiff { reason },
+                other => other.into(),
+            })?;
             let pitch = options.pitch;
             Ok(Measured { notes, warnings, ..Measured::new(format, [columns, rows], pitch, heights) })
         }
@@ -108,6 +116,7 @@ fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileE
         return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
     }
     for (key, given, meaningful) in [
+        ("at", options.at.is_some(), format == Hdf5),
         ("unit", options.unit.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff)),
         ("pitch", options.pitch.is_some(), matches!(format, Text | Npy | Npz | Png | Tiff | Hdf5)),
         ("height_range", options.height_range.is_some(), matches!(format, Png | Tiff)),

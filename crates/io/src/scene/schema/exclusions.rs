@@ -42,7 +42,7 @@ impl Group {
 }
 
 const HEIGHT_SOURCES: &[(&str, &[&str])] = &[("file", FILE), ("synthetic", &[]), ("flat", &[])];
-const FILE: &[&str] = &["dataset", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
+const FILE: &[&str] = &["dataset", "at", "unit", "pitch", "height_range", "decimal", "skip", "profile_lay"];
 const IMAGE: &[&str] = &["threshold", "pixel", "smooth", "despeckle", "rotate", "fibres"];
 
 const TEXTURES: &[(&str, &[&str])] = &[

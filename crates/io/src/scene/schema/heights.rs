@@ -4,6 +4,7 @@ use super::choices::{self, words};
 use super::key::{Kind, Need};
 use super::range::Range;
 use super::table::{Table, length};
+use crate::units::Dimension::Time;
 use Kind::{Bool, Choice, InputFile, Integer, LengthUnit, Number, Text, True};
 use Need::{Computed, Default, OneOf, Optional, Required};
 
@@ -14,6 +15,8 @@ impl Table {
     pub(super) fn heights(&mut self) {
         self.key("file", InputFile, OneOf, "measured heights: .sdf .x3p .txt .xyz .csv .npy .npz .h5 .png .tif");
         self.key("dataset", Text, Optional, "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows)");
+        let time = Kind::Quantity { dimension: Time, unit: "s", range: Range::NOT_NEGATIVE };
+        self.key("at", time, Optional, "time of the map of a run file that is taken; without it the last one is");
         self.key("unit", LengthUnit, Optional, "what the number 1 stands for, for text, .npy and decimal images");
         let pitch = Kind::Lengths { count: 2, single: true, unit: "um", range: Range::POSITIVE };
         self.key(

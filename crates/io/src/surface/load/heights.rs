@@ -12,6 +12,9 @@ use super::super::stylus_profile::{Lay, ProfileError};
 use super::loader::Loader;
 use crate::scene::{HeightSettings, HeightSource};
 
+/// Points of the model's heights whose pitch is that of the cells but for rounding are the cells.
+const SAME_CELL: f64 = 1e-9;
+
 /// Table of the scene that says where a body's heights come from.
 fn surface_key(body: Body) -> &'static str {
     match body {
@@ -137,8 +140,17 @@ impl Loader<'_> {
                 found.0, found.1
             ));
         }
+        if measured.body.is_some_and(|recorded| recorded != body) {
+            return Err(FileError::OtherBody);
+        }
         let pitch = measured.pitch.or(pixel.map(|pixel| [pixel; 2]));
+        let cell = [self.mesh.column_width(), self.mesh.row_height()];
+        let is_cell =
+            |pitch: [f64; 2]| pitch.iter().zip(cell).all(|(pitch, cell)| (pitch / cell - 1.0).abs() < SAME_CELL);
         let raw = match pitch {
+            Some(pitch) if !instrument && pixel.is_none() && found == mesh && is_cell(pitch) => {
+                RawHeights::OnMesh(measured.heights)
+            }
             Some([column_pitch, row_pitch]) => {
                 let (columns, rows) = found;
                 RawHeights::Patch(Patch { columns, rows, column_pitch, row_pitch, heights: measured.heights })

@@ -22,7 +22,12 @@ impl Checksums {
     }
 
     /// What does not fit, in words.
-    pub(super) fn compare<R: Read + Seek>(&self, document: &Document, archive: &mut ZipArchive<R>) -> Vec<String> {
+    pub(super) fn compare<R: Read + Seek>(
+        &self,
+        document: &Document,
+        archive: &mut ZipArchive<R>,
+        folder: &str,
+    ) -> Vec<String> {
         let mut warnings = Vec::new();
         for (link, checksum) in [
             (DATA_LINK, "Record3/DataLink/MD5ChecksumPointData"),
@@ -34,7 +39,7 @@ impl Checksums {
         }
         let file = document.get("Record4/ChecksumFile").unwrap_or(CHECKSUM_FILE);
         let mut text = Vec::new();
-        let read = Entry::open(archive, file).and_then(|entry| {
+        let read = Entry::open(archive, folder, file).and_then(|entry| {
             let failed = entry.take(LONGEST).read_to_end(&mut text);
             failed.map_err(|error| super::X3pError::Entry { name: file.to_owned(), reason: error.to_string() })
         });

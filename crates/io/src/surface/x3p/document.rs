@@ -39,7 +39,7 @@ impl Document {
     /// Reads the whole of `main.xml`.
     ///
     /// # Errors
-    /// [`X3pError`] when it is no XML, declares entities, or has the same element twice.
+    /// [`X3pError`] when it is no XML, declares entities, or says of the same element two things.
     pub(super) fn read(source: impl Read) -> Result<Self, X3pError> {
         let mut reader = Reader::from_reader(BufReader::new(Ascii(source)));
         reader.config_mut().expand_empty_elements = true;
@@ -93,18 +93,21 @@ impl Document {
         if path == DATUM {
             return self.datum(text, at);
         }
-        // Only Record2, about instrument and measurement, may say a thing more than once.
-        let repeats = !["Record1/", "Record3/"].iter().any(|record| path.starts_with(record));
-        if self.elements.len() == MOST_ELEMENTS || (repeats && self.elements.contains_key(&path)) {
-            return Ok(());
-        }
         let mut end = text.len().min(LONGEST);
         while !text.is_char_boundary(end) {
             end -= 1;
         }
-        match self.elements.insert(path.clone(), text[..end].to_owned()) {
-            Some(_) => Err(X3pError::Xml { at, reason: format!("{path} stands twice") }),
-            None => Ok(()),
+        let text = &text[..end];
+        match self.elements.get(&path) {
+            Some(first) if first != text && is_used(&path) => {
+                let [first, text] = [first.as_str(), text].map(short);
+                Err(X3pError::Xml { at, reason: format!("{path} stands twice, as \"{first}\" and \"{text}\"") })
+            }
+            None if self.elements.len() < MOST_ELEMENTS => {
+                self.elements.insert(path, text.to_owned());
+                Ok(())
+            }
+            _ => Ok(()),
         }
     }
 
@@ -118,11 +121,14 @@ impl Document {
         }
         let before = datums.len();
         for word in text.split(';') {
-            let number = word.trim().parse().map_err(|_| X3pError::Xml {
+            let number = word.trim().parse().ok();
+            // More than any number of the type is not what stands for a missing point.
+            let number =
+                number.filter(|number: &f64| number.is_finite() || !word.contains(|c: char| c.is_ascii_digit()));
+            datums.push(number.ok_or_else(|| X3pError::Xml {
                 at,
                 reason: format!("found the coordinate \"{}\", expected a number", short(word)),
-            })?;
-            datums.push(number);
+            })?);
         }
         match datums.len() - before {
             found if found == count => Ok(()),
@@ -174,6 +180,12 @@ impl Document {
         }
         notes
     }
+}
+
+/// Whether heights or their distances depend on what an element says; others may say several things.
+fn is_used(element: &str) -> bool {
+    let used = ["Record1/FeatureType", "Record1/Axes/C", "Record3/MatrixDimension/", "Record3/DataLink/"];
+    used.iter().any(|start| element.starts_with(start))
 }
 
 /// What is shown of a text.

@@ -29,14 +29,14 @@ pub(super) struct Entry<'a, R: Read> {
 }
 
 impl<'a, R: Read + Seek> Entry<'a, R> {
-    /// Opens an entry; its size is what the archive says of it.
+    /// Opens an entry of a folder of the archive; its size is what the archive says of it.
     ///
     /// # Errors
     /// [`X3pError`] when it is not there, cannot be unpacked or is out of proportion.
-    pub(super) fn open(archive: &'a mut ZipArchive<R>, name: &str) -> Result<Self, X3pError> {
+    pub(super) fn open(archive: &'a mut ZipArchive<R>, folder: &str, name: &str) -> Result<Self, X3pError> {
         // Some programs write the links with the separators of their system.
         let name = name.replace('\\', "/");
-        let name = name.trim_start_matches("./").trim_start_matches('/').to_owned();
+        let name = format!("{folder}{}", name.trim_start_matches("./").trim_start_matches('/'));
         if archive.index_for_name(&name).is_none() {
             let mut names: Vec<String> = (archive.file_names_raw().take(NAMED))
                 .map(|name| name[..name.len().min(60)].escape_ascii().to_string())

@@ -16,6 +16,12 @@ pub enum X3pError {
         /// Entries that are there.
         present: String,
     },
+    /// Several surfaces.
+    #[error("the archive has \"{0}main.xml\" and \"{1}main.xml\", expected one surface: pack one of the folders alone", folders[0], folders[1])]
+    Folders {
+        /// Two folders with a surface each.
+        folders: [String; 2],
+    },
     /// An entry cannot be unpacked.
     #[error("{name} cannot be unpacked: {reason}")]
     Entry {

@@ -18,6 +18,8 @@ pub(super) struct Points {
     heights: Profiles,
     x: Track,
     y: Track,
+    /// Points of which a coordinate was stored as +inf.
+    infinite: usize,
 }
 
 impl Points {
@@ -25,7 +27,7 @@ impl Points {
     pub(super) fn new(matrix: Matrix, valid: Option<Vec<u8>>) -> Self {
         let heights = Profiles::new(matrix.columns, matrix.rows);
         let (x, y) = (Track::new(&matrix.x, matrix.columns), Track::new(&matrix.y, matrix.rows));
-        Self { matrix, valid, heights, x, y }
+        Self { matrix, valid, heights, x, y, infinite: 0 }
     }
 
     /// Takes a point of a text: its coordinates along the absolute axes.
@@ -59,22 +61,43 @@ impl Points {
         let valid =
             self.valid.as_ref().is_none_or(|bits| bits.get(index / 8).is_some_and(|b| b >> (index % 8) & 1 == 1));
         let Matrix { columns, x, y, z, .. } = self.matrix;
+        let mut is_infinite = false;
         let mut coordinate = |axis: Axis| {
             let Some(stored) = axis.stored else { return Ok(f64::NAN) };
             let at =
                 |found, expected| X3pError::Point { column: index % columns, row: index / columns, found, expected };
             let number = next(stored).map_err(|(found, expected)| at(found, expected))?;
+            // The mark of Alicona's instruments.
+            if number == f64::INFINITY {
+                is_infinite = true;
+                return Ok(f64::NAN);
+            }
             let coordinate = axis.coordinate(number);
-            if coordinate.is_infinite() { Err(at(coordinate, "a finite number of m, or NaN")) } else { Ok(coordinate) }
+            let expected = "a finite number of m, or NaN or +inf for a missing point";
+            if coordinate.is_infinite() { Err(at(coordinate, expected)) } else { Ok(coordinate) }
         };
         let (x, y, z) = (coordinate(x)?, coordinate(y)?, coordinate(z)?);
+        self.infinite += usize::from(valid && is_infinite);
         // Invalid points may hold anything.
         if valid {
             self.x.add(index % columns, x);
             self.y.add(index / columns, y);
         }
-        self.heights.push(if valid { z } else { f64::NAN });
+        self.heights.push(if valid && !is_infinite { z } else { f64::NAN });
         Ok(())
+    }
+
+    /// What is to be known of the heights, once all points are taken.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let Axis { increment, .. } = self.matrix.z;
+        if increment != 1.0 {
+            notes.push(format!("heights are the stored numbers times the increment of the z axis, {increment:e} m"));
+        }
+        if self.infinite > 0 {
+            notes.push(format!("{} missing points are stored as +inf", self.infinite));
+        }
+        notes
     }
 
     /// The heights with their pitch.

@@ -1,4 +1,11 @@
-//! Heights and fibre maps in HDF5 files: shape (columns, rows), heights in m.
+//! Heights and fibre maps in HDF5 files, netCDF-4 and run files among them: shape (columns, rows) unless the dimensions are named
+//! x and y, heights in m.
+
+mod dimensions;
+mod error;
+mod heights;
+mod packing;
+mod recorded;
 
 use std::path::Path;
 
@@ -7,113 +14,19 @@ use hdf5::types::{TypeDescriptor, VarLenUnicode};
 use ndarray::ArrayView2;
 use plateau_core::model::state::Base;
 use plateau_core::surface::Patch;
-use thiserror::Error;
 
-use super::options::MOST_POINTS;
-use crate::hdf5_file::{self, OpenError, text_attribute};
-use crate::memory::{NoRoom, refuse_beyond};
+use super::options::{MOST_POINTS, agreed_pitch};
+use crate::hdf5_file::{self, text_attribute};
+use crate::memory::refuse_beyond;
 use crate::text::short;
+use dimensions::{Dimensions, is_metre};
+use packing::{Packing, numbers};
 
-/// Why an HDF5 file gives no surface.
-#[derive(Debug, Error)]
-pub enum Hdf5Error {
-    /// The library cannot make sense of it.
-    #[error("cannot be read as HDF5: {0}")]
-    Library(#[from] hdf5::Error),
-    /// Some of it is in other files.
-    #[error("{0}; copy what it points to into this file, for only files that are read whole are named in results")]
-    Elsewhere(String),
-    /// The dataset is not there.
-    #[error("the file has no dataset \"{dataset}\"; {present}")]
-    Missing {
-        /// The dataset asked for.
-        dataset: String,
-        /// The datasets of the file.
-        present: String,
-    },
-    /// No dataset was named and the file does not leave one choice.
-    #[error("the file has {found} datasets with {wanted}, expected one: name it with dataset = \"...\"; {present}")]
-    Ambiguous {
-        /// How many could be meant.
-        found: usize,
-        /// What is looked for.
-        wanted: String,
-        /// The datasets of the file.
-        present: String,
-    },
-    /// The dataset holds something else.
-    #[error("dataset {dataset} has {found}, expected {wanted}")]
-    Unsuitable {
-        /// The dataset.
-        dataset: String,
-        /// Its type and shape.
-        found: String,
-        /// What is looked for.
-        wanted: String,
-    },
-    /// More points than are read.
-    #[error("dataset {dataset} has shape ({}, {}), which is more than the {MOST_POINTS} points that are read", shape.0, shape.1)]
-    TooLarge {
-        /// The dataset.
-        dataset: String,
-        /// Its shape.
-        shape: (usize, usize),
-    },
-    /// An attribute that says something else.
-    #[error("dataset {dataset} has the attribute {found}, expected {expected}")]
-    Attribute {
-        /// The dataset.
-        dataset: String,
-        /// The attribute and its value.
-        found: String,
-        /// What can be.
-        expected: &'static str,
-    },
-    /// More than memory holds.
-    #[error("the heights of dataset {dataset} need {no_room}")]
-    Memory {
-        /// The dataset.
-        dataset: String,
-        /// How much is needed, and is there.
-        no_room: NoRoom,
-    },
-    /// Infinite heights.
-    #[error(
-        "{count} of {points} heights in dataset {dataset} are infinite, expected heights in m, NaN for a missing point"
-    )]
-    Infinite {
-        /// The dataset.
-        dataset: String,
-        /// Infinite heights.
-        count: usize,
-        /// All heights.
-        points: usize,
-    },
-    /// A base that is none.
-    #[error("dataset {dataset} has {found} at (column {column}, row {row}), expected 0 = none or 1 = primary")]
-    Base {
-        /// The dataset.
-        dataset: String,
-        /// What stands there.
-        found: i64,
-        /// Pin column.
-        column: usize,
-        /// Row.
-        row: usize,
-    },
-}
+pub use error::Hdf5Error;
+pub(super) use heights::Heights;
 
 /// Datasets named in a message.
 const NAMED: usize = 12;
-
-impl From<OpenError> for Hdf5Error {
-    fn from(error: OpenError) -> Self {
-        match error {
-            OpenError::Hdf5(error) => Self::Library(error),
-            elsewhere => Self::Elsewhere(elsewhere.to_string()),
-        }
-    }
-}
 
 /// What is looked for.
 #[derive(Clone, Copy)]
@@ -126,10 +39,14 @@ enum Wanted {
 impl Wanted {
     fn fits(self, dataset: &Dataset) -> bool {
         let number = descriptor(dataset);
+        let is_integer = matches!(number, Some(TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_)));
         match (self, dataset.shape()[..].as_ref()) {
-            (Self::Heights, [_, _]) => matches!(number, Some(TypeDescriptor::Float(_))),
-            (Self::Base(expected), &[columns, rows]) => {
-                (columns, rows) == expected
+            (Self::Heights, [_, _]) => {
+                matches!(number, Some(TypeDescriptor::Float(_))) || (is_integer && Packing::is_packed(dataset))
+            }
+            (Self::Base(expected), &[first, second]) => {
+                let is_turned = Dimensions::of(dataset).is_ok_and(|dimensions| dimensions.is_turned);
+                expected == (if is_turned { (second, first) } else { (first, second) })
                     && matches!(
                         number,
                         Some(
@@ -152,45 +69,62 @@ impl Wanted {
     }
 }
 
-/// Heights of an HDF5 file, column by column.
-pub(super) struct Heights {
-    pub(super) dataset: String,
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    /// Distance of neighbouring points along x and y, m, if the dataset states it.
-    pub(super) pitch: Option<[f64; 2]>,
-    pub(super) heights: Vec<f64>,
-}
-
-/// Reads heights, m: floating-point numbers with 2 dimensions (columns, rows), NaN where there is none. Without a name
-/// the file's only suitable dataset is taken. Its attribute `units` may say that, `pitch` the distance of the points.
+/// Reads heights, m: numbers with 2 dimensions (columns, rows), or named x and y in any order, NaN where there is none; or a map of
+/// heights of a run file, the last one or that `at` a time in s. Without a name the file's only suitable dataset is taken. Its
+/// attribute `units` may say that heights are in m, `pitch` or coordinates x and y the distance of the points, and the
+/// attributes of netCDF how heights are packed.
 ///
 /// # Errors
 /// [`Hdf5Error`] when the file is damaged or the dataset missing, unsuitable or infinite.
-pub(super) fn heights(path: &Path, dataset: Option<&str>) -> Result<Heights, Hdf5Error> {
-    let (dataset, pitch) = hdf5_file::guarded(0, || {
+pub(super) fn heights(path: &Path, dataset: Option<&str>, at: Option<f64>) -> Result<Heights, Hdf5Error> {
+    if let Some(recorded) = recorded::heights(path, dataset, at)? {
+        return Ok(recorded);
+    }
+    let (dataset, dimensions, packing, pitch) = hdf5_file::guarded(0, || {
         let dataset = find(path, dataset, Wanted::Heights)?;
         refuse_other_units(&dataset)?;
-        let pitch = pitch(&dataset)?;
-        Ok::<_, Hdf5Error>((dataset, pitch))
+        let (dimensions, packing) = (Dimensions::of(&dataset)?, Packing::of(&dataset)?);
+        let pitch = agreed_with_coordinates(&dataset, pitch(&dataset)?, dimensions.pitch)?;
+        Ok::<_, Hdf5Error>((dataset, dimensions, packing, pitch))
     })?;
-    let (name, (columns, rows)) = (dataset.name(), bounded_shape(&dataset)?);
+    let (name, shape) = (dataset.name(), bounded_shape(&dataset)?);
     hdf5_file::refuse_hollow(&dataset)?;
-    // The heights, and what the library converts or inflates at a time, at most all of them.
-    let needed = (2 * columns * rows * size_of::<f64>()) as u64;
+    let points = shape.0 * shape.1;
+    // The heights, and what the library converts or inflates at a time, at most all of them; or the heights laid out anew.
+    let needed = (2 * points * size_of::<f64>()) as u64;
     refuse_beyond(needed).map_err(|no_room| Hdf5Error::Memory { dataset: name.clone(), no_room })?;
-    let heights = hdf5_file::guarded(columns * rows * size_of::<f64>(), || dataset.read_raw::<f64>())?;
+    let mut heights = hdf5_file::guarded(points * size_of::<f64>(), || dataset.read_raw::<f64>())?;
+    packing.unpack(&mut heights);
     let count = heights.iter().filter(|height| height.is_infinite()).count();
     if count > 0 {
         return Err(Hdf5Error::Infinite { dataset: name, count, points: heights.len() });
     }
-    Ok(Heights { dataset: name, columns, rows, pitch, heights })
+    let ((columns, rows), heights) = dimensions.lay_out(shape, heights);
+    let notes = [Some(format!("dataset {name}")), dimensions.note(), packing.note()].into_iter().flatten().collect();
+    Ok(Heights { columns, rows, pitch, heights, body: None, notes, warnings: Vec::new() })
+}
+
+/// The distance of points that the attribute `pitch` and the coordinates tell, m.
+fn agreed_with_coordinates(
+    dataset: &Dataset,
+    pitch: Option<[f64; 2]>,
+    coordinates: Option<[f64; 2]>,
+) -> Result<Option<[f64; 2]>, Hdf5Error> {
+    agreed_pitch(coordinates, pitch).map_err(|_| Hdf5Error::Attribute {
+        dataset: dataset.name(),
+        found: format!("pitch = {:?}", pitch.unwrap_or_default()),
+        expected: "the distance of points as its coordinates have it",
+    })
 }
 
 /// Refuses heights that say of themselves that they are not in m.
 fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
+    // Zygo says so in words of its own, as fringes or nanometres.
+    if dataset.attr("Z Converter").is_ok() {
+        return Err(Hdf5Error::Zygo { dataset: dataset.name() });
+    }
     let Some(found) = text_attribute(dataset, "units")? else { return Ok(()) };
-    if ["m", "metre", "metres", "meter", "meters"].contains(&found.as_str()) {
+    if is_metre(&found) {
         return Ok(());
     }
     let found = format!("units = \"{}\"", short(&found).escape_debug());
@@ -199,18 +133,14 @@ fn refuse_other_units(dataset: &Dataset) -> Result<(), Hdf5Error> {
 
 /// The attribute `pitch`, m: one length, or those along x and y.
 fn pitch(dataset: &Dataset) -> Result<Option<[f64; 2]>, Hdf5Error> {
-    let Ok(attribute) = dataset.attr("pitch") else { return Ok(None) };
-    let number = attribute.dtype()?.to_descriptor()?;
-    let lengths = match (number, attribute.space()?.size()) {
-        (TypeDescriptor::Float(_) | TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_), 1 | 2) => {
-            attribute.read_raw::<f64>()?
-        }
-        _ => Vec::new(),
-    };
-    // One length is that along both.
-    let lengths = if let [both] = lengths[..] { vec![both; 2] } else { lengths };
+    if dataset.attr("pitch").is_err() {
+        return Ok(None);
+    }
+    let lengths = numbers(dataset, "pitch")?;
     match lengths[..] {
         [x, y] if x > 0.0 && y > 0.0 && x.is_finite() && y.is_finite() => Ok(Some([x, y])),
+        // One length is that along both.
+        [both] if both > 0.0 && both.is_finite() => Ok(Some([both; 2])),
         _ => Err(Hdf5Error::Attribute {
             dataset: dataset.name(),
             found: format!("pitch = {lengths:?}"),
@@ -254,10 +184,15 @@ pub(super) fn base(
     shape: (usize, usize),
     is_there: impl Fn(usize) -> bool,
 ) -> Result<(String, Vec<Base>), Hdf5Error> {
-    let dataset = hdf5_file::guarded(0, || find(path, dataset, Wanted::Base(shape)))?;
+    let (dataset, dimensions) = hdf5_file::guarded(0, || {
+        let dataset = find(path, dataset, Wanted::Base(shape))?;
+        let dimensions = Dimensions::of(&dataset)?;
+        Ok::<_, Hdf5Error>((dataset, dimensions))
+    })?;
     hdf5_file::refuse_hollow(&dataset)?;
-    let name = dataset.name();
+    let (name, stored) = (dataset.name(), bounded_shape(&dataset)?);
     let numbers = hdf5_file::guarded(shape.0 * shape.1 * size_of::<i64>(), || dataset.read_raw::<i64>())?;
+    let (_, numbers) = dimensions.lay_out(stored, numbers);
     let base = numbers.into_iter().enumerate().map(|(cell, number)| match number {
         0 => Ok(Base::Resin),
         1 => Ok(Base::Primary),

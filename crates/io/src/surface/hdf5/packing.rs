@@ -1,0 +1,83 @@
+//! How netCDF packs numbers: a mark for those that are missing, a factor and an offset (NetCDF Users Guide, attribute conventions;
+//! CF conventions, 2.5.1 and 8.1).
+
+use hdf5::types::TypeDescriptor;
+use hdf5::{Dataset, Location};
+
+use super::error::Hdf5Error;
+
+/// The attribute of the factor, without which integers are no heights.
+const SCALE_FACTOR: &str = "scale_factor";
+
+/// What a stored number stands for: NaN where it is a mark, else times `scale_factor` plus `add_offset`.
+pub(super) struct Packing {
+    scale_factor: f64,
+    add_offset: f64,
+    /// Stored numbers that mark missing points.
+    marks: Vec<f64>,
+}
+
+impl Packing {
+    /// Whether a factor is stated.
+    pub(super) fn is_packed(dataset: &Dataset) -> bool {
+        dataset.attr(SCALE_FACTOR).is_ok()
+    }
+
+    /// As the attributes of a dataset have it.
+    pub(super) fn of(dataset: &Dataset) -> Result<Self, Hdf5Error> {
+        let one = |name: &str, absent: f64, fits: fn(f64) -> bool, expected: &'static str| {
+            if dataset.attr(name).is_err() {
+                return Ok(absent);
+            }
+            match numbers(dataset, name)?[..] {
+                [number] if number.is_finite() && fits(number) => Ok(number),
+                ref found => {
+                    let found = format!("{name} = {found:?}");
+                    Err(Hdf5Error::Attribute { dataset: dataset.name(), found, expected })
+                }
+            }
+        };
+        let mut marks = numbers(dataset, "_FillValue")?;
+        marks.extend(numbers(dataset, "missing_value")?);
+        Ok(Self {
+            scale_factor: one(SCALE_FACTOR, 1.0, |factor| factor != 0.0, "one finite number that is not 0")?,
+            add_offset: one("add_offset", 0.0, |_| true, "one finite number")?,
+            marks,
+        })
+    }
+
+    /// Makes heights of stored numbers, m, in place.
+    pub(super) fn unpack(&self, stored: &mut [f64]) {
+        let Self { scale_factor, add_offset, ref marks } = *self;
+        if marks.iter().any(|mark| !mark.is_nan()) {
+            stored.iter_mut().filter(|number| marks.contains(number)).for_each(|number| *number = f64::NAN);
+        }
+        if (scale_factor, add_offset) != (1.0, 0.0) {
+            stored.iter_mut().for_each(|number| *number = *number * scale_factor + add_offset);
+        }
+    }
+
+    /// What is done to the stored numbers, in words.
+    pub(super) fn note(&self) -> Option<String> {
+        let Self { scale_factor, add_offset, .. } = *self;
+        ((scale_factor, add_offset) != (1.0, 0.0)).then(|| {
+            format!("heights are the stored numbers times scale_factor {scale_factor:e} plus add_offset {add_offset:e}")
+        })
+    }
+}
+
+/// The numbers of an attribute; none where it is not there or holds something else.
+pub(super) fn numbers(location: &Location, name: &str) -> hdf5::Result<Vec<f64>> {
+    let Ok(attribute) = location.attr(name) else { return Ok(Vec::new()) };
+    match attribute.dtype()?.to_descriptor()? {
+        TypeDescriptor::Float(_) | TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_)
+            if (1..=MOST_NUMBERS).contains(&attribute.space()?.size()) =>
+        {
+            attribute.read_raw::<f64>()
+        }
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// Numbers of an attribute that is read.
+const MOST_NUMBERS: usize = 64;
