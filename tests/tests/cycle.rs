@@ -319,6 +319,26 @@ fn what_is_wrong_with_a_cycle_is_said_with_its_place() {
         let found = refused(file, &table(rows));
         assert!(found.contains(expected), "{found}\nexpected {expected}");
     }
+    for (table, expected) in [
+        // As a spreadsheet of Germany or France writes 1200 rpm and 10.5 N.
+        (
+            "time [s];normal_force [N];rotational_speed [rpm]\n0;10,5;1.200\n3;10,5;0\n",
+            "stops.csv:2:8: \"1.200\" and \"10,5\" in line 2, column 3: a decimal point and a decimal comma in one table;",
+        ),
+        ("time [s],normal_force [N]\n0,1\n\n2,1\n", "stops.csv:4:1: another table begins here, below a blank line: "),
+        (
+            "time [s],normal_force [N]\n0,1\ntime [s],normal_force [N]\n0,1\n",
+            "stops.csv:3:1: another table begins here, ",
+        ),
+        ("time [s],normal_force [N]\n0,O.3\n", "stops.csv:2:3: normal_force [N]: found \"O.3\", expected a number"),
+        (
+            "time [s],normal_force [N]\n0,1e400\n",
+            "stops.csv:2:3: normal_force [N]: found 1e400, expected a number of 0 or more",
+        ),
+    ] {
+        let found = refused(file, table);
+        assert!(found.contains(expected), "{found}\nexpected {expected}");
+    }
     let found = refused(file, "time,normal_force [N]\n0,1\n");
     assert!(found.contains("stops.csv:1:1: time: \"1\" has no unit"), "{found}");
     let found = refused(file, "time [s],normal_force [N]\n0,1\n2,1\n");

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use console::measure_text_width;
+use plateau_io::delimited::{decode, numbered};
 use plateau_io::scene::{Origin, Problem};
 use plateau_io::{brief, text};
 
@@ -19,7 +20,7 @@ pub fn of(problems: &[Problem]) -> String {
 
 fn with_line<'a>(problem: &'a Problem, files: &mut HashMap<&'a Path, Option<String>>) -> String {
     let Origin::Place { file, line, column } = &problem.origin else { return problem.to_string() };
-    let text = files.entry(file).or_insert_with(|| fs::read_to_string(file).ok());
+    let text = files.entry(file).or_insert_with(|| fs::read(file).ok().map(|content| decode(&content).into_owned()));
     let shown = text.as_ref().and_then(|text| marked(text, *line, *column));
     shown.map_or_else(|| problem.to_string(), |shown| format!("{problem}\n{shown}"))
 }
@@ -27,7 +28,7 @@ fn with_line<'a>(problem: &'a Problem, files: &mut HashMap<&'a Path, Option<Stri
 /// A line with its number, and a mark below the column; both count from 1. None if there is no such place, as when the file has
 /// changed meanwhile.
 fn marked(text: &str, line: usize, column: usize) -> Option<String> {
-    let found = text.lines().nth(line.checked_sub(1)?)?.trim_start_matches('\u{feff}');
+    let (_, found) = numbered(text).nth(line.checked_sub(1)?)?;
     if column > found.chars().count().min(LONGEST) + 1 {
         return None;
     }

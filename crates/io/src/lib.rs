@@ -11,6 +11,7 @@
 //! | what a stopped run goes on from | [`checkpoint`] |
 //! | run files for other programs: CSV, NumPy, ParaView | [`export`] |
 //! | numbers as people read them | [`number`] |
+//! | text of numbers, in whatever dialect | [`delimited`] |
 //! | HDF5 files of named results | [`dataset_file`] |
 //! | who may write a run file and its checkpoints | [`claim`] |
 //! | regular files, and nothing else | [`regular`] |
@@ -26,6 +27,7 @@ pub mod brief;
 pub mod checkpoint;
 pub mod claim;
 pub mod dataset_file;
+pub mod delimited;
 pub mod export;
 mod hdf5_file;
 pub mod limits;

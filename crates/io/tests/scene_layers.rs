@@ -222,3 +222,24 @@ fn a_constant_beside_an_inherited_cycle_is_told_to_change_nothing() {
     assert_eq!(warned(&own("rotational_speed = \"500 rpm\"")), [""; 0]);
     assert_eq!(warned(&own(&format!("normal_force = \"40 N\"\n{cycle}"))), [""; 0]);
 }
+
+#[test]
+fn a_vehicle_that_brakes_while_its_disc_does_not_is_wondered_at() {
+    let folder = tempfile::tempdir().unwrap();
+    let base = std::path::absolute(good("minimal.toml")).unwrap();
+    let base = toml::Value::from(&*base.to_string_lossy());
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, format!("extends = {base}\n[operation]\ncycle.file = \"loads.csv\"\n")).unwrap();
+    let warned = |table: &str| {
+        std::fs::write(folder.path().join("loads.csv"), table).unwrap();
+        let scene = scene::load(&path, &[]).unwrap();
+        let warnings = scene.warnings.iter().map(ToString::to_string);
+        warnings.filter(|warning| warning.contains("road_speed")).collect::<Vec<_>>()
+    };
+    let said = warned("time [s],normal_force [N],road_speed [km/h]\n0,4,50\n9,6,0\n");
+    assert!(said.len() == 1 && said[0].contains("scene.toml:3:14: operation.cycle.file"), "{said:?}");
+    assert!(said[0].contains("road_speed changes while the disc turns at one speed"), "{said:?}");
+    // A vehicle at one speed, and a disc that brakes with it.
+    assert_eq!(warned("time [s],normal_force [N],road_speed [km/h]\n0,4,50\n9,6,50\n"), [""; 0]);
+    assert_eq!(warned("time [s],sliding_speed [m/s],road_speed [km/h]\n0,4,50\n9,0,0\n"), [""; 0]);
+}

@@ -399,3 +399,14 @@ fn images_that_are_no_heights() {
         [1.0, 1.0 / 65535.0]
     );
 }
+
+#[test]
+fn a_workbook_is_named_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("heights.csv");
+    let mut archive = zip::ZipWriter::new(fs::File::create(&path).unwrap());
+    archive.start_file("content.xml", zip::write::SimpleFileOptions::default()).unwrap();
+    archive.finish().unwrap();
+    let expected = "this is a workbook (.ods), which is not read: save the sheet with the heights as CSV";
+    assert_eq!(message(&path, &um()), expected);
+}

@@ -28,7 +28,7 @@ pub struct ReadArguments {
     /// Take the file as a profile, of a surface with grooves along or across sliding, or isotropic
     #[arg(long, value_name = "DIRECTION", value_parser = said(lay))]
     pub profile_lay: Option<Said<Lay>>,
-    /// Dataset of an HDF5 file, or array of an .npz archive
+    /// Dataset of an HDF5 file, array of an .npz archive, or number of a table in a text
     #[arg(long, value_name = "NAME")]
     pub dataset: Option<String>,
 }

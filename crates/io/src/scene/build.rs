@@ -12,7 +12,7 @@ use plateau_core::observe::schedule::SampleEvery;
 use plateau_core::observe::{Map, requested};
 
 use super::contents::{OperationCycle, OutputSettings, Scene, Workers};
-use super::cycle::{constants_without_effect, operation, refuse_choice, short_events};
+use super::cycle::{constants_without_effect, operation, refuse_choice, road_alone, short_events};
 use super::error::{Origin, Problem};
 use super::interpret::Setting;
 use super::length::{Length, length};
@@ -35,6 +35,7 @@ pub(super) fn build(mut settings: Settings, mut files: Vec<PathBuf>, path: &Path
     if let Some(operation) = &operation {
         refuse_choice(&settings, &operation.cycle, duration)?;
         warnings.extend(constants_without_effect(&settings, operation, path));
+        warnings.extend(road_alone(&settings, operation));
         warnings.extend(short_events(&settings, &parameters, &operation.cycle, duration));
     }
     files.extend(operation.as_ref().and_then(|operation| operation.file.clone()));

@@ -106,6 +106,8 @@ pub struct OperationCycle {
     pub has_speed: bool,
     /// Whether it says how fast the vehicle is.
     pub has_road: bool,
+    /// Whether the vehicle changes its speed, while the disc turns at one speed.
+    pub is_road_alone: bool,
     /// The file of its rows, if they are not in the scene.
     pub file: Option<PathBuf>,
 }

@@ -59,6 +59,7 @@ pub(super) fn operation(
     };
     let has_road = table.road_speeds.is_some();
     let road_speeds = table.road_speeds.unwrap_or_else(|| vec![0.0; rows]);
+    let is_road_alone = road_speeds.iter().any(|speed| *speed != road_speeds[0]) && !has_speed;
     let nodes: Vec<Node> = (0..rows)
         .map(|row| Node {
             time: table.times[row],
@@ -76,7 +77,7 @@ pub(super) fn operation(
         };
         Problem::new(row.unwrap_or(&place), &source, error.to_string())
     })?;
-    Ok(Some(OperationCycle { cycle: Arc::new(cycle), has_load, has_speed, has_road, file }))
+    Ok(Some(OperationCycle { cycle: Arc::new(cycle), has_load, has_speed, has_road, is_road_alone, file }))
 }
 
 /// A file that cannot be read is the fault of the key that names it.
@@ -133,6 +134,20 @@ pub(super) fn constants_without_effect(settings: &Settings, operation: &Operatio
             advice: format!("set operation.cycle.{scale} to change all rows"),
         })
         .collect()
+}
+
+/// A word to a vehicle that changes its speed while its disc does not.
+pub(super) fn road_alone(settings: &Settings, operation: &OperationCycle) -> Option<Warning> {
+    let is_given = |key: &String| settings.get(key).is_some();
+    let key = ["points", "file"].map(|name| format!("{CYCLE}.{name}")).into_iter().find(is_given)?;
+    operation.is_road_alone.then(|| Warning {
+        place: settings.origin(&key),
+        key,
+        found: "road_speed changes while the disc turns at one speed, that of [operation]".to_owned(),
+        bound: "and nothing follows from road_speed but the road distance".to_owned(),
+        advice: "give the speed of the disc, too: sliding_speed is road_speed times mean radius over the rolling radius of the wheel"
+            .to_owned(),
+    })
 }
 
 /// A word to cycles with events that are too short for the acceleration (model section 9).

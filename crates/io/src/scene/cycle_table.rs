@@ -1,13 +1,13 @@
 //! Tables of load and speed over time (docs/cycles.md): text with one row a moment, as instruments and spreadsheets write it.
 
-use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Origin, Problem};
+use crate::delimited::{self, Fault, Line, Named};
+use crate::limits;
 use crate::text::short;
 use crate::units::{self, Dimension};
-use crate::{limits, regular};
 
 /// What a column may hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,14 +72,10 @@ struct Column {
     values: Vec<f64>,
 }
 
-/// The file and how its lines are divided.
-struct Reader {
-    file: Arc<Path>,
-    separator: char,
-}
+/// What is wrong, with the header of the column if it is of one.
+type Wrong = (Option<String>, Fault);
 
-/// Reads a table. Lines that are empty or begin with `#` are left out; where a semicolon separates, numbers may have a decimal
-/// comma.
+/// Reads a table.
 ///
 /// # Errors
 /// What is wrong, with line and column.
@@ -89,116 +85,81 @@ pub fn read(path: &Path) -> Result<CycleTable, Problem> {
 
 fn read_rows(path: &Path, most: usize) -> Result<CycleTable, Problem> {
     let file: Arc<Path> = path.into();
-    let text = regular::read_to_string(path, limits::TABLE).map_err(|error| {
-        let advice = if error.kind() == ErrorKind::InvalidData { "; save it as UTF-8" } else { "" };
-        Problem::without_key(&Origin::File(file.clone()), format!("cannot read it: {error}{advice}"))
+    let of_file = |message: String| Problem::without_key(&Origin::File(file.clone()), message);
+    let origin = |line: usize, column: usize| Origin::Place { file: file.clone(), line, column };
+    let wrong =
+        |(head, fault): Wrong| Problem { origin: origin(fault.line, fault.column), key: head, message: fault.message };
+    let text = delimited::read(path, limits::TABLE).map_err(|error| of_file(format!("cannot read it: {error}")))?;
+    let table = Named::of(&text).map_err(|fault| wrong((None, fault)))?.ok_or_else(|| {
+        of_file("it is empty, expected a header such as: time [s],normal_force [N],rotational_speed [rpm]".to_owned())
     })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line)).filter(|(_, line)| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let Some((number, header)) = lines.next() else {
-        let message = "it is empty, expected a header such as: time [s],normal_force [N],rotational_speed [rpm]";
-        return Err(Problem::without_key(&Origin::File(file), message));
-    };
-    if header.contains('\t') {
-        let problem = "the columns are separated by tabs, expected commas, or semicolons with a decimal comma";
-        return Err(Problem {
-            origin: Origin::Place { file, line: number, column: 1 },
-            key: None,
-            message: problem.to_owned(),
-        });
-    }
-    let reader = Reader { file, separator: if header.contains(';') { ';' } else { ',' } };
-    let mut columns = reader.header(number, header)?;
-    let mut rows = Vec::new();
-    for (number, line) in lines {
-        if rows.len() == most {
-            return Err(reader.problem(number, 1, None, limits::more("more", most, "rows")));
+    let mut columns = header(&table.head).map_err(wrong)?;
+    let mut places = Vec::new();
+    for row in table.rows() {
+        let row = row.map_err(|fault| wrong((None, fault)))?;
+        if places.len() == most {
+            return Err(wrong((None, row.fault(0, limits::more("more", most, "rows")))));
         }
-        reader.row(number, line, &mut columns)?;
-        rows.push(reader.origin(number, 1));
+        take(&row, &mut columns).map_err(wrong)?;
+        places.push(origin(row.number, 1));
     }
-    Ok(table(columns, rows))
+    Ok(self::table(columns, places))
 }
 
-impl Reader {
-    fn origin(&self, line: usize, column: usize) -> Origin {
-        Origin::Place { file: self.file.clone(), line, column }
-    }
-
-    fn problem(&self, line: usize, column: usize, key: Option<&str>, message: String) -> Problem {
-        Problem { origin: self.origin(line, column), key: key.map(str::to_owned), message }
-    }
-
-    /// The fields of a line, each with the column of the text at which it begins, from 1.
-    fn fields<'a>(&self, line: &'a str) -> Vec<(usize, &'a str)> {
-        let mut column = 1;
-        let field = |field: &'a str| {
-            let blank = field.chars().take_while(|character| character.is_whitespace()).count();
-            let begin = column + blank;
-            column += field.chars().count() + 1;
-            (begin, field.trim().trim_matches('"').trim())
+/// The columns that the header names, or what is wrong with one of the names.
+fn header(line: &Line<'_>) -> Result<Vec<Column>, Wrong> {
+    let mut columns: Vec<Column> = Vec::new();
+    for (place, cell) in line.cells.iter().enumerate() {
+        let header = &*cell.text;
+        let wrong = |message: String| Err((Some(header.to_owned()), line.fault(place, message)));
+        let (name, unit) = match header.split_once('[') {
+            Some((name, unit)) => (name.trim(), unit.trim_end().trim_end_matches(']').trim()),
+            None => (header, ""),
         };
-        line.split(self.separator).map(field).collect()
+        let name = name.to_lowercase().replace(' ', "_");
+        let Some((_, quantity, dimension)) = COLUMNS.iter().find(|(known, ..)| *known == name) else {
+            let known: Vec<_> = COLUMNS.iter().map(|(name, ..)| *name).collect();
+            return wrong(format!("no such column, expected some of {}", known.join(", ")));
+        };
+        if let Err(error) = units::parse(&format!("1 {unit}"), *dimension) {
+            return wrong(format!("{error}; give the unit in brackets, such as {name} [{}]", dimension.si_unit()));
+        }
+        if let Some(other) = columns.iter().find(|other| excludes(other.quantity, *quantity)) {
+            return wrong(format!("stands beside {}, expected one of the two", other.header));
+        }
+        let (header, unit) = (header.to_owned(), unit.to_owned());
+        columns.push(Column { header, unit, quantity: *quantity, dimension: *dimension, values: Vec::new() });
     }
+    if columns.iter().all(|column| column.quantity != Quantity::Time) {
+        return Err((None, line.fault(0, "no column of times, expected time [s]".into())));
+    }
+    Ok(columns)
+}
 
-    fn header(&self, number: usize, line: &str) -> Result<Vec<Column>, Problem> {
-        let mut columns: Vec<Column> = Vec::new();
-        for (place, header) in self.fields(line) {
-            let wrong = |message: String| Err(self.problem(number, place, Some(header), message));
-            let (name, unit) = match header.split_once('[') {
-                Some((name, unit)) => (name.trim(), unit.trim_end().trim_end_matches(']').trim()),
-                None => (header, ""),
-            };
-            let name = name.to_lowercase().replace(' ', "_");
-            let Some((_, quantity, dimension)) = COLUMNS.iter().find(|(known, ..)| *known == name) else {
-                let known: Vec<_> = COLUMNS.iter().map(|(name, ..)| *name).collect();
-                return wrong(format!("no such column, expected some of {}", known.join(", ")));
-            };
-            if let Err(error) = units::parse(&format!("1 {unit}"), *dimension) {
-                return wrong(format!("{error}; give the unit in brackets, such as {name} [{}]", dimension.si_unit()));
-            }
-            if let Some(other) = columns.iter().find(|other| excludes(other.quantity, *quantity)) {
-                return wrong(format!("stands beside {}, expected one of the two", other.header));
-            }
-            let (header, unit) = (header.to_owned(), unit.to_owned());
-            columns.push(Column { header, unit, quantity: *quantity, dimension: *dimension, values: Vec::new() });
-        }
-        if columns.iter().all(|column| column.quantity != Quantity::Time) {
-            return Err(self.problem(number, 1, None, "no column of times, expected time [s]".into()));
-        }
-        Ok(columns)
+/// Takes in a row, or tells what is wrong with it, in which column.
+fn take(row: &Line<'_>, columns: &mut [Column]) -> Result<(), Wrong> {
+    if row.cells.len() > columns.len() {
+        let message = format!("{} fields, expected {}, one for each column", row.cells.len(), columns.len());
+        return Err((None, row.fault(columns.len(), message)));
     }
-
-    fn row(&self, number: usize, line: &str, columns: &mut [Column]) -> Result<(), Problem> {
-        let fields = self.fields(line);
-        if fields.len() > columns.len() {
-            let message = format!("{} fields, expected {}, one for each column", fields.len(), columns.len());
-            return Err(self.problem(number, fields[columns.len()].0, None, message));
+    for (place, column) in columns.iter_mut().enumerate() {
+        let field = row.cells.get(place).map_or("", |cell| &*cell.text);
+        let wrong = |message: String| Err((Some(column.header.clone()), row.fault(place, message)));
+        if field.is_empty() {
+            return wrong("no value, expected a number in every row".into());
         }
-        let end = line.chars().count() + 1;
-        for (index, column) in columns.iter_mut().enumerate() {
-            let (place, field) = fields.get(index).copied().unwrap_or((end, ""));
-            let wrong = |message: String| Err(self.problem(number, place, Some(&column.header), message));
-            if field.is_empty() {
-                return wrong("no value, expected a number in every row".into());
-            }
-            let field = if self.separator == ';' { field.replace(',', ".") } else { field.to_owned() };
-            let Ok(plain) = field.parse::<f64>() else {
-                return wrong(format!("found \"{}\", expected a number", short(&field).escape_debug()));
-            };
-            if !plain.is_finite() || plain < 0.0 {
-                return wrong(format!("found {}, expected a number of 0 or more", short(&field)));
-            }
-            match units::parse(&format!("{field} {}", column.unit), column.dimension) {
-                Ok(value) => column.values.push(value),
-                Err(error) => return wrong(error.to_string()),
-            }
+        let Ok(plain) = field.parse::<f64>() else {
+            return wrong(format!("found \"{}\", expected a number", short(field).escape_debug()));
+        };
+        if !plain.is_finite() || plain < 0.0 {
+            return wrong(format!("found {}, expected a number of 0 or more", short(field)));
         }
-        Ok(())
+        match units::parse(&format!("{field} {}", column.unit), column.dimension) {
+            Ok(value) => column.values.push(value),
+            Err(error) => return wrong(error.to_string()),
+        }
     }
+    Ok(())
 }
 
 /// Whether two columns say the same thing.
@@ -251,17 +212,32 @@ mod tests {
 
     #[test]
     fn a_spreadsheet_may_write_decimal_commas() {
-        let table = read_text("\u{feff}\"time [s]\";\"normal_force [N]\"\r\n0;47,5\r\n\r\n0,25;1e1\r\n").unwrap();
-        assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![2, 4]));
+        let table = read_text("\u{feff}\"time [s]\";\"normal_force [N]\"\r\n\r\n0;47,5\r\n0,25;1e1\r\n").unwrap();
+        assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![3, 4]));
         assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
         assert_eq!(table.speeds, None);
+    }
+
+    #[test]
+    fn the_table_is_the_same_in_every_encoding() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("stops.csv");
+        let text = "sep=\t\r\n# 20 °C\r\ntime [s]\tnormal_force [N]\r\n0\t47,5\r\n0,25\t1e1\r\n";
+        let utf16: Vec<u8> = std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+        let windows: Vec<u8> = text.chars().map(|letter| letter as u8).collect();
+        for content in [text.as_bytes(), &utf16, &windows, text.replace("\r\n", "\r").as_bytes()] {
+            std::fs::write(&path, content).unwrap();
+            let table = read(&path).unwrap();
+            assert_eq!((&table.times, lines(&table)), (&vec![0.0, 0.25], vec![4, 5]));
+            assert_eq!(table.loads, Some(Loads::Force(vec![47.5, 10.0])));
+        }
     }
 
     #[test]
     fn more_rows_than_are_read_are_refused() {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("stops.csv");
-        std::fs::write(&path, "time [s]\n0\n1\n\n2\n3\n").unwrap();
+        std::fs::write(&path, "time [s]\n\n0\n1\n2\n3\n").unwrap();
         assert_eq!(read_rows(&path, 4).unwrap().times, [0.0, 1.0, 2.0, 3.0]);
         let error = read_rows(&path, 3).unwrap_err().to_string();
         assert!(error.ends_with("stops.csv:6:1: more rows, expected at most 3"), "{error}");

@@ -38,7 +38,33 @@ pub fn read(path: &Path, factors: &[Factor], others: &[&str]) -> Result<Points, 
         };
         factors.iter().zip(&columns).zip(&mut known).map(level).collect::<Result<Vec<Level>, String>>()
     };
-    table.rows().iter().map(point).collect()
+    let points = table.rows().iter().map(point).collect::<Result<Points, String>>()?;
+    for (at, factor) in factors.iter().enumerate().filter(|(_, factor)| factor.keys.is_empty()) {
+        refuse_words(&table, factor, points.iter().map(|point| &point[at]))?;
+    }
+    Ok(points)
+}
+
+/// Refuses what is no number, such as `O.3` or `1e400`, among numbers of a factor without a key, of which no scene tells that it is wrong.
+fn refuse_words<'a>(
+    table: &ValueTable,
+    factor: &Factor,
+    levels: impl Iterator<Item = &'a Level> + Clone,
+) -> Result<(), String> {
+    let is_number = |level: &Level| level.number.is_some_and(f64::is_finite);
+    let mut lines = table.rows().iter().zip(levels);
+    let number = lines.clone().find(|(_, level)| is_number(level));
+    match (number, lines.find(|(_, level)| !is_number(level))) {
+        (Some((beside, number)), Some((row, word))) => Err(format!(
+            "{}: \"{}\" is \"{}\", which is no number, and {} in line {} is one; expected numbers in all lines, or words in all",
+            table.place(row),
+            factor.name,
+            short(&word.label),
+            short(&number.label),
+            beside.line
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Levels of a factor as they were spelt first: `5 N`, `5.0 N` and `5000 mN` are one level.
@@ -114,6 +140,25 @@ mod tests {
         let mut spellings = Spellings::of(&factor);
         assert_eq!(spellings.first_spelt(level("6000 mN")).unwrap().label, "6 N");
         assert_eq!(spellings.first_spelt(level("7 N")).unwrap_err(), "7 N is none of the levels 5 N, 6 N");
+    }
+
+    #[test]
+    fn a_word_among_numbers_is_no_level() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("points.csv");
+        let values = Values::Levels(Vec::new());
+        let factors = [Factor { name: "humidity".into(), keys: Vec::new(), stated_unit: String::new(), values }];
+        let read = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            read(&path, &factors, &[])
+        };
+        for word in ["O.3", "1e400", "0,3", "high"] {
+            let said = read(&format!("humidity\n0.4\n\"{word}\"\n0.5\n")).unwrap_err();
+            let expected =
+                format!("points.csv:3: \"humidity\" is \"{word}\", which is no number, and 0.4 in line 2 is one;");
+            assert!(said.contains(&expected), "{said}");
+        }
+        assert_eq!(read("humidity\nhigh\nlow\n").unwrap().len(), 2);
     }
 
     #[test]

@@ -1,15 +1,14 @@
 //! A table of values in CSV: columns of factors and responses, named in the first line, with units as in results.csv.
-//!
-//! Where a spreadsheet writes commas in numbers, it parts columns by semicolons: such a table, and one with tabs, is read too.
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use super::factor::Factor;
 use super::level::Level;
+use crate::delimited::{self, Fault, Line, Named};
+use crate::limits;
 use crate::text::{odd_character, short, text_of_cell, too_long};
 use crate::units::parse_as;
-use crate::{limits, regular};
 
 /// Columns that a message names.
 const SHOWN: usize = 12;
@@ -42,53 +41,37 @@ impl ValueTable {
     /// As [`ValueTable::read`], at most so many lines, and at most [`limits::CELLS`] values.
     fn read_rows(path: &Path, most: usize) -> Result<Self, String> {
         let shown = path.display();
-        let text =
-            regular::read_to_string(path, limits::TABLE).map_err(|error| format!("cannot read {shown}: {error}"))?;
-        // The library counts lines that it passes over to the one that follows, so they are taken out before.
-        let is_kept = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
-        let lines = text.trim_start_matches('\u{feff}').lines().zip(1_u64..);
-        let (kept, numbers): (Vec<&str>, Vec<u64>) = lines.filter(|(line, _)| is_kept(line)).unzip();
-        let kept = kept.join("\n");
-        let number = |position: Option<&csv::Position>| {
-            let at = position.map_or(1, csv::Position::line).saturating_sub(1);
-            usize::try_from(at).ok().and_then(|at| numbers.get(at)).copied().unwrap_or(0)
-        };
-        let delimiter = delimiter(kept.lines().next().unwrap_or(""));
-        let mut reader =
-            csv::ReaderBuilder::new().delimiter(delimiter).trim(csv::Trim::All).from_reader(kept.as_bytes());
-        let wrong = |error: csv::Error| match error.kind() {
-            csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-                format!("{shown}:{}: {len} cells, expected {expected_len} as in the first line", number(pos.as_ref()))
-            }
-            _ => format!("{shown}: {error}"),
-        };
-        let heads: Vec<String> =
-            reader.headers().map_err(wrong)?.iter().map(|head| text_of_cell(head).to_owned()).collect();
+        let text = delimited::read(path, limits::TABLE).map_err(|error| format!("cannot read {shown}: {error}"))?;
+        let wrong = |fault: Fault| format!("{shown}:{}: {}", fault.line, fault.message);
+        let no_points = || format!("{shown}: no points, expected a line for each");
+        let table = Named::of(&text).map_err(wrong)?.ok_or_else(no_points)?;
+        let texts = |line: &Line<'_>| line.cells.iter().map(|cell| text_of_cell(&cell.text).to_owned()).collect();
+        let heads: Vec<String> = texts(&table.head);
         let mut known = HashSet::with_capacity(heads.len());
         if let Some(twice) = heads.iter().find(|head| !known.insert(head.as_str())) {
             return Err(format!("{shown}: column \"{}\" is there twice", short(twice)));
         }
         let most = most.min(limits::CELLS / heads.len().max(1));
         let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(wrong)?;
-            let line = number(record.position());
+        for row in table.rows() {
+            let row = row.map_err(wrong)?;
+            let line = row.number;
             if rows.len() == most {
                 return Err(format!("{shown}:{line}: {}", limits::more("more", most, "points")));
             }
-            if let Some((head, found)) =
-                heads.iter().zip(&record).find_map(|(head, cell)| Some((head, odd_character(cell)?)))
-            {
+            if row.cells.len() != heads.len() {
+                let (found, expected) = (row.cells.len(), heads.len());
+                return Err(format!("{shown}:{line}: {found} cells, expected {expected} as in the first line"));
+            }
+            let cells: Vec<String> = texts(&row);
+            let odd = heads.iter().zip(&cells).find_map(|(head, cell)| Some((head, odd_character(cell)?)));
+            if let Some((head, found)) = odd {
                 return Err(format!("{shown}:{line}: \"{head}\" has {found}; take it out"));
             }
-            let cell = |cell: &str| {
-                let text = text_of_cell(cell);
-                if delimiter == b',' { text.to_owned() } else { with_point(text) }
-            };
-            rows.push(Row { line, cells: record.iter().map(cell).collect() });
+            rows.push(Row { line: line as u64, cells });
         }
         if rows.is_empty() {
-            return Err(format!("{shown}: no points, expected a line for each"));
+            return Err(no_points());
         }
         Ok(Self { path: path.to_owned(), heads, rows })
     }
@@ -213,26 +196,6 @@ impl ValueTable {
     }
 }
 
-/// What parts the columns below this head: semicolons only where there are more of them than commas, for names may have one.
-fn delimiter(head: &str) -> u8 {
-    let count = |delimiter: char| head.matches(delimiter).count();
-    match (count('\t'), count(';') > count(',')) {
-        (1.., _) => b'\t',
-        (0, true) => b';',
-        (0, false) => b',',
-    }
-}
-
-/// A number that is written with a comma, with a point; all else as it is.
-fn with_point(cell: &str) -> String {
-    let is_whole = |text: &str| text.trim_start_matches(['+', '-']).bytes().all(|byte| byte.is_ascii_digit());
-    let is_fraction = |text: &str| text.starts_with(|first: char| first.is_ascii_digit()) && !text.contains([',', '.']);
-    match cell.split_once(',') {
-        Some((whole, fraction)) if is_whole(whole) && is_fraction(fraction) => format!("{whole}.{fraction}"),
-        _ => cell.to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -264,29 +227,6 @@ mod tests {
         assert_eq!(table.level(first, 2, &factors[1]).unwrap().number, Some(0.2));
         assert_eq!((table.number(first, 1), table.number(second, 1)), (Ok(Some(1e-6)), Ok(None)));
         assert!(table.level(second, 0, &factors[0]).unwrap_err().ends_with("t.csv:4: \"load\" is empty"));
-    }
-
-    #[test]
-    fn tables_with_commas_in_numbers_are_those_with_points() {
-        let values = |text: &str| {
-            let table = table(text).unwrap();
-            assert_eq!((table.named(0), table.named(1)), (("load", "N"), ("worn", "mm3")), "{text}");
-            let row = &table.rows()[0];
-            (table.number(row, 0).unwrap(), table.number(row, 1).unwrap())
-        };
-        let expected = (Some(7.5), Some(-1.25e-3));
-        for text in [
-            "load [N],worn [mm3]\n7.5,-1.25e-3\n",
-            "load [N];worn [mm3]\n7,5;-1,25e-3\n",
-            "load [N];worn [mm3]\r\n7.5;-1.25e-3\r\n",
-            "load [N]\tworn [mm3]\n7,5\t-1,25e-3\n",
-        ] {
-            assert_eq!(values(text), expected, "{text}");
-        }
-        assert_eq!(
-            ["1.234,5", "1,2,3", "a, b", ",", "7,5 N"].map(with_point),
-            ["1.234,5", "1,2,3", "a, b", ",", "7.5 N"]
-        );
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::error::FileError;
 use super::format::Format;
 use super::instrument::{PLUX, WORKBOOK, by_ending, recognise};
 use super::sdf::{SdfKind, without_margin};
-use super::text::is_utf16;
+use crate::delimited::{is_utf16, workbook};
 use crate::regular;
 
 /// How far into a file is looked.
@@ -55,6 +55,9 @@ fn from_archive(file: BufReader<File>) -> Result<Format, FileError> {
     }
     if has(b"xl/workbook.xml") {
         return Ok(Format::Instrument(WORKBOOK));
+    }
+    if let Some(book) = workbook(archive.file_names_raw()) {
+        return Err(FileError::Workbook(book));
     }
     let first = archive.file_names_raw().next().map(|name| name[..name.len().min(40)].escape_ascii());
     let entries = match first {

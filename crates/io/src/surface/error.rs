@@ -83,6 +83,9 @@ pub enum FileError {
     /// An instrument's own format.
     #[error("this is {}, which is not read; convert it to SDF: {}", .0.name, .0.conversion)]
     Instrument(Instrument),
+    /// A table of a spreadsheet.
+    #[error("this is {0}, which is not read: save the sheet with the heights as CSV")]
+    Workbook(&'static str),
     /// A zip archive that cannot be opened.
     #[error("this is a damaged zip archive: {0}")]
     Zip(String),

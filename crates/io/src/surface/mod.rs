@@ -1,6 +1,5 @@
 //! Initial surfaces: from what a scene asks for to heights and bases of every cell.
 
-mod decimal;
 mod detect;
 mod error;
 mod format;
@@ -20,7 +19,7 @@ mod text;
 mod writing;
 pub mod x3p;
 
-pub use decimal::Decimal;
+pub use crate::delimited::Decimal;
 pub use error::{FileError, SurfaceError};
 pub use format::Format;
 pub use hdf5::Hdf5Error;

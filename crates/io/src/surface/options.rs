@@ -3,13 +3,13 @@
 use plateau_core::surface::Length;
 use thiserror::Error;
 
-use super::decimal::Decimal;
 use super::stylus_profile::Lay;
+use crate::delimited::Decimal;
 
 /// What a user says of a file that the file itself does not.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadOptions {
-    /// Dataset in an HDF5 file, or array in an .npz archive.
+    /// Dataset in an HDF5 file, array in an .npz archive, or the number of a table in a text.
     pub dataset: Option<String>,
     /// Time of the map of a run file, s; without it the last one is taken.
     pub at: Option<f64>,

@@ -112,7 +112,7 @@ fn array(format: Format, array: npy::Array, options: &ReadOptions) -> Measured {
 /// Refuses what would silently not be used.
 fn refuse_meaningless(options: &ReadOptions, format: Format) -> Result<(), FileError> {
     use Format::{Hdf5, Npy, Npz, Png, Text, Tiff};
-    if let (Some(dataset), false) = (&options.dataset, matches!(format, Hdf5 | Npz)) {
+    if let (Some(dataset), false) = (&options.dataset, matches!(format, Hdf5 | Npz | Text)) {
         return Err(FileError::NoDatasets { format, dataset: dataset.clone() });
     }
     for (key, given, meaningful) in [

@@ -14,7 +14,12 @@ impl Table {
     /// Where the heights of a body come from: a file, random numbers or nothing.
     pub(super) fn heights(&mut self) {
         self.key("file", InputFile, OneOf, "measured heights: .sdf .x3p .txt .xyz .csv .npy .npz .h5 .png .tif");
-        self.key("dataset", Text, Optional, "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows)");
+        self.key(
+            "dataset",
+            Text,
+            Optional,
+            "dataset in an HDF5 file, array in an .npz: metres, shape (columns, rows); number of a table in a text",
+        );
         let time = Kind::Quantity { dimension: Time, unit: "s", range: Range::NOT_NEGATIVE };
         self.key("at", time, Optional, "time of the map of a run file that is taken; without it the last one is");
         self.key("unit", LengthUnit, Optional, "what the number 1 stands for, for text, .npy and decimal images");

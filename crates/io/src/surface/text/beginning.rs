@@ -1,8 +1,8 @@
 //! Where the table of a text begins whose first lines no header has.
 
-use super::cells::{Fault, Separator, is_comment, number, starts_numbers};
+use super::cells::{Fault, is_comment, number, starts_numbers};
 use super::header::Header;
-use crate::surface::decimal::Decimal;
+use crate::delimited::{Decimal, Separator};
 
 /// Lines that are looked at: no header of an instrument is nearly as long.
 const MOST_LINES: usize = 1000;
@@ -70,7 +70,7 @@ fn count(line: &str, separator: Separator) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::text::decode::lines;
+    use crate::delimited::lines;
 
     #[test]
     fn the_table_begins_below_the_last_odd_line() {

@@ -1,64 +1,7 @@
-//! Lines of numbers: how they are parted, and what their cells hold.
+//! What the cells of a line of numbers hold.
 
 use super::error::TextError;
-use crate::surface::decimal::Decimal;
-
-/// What parts the cells of a line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Separator {
-    /// One of these characters; a cell may be empty.
-    Character(char),
-    /// A comma with a blank behind it, where those without one are decimal.
-    CommaAndBlank,
-    /// Any number of blanks.
-    Blanks,
-}
-
-impl Separator {
-    /// The separator of a line: the first of semicolon, tab and comma that it has, else blanks.
-    pub(super) fn of(line: &str) -> Self {
-        [';', '\t', ','].into_iter().find(|mark| line.contains(*mark)).map_or(Self::Blanks, Self::Character)
-    }
-
-    /// The cells of a line, without blanks and quotation marks around them. A separator between quotation marks parts
-    /// nothing. One separator after the last cell is taken off if `terminated`.
-    pub(super) fn cells(self, line: &str, terminated: bool) -> impl Iterator<Item = &str> {
-        let (mut characters, mut pairs, mut blanks) = (None, None, None);
-        match self {
-            Self::Character(mark) => {
-                let line = line.trim_matches(|c: char| c.is_whitespace() && c != mark);
-                let line = if terminated { line.strip_suffix(mark).unwrap_or(line) } else { line };
-                let mut quoted = false;
-                let parts = move |character: char| {
-                    quoted ^= character == '"';
-                    character == mark && !quoted
-                };
-                characters = Some(line.split(parts));
-            }
-            Self::CommaAndBlank => {
-                let line = line.trim();
-                let line = if terminated { line.strip_suffix(',').unwrap_or(line) } else { line };
-                pairs = Some(line.split(", "));
-            }
-            Self::Blanks => blanks = Some(line.split_whitespace()),
-        }
-        characters
-            .into_iter()
-            .flatten()
-            .chain(pairs.into_iter().flatten())
-            .chain(blanks.into_iter().flatten())
-            .map(|cell| cell.trim().trim_matches('"').trim())
-    }
-
-    /// Whether a line ends with a separator.
-    pub(super) fn ends(self, line: &str) -> bool {
-        match self {
-            Self::Character(mark) => line.trim_end_matches(|c: char| c.is_whitespace() && c != mark).ends_with(mark),
-            Self::CommaAndBlank => line.trim_end().ends_with(','),
-            Self::Blanks => false,
-        }
-    }
-}
+use crate::delimited::{Decimal, Separator};
 
 /// What is wrong with a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,8 +21,8 @@ impl Fault {
         let found = shown(cell);
         match self {
             Self::NotANumber => TextError::Number { line, column, found },
-            Self::Comma => TextError::DecimalComma { line, column, found },
-            Self::Point => TextError::DecimalPoint { line, column, found },
+            Self::Comma => TextError::Mark { line, column, found, mark: Decimal::Comma, beside: None },
+            Self::Point => TextError::Mark { line, column, found, mark: Decimal::Point, beside: None },
             Self::Grouped => TextError::Grouped { line, column, found },
             Self::Infinite => TextError::Infinite { line, column, found },
         }
@@ -185,20 +128,6 @@ pub(super) fn starts_numbers(line: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn cells_are_parted_by_the_strongest_separator() {
-        let cells = |line: &str, terminated| {
-            Separator::of(line).cells(line, terminated).map(str::to_owned).collect::<Vec<_>>().join("|")
-        };
-        assert_eq!(cells(" 1  2\u{a0}3 ", false), "1|2|3");
-        assert_eq!(cells("1, 2 ,,4", false), "1|2||4");
-        assert_eq!(cells("1;2,5; ", false), "1|2,5|");
-        assert_eq!(cells("1;2,5; ", true), "1|2,5");
-        assert_eq!(cells("\t1\t\t3", false), "|1||3");
-        assert_eq!(cells("\"1.5\",\"2\"", false), "1.5|2");
-        assert_eq!(cells("\"1,5\", \"2,5\",\"\"", false), "1,5|2,5|");
-    }
 
     #[test]
     fn a_cell_is_a_number_or_missing() {

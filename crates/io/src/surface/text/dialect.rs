@@ -1,9 +1,9 @@
 //! What parts the numbers of a file, and whether they have a decimal point or a decimal comma: told from the lines of
 //! numbers, or refused where these can be read in two ways.
 
-use super::cells::{Fault, Separator, number, shown};
+use super::cells::{Fault, number, shown};
 use super::error::TextError;
-use crate::surface::decimal::Decimal;
+use crate::delimited::{Decimal, Separator};
 
 /// How the numbers of a file are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,16 +13,21 @@ pub(super) struct Dialect {
 }
 
 impl Dialect {
-    /// The dialect of these lines of numbers. The scene may give the decimal mark; the header may name so many `columns`.
+    /// The dialect of these lines of numbers. The file may state its separator, the scene give the decimal mark, the header name so many
+    /// `columns`.
     ///
     /// # Errors
     /// [`TextError`] where two readings fit, or digits stand in groups.
     pub(super) fn find<'a>(
         lines: impl Iterator<Item = (usize, &'a str)> + Clone,
+        stated: Option<char>,
         given: Option<Decimal>,
         columns: Option<usize>,
     ) -> Result<Self, TextError> {
-        let separator = separator(lines.clone(), given, columns)?;
+        let separator = match stated {
+            Some(mark) => Separator::Character(mark),
+            None => separator(lines.clone(), given, columns)?,
+        };
         let decimal = match given {
             Some(decimal) => decimal,
             // Between commas a number has a comma only if it is quoted.
@@ -168,7 +173,7 @@ fn is_long(cell: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::surface::text::decode::lines;
+    use crate::delimited::lines;
 
     fn find(text: &str) -> Result<(char, char), String> {
         named(text, None, None)
@@ -176,7 +181,7 @@ mod tests {
 
     /// Separator, blank for blanks, and decimal mark.
     fn named(text: &str, given: Option<Decimal>, columns: Option<usize>) -> Result<(char, char), String> {
-        let dialect = Dialect::find(lines(text), given, columns).map_err(|error| error.to_string())?;
+        let dialect = Dialect::find(lines(text), None, given, columns).map_err(|error| error.to_string())?;
         let separator = match dialect.separator {
             Separator::Character(mark) => mark,
             Separator::CommaAndBlank => '+',

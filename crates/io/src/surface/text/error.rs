@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::delimited::Decimal;
 use crate::surface::options::Disagreement;
 
 /// Why a text file gives no surface. Lines count from 1.
@@ -53,31 +54,42 @@ pub enum TextError {
         /// Which cell, counted from 1.
         column: usize,
     },
-    /// A comma where a point should be.
-    #[error(
-        "line {line}, column {column}: \"{found}\" has a decimal comma, but numbers of this file have a decimal point (as \
-         others in it show, or decimal = \".\")"
-    )]
-    DecimalComma {
+    /// A decimal mark that is not that of the file.
+    #[error("line {line}, column {column}: \"{found}\" has a decimal {}, {}", name(*mark), other(*mark, beside.as_deref()))]
+    Mark {
         /// Where.
         line: usize,
         /// Which cell, counted from 1.
         column: usize,
         /// The cell.
         found: String,
+        /// Its mark.
+        mark: Decimal,
+        /// A number with the other one, and its place.
+        beside: Option<Box<str>>,
     },
-    /// A point where a comma should be.
+    /// Several tables, and none is chosen.
     #[error(
-        "line {line}, column {column}: \"{found}\" has a decimal point, but numbers of this file have a decimal comma (as \
-         others in it show, or decimal = \",\")"
+        "line {line}: another table begins here, {sign} (\"{found}\"), and a surface has one: dataset = \"1\" below file in the scene \
+         chooses the first of the {tables}; if all is one surface, take blank lines and headers out of it"
     )]
-    DecimalPoint {
-        /// Where.
+    Several {
+        /// Where the second begins.
         line: usize,
-        /// Which cell, counted from 1.
-        column: usize,
-        /// The cell.
+        /// What tells that it is one.
+        sign: &'static str,
+        /// Its first line.
         found: String,
+        /// How many there are.
+        tables: usize,
+    },
+    /// A table is chosen that is not there.
+    #[error("dataset = \"{dataset}\", expected the number of a table of the file, which has {tables}")]
+    NoTable {
+        /// The choice.
+        dataset: String,
+        /// How many there are.
+        tables: usize,
     },
     /// A number with thousands separators.
     #[error(
@@ -322,6 +334,20 @@ fn advice(skip: Option<usize>) -> String {
     match skip {
         Some(lines) => format!("skip = {lines} below file in the scene leaves out the lines before the table"),
         None => "no lines of equally many numbers are seen below; skip = 12 below file in the scene, for example, leaves out the first twelve lines".to_owned(),
+    }
+}
+
+/// A decimal mark in words.
+fn name(mark: Decimal) -> &'static str {
+    if mark == Decimal::Comma { "comma" } else { "point" }
+}
+
+/// Which other mark numbers have than this one.
+fn other(mark: Decimal, beside: Option<&str>) -> String {
+    let (other, key) = if mark == Decimal::Comma { (Decimal::Point, '.') } else { (Decimal::Comma, ',') };
+    match beside {
+        Some(found) => format!("and {found} a decimal {}: save the file with one of them", name(other)),
+        None => format!("but numbers of this file have a decimal {} (decimal = \"{key}\")", name(other)),
     }
 }
 

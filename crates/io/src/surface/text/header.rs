@@ -3,7 +3,7 @@
 use super::cells::number;
 use super::lengths::{length, length_unit, pitch, positive};
 use super::names::Names;
-use crate::surface::decimal::Decimal;
+use crate::delimited::Decimal;
 
 /// What stands between a name and its value, and before another name.
 const BEFORE_VALUES: [char; 3] = ['=', ':', '：'];

@@ -1,6 +1,6 @@
 //! Lengths and their units, as headers and the names of columns state them.
 
-use crate::surface::decimal::Decimal;
+use crate::delimited::Decimal;
 use crate::units::{self, Dimension};
 
 /// A number that a length can have.

@@ -2,7 +2,7 @@
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | `decode.rs` | from bytes to lines |
+//! | `block.rs` | which of several tables is read |
 //! | `cells.rs`, `dialect.rs` | the numbers of a line; what parts them, and their decimal mark |
 //! | `beginning.rs` | how many lines stand before the table, where they are not understood |
 //! | `header.rs`, `names.rs`, `numbers.rs` | what stands before the numbers, the names of columns, the whole table |
@@ -15,8 +15,8 @@
 //! A separator that ends every line is no empty cell.
 
 mod beginning;
+mod block;
 mod cells;
-mod decode;
 mod dialect;
 mod error;
 mod header;
@@ -31,13 +31,13 @@ mod profile;
 mod spacing;
 mod table;
 
-pub(super) use decode::is_utf16;
 pub use error::TextError;
 use names::{Columns, Names};
 use numbers::Numbers;
 pub(super) use table::Table;
 
 use super::options::ReadOptions;
+use crate::delimited::{decode, lines, stated_separator};
 
 /// A matrix of three columns or fewer and more lines than this is more likely a list of points off a grid, or a profile.
 const NARROW: usize = 100;
@@ -50,19 +50,20 @@ const WIDEST: usize = 8;
 /// # Errors
 /// [`TextError`] with the line.
 pub(super) fn read(content: &[u8], xyz: bool, options: &ReadOptions) -> Result<Table, TextError> {
-    let text = decode::decode(content);
+    let text = decode(content);
+    let stated = stated_separator(&text);
     // The lines of a file that are skipped may be those that tell its form.
     let Some(skip) = options.skip else {
         return match instrument::read(&text, options)? {
             Some(table) => Ok(table),
-            None => table(&Numbers::read(decode::lines(&text), options)?, xyz, options),
+            None => table(&Numbers::read(lines(&text), stated, options)?, xyz, options),
         };
     };
-    let lines = decode::lines(&text).filter(|(line, _)| *line as u64 > skip);
+    let lines = lines(&text).filter(|(line, _)| *line as u64 > skip);
     if lines.clone().next().is_none() {
         return Err(TextError::AllSkipped { skip });
     }
-    table(&Numbers::read(lines, options)?, xyz, options)
+    table(&Numbers::read(lines, stated, options)?, xyz, options)
 }
 
 /// What a table of numbers is.

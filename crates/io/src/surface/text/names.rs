@@ -1,7 +1,7 @@
 //! The names of columns.
 
-use super::cells::Separator;
 use super::lengths::{length_unit, unit_word};
+use crate::delimited::Separator;
 
 /// Columns of a table that are used, by their place in a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,12 +1,13 @@
 //! The numbers of a file as they stand in it.
 
 use super::beginning::lines_before;
-use super::cells::{Separator, is_comment, number, shown, starts_numbers};
+use super::block;
+use super::cells::{is_comment, number, shown, starts_numbers};
 use super::dialect::Dialect;
 use super::error::TextError;
 use super::header::Header;
 use super::names::Names;
-use crate::surface::decimal::Decimal;
+use crate::delimited::{Decimal, Separator};
 use crate::surface::options::{ReadOptions, agreed};
 
 /// Numbers that stand for no height in files of many programs.
@@ -24,32 +25,38 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    /// Reads a header and the numbers below it.
+    /// Reads a header and the numbers below it, of the only table, or the one that is chosen; the file may state its separator.
     pub(super) fn read<'a>(
         lines: impl Iterator<Item = (usize, &'a str)> + Clone,
+        separator: Option<char>,
         options: &ReadOptions,
     ) -> Result<Self, TextError> {
+        let (range, several) = block::chosen(lines.clone(), options)?;
+        let below = lines.clone().skip_while(|(line, _)| *line < range.start);
+        let lines = below.clone().take_while(|(line, _)| *line < range.end);
         let in_header = |text: &str| is_comment(text) || !starts_numbers(text);
         let header_lines = lines.clone().take_while(|(_, text)| in_header(text));
         let mut header = Header::default();
         for (line, text) in header_lines.clone() {
             if !header.read(line, text, Decimal::Point) && !is_comment(text) {
-                return Err(TextError::Line { line, found: shown(text.trim()), skip: lines_before(lines) });
+                return Err(TextError::Line { line, found: shown(text.trim()), skip: lines_before(below) });
             }
         }
         let numbers = lines.clone().skip_while(|(_, text)| in_header(text)).filter(|(_, text)| !is_comment(text));
         let named = header.names.as_ref().map(|names| names.count);
-        let dialect = Dialect::find(numbers.clone(), options.decimal, named)?;
+        let dialect = Dialect::find(numbers.clone(), separator, options.decimal, named)?;
         if dialect.decimal == Decimal::Comma {
             header = Header::default();
             header_lines.for_each(|(line, text)| _ = header.read(line, text, Decimal::Comma));
         }
-        Self::table(header, numbers.clone(), dialect).map_err(|error| match (&error, odd_beginning(numbers)) {
-            (TextError::Number { line, .. }, Some((first, text))) if *line == first => {
-                TextError::Line { line: first, found: shown(text.trim()), skip: lines_before(lines) }
-            }
-            _ => error,
-        })
+        let table =
+            Self::table(header, numbers.clone(), dialect).map_err(|error| match (&error, odd_beginning(numbers)) {
+                (TextError::Number { line, .. }, Some((first, text))) if *line == first => {
+                    TextError::Line { line: first, found: shown(text.trim()), skip: lines_before(below) }
+                }
+                _ => error,
+            })?;
+        several.map_or(Ok(table), Err)
     }
 
     /// Reads lines of numbers, each as long as the first.
@@ -62,10 +69,17 @@ impl Numbers {
         let Dialect { separator, decimal } = dialect;
         let terminated = lines.clone().all(|(_, text)| separator.ends(text));
         let mut numbers = Self { header, columns: 0, values: Vec::new(), lines: Vec::new() };
-        for (line, text) in lines {
+        for (line, text) in lines.clone() {
             let before = numbers.values.len();
             for (column, cell) in separator.cells(text, terminated).enumerate() {
-                numbers.values.push(number(cell, decimal).map_err(|fault| fault.at(line, column + 1, cell))?);
+                let value = number(cell, decimal).map_err(|fault| match fault.at(line, column + 1, cell) {
+                    TextError::Mark { line, column, found, mark, .. } => {
+                        let beside = beside(lines.clone(), separator, decimal);
+                        TextError::Mark { line, column, found, mark, beside }
+                    }
+                    other => other,
+                });
+                numbers.values.push(value?);
             }
             let found = numbers.values.len() - before;
             if line == first {
@@ -152,9 +166,22 @@ pub(super) fn scale(heights: &mut [f64], unit: f64, line: usize) -> Result<(), T
     }
 }
 
-/// The first line, if it has another number of cells than the one below: a line of a header may begin with a number, as "800 points" does.
+/// The first number with this decimal mark, and its place.
+fn beside<'a>(
+    mut lines: impl Iterator<Item = (usize, &'a str)>,
+    separator: Separator,
+    decimal: Decimal,
+) -> Option<Box<str>> {
+    lines.find_map(|(line, text)| {
+        let mut cells = separator.cells(text, false).zip(1..);
+        let (cell, column) = cells.find(|(cell, _)| Decimal::of(cell) == Some(decimal))?;
+        Some(format!("\"{}\" in line {line}, column {column}", shown(cell)).into())
+    })
+}
+
+/// The first line, if it has another number of cells than the one below, or none is below: a line of a header may begin with a number, as "800 points" does.
 fn odd_beginning<'a>(mut lines: impl Iterator<Item = (usize, &'a str)>) -> Option<(usize, &'a str)> {
-    let (first, second) = (lines.next()?, lines.next()?);
     let cells = |text: &str| Separator::of(text).cells(text, false).count();
-    (cells(first.1) != cells(second.1)).then_some(first)
+    let first = lines.next()?;
+    lines.next().is_none_or(|second| cells(first.1) != cells(second.1)).then_some(first)
 }

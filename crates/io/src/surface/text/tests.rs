@@ -1,7 +1,7 @@
 //! Matrices and lists as programs write them, and what is refused.
 
 use super::*;
-use crate::surface::decimal::Decimal;
+use crate::delimited::Decimal;
 use crate::surface::stylus_profile::Lay;
 
 fn options(unit: Option<f64>, pitch: Option<[f64; 2]>) -> ReadOptions {
@@ -40,7 +40,8 @@ fn a_matrix_in_every_spelling() {
         "1,0 2,0\n3 4\n5,0 6",
         "1,0\t2,0\n3\t4\n5\t6",
         "\"1,0\",\"2,0\"\n\"3\",\"4\"\n\"5\",\"6\"",
-        "  1   2 \n\n 3 4\n5 6\n",
+        "\n  1   2 \n 3 4\n5 6\n\n",
+        "sep=,\r\n1,2\r\n3,4\r\n5,6\r\n",
         "1;2;\n3;4;\n5;6;\n",
         "1\t2\t\n3\t4\t\n5\t6\t\n",
         "# a comment\n1, 2\n# another\n3, 4\n5, 6",
@@ -163,6 +164,43 @@ fn told(text: &str, decimal: Option<Decimal>, skip: Option<u64>) -> Result<Table
 }
 
 #[test]
+fn of_several_tables_one_is_read_that_is_chosen() {
+    let read = |text: &str, dataset: Option<&str>| {
+        let options = ReadOptions { dataset: dataset.map(str::to_owned), ..options(None, None) };
+        super::read(text.as_bytes(), false, &options).map_err(|error| error.to_string())
+    };
+    // As Gwyddion writes two channels.
+    let two = "# Channel: Height\n# Width: 2 um\n# Height: 4 um\n# Value units: um\n1 2\n3 4\n\n\
+               # Channel: Error\n# Width: 2 um\n# Height: 2 um\n# Value units: nm\n1000 2000\n3000 5000\n";
+    let said = read(two, None).unwrap_err();
+    assert!(said.starts_with("line 8: another table begins here, below a blank line (\"# Channel: Error\")"), "{said}");
+    assert!(said.contains("dataset = \"1\" below file in the scene chooses the first of the 2"), "{said}");
+    for (dataset, heights, pitch) in [("1", "1 2/3 4", [1e-6, 2e-6]), ("2", "1 2/3 5", [1e-6; 2])] {
+        let table = read(two, Some(dataset)).unwrap();
+        assert_eq!((shape(&table).as_str(), table.pitch), (heights, Some(pitch)));
+    }
+    for dataset in ["0", "3", "Height", ""] {
+        let said = read(two, Some(dataset)).unwrap_err();
+        assert!(said.ends_with("expected the number of a table of the file, which has 2"), "{said}");
+    }
+    // A table says of itself what its numbers are.
+    assert!(read("unit: um\n1 2\n\n3 4\n", Some("2")).unwrap_err().starts_with("the file does not say the unit"));
+    for (text, line, sign) in [
+        ("unit: um\n1 2\n3 4\nunit: nm\n5 6\n", 4, "with a header"),
+        ("unit: um\n1 2\n3 4\n# pitch: 2 um\n5 6\n", 4, "with a header"),
+        ("x y z\n0 0 1\n1 0 1\nx y z\n0 1 1\n1 1 1\n", 4, "with a header"),
+        ("unit: um\n\n1 2\n\n\n3 4\n", 6, "below a blank line"),
+    ] {
+        let said = read(text, None).unwrap_err();
+        assert!(said.starts_with(&format!("line {line}: another table begins here, {sign}")), "{said}");
+    }
+    // What has no numbers below it is no table; a form that has one table has its first.
+    assert_eq!(shape(&read("unit: um\n\n1 2\n# a b\n3 4\n\n# end: here\n\n", Some("1")).unwrap()), "1 2/3 4");
+    let wyko = read("Wyko ASCII Data File Format 0\t1\t1\n", Some("2")).unwrap_err();
+    assert!(wyko.ends_with("expected the number of a table of the file, which has 1"), "{wyko}");
+}
+
+#[test]
 fn the_scene_says_what_the_file_does_not() {
     let shape_of =
         |text, decimal, skip| told(text, decimal, skip).map(|table| shape(&table)).map_err(|error| error.to_string());
@@ -178,6 +216,8 @@ fn the_scene_says_what_the_file_does_not() {
     // A header that begins with a number is told as one; a mistyped first line of a table is not.
     let told = shape_of("2 points each\n1 2\n3 4\n", None, None).unwrap_err();
     assert!(told.starts_with("line 1: found \"2 points each\"") && told.ends_with(&advice.replace('3', "1")), "{told}");
+    let told = shape_of("2 points each\nunit: um\n1 2\n3 4\n", None, None).unwrap_err();
+    assert!(told.starts_with("line 1: found \"2 points each\"") && told.contains("skip = 1 below file"), "{told}");
     assert!(shape_of("1 2x\n3 4\n5 6\n", None, None).unwrap_err().starts_with("line 1, column 2: found \"2x\""));
     assert_eq!(shape_of(text, None, Some(3)).unwrap(), "1 2/3 4");
     assert_eq!(shape_of(text, None, Some(4)).unwrap(), "3 4");
@@ -192,15 +232,20 @@ fn the_scene_says_what_the_file_does_not() {
 
 #[test]
 fn what_is_wrong_is_told_with_its_line() {
-    assert_eq!(error("1 2\n\n3 4 5\n"), "line 3 has 3 numbers, expected 2 as in line 1");
+    assert_eq!(error("1 2\n# no\n3 4 5\n"), "line 3 has 3 numbers, expected 2 as in line 1");
     assert_eq!(error("1 2\n3 4a\n").split(',').take(2).collect::<String>(), "line 2 column 2: found \"4a\"");
-    let comma =
-        "has a decimal comma, but numbers of this file have a decimal point (as others in it show, or decimal = \".\")";
-    assert_eq!(error("1.5;2\n3;4,5"), format!("line 2, column 2: \"4,5\" {comma}"));
-    assert!(
-        error("1,5;2\n3;4.5")
-            .starts_with("line 2, column 2: \"4.5\" has a decimal point, but numbers of this file have")
-    );
+    for (text, expected) in [
+        (
+            "1.5;2\n3;4,5",
+            "line 2, column 2: \"4,5\" has a decimal comma, and \"1.5\" in line 1, column 1 a decimal point: ",
+        ),
+        (
+            "1,5;2\n3;4.5",
+            "line 2, column 2: \"4.5\" has a decimal point, and \"1,5\" in line 1, column 1 a decimal comma: ",
+        ),
+    ] {
+        assert_eq!(error(text), format!("{expected}save the file with one of them"));
+    }
     assert!(
         error("1;1,234").starts_with(
             "line 1, column 2: \"1,234\" may be 1.234 or 1234: decimal = \",\" below file in the scene says"

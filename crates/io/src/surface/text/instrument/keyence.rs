@@ -4,10 +4,10 @@
 //! matusm/Kcsv2Bcr, MIT licence, knows them). Points that were not measured are empty cells.
 
 use super::named;
-use crate::surface::decimal::Decimal;
+use crate::delimited::{Decimal, Separator, lines};
 use crate::surface::options::ReadOptions;
-use crate::surface::text::cells::{Separator, number, shown};
-use crate::surface::text::decode::lines;
+use crate::surface::text::block;
+use crate::surface::text::cells::{number, shown};
 use crate::surface::text::dialect::Dialect;
 use crate::surface::text::error::TextError;
 use crate::surface::text::header::Header;
@@ -46,7 +46,12 @@ pub(super) fn read(text: &str, options: &ReadOptions) -> Result<Option<Table>, T
     let count = |names| value(&facts, names, 1).and_then(|count| count.parse().ok());
     let counts: [Option<u64>; 2] = [count(COLUMNS), count(ROWS)];
     let columns = counts[0].and_then(|count| usize::try_from(count).ok());
-    let dialect = Dialect::find(data.clone(), options.decimal, columns)?;
+    let (range, several) = block::chosen(data.clone(), options)?;
+    let data = data.filter(move |(line, _)| range.contains(line));
+    if let Some(several) = several {
+        return Err(several);
+    }
+    let dialect = Dialect::find(data.clone(), None, options.decimal, columns)?;
     let header = Header {
         unit: value(&facts, UNIT, 1).and_then(length_unit),
         pitch: pitch(&facts, dialect.decimal),

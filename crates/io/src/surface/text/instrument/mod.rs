@@ -4,17 +4,22 @@ mod keyence;
 mod wyko;
 mod zygo;
 
-use super::decode::lines;
+use super::block;
 use super::error::TextError;
 use super::numbers::Numbers;
 use super::profile;
 use super::table::Table;
+use crate::delimited::lines;
 use crate::surface::options::ReadOptions;
 
 /// Reads the export of an instrument; none if the text is no such export.
 pub(super) fn read(text: &str, options: &ReadOptions) -> Result<Option<Table>, TextError> {
     let Some((_, first)) = lines(text).next() else { return Ok(None) };
     let first = first.trim_start();
+    // These have one table of heights, by what their headers state.
+    if [wyko::MAGIC, zygo::POINTS, zygo::PHASES].iter().any(|magic| first.starts_with(magic)) {
+        block::number(options, 1)?;
+    }
     if first.starts_with(wyko::MAGIC) {
         return wyko::read(text, options).map(Some);
     }
@@ -37,7 +42,7 @@ fn dektak(text: &str, options: &ReadOptions) -> Result<Option<Table>, TextError>
     if data.clone().next().is_none() {
         return Ok(None);
     }
-    let numbers = Numbers::read(data, options)?;
+    let numbers = Numbers::read(data, None, options)?;
     if options.profile_lay.is_none() {
         return Err(TextError::IsProfile { columns: numbers.columns, lines: numbers.lines.len() });
     }

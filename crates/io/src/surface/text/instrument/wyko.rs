@@ -6,9 +6,9 @@
 //! each line is a column of the surface, y growing. Points that were not measured are `Bad`.
 
 use super::named;
+use crate::delimited::lines;
 use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
 use crate::surface::text::cells::{number, shown};
-use crate::surface::text::decode::lines;
 use crate::surface::text::error::TextError;
 use crate::surface::text::lengths::positive;
 use crate::surface::text::numbers::scale;

@@ -5,10 +5,9 @@
 //! the size of a pixel in m, line 11 the resolution of phases. Lines of "#" part header, intensities and heights.
 
 use super::named;
-use crate::surface::decimal::Decimal;
+use crate::delimited::{Decimal, lines};
 use crate::surface::options::{ReadOptions, agreed, agreed_pitch};
 use crate::surface::text::cells::{number, shown};
-use crate::surface::text::decode::lines;
 use crate::surface::text::error::TextError;
 use crate::surface::text::lengths::positive;
 use crate::surface::text::numbers::scale;
