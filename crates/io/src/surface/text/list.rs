@@ -12,6 +12,10 @@ use crate::surface::options::{ReadOptions, agreed_pitch};
 /// digits.
 const OFF_GRID: f64 = 0.02;
 
+/// Distances of coordinates between lines of a grid are at least so many times those within a line, of which each point is off by
+/// [`OFF_GRID`] at most: (1 - 2 · 0.02)/(2 · 0.02) = 24, and less for what is rounded.
+const APART: f64 = 20.0;
+
 /// A list fills at least one in so many points of its grid.
 const SPARSEST: usize = 16;
 
@@ -106,19 +110,28 @@ impl Points {
 
     /// Whether x and y look like coordinates: their values make a grid of which the points fill at least half.
     fn look_gridded(&self) -> bool {
-        let (columns, rows) = (distinct(&self.x).len(), distinct(&self.y).len());
         let points = self.z.len();
-        let grid = columns.saturating_mul(rows);
-        columns >= 2 && rows >= 2 && points >= 4 && points <= grid && grid <= 2 * points
+        let fits = |[columns, rows]: [usize; 2]| {
+            let grid = columns.saturating_mul(rows);
+            columns >= 2 && rows >= 2 && points >= 4 && points <= grid && grid <= 2 * points
+        };
+        let exact = [&self.x, &self.y].map(|values| distinct(values).len());
+        let grouped = |axis: usize| Axis::grouped([&self.x, &self.y][axis]).map_or(exact[axis], |axis| axis.count);
+        fits(exact) || fits([grouped(0), grouped(1)])
     }
 
     /// Puts the points on their grid.
     fn grid(&self) -> Result<Gridded, TextError> {
-        let x = Axis::find('x', &self.x, &self.lines)?;
-        let y = Axis::find('y', &self.y, &self.lines)?;
-        let (columns, rows, points) = (x.count, y.count, self.z.len());
-        let places = columns.checked_mul(rows).filter(|places| *places <= points.saturating_mul(SPARSEST));
-        let Some(places) = places else { return Err(TextError::Sparse { points, grid: (columns, rows) }) };
+        let points = self.z.len();
+        let places = |x: &Axis, y: &Axis| {
+            x.count.checked_mul(y.count).filter(|places| *places <= points.saturating_mul(SPARSEST))
+        };
+        let (x, y) = match (Axis::find('x', &self.x, &self.lines), Axis::find('y', &self.y, &self.lines)) {
+            (Ok(x), Ok(y)) if places(&x, &y).is_some() => (x, y),
+            (x, y) => (Axis::grouped(&self.x).map_or(x, Ok)?, Axis::grouped(&self.y).map_or(y, Ok)?),
+        };
+        let (columns, rows) = (x.count, y.count);
+        let Some(places) = places(&x, &y) else { return Err(TextError::Sparse { points, grid: (columns, rows) }) };
         let place = |point: usize| x.index(self.x[point]) * rows + y.index(self.y[point]);
         let mut heights = vec![f64::NAN; places];
         let mut taken = vec![false; places];
@@ -144,6 +157,13 @@ fn distinct(values: &[f64]) -> Vec<f64> {
     sorted
 }
 
+/// Distances of neighbours, in increasing order.
+fn gaps(sorted: &[f64]) -> Vec<f64> {
+    let mut gaps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    gaps.sort_unstable_by(f64::total_cmp);
+    gaps
+}
+
 /// Equidistant coordinates.
 struct Axis {
     first: f64,
@@ -154,17 +174,12 @@ struct Axis {
 impl Axis {
     fn find(name: char, values: &[f64], lines: &[usize]) -> Result<Self, TextError> {
         let sorted = distinct(values);
-        let (Some(&first), Some(&last), true) = (sorted.first(), sorted.last(), sorted.len() >= 2) else {
+        let (Some(&first), true) = (sorted.first(), sorted.len() >= 2) else {
             return Err(TextError::Profile { axis: name });
         };
-        let mut gaps: Vec<f64> = sorted.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        gaps.sort_unstable_by(f64::total_cmp);
-        // All lines of the grid are there, or most neighbours, or at least one pair of neighbours. The whole range tells
-        // the step best.
-        let steps = [(sorted.len() - 1) as f64, (last - first) / gaps[gaps.len() / 2], (last - first) / gaps[0]];
+        let gaps = gaps(&sorted);
         let most = values.len().saturating_mul(SPARSEST);
-        for count in steps.map(f64::round) {
-            let axis = Self { first, step: (last - first) / count, count: (count as usize).saturating_add(1) };
+        for axis in Self::through(&sorted, &gaps) {
             if axis.count <= most && sorted.iter().all(|value| axis.holds(*value)) {
                 return Ok(axis);
             }
@@ -172,6 +187,56 @@ impl Axis {
         let axis = Self { first, step: gaps[gaps.len() / 2], count: 0 };
         let off = values.iter().position(|value| !axis.holds(*value)).unwrap_or(0);
         Err(TextError::Irregular { line: lines[off], axis: name, found: values[off], first, step: axis.step })
+    }
+
+    /// Axes that these coordinates, in increasing order with increasing gaps, may have.
+    fn through(sorted: &[f64], gaps: &[f64]) -> impl Iterator<Item = Self> {
+        let (first, last) = (sorted[0], sorted[sorted.len() - 1]);
+        // All lines of the grid are there, or most neighbours, or at least one pair of neighbours. The whole range tells
+        // the step best.
+        let steps = [(sorted.len() - 1) as f64, (last - first) / gaps[gaps.len() / 2], (last - first) / gaps[0]];
+        let axis =
+            move |count: f64| Self { first, step: (last - first) / count, count: (count as usize).saturating_add(1) };
+        steps.map(f64::round).into_iter().map(axis)
+    }
+
+    /// The axis of coordinates of which each has its own distance from the grid: those that are close to each other are of one line of
+    /// it. None if they are off any such grid by more than [`OFF_GRID`].
+    fn grouped(values: &[f64]) -> Option<Self> {
+        let sorted = distinct(values);
+        let all = gaps(&sorted);
+        let most = values.len().saturating_mul(SPARSEST);
+        all.windows(2).rev().filter(|pair| pair[0] * APART <= pair[1]).find_map(|pair| {
+            let groups = sorted.chunk_by(|one, next| next - one < pair[1]);
+            let centres: Vec<f64> = groups.map(|group| group.iter().sum::<f64>() / group.len() as f64).collect();
+            let gaps = gaps(&centres);
+            Self::through(&centres, &gaps).filter(|axis| axis.count <= most).find_map(|axis| axis.fitted(values))
+        })
+    }
+
+    /// The axis that is nearest to coordinates that lie about this one, by least squares; none where they are off every axis.
+    fn fitted(&self, values: &[f64]) -> Option<Self> {
+        let mean = |of: &dyn Fn(f64) -> f64| values.iter().map(|value| of(*value)).sum::<f64>() / values.len() as f64;
+        let place = |value: f64| self.index(value) as f64;
+        let (mean_place, mean_value) = (mean(&place), mean(&|value| value));
+        let spread = mean(&|value| (place(value) - mean_place).powi(2));
+        let step = mean(&|value| (place(value) - mean_place) * (value - mean_value)) / spread;
+        // Where an axis of this step begins that has the points equally far to both sides, and how far.
+        let strip = |step: f64| {
+            let starts = values.iter().map(|value| value - step * place(*value));
+            let [least, most] = starts
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], start| [least.min(start), most.max(start)]);
+            (0.5 * (least + most), 0.5 * (most - least))
+        };
+        // Another step may have all points nearer: how far the farthest is has one minimum over the step.
+        let [mut low, mut high] =
+            [-1.0, 1.0].map(|side| step * (1.0 + side * 4.0 * OFF_GRID / (self.count - 1) as f64));
+        while strip(step).1 > OFF_GRID * step && high - low > 1e-9 * step {
+            let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+            if strip(one).1 < strip(other).1 { high = other } else { low = one }
+        }
+        let is_near = strip(step).1 <= OFF_GRID * step || strip(low).1 <= OFF_GRID * low;
+        is_near.then_some(Self { first: strip(step).0, step, count: self.count })
     }
 
     fn holds(&self, value: f64) -> bool {

@@ -44,7 +44,7 @@ impl Spacing {
         let mut gaps: Vec<f64> = along.windows(2).map(|pair| pair[1] - pair[0]).collect();
         gaps.sort_unstable_by(f64::total_cmp);
         let (point, off) = farthest(&along, step);
-        if off <= OFF * step {
+        if half_range(along.iter().enumerate().map(|(point, x)| x - step * point as f64)) <= OFF * step {
             return Ok(Self { step, count: last + 1, places: (0..=last).collect(), rounded_to: None });
         }
         if let Some(holed) = Self::with_holes(&along, gaps[gaps.len() / 2]) {
@@ -72,11 +72,18 @@ impl Spacing {
         }
         let step = length / steps;
         let places: Vec<f64> = along.iter().map(|x| x / step).collect();
-        let on_grid = places.iter().all(|place| (place - place.round()).abs() <= OFF);
+        let on_grid = half_range(places.iter().map(|place| place - place.round())) <= OFF;
         let places: Vec<usize> = places.iter().map(|place| place.round() as usize).collect();
         let apart = places.windows(2).all(|pair| pair[0] < pair[1]);
         (on_grid && apart).then(|| Self { step, count: steps as usize + 1, places, rounded_to: None })
     }
+}
+
+/// How far numbers are from the middle between the least and the greatest of them: the first point may be off its place as any other.
+fn half_range(numbers: impl Iterator<Item = f64>) -> f64 {
+    let [least, most] =
+        numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], next| [least.min(next), most.max(next)]);
+    0.5 * (most - least)
 }
 
 /// The point that is farthest from its place on a grid, and how far.
@@ -141,6 +148,13 @@ mod tests {
         assert_eq!((found.step, found.count), (1.0, 40));
         let places: Vec<usize> = coordinates.iter().map(|x| *x as usize).collect();
         assert_eq!(found.places, places);
+    }
+
+    #[test]
+    fn every_point_may_be_off_its_place_also_the_first() {
+        let coordinates: Vec<f64> =
+            [-0.015, 0.015, 0.0, 0.015, -0.015].iter().zip(0..).map(|(off, at)| f64::from(at) + off).collect();
+        assert_eq!((of(&coordinates).unwrap().step, of(&coordinates).unwrap().count), (1.0, 5));
     }
 
     #[test]

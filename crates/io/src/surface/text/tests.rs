@@ -200,6 +200,52 @@ fn of_several_tables_one_is_read_that_is_chosen() {
     assert!(wyko.ends_with("expected the number of a table of the file, which has 1"), "{wyko}");
 }
 
+/// 20 x 12 points 2 apart of which each is off by up to this, in steps, at random.
+fn jittered(off: f64) -> String {
+    let mut state = 1_u32;
+    // Numerical Recipes, a quick and even number from -1 to 1.
+    let mut random = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state) / f64::from(u32::MAX) * 2.0 - 1.0
+    };
+    let points = (0..240).map(|point| {
+        let [x, y] = [point % 20, point / 20].map(|place| 2.0 * (f64::from(place) + off * random()));
+        format!("{x:.9} {y:.9} {point}\n")
+    });
+    points.collect()
+}
+
+#[test]
+fn points_off_the_grid_by_less_than_a_fiftieth_of_its_step_are_on_it() {
+    for (off, xyz) in [(1e-9, true), (1e-6, true), (5e-3, true), (0.0199, true), (5e-3, false)] {
+        let table = read(jittered(off).as_bytes(), xyz, &options(Some(1e-6), Some([2e-6; 2])));
+        let table = table.unwrap_or_else(|error| panic!("{off}: {error}"));
+        assert_eq!((table.columns, table.rows), (20, 12), "{off}");
+        let at = |point: usize| table.heights[point % 20 * 12 + point / 20];
+        assert!((0..240).all(|point| (at(point) - 1e-6 * point as f64).abs() < 1e-15), "{off}");
+        let pitch = read(jittered(off).as_bytes(), xyz, &options(Some(1e-6), None)).unwrap().pitch.unwrap();
+        // An end of 20 or 12 lines is off by no more than a point is.
+        assert!(pitch.iter().all(|pitch| (pitch / 2e-6 - 1.0).abs() <= 2.0 * off / 11.0 + 1e-9), "{off}: {pitch:?}");
+    }
+    // Rows that are missing leave holes; coordinates of few digits make a finer grid, which the points would hardly fill.
+    let gaps: String = jittered(5e-3)
+        .lines()
+        .enumerate()
+        .filter(|(at, _)| at / 20 != 5)
+        .map(|(_, line)| format!("{line}\n"))
+        .collect();
+    let table = read(gaps.as_bytes(), true, &options(Some(1e-6), None)).unwrap();
+    assert_eq!(
+        (table.columns, table.rows, table.heights.iter().filter(|height| height.is_nan()).count()),
+        (20, 12, 20)
+    );
+    let rounded = "0.001 0.000 1\n0.099 0.001 2\n0.200 0.001 3\n0.000 0.100 4\n0.101 0.101 5\n0.201 0.099 6\n";
+    let table = read(rounded.as_bytes(), true, &options(Some(1e-6), None)).unwrap();
+    assert_eq!(shape(&table), "1 2 3/4 5 6");
+    let off = read(jittered(0.03).as_bytes(), true, &options(Some(1e-6), None)).unwrap_err();
+    assert!(off.to_string().contains("lies off the regular grid"), "{off}");
+}
+
 #[test]
 fn the_scene_says_what_the_file_does_not() {
     let shape_of =
