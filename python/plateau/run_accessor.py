@@ -16,7 +16,7 @@ from plateau.times import seconds
 
 # Series that are totals since the start of a run (docs/run-file.md).
 TOTALS = frozenset(
-    "contact_area_integral sliding_distance road_distance worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc returned "
+    "contact_area_integral sliding_distance contact_time road_distance worn_pin worn_resin worn_disc emitted deposited_pin deposited_disc returned "
     "friction_work heat_lost emitted_mass pm10_mass pm25_mass particle_number".split()
 )
 

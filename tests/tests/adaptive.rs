@@ -191,6 +191,54 @@ fn the_run_file_tells_how_the_acceleration_was_chosen() {
 }
 
 #[test]
+fn a_run_goes_on_with_a_larger_acceleration_after_the_error_was_estimated_too_large() {
+    // Here the estimate exceeds the tolerance, from some 90 s on.
+    let directory = WorkingDirectory::new();
+    let sets = ["operation.normal_force=20 N", "operation.duration=300 s", "output.maps=[]", CHOSEN];
+    let mut arguments = vec!["run".to_owned(), scene("quick.toml"), "-o".into(), "run.h5".into()];
+    arguments.extend(sets.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+    let told = directory.plateau([&arguments[..], &["--json".to_owned()]].concat());
+    assert_eq!(told.status, Some(0), "{}", told.stderr);
+    let run = RunFile::open(directory.path("run.h5"));
+    let (time, accelerations) = (run.floats("/time"), run.floats("/series/time_acceleration"));
+    let late: Vec<f64> = time.iter().zip(&accelerations).filter(|(time, _)| **time > 200.0).map(|(_, m)| *m).collect();
+    let returns = late.windows(2).filter(|two| two[0] == 1.0 && two[1] > 1.0).count();
+    assert!(returns > 0, "{late:?}");
+    // Simulated revolutions of the run, and of a scout where there is one, against those of m = 1; samples are one of them apart.
+    let mut before = 0.0;
+    let revolutions: f64 = (time.iter().zip(&accelerations))
+        .map(|(time, m)| {
+            let passed = (time - before) / (60.0 / 850.0);
+            before = *time;
+            passed / m * if *m > 1.0 { 1.25 } else { 1.0 }
+        })
+        .sum();
+    let all = 300.0 / (60.0 / 850.0);
+    assert!(revolutions < 0.5 * all, "{revolutions} of {all}");
+    // What it did is in the summary, in the file and in the report: the same.
+    let answer: serde_json::Value = serde_json::from_str(&told.stdout).unwrap();
+    let summary = &answer["time_acceleration"];
+    let of_file: serde_json::Value = serde_json::from_str(&run.text("time_acceleration")).unwrap();
+    assert_eq!(*summary, of_file);
+    assert_eq!((&summary["tolerance"], &summary["smallest"]), (&0.01.into(), &1.0.into()));
+    let number = |name: &str| summary[name].as_f64().unwrap();
+    let largest = accelerations.iter().copied().fold(0.0, f64::max);
+    assert!((number("largest") / largest - 1.0).abs() < 1e-12 && number("last") == *accelerations.last().unwrap());
+    // The error over the time, from the series; what lies between two samples is a thousandth of it.
+    let errors = run.floats("/series/acceleration_error");
+    let squares: f64 = errors.iter().zip(time.windows(2)).map(|(error, two)| error * error * (two[1] - two[0])).sum();
+    let estimated = (squares / 300.0).sqrt();
+    assert!((number("estimated_error") / estimated - 1.0).abs() < 0.02, "{summary}, expected {estimated}");
+    assert_eq!(summary["met"], estimated <= 0.01);
+    directory.plateau(["report", "run.h5", "-o", "run.html"]).quiet_success();
+    let page = std::fs::read_to_string(directory.path("run.html")).unwrap();
+    let met = if estimated <= 0.01 { "tolerance 1 % met" } else { "tolerance 1 % not met" };
+    assert!(page.contains("estimated error of the contact area") && page.contains(met));
+    let text = directory.plateau([&arguments[..], &["--force".to_owned()]].concat());
+    assert!(text.stdout.contains(met), "{}", text.stdout);
+}
+
+#[test]
 fn a_disc_too_smooth_is_not_accelerated_where_debris_is_pooled() {
     // The fibres recede by κ F_N 2π r̄/A_fibre a revolution: 14 nm; the limit is 20 times that, and a disc of 0.1 µm is
     // below it, one of 3 µm above.

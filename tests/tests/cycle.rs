@@ -31,7 +31,8 @@ fn a_cycle_that_never_changes_is_constant_operation_bit_for_bit() {
     let content = |name: &str| {
         let mut content = RunFile::open(directory.path(name)).content();
         content.retain(|path, _| {
-            !path.starts_with("/event") && !path.ends_with("normal_force") && !path.ends_with("rotational_speed")
+            let of_cycle = ["normal_force", "rotational_speed", "contact_time"];
+            !path.starts_with("/event") && !of_cycle.iter().any(|series| path.ends_with(series))
         });
         content
     };
@@ -432,4 +433,64 @@ event = "mean"
         outcome.status == Some(2) && outcome.stderr.contains("expected the number of an event, \"last\" or \"mean\""),
         "{outcome:?}"
     );
+}
+
+#[test]
+fn the_contact_area_of_a_cycle_is_its_mean_over_the_time_in_contact() {
+    let directory = WorkingDirectory::new();
+    let told = directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5", "--json"]);
+    let run = RunFile::open(directory.path("run.h5"));
+    let (time, contact, integral) =
+        (run.floats("/time"), run.floats("/series/contact_time"), run.floats("/series/contact_area_integral"));
+    // By hand: of 60 s the pin is lifted for 4 s and four times 5 s.
+    assert!((contact.last().unwrap() - 36.0).abs() < 1e-9, "{contact:?}");
+    let at = |moment: f64| time.iter().position(|time| (time - moment).abs() < 1e-9).unwrap();
+    // The last tenth has no ten revolutions, so it begins earlier.
+    let summary: serde_json::Value = serde_json::from_str(&told.stdout).unwrap();
+    let window = &summary["contact_area_last_tenth"];
+    let number = |name: &str| window[name].as_f64().unwrap();
+    let (from, to) = (at(number("from")), at(number("to")));
+    let in_contact = contact[to] - contact[from];
+    assert!((number("contact_time") / in_contact - 1.0).abs() < 1e-12 && in_contact < time[to] - time[from]);
+    let mean = (integral[to] - integral[from]) / in_contact;
+    assert!((number("mean") / mean - 1.0).abs() < 1e-12, "{window}, expected {mean}");
+    let text = directory.plateau(["run", &scene("stops.toml"), "-o", "run.h5", "--force"]).quiet_success();
+    assert!(text.contains("in contact: the time in which the pin is lifted does not count"), "{text}");
+    directory.plateau(["report", "run.h5", "-o", "run.html"]).quiet_success();
+    assert!(fs::read_to_string(directory.path("run.html")).unwrap().contains("s in contact"));
+}
+
+#[test]
+fn the_end_of_a_cycle_is_a_time_of_its_run() {
+    let directory = WorkingDirectory::new();
+    // It ends within a step: the speed falls to nothing at 30 s.
+    let operation = "[operation.cycle]\npoints = [[\"0 s\", \"5 N\", \"850 rpm\"], [\"30 s\", \"5 N\", \"0 rpm\"]]\n";
+    directory.write("scene.toml", quick_with_operation(operation));
+    let responses = [
+        ("at", "filled_fraction", "at = \"30 s\""),
+        ("end", "filled_fraction", "at = \"end\""),
+        ("mean", "contact_area", "mean = [\"10 s\", \"30 s\"]"),
+        ("late", "filled_fraction", "at = \"31 s\""),
+        ("runs in", "worn_pin", "reaches = 0.9"),
+    ];
+    let asked: String = (responses.iter())
+        .map(|(name, series, question)| {
+            format!("[[response]]\nname = \"{name}\"\ndataset = \"/series/{series}\"\n{question}\n")
+        })
+        .collect();
+    let study = "version = 1\nbase = \"scene.toml\"\ndesign = \"full-factorial\"\ndirectory = \"results\"\n\
+                 set = [\"output.sample_every = '0.5 s'\"]\n\
+                 [[factor]]\nname = \"height\"\nkey = \"contact.foundation_height\"\nlevels = [\"40 um\", \"50 um\"]\n";
+    directory.write("study.toml", format!("{study}{asked}"));
+    let made = directory.plateau(["sweep", "run", "study.toml", "--jobs", "1"]);
+    let rises = "response \"runs in\" has no value: not defined: still rises at the end, by ";
+    assert!(made.status == Some(0) && made.stderr.contains(rises), "{}", made.stderr);
+    assert!(made.stderr.contains("(so in 2 of 2 runs that were made now)"), "{}", made.stderr);
+    let collected = directory.plateau(["sweep", "collect", "study.toml"]);
+    let late = "response \"late\" has no value: the run ends at 30 s, before 31 s (so in 2 of 2 finished runs)";
+    assert!(collected.stderr.contains(rises) && collected.stderr.contains(late), "{}", collected.stderr);
+    assert!(!collected.stderr.contains("\"at\"") && !collected.stderr.contains("\"mean\""), "{}", collected.stderr);
+    let results = RunFile::open(directory.path("results/results.h5"));
+    assert_eq!(results.floats("/at"), results.floats("/end"));
+    assert!(results.floats("/mean").iter().all(|area| *area > 0.0));
 }

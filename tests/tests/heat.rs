@@ -288,3 +288,30 @@ fn a_run_whose_heat_is_no_number_any_more_has_failed() {
     assert!(outcome.stderr.contains("the work of friction"), "{outcome:?}");
     assert_eq!(RunFile::open(directory.path("run.h5")).text("state"), "failed");
 }
+
+#[test]
+fn a_stiffness_number_that_grows_with_temperature_is_warned_of() {
+    let directory = WorkingDirectory::new();
+    directory.write("hot.toml", hot("quick.toml", "maps = []"));
+    // By hand: Π = κ k m r Δθ = 5e-14 1/Pa · (1e9 Pa/(1 − 0.27²) in series with 1e11 Pa/(1 − 0.27²) over 50 µm) · 20 · 20.975 mm · 2π/690.
+    let modulus = 1.0 / ((1.0 - 0.27_f64.powi(2)) * (1e-9 + 1e-11));
+    let cold = 5e-14 * modulus / 50e-6 * 20.0 * 20.975e-3 * std::f64::consts::TAU / 690.0;
+    let run = |factors: &str| {
+        let factors = format!("thermal.wear_rate_factor={factors}");
+        let arguments =
+            ["run", "hot.toml", "-o", "run.h5", "--force", "--set", &factors, "--set", "operation.duration=20 s"];
+        let outcome = directory.plateau(arguments);
+        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        outcome.stderr
+    };
+    assert!(cold < 0.1 && !run("[['23 degC', 1.0], ['400 degC', 2.0]]").contains("stiffness number"), "{cold}");
+    // From the start on.
+    let factor = 0.2 / cold;
+    let from_start = run(&format!("[['23 degC', {factor}]]"));
+    assert!(from_start.contains("warning: the stiffness number is 0.2"), "{from_start}");
+    assert_eq!(from_start.matches("stiffness number").count(), 1, "{from_start}");
+    // When it has become warm.
+    let later = run(&format!("[['23 degC', 1.0], ['24 degC', {factor}]]"));
+    assert!(later.contains("warning: with the wear rates of the temperature after "), "{later}");
+    assert_eq!(later.matches("stiffness number").count(), 1, "{later}");
+}

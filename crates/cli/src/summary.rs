@@ -1,7 +1,8 @@
 //! What a finished run tells its user.
 
 use plateau_core::observe::window_mean::WindowMean;
-use plateau_present::running_in::running_in;
+use plateau_present::acceleration::acceleration;
+use plateau_present::running_in::{running_in, running_in_time};
 use plateau_run::{PartsSummary, RunSummary};
 
 use crate::failure::Failure;
@@ -46,7 +47,9 @@ pub fn text(summary: &RunSummary) -> String {
         ("waited for the run file", number::duration(summary.writer_wait)),
         ("contact area", contact_area),
     ];
+    rows.extend(summary.time_acceleration.as_ref().map(|chosen| ("time acceleration", acceleration(chosen))));
     rows.extend(summary.contact_area_drift.as_ref().map(|found| ("running in", running_in(found))));
+    rows.extend(summary.running_in.as_ref().map(|found| ("running-in time", running_in_time(found))));
     rows.extend([
         (
             "contact pressure",
@@ -116,6 +119,12 @@ fn contact_area(window: &WindowMean) -> String {
         }
         _ => format!("mean of the last {width} s"),
     };
+    let contact = window.contact_time.map_or(String::new(), |time| {
+        format!(
+            ", of which {} s in contact: the time in which the pin is lifted does not count",
+            number::rounded(time, 4)
+        )
+    });
     let error = if window.standard_error.is_some() { ", ± standard error" } else { ", too few samples for an error" };
-    format!("{mean} mm² ({over}{error})")
+    format!("{mean} mm² ({over}{contact}{error})")
 }

@@ -17,7 +17,7 @@ fn write(path: &Path, maps: &[Map]) {
     writer.snapshot(snapshot(&header, 0.0)).unwrap();
     (1..=100).for_each(|step| writer.sample(sample(step)).unwrap());
     writer.snapshot(snapshot(&header, 25.0)).unwrap();
-    writer.finish(&End::Finished, &[]).unwrap();
+    writer.finish(&End::Finished, &[], None).unwrap();
 }
 
 fn refused(path: &Path) -> ReadError {
@@ -92,7 +92,7 @@ fn a_run_that_goes_on_is_read_up_to_its_last_complete_sample() {
         }
     };
     assert!(samples > 0, "the samples must arrive");
-    writer.finish(&End::Interrupted, &[]).unwrap();
+    writer.finish(&End::Interrupted, &[], None).unwrap();
     assert_eq!(RunFile::open(&path).unwrap().state(), State::Interrupted);
 }
 

@@ -19,7 +19,7 @@ fn a_finished_run_holds_what_was_sent() {
         writer.sample(sample(step)).unwrap();
     }
     writer.snapshot(snapshot(&header, 250.0)).unwrap();
-    let report = writer.finish(&End::Finished, &[]).unwrap();
+    let report = writer.finish(&End::Finished, &[], None).unwrap();
     assert_eq!((report.samples, report.snapshots), (1000, 2));
     assert_eq!(report.bytes, fs::metadata(&path).unwrap().len());
     assert_eq!(entries(directory.path()), ["run.h5"]);
@@ -53,14 +53,14 @@ fn only_the_maps_asked_for_exist() {
     let header = header(4, 12, 5, &[Map::Pressure]);
     let mut writer = RunWriter::create(&path, false, &header).unwrap();
     writer.snapshot(snapshot(&header, 1.0)).unwrap();
-    writer.finish(&End::Finished, &[]).unwrap();
+    writer.finish(&End::Finished, &[], None).unwrap();
     let file = hdf5::File::open(&path).unwrap();
     assert_eq!(file.group("disc").unwrap().member_names().unwrap(), [""; 0]);
     assert_eq!(file.group("pin").unwrap().member_names().unwrap(), ["pressure", "base"]);
     drop(file);
 
     let bare = self::header(4, 12, 5, &[]);
-    RunWriter::create(&path, true, &bare).unwrap().finish(&End::Finished, &[]).unwrap();
+    RunWriter::create(&path, true, &bare).unwrap().finish(&End::Finished, &[], None).unwrap();
     let file = hdf5::File::open(&path).unwrap();
     assert_eq!(file.group("pin").unwrap().member_names().unwrap(), ["base"]);
     assert!(!file.link_exists("map_time") && file.link_exists("time"));
@@ -76,7 +76,7 @@ fn the_attributes_say_where_the_run_comes_from() {
     header.title = "null\0inside".into();
     let writer = RunWriter::create(&path, false, &header).unwrap();
     std::thread::sleep(Duration::from_millis(20));
-    writer.finish(&End::Failed("out of luck".into()), &[]).unwrap();
+    writer.finish(&End::Failed("out of luck".into()), &[], None).unwrap();
 
     let file = hdf5::File::open(&path).unwrap();
     assert!(header.scene.len() > 200_000);
@@ -125,7 +125,7 @@ fn an_existing_file_is_replaced_only_on_demand_and_only_by_a_complete_one() {
     assert_eq!(fs::read(&path).unwrap(), b"precious");
     assert_eq!(entries(directory.path()), ["run.h5"]);
 
-    RunWriter::create(&path, true, &small()).unwrap().finish(&End::Interrupted, &[]).unwrap();
+    RunWriter::create(&path, true, &small()).unwrap().finish(&End::Interrupted, &[], None).unwrap();
     assert_eq!(text(&hdf5::File::open(&path).unwrap(), "state"), "interrupted");
     assert_eq!(entries(directory.path()), ["run.h5"]);
 }
@@ -142,7 +142,7 @@ fn only_regular_files_are_replaced() {
     let (target, link) = (directory.path().join("target.h5"), directory.path().join("link.h5"));
     fs::write(&target, "old").unwrap();
     std::os::unix::fs::symlink(&target, &link).unwrap();
-    RunWriter::create(&link, true, &small()).unwrap().finish(&End::Finished, &[]).unwrap();
+    RunWriter::create(&link, true, &small()).unwrap().finish(&End::Finished, &[], None).unwrap();
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(text(&hdf5::File::open(&target).unwrap(), "state"), "finished");
 }
@@ -186,7 +186,7 @@ fn maps_that_do_not_fit_are_refused_and_the_run_goes_on() {
     short.maps[0].1 = MapValues::Float(vec![0.0; 47]);
     assert_eq!(writer.snapshot(short), Err(RunFileError::Size { name: "disc_height", found: 47, expected: 48 }));
     writer.snapshot(snapshot(&header, 2.0)).unwrap();
-    assert_eq!(writer.finish(&End::Finished, &[]).unwrap().snapshots, 1);
+    assert_eq!(writer.finish(&End::Finished, &[], None).unwrap().snapshots, 1);
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn a_file_that_was_replaced_by_another_is_left_alone() {
     let writer = RunWriter::create(&path, false, &small()).unwrap();
     fs::rename(&path, directory.path().join("moved.h5")).unwrap();
     fs::write(&path, "another").unwrap();
-    assert!(matches!(writer.finish(&End::Finished, &[]), Err(RunFileError::Moved { .. })));
+    assert!(matches!(writer.finish(&End::Finished, &[], None), Err(RunFileError::Moved { .. })));
     assert_eq!(fs::read(&path).unwrap(), b"another");
     let moved = hdf5::File::open(directory.path().join("moved.h5")).unwrap();
     assert_eq!(text(&moved, "state"), "running");
@@ -227,5 +227,5 @@ fn writes_a_run_for_the_readers() {
         writer.sample(sample(step)).unwrap();
         std::thread::sleep(Duration::from_millis(10));
     }
-    println!("{:?}", writer.finish(&End::Finished, &[]).unwrap());
+    println!("{:?}", writer.finish(&End::Finished, &[], None).unwrap());
 }

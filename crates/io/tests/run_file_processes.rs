@@ -22,7 +22,7 @@ fn a_reader_sees_a_sample_within_a_second() {
     writer.snapshot(snapshot(&header, 1.0)).unwrap();
     let seen = reader.wait_with_output().unwrap();
     assert!(seen.status.success(), "{}", String::from_utf8_lossy(&seen.stdout));
-    writer.finish(&End::Finished, &[]).unwrap();
+    writer.finish(&End::Finished, &[], None).unwrap();
 }
 
 /// Runs one of the `child_…` functions below on `path` in a process of its own, under a shell command.
@@ -156,7 +156,7 @@ fn a_disk_that_is_full_at_the_end_leaves_a_readable_file() {
     let path = directory.path().join("run.h5");
     let mut writer = RunWriter::create(&path, false, &small()).unwrap();
     writer.sample(sample(1)).unwrap();
-    let whole = writer.finish(&End::Finished, &[]).unwrap().bytes;
+    let whole = writer.finish(&End::Finished, &[], None).unwrap().bytes;
     fs::remove_file(&path).unwrap();
     // The last page is missing, in blocks of 512 bytes.
     let limit = format!("ulimit -f {};", (whole - 4096) / 512);
@@ -176,7 +176,7 @@ fn child_cannot_end() {
     report_file_size_limit().unwrap();
     let mut writer = RunWriter::create(&run_file(), false, &small()).unwrap();
     writer.sample(sample(1)).unwrap();
-    println!("{}", writer.finish(&End::Finished, &[]).unwrap_err());
+    println!("{}", writer.finish(&End::Finished, &[], None).unwrap_err());
 }
 
 #[test]
@@ -195,5 +195,5 @@ fn child_fills_the_disk() {
         })
         .unwrap();
     println!("{error}");
-    assert_eq!(writer.finish(&End::Finished, &[]).unwrap_err(), error);
+    assert_eq!(writer.finish(&End::Finished, &[], None).unwrap_err(), error);
 }

@@ -1,6 +1,7 @@
-//! Whether a run is still running in, in words.
+//! Whether a run is still running in, and when it had run in, in words.
 
 use plateau_core::observe::drift::{Drift, LEAST_PULSES, Trend};
+use plateau_core::observe::running_in::{NotDefined, RUN_IN};
 use plateau_io::number;
 
 /// Whether the mean contact area still changes, in words.
@@ -25,6 +26,16 @@ pub fn running_in(drift: &Drift) -> String {
     format!("{found}: {sign}{percent} % from {start} … {middle} s to {middle} … {end} s")
 }
 
+/// When the contact area had come to its value at the end, in words.
+pub fn running_in_time(found: &Result<f64, NotDefined>) -> String {
+    match found {
+        Ok(time) => {
+            format!("{} s, to {:.0} % of the contact area at the end", number::rounded(*time, 4), 100.0 * RUN_IN)
+        }
+        Err(reason) => reason.to_string(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use plateau_core::observe::window_mean::WindowMean;
@@ -37,6 +48,7 @@ mod tests {
             from,
             to,
             revolutions: None,
+            contact_time: None,
             mean,
             standard_error: Some(0.02e-6),
         };
@@ -62,5 +74,14 @@ mod tests {
             "cannot be told from a run of this length: +5.0 ± 3.0 % from 30 … 45 s to 45 … 60 s"
         );
         assert_eq!(of(0.01, 0.01), "contact area is steady: +1.0 ± 1.0 % from 30 … 45 s to 45 … 60 s");
+    }
+
+    #[test]
+    fn the_running_in_time_is_told_or_why_there_is_none() {
+        assert_eq!(running_in_time(&Ok(1225.0)), "1225 s, to 90 % of the contact area at the end");
+        assert_eq!(
+            running_in_time(&Err(NotDefined::NotSteady(0.102))),
+            "not defined: still rises at the end, by 10.2 % in the last quarter of the run"
+        );
     }
 }

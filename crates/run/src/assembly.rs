@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use plateau_core::acceleration::Chosen;
 use plateau_core::acceleration::scout::{Idle, Scout};
 use plateau_core::model::cycle::Cycle;
 use plateau_core::model::parameters::Parameters;
@@ -24,6 +25,8 @@ pub struct Assembly {
     pub(crate) scout: Option<Scout>,
     /// Why there is no scout although the scene asks for one.
     idle: Option<Idle>,
+    /// What the scene asks for, where the run chooses its acceleration.
+    tolerance: Option<f64>,
     /// When samples and maps are due, as far as is known now; may be another one before the first step.
     pub(crate) schedule: Schedule,
     pub(crate) output: OutputSettings,
@@ -79,6 +82,7 @@ impl Assembly {
             simulation: simulation(surfaces)?,
             scout: scout.filter(|_| idle.is_none()),
             idle,
+            tolerance: scene.adaptive.map(|adaptive| adaptive.tolerance),
             events: EventLog::new(&scene.parameters, cycle.as_deref(), scene.duration, schedule.last()),
             schedule,
             output: scene.output.clone(),
@@ -90,6 +94,12 @@ impl Assembly {
     /// Whether the run chooses its acceleration, and so has a series of it.
     pub(crate) fn chooses_acceleration(&self) -> bool {
         self.scout.is_some()
+    }
+
+    /// What the acceleration was like so far, if the scene has the run choose it.
+    pub(crate) fn chosen_acceleration(&self) -> Option<Chosen> {
+        let of_scout = |scout: &Scout| scout.choice().chosen(self.simulation.time());
+        self.tolerance.map(|tolerance| self.scout.as_ref().map_or(Chosen::never(tolerance), of_scout))
     }
 
     /// Why the run is not accelerated (any more), if its scene has it choose.

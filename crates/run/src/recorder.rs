@@ -12,6 +12,7 @@ use crate::error::RunFailure;
 use crate::job::{Agreement, Job};
 use crate::observer::Observer;
 use crate::time_loop::Sink;
+use crate::warnings::{grown_stiffness_warning, is_stiff};
 
 /// Why a run that had started did not end.
 #[derive(Debug)]
@@ -54,6 +55,8 @@ pub struct Recorder<'a> {
     pub agreement: Agreement,
     /// What the samples so far say of the scene.
     pub recorded: Recorded,
+    /// Whether it is said that the stiffness number is too large for the wear rule.
+    pub is_stiff: bool,
 }
 
 impl Sink for Recorder<'_> {
@@ -73,6 +76,11 @@ impl Sink for Recorder<'_> {
 
     fn look(&mut self, simulation: &Simulation, steps: u64) -> Result<u64, Interruption> {
         self.observer.progress(simulation);
+        let stiffness_number = simulation.course().largest_stiffness_number;
+        if !self.is_stiff && is_stiff(simulation.parameters(), stiffness_number) {
+            self.is_stiff = true;
+            self.observer.warning(&grown_stiffness_warning(stiffness_number, simulation.time()));
+        }
         // Samples may be rare: the run is not to go on for hours beside a file that is lost.
         self.writer.as_mut().map_or(Ok(()), RunWriter::check)?;
         let save = self.observer.asked_to_save() || (self.writer.is_some() && self.checkpointer.is_due());

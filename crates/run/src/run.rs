@@ -23,7 +23,7 @@ use crate::options::RunOptions;
 use crate::recorder::{Interruption, Recorder};
 use crate::start::{Request, Start};
 use crate::summary::RunSummary;
-use crate::warnings::{idle_warning, stiffness_warning};
+use crate::warnings::{idle_warning, is_stiff, stiffness_warning};
 
 /// Runs a scene, together with the other processes of the job if there are any: makes its surfaces, takes its steps and writes
 /// its run file, with checkpoints beside it from which a run that was stopped or killed goes on.
@@ -118,7 +118,8 @@ impl Prepared {
         let start = Instant::now();
         observer.starts("", assembly.schedule.end_time());
         let (agreement, recorded) = (Agreement::default(), Recorded::new(&scene.parameters));
-        let mut recorder = Recorder { writer, observer, job, checkpointer, agreement, recorded };
+        let is_stiff = is_stiff(&scene.parameters, scene.parameters.first_stiffness_number());
+        let mut recorder = Recorder { writer, observer, job, checkpointer, agreement, recorded, is_stiff };
         let result = assembly.run_to_end(&mut recorder);
         let Recorder { writer, observer, mut checkpointer, recorded, .. } = recorder;
         observer.ends();
@@ -137,7 +138,9 @@ impl Prepared {
         let last = checkpointer.last_sample.clone().unwrap_or_default();
         let course = assembly.simulation.course();
         let wall_time = start.elapsed().as_secs_f64();
-        let summary = RunSummary::new(&scene, header.surfaces, path, &last, contact_area, course, report, wall_time);
+        let chosen = assembly.chosen_acceleration();
+        let summary =
+            RunSummary::new(&scene, header.surfaces, path, &last, contact_area, chosen, course, report, wall_time);
         summary.inexact_load().iter().for_each(|warning| observer.warning(warning));
         // Why there was no scout from the start is said already.
         let idle = assembly.idle().filter(|_| assembly.chooses_acceleration());
@@ -158,7 +161,7 @@ fn close(
         Err(Interruption::Stopped(_)) => End::Interrupted,
         Err(Interruption::Failed(failure)) => End::Failed(failure.to_string()),
     };
-    match (result, writer.finish(&end, assembly.events())) {
+    match (result, writer.finish(&end, assembly.events(), assembly.chosen_acceleration())) {
         (Err(Interruption::Stopped(signal)), Ok(report)) => {
             let (steps, times) =
                 (assembly.simulation.steps_done(), [assembly.simulation.time(), assembly.schedule.end_time()]);

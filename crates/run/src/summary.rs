@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use plateau_core::acceleration::Chosen;
 use plateau_core::model::accounts::AccountsReport;
 use plateau_core::observe::Sample;
 use plateau_core::observe::drift::Drift;
+use plateau_core::observe::running_in::NotDefined;
 use plateau_core::observe::window_mean::WindowMean;
 use plateau_core::simulation::Course;
 use plateau_io::run_file::{ContactArea, WriterReport};
@@ -47,6 +49,14 @@ pub struct RunSummary {
     pub contact_area_last_tenth: Option<WindowMean>,
     /// What its mean changed by in the second half of the run, where that can be told.
     pub contact_area_drift: Option<Drift>,
+    /// When the contact area has come to 90 % of its value at the end of the run, s, where that is defined.
+    pub running_in_time: Option<f64>,
+    /// The same, or why it is not defined; none of a run with a cycle.
+    #[serde(skip)]
+    pub running_in: Option<Result<f64, NotDefined>>,
+    /// What the time acceleration was like, where the run chose it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_acceleration: Option<Chosen>,
     /// Contact area as a part of the pin's.
     pub contact_ratio: f64,
     /// Mean pressure in contact, Pa.
@@ -134,6 +144,7 @@ impl RunSummary {
         file: PathBuf,
         last: &Sample,
         ended: ContactArea,
+        chosen: Option<Chosen>,
         course: Course,
         report: WriterReport,
         wall_time: f64,
@@ -154,6 +165,9 @@ impl RunSummary {
             contact_area_mean: last.contact_area_mean,
             contact_area_last_tenth: ended.last_tenth,
             contact_area_drift: ended.drift,
+            running_in_time: ended.running_in.and_then(Result::ok),
+            running_in: ended.running_in,
+            time_acceleration: chosen,
             contact_ratio: last.contact_ratio,
             mean_pressure: last.mean_pressure,
             max_pressure: last.max_pressure,

@@ -115,7 +115,8 @@ impl Assembly {
         let mut sample = self.simulation.sample_at(moment, &self.output.extras)?;
         if let Some(cycle) = &self.cycle {
             let angle = self.simulation.parameters().step_angle();
-            CYCLE.record(&mut sample, cycle.operation_at(moment.step, angle, moment.time, moment.pause));
+            let [force, speed] = cycle.operation_at(moment.step, angle, moment.time, moment.pause);
+            CYCLE.record(&mut sample, [force, speed, cycle.loaded_until(moment.time)]);
             ROAD.record(&mut sample, [cycle.road_distance_at(moment.time)]);
         }
         if let Some(choice) = self.scout.as_ref().map(Scout::choice) {

@@ -56,6 +56,9 @@ pub(super) struct CheckReport {
     /// Of a run that chooses it.
     largest_acceleration: Option<f64>,
     stiffness_number: f64,
+    /// The same where `thermal.wear_rate_factor` is largest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hot_stiffness_number: Option<f64>,
     warns_of_stiffness: bool,
     /// What the scene can hardly mean.
     warnings: Vec<Warning>,
@@ -106,7 +109,8 @@ impl CheckReport {
             Some((asked, Reasoned { part, reason: format!("output.{} = {asked}", extra.name) }))
         }));
         let (needed, left_out): (Vec<_>, Vec<_>) = reasoned.into_iter().partition(|(needed, _)| *needed);
-        let stiffness_number = parameters.stiffness_number();
+        let stiffness_number = parameters.first_stiffness_number();
+        let largest_factor = parameters.thermal.as_ref().and_then(|thermal| thermal.wear_rate_factor.largest());
         let extras = scene.extras(scene.adaptive.is_some());
         let maps = if scene.output.maps.is_empty() { 0 } else { schedule.maps() };
         Self {
@@ -143,6 +147,8 @@ impl CheckReport {
             preparing_time,
             stiffness_number,
             largest_acceleration: scene.adaptive.map(|adaptive| adaptive.largest),
+            hot_stiffness_number: largest_factor
+                .map(|factor| parameters.with_wear_rate_factor(factor).stiffness_number()),
             warns_of_stiffness: stiffness_warning(parameters).is_some(),
             warnings: scene.warnings.clone(),
             needed: needed.into_iter().map(|(_, reasoned)| reasoned).collect(),
@@ -168,8 +174,12 @@ impl CheckReport {
     pub(super) fn to_text(&self) -> String {
         let micrometres = |length: f64| format!("{} um", number::short(length * 1e6));
         let stiffness = format!(
-            "Π = {}{}",
+            "Π = {}{}{}",
             number::short(self.stiffness_number),
+            self.hot_stiffness_number.map_or(String::new(), |number| format!(
+                ", {} where thermal.wear_rate_factor is largest",
+                number::short(number)
+            )),
             if self.warns_of_stiffness { " (large, see the warning)" } else { "" }
         );
         let mut rows = vec![

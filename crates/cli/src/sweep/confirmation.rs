@@ -111,7 +111,7 @@ fn make(plan: &Plan, resolved: &Resolved, cores: &CoresArguments, job: &mut Job)
     let progress = Progress::new(pending.len(), steps, job.leads());
     let floor = Floor::new(plan, resolved, cores.workers(), interrupt, progress);
     let shared = job.share(&pending, cores.runs_at_a_time(), None, &|number| floor.make(number));
-    floor.warn_of_surfaces();
+    floor.say_warnings();
     let made = floor.end(shared.map_err(Failure::run))?;
     if let Some(signal) = floor.signal() {
         let message = format!("stopped by {}; the same command goes on", signal_in_words(signal));

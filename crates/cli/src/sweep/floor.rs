@@ -11,6 +11,7 @@ use plateau_io::scene::Scene;
 use plateau_io::study::journal::Shard;
 use plateau_io::study::plan::Plan;
 use plateau_io::study::record::{Outcome, Record};
+use plateau_io::study::response::NoAnswer;
 use plateau_io::surface::Loaded;
 use plateau_run::job::PieceEnd;
 
@@ -18,7 +19,7 @@ use super::journal_folder;
 use super::make::make;
 use super::progress::Progress;
 use super::resolved::Resolved;
-use super::scene_warnings::{SceneWarnings, of_surfaces};
+use super::scene_warnings::{SceneWarnings, of_questions, of_surfaces};
 use super::under_way::UnderWay;
 use super::watcher::{Stopped, Watcher};
 use crate::failure::Failure;
@@ -38,6 +39,8 @@ pub struct Floor<'a> {
     failed: AtomicUsize,
     /// What the surfaces of the runs can hardly be meant to be.
     warnings: Mutex<SceneWarnings>,
+    /// Questions of the study that runs give no answer to.
+    unanswered: Mutex<SceneWarnings>,
     /// Why no result can be kept any more.
     broken: Mutex<Option<Failure>>,
 }
@@ -84,6 +87,7 @@ impl<'a> Floor<'a> {
             finished: AtomicUsize::new(0),
             failed: AtomicUsize::new(0),
             warnings: Mutex::default(),
+            unanswered: Mutex::default(),
             broken: Mutex::new(None),
         }
     }
@@ -93,9 +97,11 @@ impl<'a> Floor<'a> {
         self.interrupt.signal()
     }
 
-    /// Says what the surfaces of the runs that were made can hardly be meant to be.
-    pub fn warn_of_surfaces(&self) {
-        self.warnings.lock().unwrap_or_else(PoisonError::into_inner).say("runs that were made now");
+    /// Says what the surfaces of the runs that were made can hardly be meant to be, and which questions they do not answer.
+    pub fn say_warnings(&self) {
+        for warnings in [&self.warnings, &self.unanswered] {
+            warnings.lock().unwrap_or_else(PoisonError::into_inner).say("runs that were made now");
+        }
     }
 
     /// Completes the journal and counts what was made.
@@ -134,6 +140,14 @@ impl<'a> Floor<'a> {
             Err(error) => Ok(Outcome::Failed { error: error.to_string() }),
         };
         let Ok(outcome) = outcome.map_err(|Stopped(_)| ()) else { return PieceEnd::Stopped };
+        if let Some(series) = outcome.series() {
+            let answers = study.responses.iter().map(|response| response.of(&series));
+            // That a time is after the end is said before any run is made.
+            let is_new = |(_, reason): &(usize, NoAnswer)| !matches!(reason, NoAnswer::Ended { .. });
+            let unanswered = answers.enumerate().filter_map(|(place, answer)| Some((place, answer.err()?)));
+            let unanswered: Vec<_> = unanswered.filter(is_new).collect();
+            self.unanswered.lock().unwrap_or_else(PoisonError::into_inner).add(of_questions(study, &unanswered));
+        }
         let failure = if let Outcome::Failed { error } = &outcome { Some(error.clone()) } else { None };
         let record = Record {
             identity: identity.clone(),

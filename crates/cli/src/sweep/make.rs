@@ -7,7 +7,7 @@ use plateau_core::observe::{Quantity, Sample, quantities};
 use plateau_core::simulation::{Execution, Simulation};
 use plateau_io::scene::Scene;
 use plateau_io::study::Study;
-use plateau_io::study::record::{Outcome, REVOLUTIONS, Series};
+use plateau_io::study::record::{CONTACT_TIME, Outcome, REVOLUTIONS, Series};
 use plateau_run::{Assembly, Sink};
 
 use super::surfaces::surfaces;
@@ -65,7 +65,7 @@ fn finish(
         let columns = quantities().map(|quantity| assembly.events().iter().map(quantity.value).collect());
         Series::new(quantities().map(|quantity| quantity.name.to_owned()).collect(), columns.collect()).pack()
     });
-    Ok(Outcome::Finished { steps, series: recorder.series().pack(), events })
+    Ok(Outcome::Finished { steps, until: scene.duration, series: recorder.series().pack(), events })
 }
 
 /// Keeps the series that the study wants.
@@ -85,8 +85,8 @@ impl<'a> Recorder<'a> {
     fn new(study: &Study, scene: &Scene, watcher: &'a dyn Watcher, under_way: &'a mut UnderWay) -> Self {
         let asked = |name: &str| {
             let responses = &study.responses;
-            // Means of the contact area are taken from its integral.
-            let of_area = name == "contact_area_integral"
+            // Means of the contact area are taken from its integral, and over the time in contact.
+            let of_area = ["contact_area_integral", CONTACT_TIME].contains(&name)
                 && responses.iter().any(|other| other.series.starts_with("contact_area"));
             of_area || responses.iter().any(|response| response.series == name)
         };

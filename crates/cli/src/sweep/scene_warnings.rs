@@ -1,9 +1,12 @@
-//! What the scenes of a study can hardly mean: each kind of warning once, with how many runs it concerns.
+//! What the scenes of a study can hardly mean, and which questions its runs do not answer: each kind of warning once, with how many
+//! runs it concerns.
 
 use std::fmt;
 
 use plateau_io::plausibility;
 use plateau_io::scene::{Scene, Warning};
+use plateau_io::study::Study;
+use plateau_io::study::response::NoAnswer;
 use plateau_io::surface::Loaded;
 
 use crate::message;
@@ -40,6 +43,20 @@ pub fn of_surfaces(scene: &Scene, loaded: &Loaded) -> Vec<Found> {
     let own = plausibility::of_surfaces(scene, loaded).into_iter().map(of_key);
     let of_report = loaded.warnings().map(|line| (without_numbers(&line), line));
     own.chain(of_report).collect()
+}
+
+/// Questions that a finished run gives no answer to, with the reason; `unanswered` has their places. Of series that were not kept
+/// others speak.
+pub fn of_questions<'a>(study: &Study, unanswered: impl IntoIterator<Item = &'a (usize, NoAnswer)>) -> Vec<Found> {
+    let told = |(place, reason): &(usize, NoAnswer)| {
+        let name = &study.responses[*place].name;
+        (
+            format!("{name} {}", without_numbers(&reason.to_string())),
+            format!("response \"{name}\" has no value: {reason}"),
+        )
+    };
+    let is_told = |(_, reason): &&(usize, NoAnswer)| !matches!(reason, NoAnswer::Elsewhere | NoAnswer::NotKept);
+    unanswered.into_iter().filter(is_told).map(told).collect()
 }
 
 fn of_key(warning: Warning) -> Found {

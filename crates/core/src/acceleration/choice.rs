@@ -5,10 +5,14 @@
 //! - *What has passed.* A run begins with m = 1, and no simulated revolution stands for more than a small part of the time
 //!   that has passed. What a revolution does to the surfaces is large at the start and small later, so m grows with the
 //!   time, each decade of which takes as many steps as the one before.
-//! - *What is seen.* A second simulation of the same surfaces, the [scout](crate::acceleration::scout), goes beside the run with
-//!   [`RATIO`] times its acceleration. From what the two differ by follows the error of the run: see [`Choice::error`].
+//! - *What is seen.* A second simulation, the [scout](crate::acceleration::scout), goes beside the run with [`RATIO`] times its
+//!   acceleration. From what the two differ by follows the error of the run: see [`Choice::error`].
 //! - *What is resolved.* A window of the contact area's history has a few revolutions, and ends with one: over a part of a
 //!   revolution the mean depends on which part of the ring that is.
+//!
+//! Run and scout together are quicker than m = 1 from [`LEAST`] on. Where less is allowed, the run goes on alone with m = 1, which
+//! adds no error, and comes back after a while with a scout that begins with its surfaces: what the former scout differed by was
+//! mostly the error of its own past, which is no measure of what m costs the run now.
 
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +36,12 @@ const LARGEST_CHANGE: f64 = 2.0;
 const SMALLEST_CHANGE: f64 = 1.2;
 /// Part of the time passed that a revolution may stand for, over the tolerance (docs/accuracy.md).
 const GROWTH: f64 = 3.5;
+/// Least m beside a scout: both together take 5/8 of the steps of m = 1.
+const LEAST: f64 = 2.0;
+/// Growth of the time passed from an end of the acceleration to its next start, at least.
+const PAUSE: f64 = 1.1;
+/// What a start may add to the error of the run at least, of what is aimed at, however large that error is already estimated.
+const LEAST_SHARE: f64 = 0.5;
 /// Part of a window, or of m, below which times and accelerations are the same: they are rounded.
 const ROUNDING: f64 = 1e-6;
 
@@ -58,10 +68,43 @@ pub struct Choice {
     /// m that was wanted, before it was rounded to whole revolutions in a window.
     wanted: f64,
     acceleration: f64,
-    /// Relative difference from the scout's contact area.
+    /// Relative difference from the scout's contact area, since the scout began.
     difference: FadingMean,
     /// Square of that mean.
     square: FadingMean,
+    /// When the acceleration began or ended last, s.
+    since: f64,
+    /// Estimate of the error that the run had then.
+    carried: f64,
+    /// Largest m so far.
+    largest_taken: f64,
+    /// Integral of the square of the estimated error over the time, s, until `noted` (s).
+    square_integral: f64,
+    noted: f64,
+}
+
+/// What the acceleration of a run was like.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Chosen {
+    /// What the scene asks for.
+    pub tolerance: f64,
+    /// Smallest m: every run begins with 1.
+    pub smallest: f64,
+    /// Largest m.
+    pub largest: f64,
+    /// The last m.
+    pub last: f64,
+    /// Estimate of the relative error of the contact area's history: root mean square of [`Choice::error`] over the time.
+    pub estimated_error: f64,
+    /// Whether that is within the tolerance.
+    pub met: bool,
+}
+
+impl Chosen {
+    /// That of a run that goes with m = 1 all the time.
+    pub fn never(tolerance: f64) -> Self {
+        Self { tolerance, smallest: 1.0, largest: 1.0, last: 1.0, estimated_error: 0.0, met: true }
+    }
 }
 
 impl Choice {
@@ -72,15 +115,30 @@ impl Choice {
         let revolution = unaccelerated.step_time() * parameters.mesh.disc_columns() as f64;
         let resolved = window / (REVOLUTIONS_PER_WINDOW * revolution);
         let stable = match parameters.integrator {
-            Integrator::Explicit => LARGEST_STIFFNESS_NUMBER / (f64::from(RATIO) * unaccelerated.stiffness_number()),
+            Integrator::Explicit => {
+                LARGEST_STIFFNESS_NUMBER / (f64::from(RATIO) * unaccelerated.first_stiffness_number())
+            }
             Integrator::Exponential => f64::INFINITY,
         };
         Self::within(adaptive.tolerance, adaptive.largest.min(resolved).min(stable).max(1.0), window, revolution)
     }
 
     fn within(tolerance: f64, largest: f64, window: f64, revolution: f64) -> Self {
-        let (difference, square) = Default::default();
-        Self { tolerance, largest, window, revolution, wanted: 1.0, acceleration: 1.0, difference, square }
+        Self {
+            tolerance,
+            largest,
+            window,
+            revolution,
+            wanted: 1.0,
+            acceleration: 1.0,
+            difference: FadingMean::default(),
+            square: FadingMean::default(),
+            since: 0.0,
+            carried: 0.0,
+            largest_taken: 1.0,
+            square_integral: 0.0,
+            noted: 0.0,
+        }
     }
 
     /// m of the coming steps.
@@ -90,20 +148,64 @@ impl Choice {
 
     /// Whether there is a choice at all.
     pub fn is_free(&self) -> bool {
-        self.largest > 1.0
+        self.largest >= LEAST
     }
 
-    /// Estimate of the relative error of the contact area, from what it differed from the scout's by, lately.
+    /// What the acceleration was like until a time, s.
+    pub fn chosen(&self, time: f64) -> Chosen {
+        let square_integral = self.square_integral + self.error().powi(2) * (time - self.noted).max(0.0);
+        let estimated_error = if time > 0.0 { (square_integral / time).sqrt() } else { 0.0 };
+        Chosen {
+            tolerance: self.tolerance,
+            smallest: 1.0,
+            largest: self.largest_taken,
+            last: self.acceleration,
+            estimated_error,
+            met: estimated_error <= self.tolerance,
+        }
+    }
+
+    /// Estimate of the relative error of the contact area: of what the run had when the scout began, and of what has come since,
+    /// which are independent.
+    pub fn error(&self) -> f64 {
+        libm::hypot(self.carried, self.added())
+    }
+
+    /// Estimate of the error that has come since the scout began, from what the two differed by, lately.
     ///
     /// It is an upper bound of the error where that grows as a power of m between 0 and 1; above m = 4, more than the
     /// difference.
-    pub fn error(&self) -> f64 {
+    fn added(&self) -> f64 {
         from_difference(self.square.value().sqrt().max(self.difference.value().abs()), self.acceleration)
     }
 
-    /// Goes back to m = 1, whose error is 0.
+    /// Goes on with m = 1, for good.
     pub(crate) fn give_up(&mut self) {
-        *self = Self::within(self.tolerance, 1.0, self.window, self.revolution);
+        self.begin(self.noted, 1.0);
+    }
+
+    /// Goes on from a time (s) on with this m, and what is seen from then on is new.
+    fn begin(&mut self, time: f64, acceleration: f64) {
+        (self.carried, self.since) = (self.error(), time);
+        (self.difference, self.square) = Default::default();
+        (self.wanted, self.acceleration) = (acceleration, acceleration);
+        self.largest_taken = self.largest_taken.max(acceleration);
+    }
+
+    /// The m that the time passed (s) allows.
+    fn allowed_at(&self, time: f64) -> f64 {
+        (GROWTH * self.tolerance * time / self.revolution).min(self.largest)
+    }
+
+    /// Takes note that the run came to a time (s) with m = 1, and begins to accelerate it where that is allowed (again); whether it
+    /// does. A scout with the surfaces of the run is to begin then.
+    pub fn start(&mut self, time: f64) -> bool {
+        self.integrate(time);
+        let starts = time >= PAUSE * self.since && self.allowed_at(time) >= LEAST;
+        if starts {
+            self.begin(time, LEAST);
+        }
+        starts
     }
 
     /// Takes note that over the last `elapsed` of `time` seconds the scout's contact area differed from that of the run by
@@ -111,14 +213,26 @@ impl Choice {
     pub fn note(&mut self, difference: f64, elapsed: f64, time: f64) {
         self.difference.add(difference, elapsed / self.window);
         self.square.add(self.difference.value().powi(2), elapsed / (REVOLUTIONS_PER_WINDOW * self.window));
-        let error = self.error();
-        let change = if error > 0.0 { AIM * self.tolerance / error } else { LARGEST_CHANGE };
+        self.integrate(time);
+        let aim = AIM * self.tolerance;
+        let left = (aim * aim - self.carried * self.carried).max(0.0).sqrt().max(LEAST_SHARE * aim);
+        let added = self.added();
+        let change = if added > 0.0 { left / added } else { LARGEST_CHANGE };
         if !(1.0 / SMALLEST_CHANGE..SMALLEST_CHANGE).contains(&change) {
             self.wanted *= change.clamp(1.0 / LARGEST_CHANGE, LARGEST_CHANGE);
         }
-        let passed = GROWTH * self.tolerance * time / self.revolution;
-        self.wanted = self.wanted.min(passed).min(self.largest).max(1.0);
-        self.take(whole_revolutions(self.wanted, self.revolution, self.window - time % self.window, self.window));
+        self.wanted = self.wanted.min(self.allowed_at(time));
+        if self.wanted < LEAST {
+            return self.begin(time, 1.0);
+        }
+        let whole = whole_revolutions(self.wanted, self.revolution, self.window - time % self.window, self.window);
+        self.take(whole.max(LEAST));
+    }
+
+    /// Adds the error up to a time (s) to the integral.
+    fn integrate(&mut self, time: f64) {
+        self.square_integral += self.error().powi(2) * (time - self.noted);
+        self.noted = time;
     }
 
     /// Goes on with this m, if it is another one.
@@ -126,6 +240,7 @@ impl Choice {
         let change = acceleration / self.acceleration;
         if (change - 1.0).abs() > ROUNDING {
             self.acceleration = acceleration;
+            self.largest_taken = self.largest_taken.max(acceleration);
             // What was seen so far counts as if it had been seen at the new acceleration.
             self.difference.scale(change);
             self.square.scale(change * change);
@@ -178,16 +293,27 @@ impl FadingMean {
 mod tests {
     use super::*;
 
-    /// The acceleration after 400 looks at differences, each after four simulated revolutions of 1 s at m = 1.
-    fn settled(mut choice: Choice, difference: impl Fn(u32, f64) -> f64) -> f64 {
+    /// Looks 400 times, each after four simulated revolutions of 1 s at m = 1, of which those with m > 1 see `difference`; gives the
+    /// m of every look.
+    fn looks(choice: &mut Choice, difference: impl Fn(u32, f64) -> f64) -> Vec<f64> {
         let mut time = 0.0;
-        for look in 0..400 {
+        let mut look = |number: u32| {
             let acceleration = choice.acceleration();
             let elapsed = f64::from(RATIO) * acceleration;
             time += elapsed;
-            choice.note(difference(look, acceleration), elapsed, time);
-        }
-        choice.acceleration()
+            if acceleration > 1.0 {
+                choice.note(difference(number, acceleration), elapsed, time);
+            } else {
+                choice.start(time);
+            }
+            acceleration
+        };
+        (0..400).map(&mut look).collect()
+    }
+
+    /// The last of them.
+    fn settled(mut choice: Choice, difference: impl Fn(u32, f64) -> f64) -> f64 {
+        looks(&mut choice, difference).last().copied().unwrap()
     }
 
     #[test]
@@ -223,11 +349,54 @@ mod tests {
     }
 
     #[test]
-    fn nothing_to_see_leads_to_the_largest_and_too_much_to_none() {
-        let largest = settled(Choice::within(0.01, 25.0, 100.0, 1.0), |_, _| 0.0);
+    fn nothing_to_see_leads_to_the_largest() {
+        let mut choice = Choice::within(0.01, 25.0, 100.0, 1.0);
+        let largest = looks(&mut choice, |_, _| 0.0).last().copied().unwrap();
         assert!((largest / 25.0 - 1.0).abs() < ROUNDING, "{largest}");
-        assert_eq!(settled(Choice::within(0.01, 25.0, 100.0, 1.0), |_, _| 0.5), 1.0);
-        assert!(!Choice::within(0.01, 1.0, 100.0, 1.0).is_free());
+        let expected =
+            Chosen { tolerance: 0.01, smallest: 1.0, largest: 25.0, last: 25.0, estimated_error: 0.0, met: true };
+        assert_eq!(choice.chosen(1e4), expected);
+        assert!(!Choice::within(0.01, 1.9, 100.0, 1.0).is_free());
+    }
+
+    #[test]
+    fn too_much_to_see_ends_the_acceleration_for_a_while_only() {
+        let mut choice = Choice::within(0.01, 25.0, 100.0, 1.0);
+        let accelerations = looks(&mut choice, |_, _| 0.5);
+        let starts = accelerations.windows(2).filter(|two| two[0] == 1.0 && two[1] > 1.0).count();
+        // Every start is seen to be too much at its first look, and the next is 1.1 times as late: from 57 s, 2/(3.5 · 1 %), until some
+        // 1600 s there are 35.
+        assert!((25..=40).contains(&starts), "{starts}");
+        // Each has added what was seen: the tolerance is not met, and that is said.
+        let chosen = choice.chosen(1600.0);
+        assert!(!chosen.met && chosen.estimated_error > 0.5 && chosen.last == 1.0, "{chosen:?}");
+    }
+
+    #[test]
+    fn a_run_with_a_scout_is_never_slower_than_without_acceleration() {
+        // Whatever is seen: revolutions of run and scout, over the time in revolutions of m = 1.
+        let seen: [fn(u32, f64) -> f64; 4] =
+            [|_, _| 0.0, |_, m| 2e-4 * m, |_, _| 0.5, |look, _| 0.02 * f64::from(look % 7)];
+        for (difference, largest) in seen.into_iter().zip([25.0, 1000.0, 2.0, 7.3]) {
+            let accelerations = looks(&mut Choice::within(0.01, largest, 100.0, 1.0), difference);
+            let (mut taken, mut time) = (0.0, 0.0);
+            for acceleration in accelerations {
+                taken += if acceleration > 1.0 { f64::from(RATIO) + 1.0 } else { f64::from(RATIO) };
+                time += f64::from(RATIO) * acceleration;
+                assert!(taken <= time, "{taken} revolutions in {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_run_had_before_counts_with_what_came_since() {
+        // By hand: 3 % carried and 4 % seen since at m = 2 are 5 %.
+        let mut choice = Choice { carried: 0.03, ..Choice::within(1.0, 2.0, 100.0, 1.0) };
+        choice.acceleration = 2.0;
+        choice.note(0.04, 8.0, 8.0);
+        assert!((choice.error() - 0.05).abs() < 1e-15, "{choice:?}");
+        // Over 8 s, and the same over 8 s more.
+        assert!((choice.chosen(16.0).estimated_error - 0.05).abs() < 1e-15);
     }
 
     #[test]
@@ -239,7 +408,11 @@ mod tests {
             let bound = (GROWTH * 0.01 * time / 0.5).max(1.0);
             assert!(acceleration <= bound, "look {look}: {acceleration}, at most {bound}");
             time += 4.0 * 0.5 * acceleration;
-            choice.note(0.0, 4.0 * 0.5 * acceleration, time);
+            if acceleration > 1.0 {
+                choice.note(0.0, 4.0 * 0.5 * acceleration, time);
+            } else {
+                choice.start(time);
+            }
         }
         // It has grown, and by no more than it must: by hand, by 4 · 3.5 % a look once it is above 1.
         assert!(choice.acceleration() > 900.0, "{}", choice.acceleration());

@@ -4,4 +4,4 @@ mod choice;
 pub mod scout;
 pub mod smoothness;
 
-pub use choice::{Adaptive, Choice, RATIO};
+pub use choice::{Adaptive, Choice, Chosen, RATIO};

@@ -1,4 +1,4 @@
-//! A second simulation that goes before a run, to see what its acceleration costs.
+//! A second simulation that goes beside a run, to see what its acceleration costs.
 
 use std::fmt;
 
@@ -9,13 +9,14 @@ use crate::acceleration::smoothness::Smoothness;
 use crate::engine::checkpoint::Checkpoint;
 use crate::simulation::{Simulation, SimulationError};
 
-/// A simulation of the same surfaces as a run, with [`RATIO`] times its acceleration.
+/// A simulation that begins with the state of a run whenever that begins to be accelerated, and goes on with [`RATIO`] times its
+/// acceleration.
 ///
 /// The two are compared whenever the scout has taken one revolution and the run [`RATIO`] of them, in which the same
-/// physical time passes.
+/// physical time passes. While the run goes with m = 1, the scout rests.
 #[derive(Debug)]
 pub struct Scout {
-    /// None where the run is not accelerated any more.
+    /// None where the run will not be accelerated any more.
     simulation: Option<Simulation>,
     choice: Choice,
     smoothness: Option<Smoothness>,
@@ -89,7 +90,6 @@ impl Scout {
         let smoothness = Smoothness::of(parameters, simulation.pin_base());
         let limited = (!choice.is_free()).then_some(Idle::Limited);
         let idle = limited.or(too_smooth(smoothness, &mut simulation)?);
-        simulation.accelerate(f64::from(RATIO) * choice.acceleration())?;
         let simulation = idle.is_none().then_some(simulation);
         Ok(Self { simulation, choice, smoothness, idle, run: Mark::default(), scout: Mark::default() })
     }
@@ -104,18 +104,24 @@ impl Scout {
         &self.choice
     }
 
-    /// The step of the run after which the two are compared; none any more if the run is not accelerated.
+    /// Whether the scout goes beside the run.
+    fn is_at_work(&self) -> bool {
+        self.choice.acceleration() > 1.0
+    }
+
+    /// The step of the run after which the acceleration is chosen anew; none any more if the run will not be accelerated.
     pub fn comparison(&self) -> Option<u64> {
         let revolution = self.simulation.as_ref().map(revolution)?;
         Some(self.run.steps + u64::from(RATIO) * revolution)
     }
 
-    /// Takes at most `steps` steps; whether it is where the two are compared.
+    /// Takes at most `steps` steps; whether it is where the two are compared, or rests.
     ///
     /// # Errors
     /// As [`Simulation::advance`].
     pub fn advance(&mut self, steps: u64) -> Result<bool, SimulationError> {
-        let Some(simulation) = &mut self.simulation else { return Ok(true) };
+        let is_at_work = self.is_at_work();
+        let Some(simulation) = self.simulation.as_mut().filter(|_| is_at_work) else { return Ok(true) };
         let end = self.scout.steps + revolution(simulation);
         simulation.pass_to(simulation.steps_done().saturating_add(steps).min(end))?;
         Ok(simulation.steps_done() == end)
@@ -145,19 +151,27 @@ impl Scout {
         Ok(())
     }
 
-    /// Compares the run with the scout, chooses the acceleration anew and changes that of both; whether it changed.
+    /// Compares the run with the scout, if that goes beside it, chooses the acceleration anew and changes that of both; whether it
+    /// changed.
     ///
     /// # Errors
     /// [`SimulationError`] when a worker failed.
     pub fn compare(&mut self, run: &mut Simulation) -> Result<bool, SimulationError> {
-        let Some(simulation) = &mut self.simulation else { return Ok(false) };
-        let [before, scout_before] = [self.run, self.scout];
-        (self.run, self.scout) = (Mark::of(run), Mark::of(simulation));
-        let area = self.run.contact_area_integral - before.contact_area_integral;
-        let scouted = self.scout.contact_area_integral - scout_before.contact_area_integral;
-        let acceleration = self.choice.acceleration();
-        self.choice.note(scouted / area - 1.0, self.run.time - before.time, self.run.time);
-        self.idle = too_smooth(self.smoothness, run)?;
+        let (was_at_work, acceleration) = (self.is_at_work(), self.choice.acceleration());
+        let Some(scout) = &mut self.simulation else { return Ok(false) };
+        let before = std::mem::replace(&mut self.run, Mark::of(run));
+        let starts = if was_at_work {
+            let scout_before = std::mem::replace(&mut self.scout, Mark::of(scout));
+            let area = self.run.contact_area_integral - before.contact_area_integral;
+            let scouted = self.scout.contact_area_integral - scout_before.contact_area_integral;
+            self.choice.note(scouted / area - 1.0, self.run.time - before.time, self.run.time);
+            false
+        } else {
+            self.choice.start(self.run.time)
+        };
+        if was_at_work || starts {
+            self.idle = too_smooth(self.smoothness, run)?;
+        }
         if self.idle.is_some() {
             self.choice.give_up();
             self.simulation = None;
@@ -166,10 +180,14 @@ impl Scout {
         if chosen == acceleration {
             return Ok(false);
         }
-        run.accelerate(chosen)?;
-        if let Some(simulation) = &mut self.simulation {
-            simulation.accelerate(f64::from(RATIO) * chosen)?;
+        if let Some(scout) = self.simulation.as_mut().filter(|_| chosen > 1.0) {
+            if starts {
+                scout.restore(&run.checkpoint()?)?;
+                self.scout = Mark::of(scout);
+            }
+            scout.accelerate(f64::from(RATIO) * chosen)?;
         }
+        run.accelerate(chosen)?;
         Ok(true)
     }
 }

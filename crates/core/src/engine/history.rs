@@ -20,6 +20,8 @@ pub struct Course {
     pub contact_area_integral: f64,
     /// Largest load residual of any step.
     pub largest_load_residual: f64,
+    /// Largest Π so far, with the time acceleration and the wear rates that held (model section 8).
+    pub largest_stiffness_number: f64,
     /// Passes over the pin beyond one a step: each is a bracket that missed the displacement.
     pub extra_readings: u64,
 }

@@ -108,6 +108,12 @@ impl Parameters {
         parameters
     }
 
+    /// Π with the wear rates of the temperature with which a run begins.
+    pub fn first_stiffness_number(&self) -> f64 {
+        let factor = self.thermal.as_ref().map_or(1.0, |thermal| thermal.wear_rate_factor.at(thermal.ambient));
+        self.with_wear_rate_factor(factor).stiffness_number()
+    }
+
     /// m Δt = m Δθ/ω, s: physical time of one step.
     pub fn step_time(&self) -> f64 {
         self.time_acceleration * self.mesh.column_angle() / self.angular_velocity

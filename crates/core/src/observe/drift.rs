@@ -7,7 +7,7 @@ use super::window_mean::{Cumulative, LEAST_PARTS, WindowMean, error_of_mean};
 /// Standard errors from which on a change is not taken for chance: 2.5 times in a hundred in either direction.
 const BEYOND_CHANCE: f64 = 2.0;
 /// A change of this part of the mean is of interest: a run that may hide a larger one tells nothing.
-const OF_INTEREST: f64 = 0.05;
+pub(super) const OF_INTEREST: f64 = 0.05;
 /// Pulses in a quarter of a run from which on two quarters can be compared: with one or less the change is that of a pulse, and no
 /// standard error tells that.
 pub const LEAST_PULSES: f64 = 3.0;
@@ -79,7 +79,7 @@ impl Drift {
 }
 
 /// What is left of values when their least-squares line is taken out.
-fn beside_a_line(values: &[f64]) -> Vec<f64> {
+pub(super) fn beside_a_line(values: &[f64]) -> Vec<f64> {
     let middle = 0.5 * (values.len() as f64 - 1.0);
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     let places = || (0..values.len()).map(|place| place as f64 - middle);

@@ -11,7 +11,7 @@
 //! | `map.rs` | fields that can be recorded as maps |
 //! | `schedule.rs` | when samples and maps are due |
 //! | `pulse.rs` | how long the contact area takes to rise and fall once |
-//! | `window_mean.rs`, `drift.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
+//! | `window_mean.rs`, `drift.rs`, `running_in.rs`, `plateau_size.rs` | what is made of series and maps afterwards |
 
 pub mod dissipation;
 pub mod drift;
@@ -24,6 +24,7 @@ pub mod pressure_spread;
 pub mod pulse;
 pub mod quantity;
 pub mod roughness;
+pub mod running_in;
 pub mod sample;
 pub mod schedule;
 pub mod window_mean;

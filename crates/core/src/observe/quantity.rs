@@ -89,6 +89,7 @@ pub const QUANTITIES: &[Quantity] = quantities! {
 pub const TOTALS: &[&str] = &[
     "contact_area_integral",
     "sliding_distance",
+    "contact_time",
     "road_distance",
     "worn_pin",
     "worn_resin",

@@ -36,6 +36,9 @@ pub struct WindowMean {
     pub to: f64,
     /// Simulated revolutions in it; none if they are not known.
     pub revolutions: Option<f64>,
+    /// The time in it, s, over which the mean is taken, where the pin was lifted meanwhile.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_time: Option<f64>,
     /// The mean, exactly: difference of the integral over the time.
     pub mean: f64,
     /// Standard error of the mean: see [`standard_error`]. None with fewer than five parts: see [`Cumulative::mean`].
@@ -50,12 +53,6 @@ impl WindowMean {
 }
 
 impl Cumulative<'_> {
-    /// The mean over the last tenth of the run; see [`last_tenth`]. None without samples or with one that is not finite.
-    pub fn mean_of_last_tenth(&self) -> Option<WindowMean> {
-        let (from, to) = last_tenth(self.time, self.revolutions)?;
-        self.mean(from, to)
-    }
-
     /// The mean between two times, s: exact where these are times of samples, or 0, and otherwise with the integral linear
     /// between samples. None unless 0 ≤ from < to ≤ the time of the last sample, or where a sample is not finite.
     ///
@@ -72,7 +69,31 @@ impl Cumulative<'_> {
         let parts = self.parts(from, to);
         let standard_error = (parts >= LEAST_PARTS).then(|| standard_error(&self.means_of_parts(from, to, parts)));
         let finite = mean.is_finite() && standard_error.is_none_or(f64::is_finite);
-        finite.then_some(WindowMean { from, to, revolutions, mean, standard_error })
+        finite.then_some(WindowMean { from, to, revolutions, contact_time: None, mean, standard_error })
+    }
+
+    /// The same over the time in contact alone, of which `contact_time` is the series (s, since t = 0): the time in which the pin was
+    /// lifted counts for nothing. None also where it was lifted all the time.
+    pub fn mean_in_contact(&self, contact_time: &[f64], from: f64, to: f64) -> Option<WindowMean> {
+        let in_order = 0.0 <= from && from < to && to <= self.time.last()? * (1.0 + ROUNDING);
+        if !in_order || contact_time.len() != self.time.len() {
+            return None;
+        }
+        // The same on the axis of that time, without the samples at which it stands still.
+        let mut before = 0.0;
+        let moves = |(_, time): &(usize, &f64)| {
+            let moves = **time > before;
+            before = before.max(**time);
+            moves
+        };
+        let kept: Vec<usize> = contact_time.iter().enumerate().filter(moves).map(|(sample, _)| sample).collect();
+        let at_kept = |values: &[f64]| -> Vec<f64> { kept.iter().filter_map(|at| values.get(*at).copied()).collect() };
+        let [time, integral, revolutions] = [contact_time, self.integral, self.revolutions].map(at_kept);
+        let [start, end] = [from, to].map(|moment| at(self.time, contact_time, moment));
+        let samples = Cumulative { time: &time, integral: &integral, revolutions: &revolutions };
+        let mean = samples.mean(start, end)?;
+        let is_lifted = to - from > (end - start) * (1.0 + ROUNDING);
+        Some(WindowMean { from, to, contact_time: is_lifted.then_some(end - start), ..mean })
     }
 
     /// Simulated revolutions in a window, if they are known.
@@ -212,7 +233,8 @@ mod tests {
         // The quantity is 2 t: its integral t².
         let integral: Vec<f64> = time.iter().map(|time| time * time).collect();
         let run = |revolutions: &[f64]| {
-            Cumulative { time: &time, integral: &integral, revolutions }.mean_of_last_tenth().unwrap()
+            let (from, to) = last_tenth(&time, revolutions).unwrap();
+            Cumulative { time: &time, integral: &integral, revolutions }.mean(from, to).unwrap()
         };
         let last = run(&[]);
         assert_eq!((last.from, last.to, last.mean, last.revolutions), (90.0, 100.0, 190.0, None));
@@ -230,6 +252,27 @@ mod tests {
         // Between samples the integral is a line: from 8100 at 90 s to 8281.
         let between = Cumulative { time: &time, integral: &integral, revolutions: &[] }.mean(90.5, 91.0).unwrap();
         assert_eq!((between.mean, between.standard_error), (181.0, None));
+    }
+
+    #[test]
+    fn a_mean_in_contact_leaves_out_the_time_in_which_the_pin_is_lifted() {
+        // 3 mm² for 10 s, lifted for 20 s, 5 mm² for 10 s, lifted for 10 s; a sample every 2 s.
+        let time: Vec<f64> = (1..=25).map(|sample| 2.0 * f64::from(sample)).collect();
+        let contact = |time: f64| time.min(10.0) + (time - 30.0).clamp(0.0, 10.0);
+        let integral = |time: f64| 3.0 * time.min(10.0) + 5.0 * (time - 30.0).clamp(0.0, 10.0);
+        let series = |of: &dyn Fn(f64) -> f64| -> Vec<f64> { time.iter().map(|time| of(*time)).collect() };
+        let (contact, integral) = (series(&contact), series(&integral));
+        let run = Cumulative { time: &time, integral: &integral, revolutions: &[] };
+        let mean = |from: f64, to: f64| run.mean_in_contact(&contact, from, to);
+        let whole = mean(0.0, 50.0).unwrap();
+        // By hand: 80 mm² s in 20 s of contact; over all 50 s it would be 1.6.
+        assert_eq!((whole.mean, whole.contact_time, whole.from, whole.to), (4.0, Some(20.0), 0.0, 50.0));
+        // Means of ten parts: five of 3, five of 5.
+        assert_eq!(whole.standard_error, Some(standard_error(&[3.0, 3.0, 3.0, 3.0, 3.0, 5.0, 5.0, 5.0, 5.0, 5.0])));
+        assert_eq!(mean(20.0, 36.0).map(|mean| (mean.mean, mean.contact_time)), Some((5.0, Some(6.0))));
+        assert_eq!(mean(2.0, 8.0).map(|mean| (mean.mean, mean.contact_time)), Some((3.0, None)));
+        assert_eq!(mean(12.0, 28.0), None);
+        assert_eq!(run.mean_in_contact(&[], 0.0, 50.0), None);
     }
 
     #[test]

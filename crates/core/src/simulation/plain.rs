@@ -105,6 +105,8 @@ impl Plain {
             1.0 => self.parameters.clone(),
             factor => Arc::new(self.parameters.with_wear_rate_factor(factor)),
         };
+        let stiffness_number = self.worn_with.stiffness_number();
+        self.course.largest_stiffness_number = self.course.largest_stiffness_number.max(stiffness_number);
     }
 
     /// What the steps so far were like.

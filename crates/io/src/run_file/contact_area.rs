@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use plateau_core::observe::drift::Drift;
 use plateau_core::observe::pulse::pulse_time;
-use plateau_core::observe::window_mean::{Cumulative, WindowMean};
+use plateau_core::observe::running_in::{NotDefined, RUN_IN, time_to};
+use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 
 use super::{ReadError, RunFile};
 use crate::scene;
@@ -12,10 +13,13 @@ use crate::scene;
 /// What the contact area of a run was at its end; nothing of it where that cannot be told.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ContactArea {
-    /// The mean over the last tenth of the run, m², as far as it is recorded: see [`Cumulative::mean_of_last_tenth`].
+    /// The mean over the last tenth of the run, m², as far as it is recorded: see [`last_tenth`]. Of a run with a cycle over the time
+    /// in contact.
     pub last_tenth: Option<WindowMean>,
     /// What the mean changed by in the second half of the run; none of a run with a cycle, whose contact area follows load and speed.
     pub drift: Option<Drift>,
+    /// When it has come to 90 % of its value at the end, s; none of a run with a cycle.
+    pub running_in: Option<Result<f64, NotDefined>>,
 }
 
 impl RunFile {
@@ -28,8 +32,17 @@ impl RunFile {
         let revolutions = self.revolutions()?.unwrap_or_default();
         let samples = Cumulative { time: self.time(), integral: &integral, revolutions: &revolutions };
         let has_cycle = self.scene().get("operation").is_some_and(|operation| operation.get("cycle").is_some());
-        let drift = if has_cycle { None } else { Drift::of(&samples, self.pulse_time()) };
-        Ok(ContactArea { last_tenth: samples.mean_of_last_tenth(), drift })
+        let (drift, running_in) = match has_cycle {
+            true => (None, None),
+            false => (Drift::of(&samples, self.pulse_time()), Some(time_to(RUN_IN, &samples))),
+        };
+        let last_tenth = last_tenth(samples.time, samples.revolutions).and_then(|(from, to)| {
+            match self.values("contact_time").transpose() {
+                Some(contact_time) => contact_time.map(|series| samples.mean_in_contact(&series, from, to)).transpose(),
+                None => samples.mean(from, to).map(Ok),
+            }
+        });
+        Ok(ContactArea { last_tenth: last_tenth.transpose()?, drift, running_in })
     }
 
     /// Time of a pulse of the contact area, s, at least; none where nothing pulses, or the file does not tell.
@@ -44,7 +57,7 @@ impl RunFile {
         let Some(distance) = self.values("sliding_distance")? else { return Ok(None) };
         let accelerations = match self.values("time_acceleration")? {
             Some(chosen) => chosen,
-            None => vec![self.given_acceleration(); distance.len()],
+            None => vec![self.given_acceleration().unwrap_or(1.0); distance.len()],
         };
         let way = TAU * self.mesh().mean_radius();
         let (mut before, mut turns) = (0.0, 0.0);
@@ -56,10 +69,9 @@ impl RunFile {
         Ok(Some(turned.collect()))
     }
 
-    /// The time acceleration of the scene; 1 where there was none to choose.
-    fn given_acceleration(&self) -> f64 {
+    /// The time acceleration of the scene, if that is a number.
+    pub fn given_acceleration(&self) -> Option<f64> {
         let given = self.scene().get("numerics").and_then(|numerics| numerics.get("time_acceleration"));
-        let number = given.and_then(|given| given.as_float().or_else(|| given.as_integer().map(|given| given as f64)));
-        number.unwrap_or(1.0)
+        given.and_then(|given| given.as_float().or_else(|| given.as_integer().map(|given| given as f64)))
     }
 }

@@ -17,6 +17,9 @@ pub(super) const TIME_OF_SERIES: &str = "series/time";
 /// See [`TIME`].
 pub(super) const MAP_TIME: &str = "map_time";
 
+/// Attribute of the root: what the time acceleration that a run chose was like, as JSON.
+pub(super) const ACCELERATION: &str = "time_acceleration";
+
 /// Path of the base of the pin's cells.
 pub(super) const PIN_BASE: &str = "pin/base";
 

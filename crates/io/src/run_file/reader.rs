@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::{Map, MapValues};
 
 use super::error::ReadError;
 use super::header::InputFile;
-use super::layout::{MAP_TIME, PIN_BASE, TIME, map_path, series_path};
+use super::layout::{ACCELERATION, MAP_TIME, PIN_BASE, TIME, map_path, series_path};
 use super::opening::{Opening, Series, reason};
 use super::state::State;
 use super::status::Statuses;
@@ -124,6 +125,11 @@ impl RunFile {
     /// A number of its root attributes, such as `workers` or `wall_time`, if it is there.
     pub fn number(&self, name: &str) -> Option<f64> {
         hdf5_file::number_attribute(&self.file, name).ok()?
+    }
+
+    /// What the acceleration that its run chose was like; none if it chose none, or has not ended.
+    pub fn chosen_acceleration(&self) -> Option<Chosen> {
+        serde_json::from_str(&self.attribute(ACCELERATION)?).ok()
     }
 
     /// When its run began.

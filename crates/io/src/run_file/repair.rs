@@ -171,7 +171,16 @@ fn make(path: &Path, old: Restored, holds: [usize; 2], left_out: LeftOut) -> Res
     datasets.copy(&file, run, Earlier { samples, snapshots: moments, wall_time })?;
     file.flush().map_err(not_anew(path))?;
     let digests = datasets.into_digests();
-    let seal = Seal { header: &header, start_time, end: &End::Interrupted, end_time, wall_time, digests, events: &[] };
+    let seal = Seal {
+        header: &header,
+        start_time,
+        end: &End::Interrupted,
+        end_time,
+        wall_time,
+        digests,
+        events: &[],
+        acceleration: None,
+    };
     let sealed = Place::prepare(path, true, EMPTY_FILE)?;
     let closed = file.close().and_then(|()| seal.make(place.temporary(), &sealed));
     closed.map_err(not_anew(path))?;

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::{Duration, SystemTime};
 
 use hdf5::File;
+use plateau_core::acceleration::Chosen;
 use plateau_core::observe::event::EventRecord;
 
 use super::attribute_digests;
@@ -13,7 +14,7 @@ use super::creation::{Source, lay_out};
 use super::digest::Digests;
 use super::dimension::EMPTY_FILE;
 use super::error::{failed, not_anew};
-use super::layout::{TIME, TIME_OF_SERIES};
+use super::layout::{ACCELERATION, TIME, TIME_OF_SERIES};
 use super::place::Place;
 use super::{End, Header, RunFileError};
 use crate::hdf5_file;
@@ -32,6 +33,7 @@ pub(super) struct Seal<'a> {
     pub(super) wall_time: Duration,
     pub(super) digests: Digests,
     pub(super) events: &'a [EventRecord],
+    pub(super) acceleration: Option<Chosen>,
 }
 
 impl Seal<'_> {
@@ -69,6 +71,10 @@ impl Seal<'_> {
         write_number(&file, "wall_time", self.wall_time.as_secs_f64())?;
         if let End::Failed(message) = self.end {
             write_text(&file, "error", message)?;
+        }
+        if let Some(chosen) = &self.acceleration {
+            let text = serde_json::to_string(chosen).map_err(|error| hdf5::Error::from(error.to_string()))?;
+            write_text(&file, ACCELERATION, &text)?;
         }
         write_text(&file, "state", self.end.state().name())?;
         file.link_soft(&format!("/{TIME}"), TIME_OF_SERIES)?;

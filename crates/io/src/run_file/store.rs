@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
 use hdf5::File;
+use plateau_core::acceleration::Chosen;
 use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Sample, Snapshot};
 
@@ -144,13 +145,19 @@ impl Store {
     }
 
     /// Closes the file for good and states how the run ended.
-    pub(super) fn seal(self, end: &End, events: &[EventRecord]) -> Result<Written, RunFileError> {
+    pub(super) fn seal(
+        self,
+        end: &End,
+        events: &[EventRecord],
+        acceleration: Option<Chosen>,
+    ) -> Result<Written, RunFileError> {
         self.check_identity()?;
         let Self { path, header, start_time, started, file, datasets, .. } = self;
         let (samples, snapshots) = (datasets.samples, datasets.snapshots);
         let (end_time, wall_time) = (SystemTime::now(), started.elapsed());
         let header = &header;
-        let seal = Seal { header, start_time, end, end_time, wall_time, digests: datasets.into_digests(), events };
+        let digests = datasets.into_digests();
+        let seal = Seal { header, start_time, end, end_time, wall_time, digests, events, acceleration };
         file.close().map_err(failed(&path))?;
         seal.put_on(&path)?;
         let bytes = fs::metadata(&path).map_or(0, |metadata| metadata.len());

@@ -5,6 +5,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use crossbeam::channel::{self, Sender};
+use plateau_core::acceleration::Chosen;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::event::EventRecord;
 use plateau_core::observe::{Map, MapValues, Sample, Snapshot};
@@ -137,15 +138,20 @@ impl RunWriter {
         if sent { Ok(()) } else { Err(self.stop()) }
     }
 
-    /// Writes what is still in the queue, states how the run ended and what happened in the events of its cycle, and closes the
-    /// file.
+    /// Writes what is still in the queue, states how the run ended, what happened in the events of its cycle and what the
+    /// acceleration that it chose was like, and closes the file.
     ///
     /// # Errors
     /// The error of the writer if it has failed, now or before; `state` then still is `running`, as if the program had
     /// been killed.
-    pub fn finish(mut self, end: &End, events: &[EventRecord]) -> Result<WriterReport, RunFileError> {
+    pub fn finish(
+        mut self,
+        end: &End,
+        events: &[EventRecord],
+        acceleration: Option<Chosen>,
+    ) -> Result<WriterReport, RunFileError> {
         let store = self.join()?;
-        let written = store.seal(end, events)?;
+        let written = store.seal(end, events, acceleration)?;
         Ok(WriterReport {
             waited: self.waited,
             samples: written.samples,
@@ -197,7 +203,7 @@ impl Drop for RunWriter {
         if self.thread.is_some()
             && let Ok(store) = self.join()
         {
-            let _ = store.seal(&End::Failed("the program stopped before the run was done".into()), &[]);
+            let _ = store.seal(&End::Failed("the program stopped before the run was done".into()), &[], None);
         }
     }
 }

@@ -37,6 +37,9 @@ pub enum Outcome {
     Finished {
         /// How many.
         steps: u64,
+        /// The time, s, until which it was to go on: the last step ends there, or less than a step before or behind it.
+        #[serde(default)]
+        until: f64,
         /// The series.
         series: Packed,
         /// What is reported of the events of its cycle, one value for each event.
@@ -50,8 +53,23 @@ pub enum Outcome {
     },
 }
 
+impl Outcome {
+    /// The series of a run that has finished; none of one that failed, and none where it does not hold what it says.
+    pub fn series(&self) -> Option<Series> {
+        let Self::Finished { until, series, events, .. } = self else { return None };
+        let series = series.unpack()?.that_ended(*until);
+        match events {
+            Some(events) => Some(series.with_events(events.unpack()?)),
+            None => Some(series),
+        }
+    }
+}
+
 /// Name of a column of [`Series`] that is none of the run file: simulated revolutions since t = 0.
 pub const REVOLUTIONS: &str = "simulated_revolutions";
+
+/// Name of the series of the time in contact, which runs with a cycle have.
+pub const CONTACT_TIME: &str = "contact_time";
 
 /// The series of a run: equally long columns, time being the first.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -60,6 +78,8 @@ pub struct Series {
     columns: Vec<Vec<f64>>,
     /// Quantities of the events of the run, by their names.
     events: Vec<(String, Vec<f64>)>,
+    /// The time, s, until which the run was to go on; 0 where nobody has said.
+    until: f64,
 }
 
 /// How the dataset of a quantity of events begins, as against that of a series.
@@ -76,7 +96,7 @@ pub fn unit_of(series: &str) -> &'static str {
 impl Series {
     /// Columns and their names, `time` first.
     pub fn new(names: Vec<String>, columns: Vec<Vec<f64>>) -> Self {
-        Self { names, columns, events: Vec::new() }
+        Self { names, columns, events: Vec::new(), until: 0.0 }
     }
 
     /// Times of the samples, s.
@@ -93,6 +113,16 @@ impl Series {
     /// The same with what is reported of the events of the run: equally long columns of another length.
     pub fn with_events(self, events: Self) -> Self {
         Self { events: events.names.into_iter().zip(events.columns).collect(), ..self }
+    }
+
+    /// The same of a run that was to go on until a time, s.
+    pub fn that_ended(self, until: f64) -> Self {
+        Self { until, ..self }
+    }
+
+    /// The time, s, until which the run was to go on; 0 where nobody has said.
+    pub fn until(&self) -> f64 {
+        self.until
     }
 
     /// A quantity of the events, one value for each.

@@ -1,15 +1,19 @@
 //! Responses: one number that a run gives for each question of a study.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use plateau_core::observe::event::EVENT_QUANTITIES;
+use plateau_core::observe::running_in::{NotDefined, time_to};
 use plateau_core::observe::window_mean::{Cumulative, WindowMean, last_tenth};
 use plateau_core::observe::{EXTRAS, quantities};
 
 use plateau_study::effects::Transform;
+use thiserror::Error;
 
 use super::measured_series::SeriesFile;
-use super::record::{EVENT, REVOLUTIONS, Series};
+use super::record::{CONTACT_TIME, EVENT, REVOLUTIONS, Series};
+use crate::number;
 
 /// A question to the series of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,8 +45,7 @@ pub enum Question {
     Event(WhichEvent),
     /// Nothing: the answers come from elsewhere, by `plateau sweep import`, in this SI unit.
     Imported(&'static str),
-    /// The time, s, at which the series first comes to this fraction of its last value; from above, to the last value over
-    /// the fraction.
+    /// The time, s, after which the series has come to this fraction of its value at the end: see [`time_to`].
     Reaches(f64),
     /// How far it is from a series that was measured: [`plateau_study::fit::MeasuredSeries::distance`].
     Measured(Arc<SeriesFile>),
@@ -59,38 +62,87 @@ pub enum WhichEvent {
     Mean,
 }
 
+/// Why a run gives no answer.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum NoAnswer {
+    /// Its series are not there.
+    #[error("its series was not kept")]
+    NotKept,
+    /// It comes from elsewhere.
+    #[error("it comes from elsewhere")]
+    Elsewhere,
+    /// The question is about a time after its end, s.
+    #[error("the run ends at {} s, before {} s", number::rounded(*.end, 6), number::rounded(*.asked, 6))]
+    Ended {
+        /// The time that is asked for.
+        asked: f64,
+        /// When it ends.
+        end: f64,
+    },
+    /// There is no number.
+    #[error("there is no number then, as where the pin is lifted")]
+    NoNumber,
+    /// There is no such event.
+    #[error("it has no such event, or the event has no value")]
+    NoEvent,
+    /// It has not come there.
+    #[error(transparent)]
+    NotDefined(#[from] NotDefined),
+}
+
 impl Response {
-    /// The answer of a run, in the unit of the series (s for [`Question::Reaches`]); none where the run does not reach the
-    /// times that are asked for, or has no such series.
-    pub fn of(&self, run: &Series) -> Option<f64> {
-        if let Question::Event(which) = self.question {
-            return of_event(run.of_events(self.series.strip_prefix(EVENT)?)?, which);
+    /// The answer of a run, in the unit of the series (s for [`Question::Reaches`]).
+    ///
+    /// # Errors
+    /// [`NoAnswer`] where there is none.
+    pub fn of(&self, run: &Series) -> Result<f64, NoAnswer> {
+        let answer = self.answer(run)?;
+        if answer.is_finite() { Ok(answer) } else { Err(NoAnswer::NoNumber) }
+    }
+
+    fn answer(&self, run: &Series) -> Result<f64, NoAnswer> {
+        if self.is_imported() {
+            return Err(NoAnswer::Elsewhere);
         }
-        let (time, values) = (run.time(), run.values(&self.series)?);
+        if let Question::Event(which) = self.question {
+            let values = self.series.strip_prefix(EVENT).and_then(|series| run.of_events(series));
+            return of_event(values.ok_or(NoAnswer::NotKept)?, which).ok_or(NoAnswer::NoEvent);
+        }
+        let (time, values) = (run.time(), run.values(&self.series).ok_or(NoAnswer::NotKept)?);
         match self.question {
-            Question::End => values.last().copied(),
-            Question::At(at) => value_at(time, values, at),
+            Question::At(at) => value_at(time, values, reached(run, at)?),
             Question::Mean(..) | Question::MeanOfLastTenth
                 if self.is_of_contact_area() && self.integral(run).is_some() =>
             {
-                Some(self.mean_of_contact_area(run)?.mean)
+                let (from, to) = self.window(run)?;
+                Some(self.mean_of_contact_area(run, from, to).ok_or(NoAnswer::NoNumber)?.mean)
             }
             Question::Mean(..) | Question::MeanOfLastTenth => {
                 let (from, to) = self.window(run)?;
                 mean(time, values, from, to)
             }
-            Question::Reaches(fraction) => reaches(time, values, fraction),
-            Question::Measured(ref file) => Some(file.series.distance(&self.at_measured_times(run)?)),
-            Question::Event(_) | Question::Imported(_) => None,
+            Question::Reaches(fraction) => {
+                let of_samples = || Cow::Owned(integral(time, values));
+                let known = self.integral(run).filter(|_| self.is_of_contact_area());
+                let integral = known.map_or_else(of_samples, Cow::Borrowed);
+                let samples = Cumulative { time, integral: &integral, revolutions: revolutions(run) };
+                return Ok(time_to(fraction, &samples)?);
+            }
+            Question::Measured(ref file) => return Ok(file.series.distance(&self.at_measured_times(run)?)),
+            Question::End | Question::Event(_) | Question::Imported(_) => values.last().copied(),
         }
+        .ok_or(NoAnswer::NoNumber)
     }
 
-    /// What a run has at the times of a measured series, linear between samples; none where it ends before the last of them,
-    /// or nothing was measured at times.
-    pub fn at_measured_times(&self, run: &Series) -> Option<Vec<f64>> {
-        let Question::Measured(file) = &self.question else { return None };
-        let values = run.values(&self.series)?;
-        file.series.times().iter().map(|at| value_at(run.time(), values, *at)).collect()
+    /// What a run has at the times of a measured series, linear between samples.
+    ///
+    /// # Errors
+    /// [`NoAnswer`] where it ends before the last of them, or nothing was measured at times.
+    pub fn at_measured_times(&self, run: &Series) -> Result<Vec<f64>, NoAnswer> {
+        let Question::Measured(file) = &self.question else { return Err(NoAnswer::Elsewhere) };
+        let values = run.values(&self.series).ok_or(NoAnswer::NotKept)?;
+        let value = |at: &f64| value_at(run.time(), values, reached(run, *at)?).ok_or(NoAnswer::NoNumber);
+        file.series.times().iter().map(value).collect()
     }
 
     /// The series that was measured, if one was.
@@ -105,13 +157,17 @@ impl Response {
 
     /// Standard error of the answer of a run, in the same unit, where it is known.
     pub fn error_of(&self, run: &Series) -> Option<f64> {
-        if self.has_error() { self.mean_of_contact_area(run)?.standard_error } else { None }
+        let (from, to) = self.window(run).ok()?;
+        if self.has_error() { self.mean_of_contact_area(run, from, to)?.standard_error } else { None }
     }
 
-    /// The integral knows every step, the samples only some.
-    fn mean_of_contact_area(&self, run: &Series) -> Option<WindowMean> {
-        let (from, to) = self.window(run)?;
-        Cumulative { time: run.time(), integral: self.integral(run)?, revolutions: revolutions(run) }.mean(from, to)
+    /// The integral knows every step, the samples only some. Of a run with a cycle it is the mean over the time in contact.
+    fn mean_of_contact_area(&self, run: &Series, from: f64, to: f64) -> Option<WindowMean> {
+        let samples = Cumulative { time: run.time(), integral: self.integral(run)?, revolutions: revolutions(run) };
+        match run.values(CONTACT_TIME) {
+            Some(contact_time) => samples.mean_in_contact(contact_time, from, to),
+            None => samples.mean(from, to),
+        }
     }
 
     fn is_of_contact_area(&self) -> bool {
@@ -123,11 +179,11 @@ impl Response {
     }
 
     /// From when to when a mean is taken, s.
-    fn window(&self, run: &Series) -> Option<(f64, f64)> {
+    fn window(&self, run: &Series) -> Result<(f64, f64), NoAnswer> {
         match self.question {
-            Question::Mean(from, to) => Some((from, to)),
-            Question::MeanOfLastTenth => last_tenth(run.time(), revolutions(run)),
-            _ => None,
+            Question::Mean(from, to) => Ok((reached(run, from)?, reached(run, to)?)),
+            Question::MeanOfLastTenth => last_tenth(run.time(), revolutions(run)).ok_or(NoAnswer::NotKept),
+            _ => Err(NoAnswer::NotKept),
         }
     }
 
@@ -185,18 +241,25 @@ fn of_event(values: &[f64], which: WhichEvent) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
+/// A time (s) that is asked for, as a time that there are samples of: the last sample stands for what is left of a run after it, less than
+/// a step.
+fn reached(run: &Series, asked: f64) -> Result<f64, NoAnswer> {
+    let last = *run.time().last().ok_or(NoAnswer::NotKept)?;
+    let end = run.until().max(last);
+    // A number of steps may end one rounding before the time that is meant.
+    if asked > end * (1.0 + 1e-9) { Err(NoAnswer::Ended { asked, end }) } else { Ok(asked.min(last)) }
+}
+
 /// Linear between samples; before the first one, that one; none after the last.
 fn value_at(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
-    let last = *time.last()?;
-    // The last step ends at the duration, or is one step short of what rounding makes of it.
-    if at > last * (1.0 + 1e-9) {
+    if at > *time.last()? {
         return None;
     }
     let after = time.partition_point(|time| *time < at).min(time.len() - 1);
     if after == 0 || time[after] == time[after - 1] {
         return Some(values[after]);
     }
-    let share = ((at - time[after - 1]) / (time[after] - time[after - 1])).min(1.0);
+    let share = (at - time[after - 1]) / (time[after] - time[after - 1]);
     Some(values[after - 1] + share * (values[after] - values[after - 1]))
 }
 
@@ -210,18 +273,16 @@ fn mean(time: &[f64], values: &[f64], from: f64, to: f64) -> Option<f64> {
     Some(area / (to - from))
 }
 
-/// The time at which the series first comes so near to its last value, linear between samples.
-fn reaches(time: &[f64], values: &[f64], fraction: f64) -> Option<f64> {
-    let (first, last) = (*values.first()?, *values.last()?);
-    // From below, or from above; then everything is mirrored.
-    let sign = if first <= last { 1.0 } else { -1.0 };
-    let near = sign * if sign * last > 0.0 { last * fraction } else { last / fraction };
-    let after = values.iter().position(|value| sign * value >= near)?;
-    if after == 0 {
-        return time.first().copied();
-    }
-    let [low, high] = [after - 1, after].map(|at| sign * values[at]);
-    Some(time[after - 1] + (time[after] - time[after - 1]) * (near - low) / (high - low))
+/// The integral of that line over time since t = 0; the first sample stands for what is before it.
+fn integral(time: &[f64], values: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut before = (0.0, values.first().copied().unwrap_or(0.0));
+    let added = |(time, value): (&f64, &f64)| {
+        sum += 0.5 * (time - before.0) * (value + before.1);
+        before = (*time, *value);
+        sum
+    };
+    time.iter().zip(values).map(added).collect()
 }
 
 #[cfg(test)]
@@ -229,10 +290,14 @@ mod tests {
     use super::*;
     use plateau_study::fit::MeasuredSeries;
 
-    fn ask(question: Question, values: &[f64]) -> Option<f64> {
+    fn of_pool(question: Question, values: &[f64], until: f64) -> Result<f64, NoAnswer> {
         let time: Vec<f64> = (1..=values.len()).map(|at| at as f64).collect();
-        let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]);
+        let run = Series::new(vec!["time".into(), "pool".into()], vec![time, values.to_vec()]).that_ended(until);
         Response { name: "r".into(), series: "pool".into(), question, transform: None, stated_unit: None }.of(&run)
+    }
+
+    fn ask(question: Question, values: &[f64]) -> Option<f64> {
+        of_pool(question, values, 0.0).ok()
     }
 
     #[test]
@@ -243,14 +308,6 @@ mod tests {
         assert_eq!(ask(Question::At(4.1), &ramp), None);
         // Trapezia: (2 + 4)/2 · 1 + 4 · 1 over 2 s.
         assert_eq!(ask(Question::Mean(2.0, 4.0), &ramp), Some(3.5));
-        // 3 is between 2 and 4; 5 is on the way from 0 to 8, whatever comes later.
-        assert_eq!(ask(Question::Reaches(0.75), &ramp), Some(2.5));
-        assert_eq!(ask(Question::Reaches(0.5), &[0.0, 8.0, 0.0, 10.0]), Some(1.625));
-        // It begins nearer than that.
-        assert_eq!(ask(Question::Reaches(0.5), &[3.0, 4.0]), Some(1.0));
-        // From above: 2/0.5 = 4 is between 6 and 2.
-        assert_eq!(ask(Question::Reaches(0.5), &[6.0, 2.0, 2.0]), Some(1.5));
-        assert_eq!(ask(Question::Reaches(0.5), &[-4.0, 0.0, -1.0]), Some(1.5));
         assert_eq!(ask(Question::End, &[]), None);
         let series = |times: [f64; 2]| {
             let series = MeasuredSeries::new(times.to_vec(), vec![2.0, 4.5], vec![0.5, 1.0], 0.0).unwrap();
@@ -267,6 +324,54 @@ mod tests {
     }
 
     #[test]
+    fn the_last_sample_stands_for_the_step_that_a_run_did_not_take_any_more() {
+        // A run of 30 s whose last step ends at 4 s, and one that ends there.
+        let ramp = [0.0, 2.0, 4.0, 5.0];
+        assert_eq!(of_pool(Question::At(30.0), &ramp, 30.0), Ok(5.0));
+        assert_eq!(of_pool(Question::Mean(3.0, 30.0), &ramp, 30.0), Ok(4.5));
+        let early = NoAnswer::Ended { asked: 30.0, end: 4.0 };
+        assert_eq!(early.to_string(), "the run ends at 4 s, before 30 s");
+        assert_eq!(of_pool(Question::At(30.0), &ramp, 4.0), Err(early.clone()));
+        assert_eq!(of_pool(Question::Mean(3.0, 30.0), &ramp, 4.0), Err(early));
+        assert!(of_pool(Question::At(30.1), &ramp, 30.0).is_err());
+        assert_eq!(of_pool(Question::At(2.0), &[0.0, f64::NAN, 4.0], 3.0), Err(NoAnswer::NoNumber));
+    }
+
+    #[test]
+    fn a_series_reaches_its_end_as_the_contact_area_runs_in() {
+        // Half of 8 from the fourth of sixty samples on: each is a window, whose middle is half a second before its sample. What the first
+        // stands for is before it.
+        let step =
+            |before: f64, after: f64| -> Vec<f64> { (0..60).map(|at| if at < 4 { before } else { after }).collect() };
+        assert_eq!(of_pool(Question::Reaches(0.9), &step(0.0, 8.0), 60.0), Ok(5.5));
+        // From above, and below 0.
+        assert_eq!(of_pool(Question::Reaches(0.9), &step(16.0, 8.0), 60.0), Ok(5.5));
+        assert_eq!(of_pool(Question::Reaches(0.9), &step(0.0, -8.0), 60.0), Ok(5.5));
+        // What falls and rises, and what still rises.
+        let dip: Vec<f64> = (0..60).map(|at| if (10..20).contains(&at) { 2.0 } else { 8.0 }).collect();
+        let line: Vec<f64> = (0..60).map(f64::from).collect();
+        let undefined = |values: &[f64]| of_pool(Question::Reaches(0.9), values, 60.0).unwrap_err().to_string();
+        assert_eq!(
+            undefined(&dip),
+            "not defined: neither rises nor falls all along, it goes back by 75.0 % of its last value"
+        );
+        assert!(undefined(&line).starts_with("not defined: still rises at the end, by "), "{}", undefined(&line));
+        assert!(undefined(&line[..10]).starts_with("not defined: the run has fewer than 20 samples"));
+    }
+
+    #[test]
+    fn means_of_the_contact_area_of_a_cycle_are_over_the_time_in_contact() {
+        // 3 m2 for 2 s, lifted for 2 s.
+        let columns = ["time", "contact_area", "contact_area_integral", CONTACT_TIME].map(String::from).to_vec();
+        let values = [[1.0, 2.0, 3.0, 4.0], [3.0, 3.0, 0.0, 0.0], [3.0, 6.0, 6.0, 6.0], [1.0, 2.0, 2.0, 2.0]];
+        let run = Series::new(columns, values.map(Vec::from).to_vec());
+        let question = Question::Mean(0.0, 4.0);
+        let response =
+            Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None };
+        assert_eq!(response.of(&run), Ok(3.0));
+    }
+
+    #[test]
     fn events_are_asked_by_number_and_in_the_mean() {
         let columns = vec![vec![3.0, f64::NAN, 5.0]];
         let run = Series::default().with_events(Series::new(vec!["worn".into()], columns));
@@ -274,6 +379,7 @@ mod tests {
             let question = Question::Event(which);
             Response { name: "w".into(), series: "event/worn".into(), question, transform: None, stated_unit: None }
                 .of(&run)
+                .ok()
         };
         assert_eq!(ask(WhichEvent::Number(1)), Some(3.0));
         assert_eq!([ask(WhichEvent::Number(2)), ask(WhichEvent::Number(4)), ask(WhichEvent::Number(0))], [None; 3]);
@@ -288,6 +394,7 @@ mod tests {
             let question = Question::Mean(from, to);
             Response { name: "a".into(), series: "contact_area".into(), question, transform: None, stated_unit: None }
                 .of(&run)
+                .ok()
         };
         assert_eq!([mean(0.0, 2.0), mean(1.0, 2.0)], [Some(4.0), Some(5.0)]);
     }
@@ -309,7 +416,7 @@ mod tests {
             let response =
                 Response { name: "r".into(), series: series.into(), question, transform: None, stated_unit: None };
             let run = Series::new(names, columns);
-            (response.of(&run), response.error_of(&run).is_some())
+            (response.of(&run).ok(), response.error_of(&run).is_some())
         };
         // Of the contact area from the integral, of another series from its samples, here t.
         assert_eq!(ask("contact_area_mean", Some(&quick)), (Some(380.0), true));

@@ -52,6 +52,7 @@ static SERIES: [SeriesLook; 35] = [
     series("pool", "debris in the pool", Unit::MM3),
     series("normal_force", "normal force", Unit::NEWTON),
     series("rotational_speed", "rotational speed", Unit::RPM),
+    series("contact_time", "time in contact", Unit::SECOND),
     series("road_distance", "distance of the vehicle", Unit::METRE),
     series("friction_coefficient", "coefficient of friction", Unit::NUMBER),
     series("friction_coefficient_mean", "coefficient of friction, mean of the last simulated revolution", Unit::NUMBER),

@@ -98,6 +98,8 @@ impl Unit {
     pub const PERCENT: Self = unit("%", 100.0);
     /// Metres.
     pub const METRE: Self = unit("m", 1.0);
+    /// s.
+    pub const SECOND: Self = unit("s", 1.0);
     /// Micrometres.
     pub const MICROMETRE: Self = unit("µm", 1e6);
     /// Square millimetres.

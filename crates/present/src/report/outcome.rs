@@ -8,8 +8,9 @@ use plateau_io::run_file::{ContactArea, RunFile, State};
 
 use super::html::capital;
 use super::series::Recorded;
+use crate::acceleration::acceleration;
 use crate::quantity::{SeriesLook, Unit};
-use crate::running_in::running_in;
+use crate::running_in::{running_in, running_in_time};
 use plateau_io::number;
 
 /// Shown where a run file does not say.
@@ -121,6 +122,8 @@ pub fn facts(run: &RunFile, contact_area: &ContactArea) -> Vec<(&'static str, St
         ),
         ("Program", attribute("program")),
         ("Running in", contact_area.drift.as_ref().map_or_else(|| UNKNOWN.into(), running_in)),
+        ("Running-in time", contact_area.running_in.as_ref().map_or_else(|| UNKNOWN.into(), running_in_time)),
+        ("Time acceleration", time_acceleration(run)),
         ("Mean contact area is taken over", contact_area.last_tenth.as_ref().map_or_else(|| UNKNOWN.into(), over)),
     ]
 }
@@ -129,7 +132,22 @@ pub fn facts(run: &RunFile, contact_area: &ContactArea) -> Vec<(&'static str, St
 fn over(window: &WindowMean) -> String {
     let short = if window.is_long() { "" } else { ", all of it: fewer than ten simulated revolutions" };
     let error = if window.standard_error.is_some() { "" } else { "; too few samples for a standard error" };
-    format!("{} to {} s{short}{error}", number::rounded(window.from, 6), number::rounded(window.to, 6))
+    let contact = window.contact_time.map_or(String::new(), |time| {
+        format!(
+            ", of which {} s in contact: the time in which the pin is lifted does not count",
+            number::rounded(time, 4)
+        )
+    });
+    format!("{} to {} s{contact}{short}{error}", number::rounded(window.from, 6), number::rounded(window.to, 6))
+}
+
+/// The m of the scene, or what the run chose.
+fn time_acceleration(run: &RunFile) -> String {
+    match (run.chosen_acceleration(), run.given_acceleration()) {
+        (Some(chosen), _) => acceleration(&chosen),
+        (None, Some(given)) => format!("m = {}", number::short(given)),
+        (None, None) => UNKNOWN.into(),
+    }
 }
 
 /// The state in words that say what it means.

@@ -324,7 +324,7 @@ impl Search<'_> {
             let comparison = Comparison::of(&outcome, &reference.outcome, windows, mesh, coarsening);
             Measured::of(outcome, comparison)
         };
-        Row::new(rung, cells, parameters.stiffness_number(), outcome.map(measured))
+        Row::new(rung, cells, parameters.first_stiffness_number(), outcome.map(measured))
     }
 }
 

@@ -186,7 +186,7 @@ fn made(
         let floor = Floor::new(plan, &resolved, workers, own, Progress::new(pending.len(), steps, job.leads()));
         let shared = job.share(&pending, jobs, None, &|number| floor.make(number));
         if warns {
-            floor.warn_of_surfaces();
+            floor.say_warnings();
         }
         floor.end(shared.map_err(Failure::run))?;
         // Every result is on the disk when all have come here.

@@ -15,6 +15,7 @@ use crate::arguments::CollectArguments;
 use crate::csv_table::csv_table;
 use crate::failure::Failure;
 use crate::sweep::resolved::Resolved;
+use crate::sweep::scene_warnings::{SceneWarnings, of_questions};
 use crate::sweep::{self, journal, short_tenth};
 use crate::table::{list, print, table};
 use crate::{message, number, output, version};
@@ -83,6 +84,11 @@ pub fn collected(plan: &Plan) -> Result<Found, Failure> {
             number::count(journal.len() - finished - collected.count("failed"), "result")
         ));
     }
+    let mut unanswered = SceneWarnings::default();
+    for run in collected.runs.iter().filter(|run| run.state == State::Finished) {
+        unanswered.add(of_questions(plan.study(), &run.unanswered));
+    }
+    unanswered.say("finished runs");
     inputs.extend(resolved.files);
     Ok(Found { collected, inputs, identities: resolved.identities })
 }

@@ -80,7 +80,7 @@ fn run_study(arguments: &SweepRunArguments, job: &mut Job) -> Result<(), Failure
     let limit = arguments.max_failures.map(|limit| limit as usize);
     let shared = job.share(&pending, jobs, limit, &|number| floor.make(number));
     let made = floor.end(shared.map_err(Failure::run))?;
-    floor.warn_of_surfaces();
+    floor.say_warnings();
     let (finished, failed) = job.sum(made.finished, made.failed).map_err(Failure::run)?;
     let summary = Summary {
         study: plan.study().title.clone(),

@@ -45,6 +45,7 @@ impl<C: Communicator> Worker<C> {
             1.0 => self.parameters.clone(),
             factor => Arc::new(parameters.with_wear_rate_factor(factor)),
         };
+        self.course.largest_stiffness_number = self.course.largest_stiffness_number.max(now.stiffness_number());
         self.coefficients = Coefficients::new(&now);
         self.rules = Rules::new(&now, &self.coefficients, self.filling.reference_height(), self.shortcut);
         self.weights = RowWeights::new(&now, &self.coefficients, self.rows.clone());

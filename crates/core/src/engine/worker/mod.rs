@@ -125,6 +125,7 @@ impl<C: Communicator> Worker<C> {
         let weights = RowWeights::new(&parameters, &coefficients, rows.clone());
         let quantum =
             Quantum::of(parameters.largest_load() / coefficients.least_plateau_stiffness(), mesh.pin_columns());
+        let largest_stiffness_number = parameters.first_stiffness_number();
         let by_status = parameters.friction.is_some_and(|friction| friction.depends_on_status());
         let mut worker = Self {
             instructions: execution.instructions,
@@ -150,7 +151,7 @@ impl<C: Communicator> Worker<C> {
             message: Vec::new(),
             halo: Vec::new(),
             pressure: Vec::new(),
-            course: Course::default(),
+            course: Course { largest_stiffness_number, ..Course::default() },
             accounts: Accounts::of(&parameters).map(Box::new),
             wear_rate_factor: 1.0,
             clock: parameters.clock(),

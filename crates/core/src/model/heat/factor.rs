@@ -60,6 +60,11 @@ impl Factor {
         self.points.iter().all(|(_, factor)| *factor == 1.0)
     }
 
+    /// The largest factor at any temperature; none if it is 1 at all.
+    pub fn largest(&self) -> Option<f64> {
+        self.points.iter().map(|(_, factor)| *factor).reduce(f64::max).filter(|_| !self.is_one())
+    }
+
     /// The factor at a temperature, K.
     pub fn at(&self, temperature: f64) -> f64 {
         let above = self.points.partition_point(|(point, _)| *point <= temperature);
@@ -82,12 +87,13 @@ mod tests {
         let temperatures = [0.0, 300.0, 350.0, 400.0, 475.0, 500.0, 1e9];
         assert_eq!(temperatures.map(|temperature| factor.at(temperature)), [1.0, 1.0, 2.0, 3.0, 0.75, 0.0, 0.0]);
         assert!(!factor.is_one());
+        assert_eq!(factor.largest(), Some(3.0));
     }
 
     #[test]
     fn none_is_one() {
         let factor = Factor::default();
-        assert!(factor.is_one() && factor.at(77.0) == 1.0);
+        assert!(factor.is_one() && factor.at(77.0) == 1.0 && factor.largest().is_none());
         assert!(Factor::new(vec![(300.0, 1.0)]).unwrap().is_one());
     }
 

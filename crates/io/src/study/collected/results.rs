@@ -8,8 +8,8 @@ use super::super::identity::firsts;
 use super::super::imported::Imported;
 use super::super::journal::{Entry, Journal};
 use super::super::plan::{Plan, Run};
-use super::super::record::{Outcome, Series};
-use super::super::response::Response;
+use super::super::record::Series;
+use super::super::response::{NoAnswer, Response};
 use crate::dataset_file::DatasetFileError;
 
 /// The results of the runs of a study, as far as there are any.
@@ -31,6 +31,8 @@ pub struct CollectedRun {
     pub state: State,
     /// Answers to the questions of the study, in their order; NaN where there is none.
     pub responses: Vec<f64>,
+    /// Why a finished run gives no answer to a question, with its place.
+    pub unanswered: Vec<(usize, NoAnswer)>,
     /// Standard errors of these; NaN where there is none.
     pub errors: Vec<f64>,
     /// For each response what the run has at the times of a measured series; empty where there is none, or the run ends before.
@@ -96,6 +98,7 @@ impl Collected {
                 state: State::Missing,
                 responses: vec![f64::NAN; responses.len()],
                 errors: vec![f64::NAN; responses.len()],
+                unanswered: Vec::new(),
                 at_measured_times: vec![Vec::new(); responses.len()],
                 wall_time: f64::NAN,
                 entry: journal.get(identity).cloned(),
@@ -113,7 +116,10 @@ impl Collected {
                     collected.time = series.time().to_vec();
                     collected.series = series.names().to_vec();
                     let known = |answer: Option<f64>| answer.unwrap_or(f64::NAN);
-                    collected.responses = responses.iter().map(|response| known(response.of(&series))).collect();
+                    let answers: Vec<_> = responses.iter().map(|response| response.of(&series)).collect();
+                    collected.responses = answers.iter().map(|answer| *answer.as_ref().unwrap_or(&f64::NAN)).collect();
+                    collected.unanswered =
+                        answers.into_iter().enumerate().filter_map(|(at, answer)| Some((at, answer.err()?))).collect();
                     collected.at_measured_times = responses
                         .iter()
                         .map(|response| response.at_measured_times(&series).unwrap_or_default())
@@ -149,14 +155,5 @@ const NO_SERIES: &str = "its record in the journal holds no series; move the jou
 
 /// The series of a record; none of a run that failed, and none where the record does not hold what it says.
 pub(super) fn series(entry: &Entry) -> Result<Option<Series>, CollectError> {
-    match entry.record()?.outcome {
-        Outcome::Failed { .. } => Ok(None),
-        Outcome::Finished { series, events, .. } => {
-            let series = series.unpack();
-            Ok(match events {
-                Some(events) => series.zip(events.unpack()).map(|(series, events)| series.with_events(events)),
-                None => series,
-            })
-        }
-    }
+    Ok(entry.record()?.outcome.series())
 }

@@ -12,7 +12,7 @@ use crate::study::record::{Outcome, Record, Series};
 fn record(identity: &str, finished: bool) -> Record {
     let series = Series::new(vec!["time".into()], vec![vec![1.0, 2.0]]).pack();
     let outcome = if finished {
-        Outcome::Finished { steps: 2, series, events: None }
+        Outcome::Finished { steps: 2, until: 2.0, series, events: None }
     } else {
         Outcome::Failed { error: "no".into() }
     };

@@ -127,7 +127,7 @@ impl Written {
             extra.record(&mut sample, series.iter().map(|quantity| (self.value)(quantity.name, time)));
             writer.sample(sample).unwrap();
         }
-        writer.finish(&End::Finished, &[]).unwrap();
+        writer.finish(&End::Finished, &[], None).unwrap();
         RunFile::open(path).unwrap()
     }
 }

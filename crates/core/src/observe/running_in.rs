@@ -1,0 +1,165 @@
+//! When a run has run in: the time after which a quantity has come to a fraction of its value at the end of the run. The one
+//! definition for the summary, the report and `reaches` of studies.
+
+use thiserror::Error;
+
+use super::drift::{Drift, OF_INTEREST, Trend, beside_a_line};
+use super::window_mean::Cumulative;
+
+/// The fraction of the value at the end with which a run counts as run in.
+pub const RUN_IN: f64 = 0.9;
+/// Windows of a run, at most: each is a sixtieth of it, 50 s of the 3000 s of the paper.
+const WINDOWS: usize = 60;
+/// Windows from which on there is a history.
+const LEAST_WINDOWS: usize = 20;
+/// Windows at the end that tell the last value: the last 100 s of 3000 s.
+const LAST: usize = 2;
+/// Part of the range of the noise that the way back of a monotone curve may exceed it by: there are twice as many windows in which
+/// the largest can be found.
+const BEYOND_RANGE: f64 = 0.25;
+
+/// Why the time is not defined.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum NotDefined {
+    /// Too few samples or simulated revolutions.
+    #[error("not defined: the run has fewer than {LEAST_WINDOWS} samples or simulated revolutions")]
+    TooShort,
+    /// A sample has no value, or the last value is 0.
+    #[error("not defined: it has samples without a value, or ends at 0")]
+    NoValue,
+    /// It is not steady in the second half.
+    #[error("not defined: still {} at the end, by {:.1} % in the last quarter of the run", if *.0 > 0.0 { "rises" } else { "falls" }, 100.0 * .0.abs())]
+    NotSteady(f64),
+    /// It goes back by more than its noise.
+    #[error("not defined: neither rises nor falls all along, it goes back by {:.1} % of its last value", 100.0 * .0)]
+    NotMonotone(f64),
+}
+
+/// The time, s, at which a quantity first comes to `fraction` of its last value, or, from above, to its last value over the
+/// fraction: the middle of the first window whose mean does. Windows are sixtieths of the run, but no shorter than a simulated
+/// revolution or an interval between samples; the last value is the mean of the last two.
+///
+/// # Errors
+/// [`NotDefined`] where the mean over the last quarter of the run differs from that over the third by more than chance and by more
+/// than half of what is missing at that fraction (5 % at most), or where the means go back by more than the range of what varies
+/// about a straight line in the second half of the run.
+pub fn time_to(fraction: f64, samples: &Cumulative<'_>) -> Result<f64, NotDefined> {
+    let end = *samples.time.last().ok_or(NotDefined::TooShort)?;
+    let windows = samples.parts(0.0, end).min(WINDOWS);
+    if windows < LEAST_WINDOWS {
+        return Err(NotDefined::TooShort);
+    }
+    let mut means = samples.means_of_parts(0.0, end, windows);
+    let last = means[windows - LAST..].iter().sum::<f64>() / LAST as f64;
+    if last == 0.0 || !means.iter().all(|mean| mean.is_finite()) {
+        return Err(NotDefined::NoValue);
+    }
+    // Everything as a part of the last value, which is 1 then.
+    means.iter_mut().for_each(|mean| *mean /= last);
+    let integral: Vec<f64> = samples.integral.iter().map(|integral| integral / last).collect();
+    let drift = Drift::of(&Cumulative { integral: &integral, ..*samples }, None).ok_or(NotDefined::TooShort)?;
+    let limit = OF_INTEREST.min(0.5 * (1.0 - fraction));
+    if matches!(drift.trend(), Trend::Rises | Trend::Falls) && drift.change.abs() > limit {
+        return Err(NotDefined::NotSteady(drift.change));
+    }
+    let rises = means[0] <= 1.0;
+    if !rises {
+        means.iter_mut().for_each(|mean| *mean = -*mean);
+    }
+    let rest = beside_a_line(&means[windows / 2..]);
+    let noise =
+        rest.iter().copied().fold(f64::NEG_INFINITY, f64::max) - rest.iter().copied().fold(f64::INFINITY, f64::min);
+    let mut highest = f64::NEG_INFINITY;
+    let back = means.iter().fold(0.0_f64, |back, mean| {
+        highest = highest.max(*mean);
+        back.max(highest - mean)
+    });
+    // Rounding of the integral is no way back.
+    if back > (1.0 + BEYOND_RANGE) * noise + 1e-9 {
+        return Err(NotDefined::NotMonotone(back));
+    }
+    let near = if rises { fraction } else { -1.0 / fraction };
+    let first = means.iter().position(|mean| *mean >= near).ok_or(NotDefined::NoValue)?;
+    Ok((first as f64 + 0.5) * end / windows as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::random::{Random, Stream};
+
+    /// The answer of a quantity with this integral, of which there are 600 samples in 600 s.
+    fn of(fraction: f64, integral: impl Fn(f64) -> f64) -> Result<f64, NotDefined> {
+        let time: Vec<f64> = (1..=600).map(f64::from).collect();
+        let integral: Vec<f64> = time.iter().map(|time| integral(*time)).collect();
+        time_to(fraction, &Cumulative { time: &time, integral: &integral, revolutions: &[] })
+    }
+
+    /// The integral of 1 + (a − 1) exp(−t/τ).
+    fn saturating(start: f64, tau: f64) -> impl Fn(f64) -> f64 {
+        move |time| time + (start - 1.0) * tau * (1.0 - (-time / tau).exp())
+    }
+
+    #[test]
+    fn a_curve_that_saturates_is_run_in_where_its_closed_form_is() {
+        // 1 − exp(−t/50 s) is 0.9 at 115.1 s: by hand, the first window of 10 s whose mean, 1 − 5 exp(−t/50)(1 − exp(−1/5)), is 0.9 or more is
+        // that from 120 s on: 0.918; that from 110 s on has 0.8996.
+        assert_eq!(of(0.9, saturating(0.0, 50.0)), Ok(125.0));
+        // From above, to 1/0.9: 1 + exp(−t/50 s) is 1.111 at 109.9 s, and its mean from 100 s on is 1.1227, from 110 s on 1.1004.
+        assert_eq!(of(0.9, saturating(2.0, 50.0)), Ok(115.0));
+        // It does not depend on the sign or the size.
+        assert_eq!(of(0.9, |time| -3e-7 * saturating(0.0, 50.0)(time)), Ok(125.0));
+        // It begins nearer than that.
+        assert_eq!(of(0.5, saturating(0.8, 50.0)), Ok(5.0));
+    }
+
+    #[test]
+    fn pulses_about_a_curve_that_saturates_are_its_noise() {
+        // 0.1 cos(2π t/37 s) more: of the means over 10 s.
+        let rate = std::f64::consts::TAU / 37.0;
+        let found = of(0.9, |time| saturating(0.0, 60.0)(time) + 0.1 * (rate * time).sin() / rate).unwrap();
+        assert!((100.0..180.0).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn what_still_rises_or_falls_is_not_run_in() {
+        assert!(matches!(of(0.9, |time| time * time), Err(NotDefined::NotSteady(change)) if change > 0.0));
+        assert!(
+            matches!(of(0.9, |time| 2000.0 * time - time * time), Err(NotDefined::NotSteady(change)) if change < 0.0)
+        );
+        // 1 − exp(−t/120 s) changes by 3.5 % from quarter to quarter: too much for 99 %, not for 90 %.
+        assert!(of(0.9, saturating(0.0, 120.0)).is_ok());
+        assert!(matches!(of(0.99, saturating(0.0, 120.0)), Err(NotDefined::NotSteady(_))));
+    }
+
+    #[test]
+    fn what_falls_and_rises_is_not_run_in() {
+        // 1 but for a dip to 0.4 about 150 s, and the other way round.
+        let dip = |time: f64| 20.0 * 1.772_453_85 / 2.0 * (1.0 + libm::erf((time - 150.0) / 20.0));
+        assert!(matches!(of(0.9, |time| time - 0.6 * dip(time)), Err(NotDefined::NotMonotone(back)) if back > 0.4));
+        assert!(matches!(of(0.9, |time| time + 0.6 * dip(time)), Err(NotDefined::NotMonotone(_))));
+    }
+
+    #[test]
+    fn noise_is_not_taken_for_a_way_back() {
+        let mut random = Random::new(5, Stream::DiscHeight);
+        let defined = (0..200)
+            .filter(|_| {
+                let mut noise = vec![0.0];
+                (0..600).for_each(|place| noise.push(noise[place] + 0.1 * random.normal()));
+                of(0.9, |time| saturating(0.0, 40.0)(time) + noise[time as usize]).is_ok()
+            })
+            .count();
+        assert!(defined > 180, "{defined} of 200");
+    }
+
+    #[test]
+    fn what_there_is_not_is_not_run_in() {
+        assert_eq!(of(0.9, |_| 0.0), Err(NotDefined::NoValue));
+        assert_eq!(of(0.9, |_| f64::NAN), Err(NotDefined::NoValue));
+        let time = [1.0, 2.0, 3.0];
+        let few = Cumulative { time: &time, integral: &time, revolutions: &[] };
+        assert_eq!(time_to(0.9, &few), Err(NotDefined::TooShort));
+        assert_eq!(time_to(0.9, &Cumulative { time: &[], integral: &[], revolutions: &[] }), Err(NotDefined::TooShort));
+    }
+}
