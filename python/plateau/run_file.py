@@ -17,6 +17,8 @@ SIGNATURE = b"\x89HDF\r\n\x1a\n"
 SUPERBLOCK, END_OF_FILE = 48, slice(28, 36)
 # Seconds during which a file may be shorter than its superblock says: the writer sets the end first.
 PATIENCE = 1.0
+# What HDF5 says of a file that cannot be locked, and of one that this process has opened without locks already.
+NOT_LOCKED = ("unable to lock file", "file locking flag")
 # Attributes that HDF5 and netCDF use themselves.
 INTERNAL = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties"}
 
@@ -66,9 +68,10 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
     # Opening a pipe would wait for a process that writes into it.
     if os.path.exists(path) and not os.path.isfile(path):
         raise InputError(f"{path}: this is not a regular file, expected a run file")
+    options: dict[str, Any] = {}
     try:
         # Refused while the file is being written, and after a kill.
-        with h5py.File(path, "r") as file:
+        with h5py.File(path, "r", **(options := locking(path))) as file:
             ended = _state(file, path) != "running"
     except PlateauError:
         raise
@@ -81,18 +84,41 @@ def open_run(path: str | os.PathLike[str]) -> xarray.DataTree:
         if importlib.util.find_spec("h5netcdf") is None:
             raise MissingPackageError("run files are read with h5netcdf: pip install h5netcdf")
         try:
-            return xarray.open_datatree(path, engine="h5netcdf")
+            return xarray.open_datatree(path, engine="h5netcdf", driver_kwds=options)
         except (OSError, KeyError, RuntimeError) as error:
             raise _unreadable(path, error) from error
     _refuse_cut(path)
     try:
-        with h5py.File(path, "r", swmr=True) as file:
+        with h5py.File(path, "r", swmr=True, **options) as file:
             _state(file, path)
             return _complete_part(file)
     except PlateauError:
         raise
     except (OSError, KeyError, RuntimeError) as error:
         raise _unreadable(path, error) from error
+
+
+def locking(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """How a file is to be opened: without locks where it cannot be locked, as on many network file systems. A reader needs none.
+
+    HDF5 refuses to open a file with locks and without at the same time. So where there are locks, files are opened with them, as
+    other users of h5py in this process do.
+
+    Parameters
+    ----------
+    path : path
+        An HDF5 file.
+
+    Returns
+    -------
+    dict
+        Options of `h5py.File`.
+    """
+    try:
+        with h5py.File(path, "r"):
+            return {}
+    except OSError as error:
+        return {"locking": False} if any(text in str(error) for text in NOT_LOCKED) else {}
 
 
 def array(run: xarray.DataTree, path: str) -> xarray.DataArray:

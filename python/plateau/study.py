@@ -9,6 +9,7 @@ import pandas
 import xarray
 
 from plateau.errors import InputError, InputTypeError, MissingFileError
+from plateau.run_file import locking
 
 
 class Study(NamedTuple):
@@ -17,7 +18,8 @@ class Study(NamedTuple):
     Attributes
     ----------
     table : pandas.DataFrame
-        A row for each run: state, factors, responses. Quantities are in the unit of their column head.
+        A row for each run: state, factors, responses. Quantities are in the unit of their column head: factors in that of the study,
+        if it states all their levels in one unit, responses in SI units.
     data : xarray.Dataset
         Factors, responses and series of all runs, with the dimensions ``run`` and ``time`` (``sample`` if the runs have
         different times), SI units.
@@ -64,7 +66,7 @@ def open_study(path: str | os.PathLike[str]) -> Study:
         if not file.is_file():
             raise MissingFileError(f"{file}: there is no such file; plateau.collect makes it, or plateau.sweep with the runs")
     try:
-        return Study(read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf"))
+        return Study(read_table(csv), xarray.load_dataset(hdf5, engine="h5netcdf", driver_kwds=locking(hdf5)))
     except (OSError, ValueError) as error:
         raise InputError(f"{folder}: the results cannot be read: {error}; plateau.collect makes them anew") from error
 

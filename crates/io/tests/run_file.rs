@@ -5,8 +5,8 @@ use std::path::Path;
 use std::time::Duration;
 
 use crate::fixtures::{entries, header, run_file, sample, small, snapshot, text};
-use plateau_core::observe::{Map, MapValues, QUANTITIES};
-use plateau_io::run_file::{End, InputFile, RunFileError, RunWriter};
+use plateau_core::observe::{Map, MapValues, QUANTITIES, Snapshot};
+use plateau_io::run_file::{End, InputFile, RunFileError, RunWriter, verify};
 
 #[test]
 fn a_finished_run_holds_what_was_sent() {
@@ -44,6 +44,56 @@ fn a_finished_run_holds_what_was_sent() {
     assert_eq!(pressure.shape(), [2, 5, 4]);
     assert_eq!(pressure[[0, 3, 2]], 14.0 + 0.6);
     assert_eq!(file.dataset("map_time").unwrap().read_raw::<f64>().unwrap(), [0.0, 250.0]);
+}
+
+#[test]
+fn a_finished_run_has_fixed_dimensions_and_a_map_that_never_changes_once() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.h5");
+    // More cells than deflate looks back over, in two parts of columns.
+    let header = header(96, 400, 60, &[Map::DiscHeight, Map::DiscSubstrate, Map::DiscStatus, Map::PinSubstrate]);
+    // Bits that nothing shortens, as those of measured heights: a multiplicative congruential generator.
+    let mut bits = 1_u64;
+    let mut random = |cells: usize| -> Vec<f64> {
+        let mut next = |_| {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from_bits(bits >> 12 | 0x3ff0_0000_0000_0000)
+        };
+        (0..cells).map(&mut next).collect()
+    };
+    let (disc, pin) = (header.mesh.disc_cells(), header.mesh.pin_cells());
+    let (substrate, pins) = (random(disc), random(3 * pin));
+    let mut writer = RunWriter::create(&path, false, &header).unwrap();
+    for moment in 0..20 {
+        let maps = vec![
+            (Map::DiscHeight, MapValues::Float(random(disc))),
+            (Map::DiscSubstrate, MapValues::Float(substrate.clone())),
+            (Map::DiscStatus, MapValues::Status(vec![1; disc])),
+            // It changes once.
+            (Map::PinSubstrate, MapValues::Float(pins[if moment < 19 { 0..pin } else { pin..2 * pin }].to_vec())),
+        ];
+        writer.snapshot(Snapshot { time: f64::from(moment), maps }).unwrap();
+        writer.sample(sample(moment as u64 + 1)).unwrap();
+    }
+    writer.finish(&End::Finished, &[]).unwrap();
+
+    let file = hdf5::File::open(&path).unwrap();
+    let of = |name: &str| file.dataset(name).unwrap();
+    for name in ["time", "map_time", "series/pool", "disc/height", "disc/substrate", "disc/status", "pin/substrate"] {
+        assert!(!of(name).is_resizable(), "{name}");
+    }
+    assert_eq!(of("disc/substrate").shape(), [20, 400, 96]);
+    let read = of("disc/substrate").read_raw::<f64>().unwrap();
+    assert!(read.chunks(disc).all(|map| map == substrate));
+    let last = of("pin/substrate").read_slice_2d::<f64, _>(ndarray::s![19, .., ..]).unwrap();
+    assert_eq!(last.into_raw_vec_and_offset().0, pins[pin..2 * pin]);
+    // Twice ten moments in a chunk: two maps, and a few bytes for every 258 that come again (RFC 1951).
+    let one = of("disc/height").storage_size() / 20;
+    let stored = of("disc/substrate").storage_size();
+    assert!(stored < 3 * one, "{stored} bytes, of one map {one}");
+    assert!(of("pin/substrate").storage_size() > 15 * one * pin as u64 / disc as u64);
+    drop(file);
+    assert_eq!(verify(&path).unwrap().damage, []);
 }
 
 #[test]

@@ -10,14 +10,14 @@ use plateau_core::observe::extra::Extra;
 use plateau_core::observe::operation::CYCLE;
 use plateau_core::observe::{Map, quantities};
 
-use super::digest::{self, DIGEST};
-use super::dimension::{DIMENSION_LIST, Dimensions};
+use super::digest::{self, DIGEST, Digests};
+use super::dimension::Dimensions;
 use super::layout::{
-    CONVENTIONS, EVENT, EVENT_GROUP, FORMAT_VERSION, MAP_TIME, PIN_BASE, TIME, event_path, map_long_name, map_path,
-    map_unit, series_path,
+    CONVENTIONS, EVENT, EVENT_GROUP, FORMAT_VERSION, MAP_TIME, PIN_BASE, STATUS_TYPE, TIME, event_path, map_long_name,
+    map_path, map_unit, series_path,
 };
 use super::status::{Statuses, stored_base};
-use super::storage::{MAP_CHUNK_BYTES, series_chunk};
+use super::storage::{copy_map, map_chunk, series_chunk};
 use super::{Header, State};
 use crate::hdf5_file::writing::{write_number, write_text};
 use crate::timestamp::iso_8601;
@@ -33,7 +33,7 @@ const REFERENCES: &str = "G. Riva, G. Perricone, J. Wahlström, Simulation of Co
 /// The events of a cycle come with the source: they are written when a run has ended.
 pub(super) fn lay_out(file: &File, header: &Header, start: SystemTime, source: Option<Source>) -> hdf5::Result<()> {
     write_provenance(file, header, start)?;
-    let mut layout = Layout::new(file, header, source.map(|source| source.file))?;
+    let mut layout = Layout::new(file, header, source)?;
     layout.coordinates(!header.maps.is_empty())?;
     for quantity in quantities(&header.extras) {
         layout.series(quantity.name, quantity.unit, quantity.long_name)?;
@@ -56,6 +56,8 @@ pub(super) struct Source<'a> {
     pub file: &'a File,
     /// What happened in the events of the cycle.
     pub events: &'a [EventRecord],
+    /// Digests of what the file holds.
+    pub digests: &'a Digests,
 }
 
 fn write_provenance(file: &File, header: &Header, start: SystemTime) -> hdf5::Result<()> {
@@ -89,14 +91,14 @@ struct Layout<'a> {
     float: Datatype,
     /// Committed, since netCDF-4 knows enumerations only as named types.
     status: Datatype,
-    source: Option<&'a File>,
+    source: Option<Source<'a>>,
 }
 
 impl<'a> Layout<'a> {
-    fn new(file: &'a File, header: &'a Header, source: Option<&'a File>) -> hdf5::Result<Self> {
+    fn new(file: &'a File, header: &'a Header, source: Option<Source<'a>>) -> hdf5::Result<Self> {
         let status = Statuses::of(&header.mesh).datatype()?;
         let dimensions = Dimensions::new(file)?;
-        file.commit_datatype("status", &status)?;
+        file.commit_datatype(STATUS_TYPE, &status)?;
         for group in ["series", "disc", "pin"] {
             file.create_group_builder()
                 .with_gcpl(|list| list.link_creation_order(LinkCreationOrder::Indexed))
@@ -151,21 +153,21 @@ impl<'a> Layout<'a> {
     }
 
     fn map(&mut self, map: Map) -> hdf5::Result<()> {
+        let path = map_path(map);
         let dimensions = [MAP_TIME, if map.on_disc() { "disc_angle" } else { "pin_angle" }, "radius"];
-        if let (Some(source), false) = (self.source, map.is_status()) {
-            // As it is compressed; its scales are those of this file.
-            source.dataset(map_path(map))?.copy_to(self.file, map_path(map))?;
-            let copy = self.file.dataset(map_path(map))?;
-            copy.delete_attr(DIMENSION_LIST)?;
-            return self.dimensions.attach(&copy, &dimensions);
-        }
         let datatype = if map.is_status() { &self.status } else { &self.float };
-        let dataset = self.dataset(map_path(map), datatype, &dimensions, map_unit(map), map_long_name(map))?;
+        let dataset = self.dataset(path, datatype, &dimensions, map_unit(map), map_long_name(map))?;
+        let statuses = Statuses::of(self.mesh);
         if map.is_status() {
-            Statuses::of(self.mesh).write_flags(&dataset, map.on_disc())?;
+            statuses.write_flags(&dataset, map.on_disc())?;
         }
         if let Some(source) = self.source {
-            Statuses::of(self.mesh).copy(&source.dataset(map_path(map))?, &dataset)?;
+            let from = source.file.dataset(path)?;
+            if map.is_status() {
+                statuses.copy(&from, &dataset)?
+            } else {
+                copy_map::<f64>(&from, &dataset)?
+            }
             self.file.flush()?;
         }
         self.dimensions.attach(&dataset, &dimensions)
@@ -174,9 +176,7 @@ impl<'a> Layout<'a> {
     /// Takes the values of a dataset with one dimension from the source.
     fn fill(&self, dataset: &Dataset, path: &str) -> hdf5::Result<()> {
         let Some(source) = self.source else { return Ok(()) };
-        let values = source.dataset(path)?.read_1d::<f64>()?;
-        dataset.resize(values.len())?;
-        dataset.write(&values)?;
+        dataset.write(&source.file.dataset(path)?.read_1d::<f64>()?)?;
         // What cannot be written when a dataset is let go of is not told.
         self.file.flush()
     }
@@ -212,7 +212,7 @@ impl<'a> Layout<'a> {
         self.file.flush()
     }
 
-    /// Makes a dataset; the two time dimensions are empty and can grow.
+    /// Makes a dataset; its time can grow while the run goes on, and has the length of the source afterwards.
     fn dataset(
         &self,
         path: &str,
@@ -221,18 +221,26 @@ impl<'a> Layout<'a> {
         unit: &str,
         long_name: &str,
     ) -> hdf5::Result<Dataset> {
-        let extents = dimensions.iter().map(|&dimension| match dimension {
-            "radius" => Extent::fixed(self.mesh.rows()),
-            "disc_angle" => Extent::fixed(self.mesh.disc_columns()),
-            "pin_angle" => Extent::fixed(self.mesh.pin_columns()),
-            _ => Extent::resizable(0),
-        });
+        let shape = dimensions.iter().map(|dimension| self.length(dimension)).collect::<hdf5::Result<Vec<_>>>()?;
+        // What has no values yet gets some, or has none: a chunk of no values cannot be made.
+        let extents =
+            shape.iter().map(|&length| if length == 0 { Extent::resizable(0) } else { Extent::fixed(length) });
         let extents = SimpleExtents::from_vec(extents.collect());
-        let mut builder = self.file.new_dataset_builder().chunk(self.chunk(&extents, datatype.size()));
+        let chunk = match shape[..] {
+            [moments, columns, rows] => {
+                let is_constant = self.source.is_some_and(|source| source.digests.is_constant(path));
+                map_chunk(if is_constant { moments } else { 1 }, columns, rows, datatype.size()).to_vec()
+            }
+            [columns, rows] => map_chunk(1, columns, rows, datatype.size())[1..].to_vec(),
+            [0] => vec![self.series_chunk],
+            [times] if dimensions == [TIME] => vec![self.series_chunk.min(times)],
+            _ => shape,
+        };
+        let mut builder = self.file.new_dataset_builder().chunk(chunk);
         // What is filtered takes a new place in the file whenever it changes, and leaves the old one behind for those who may
-        // be reading it. A series changes with every flush.
-        let changes = self.source.is_none() && extents.dims() == [0];
-        if !changes {
+        // be reading it: a series changes with every flush. Maps are deflated once, too, and not while a simulation may wait for it.
+        let grows = self.source.is_none() && extents.dims()[0] == 0;
+        if !grows {
             builder = builder.shuffle().deflate(1);
         }
         let dataset = builder.empty_as(datatype).shape(extents).create(path)?;
@@ -241,26 +249,21 @@ impl<'a> Layout<'a> {
         Ok(dataset)
     }
 
-    /// Shape of the chunks: a series is cut in time, a field into equal parts by columns and one time per chunk.
-    fn chunk(&self, extents: &SimpleExtents, bytes_per_value: usize) -> Vec<usize> {
-        match extents.dims().as_slice() {
-            &[0] => vec![self.series_chunk],
-            &[.., columns, rows] => {
-                let parts = (columns * rows * bytes_per_value).div_ceil(MAP_CHUNK_BYTES).min(columns);
-                let mut chunk = vec![1; extents.ndim() - 2];
-                chunk.extend([columns.div_ceil(parts), rows]);
-                chunk
-            }
-            dims => dims.to_vec(),
+    /// Values along a dimension: those of the source of what grows while a run goes on.
+    fn length(&self, dimension: &str) -> hdf5::Result<usize> {
+        match (dimension, self.source) {
+            ("radius", _) => Ok(self.mesh.rows()),
+            ("disc_angle", _) => Ok(self.mesh.disc_columns()),
+            ("pin_angle", _) => Ok(self.mesh.pin_columns()),
+            (EVENT, Some(source)) => Ok(source.events.len()),
+            (time, Some(source)) => Ok(source.file.dataset(time)?.size()),
+            (_, None) => Ok(0),
         }
     }
 }
 
 /// Writes values that never change, with their digest.
 fn fixed(dataset: &Dataset, values: &[f64]) -> hdf5::Result<()> {
-    if dataset.is_resizable() {
-        dataset.resize(values.len())?;
-    }
     dataset.write_raw(values)?;
     write_text(dataset, DIGEST, &digest::of_floats(values))
 }

@@ -41,6 +41,12 @@ impl Digests {
         self.maps.values().map(Vec::len).sum()
     }
 
+    /// Whether a map was the same at every one of several moments.
+    pub(super) fn is_constant(&self, path: &str) -> bool {
+        let digests = self.maps.get(path).map_or(&[][..], Vec::as_slice);
+        digests.len() > 1 && digests.iter().all(|digest| *digest == digests[0])
+    }
+
     /// Writes the digests of all that was appended.
     pub(super) fn write(&self, file: &File) -> hdf5::Result<()> {
         for (path, hasher) in &self.columns {

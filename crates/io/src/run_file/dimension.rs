@@ -25,7 +25,7 @@ use hdf5::{Dataset, Datatype, File, H5Type, ObjectReference1};
 pub(crate) const EMPTY_FILE: &[u8] = include_bytes!("empty.h5");
 
 /// Attribute of a dataset: the scales of its dimensions.
-pub(crate) const DIMENSION_LIST: &str = "DIMENSION_LIST";
+const DIMENSION_LIST: &str = "DIMENSION_LIST";
 
 type Text = FixedAscii<16>;
 

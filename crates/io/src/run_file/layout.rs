@@ -23,6 +23,9 @@ pub(super) const ACCELERATION: &str = "time_acceleration";
 /// Path of the base of the pin's cells.
 pub(super) const PIN_BASE: &str = "pin/base";
 
+/// The type of statuses. No variable has its name: xarray writes a type into the group of the variable that has it.
+pub(super) const STATUS_TYPE: &str = "cell_status";
+
 /// The group of what is reported of each event of a cycle.
 pub(super) const EVENT_GROUP: &str = "event";
 /// Path of the numbers of the events.

@@ -15,8 +15,8 @@
 //! `start_time` and `end_time` (ISO 8601, UTC) are texts; `wall_time` is in seconds; `error` says why a run is `failed`;
 //! `Conventions` repeats `conventions` in the spelling of netCDF. `/map_time` exists where any map does.
 //!
-//! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; the series only when the
-//! run has ended and the file is made anew.
+//! Every dataset is chunked and filtered with shuffle and deflate, which any HDF5 reader understands; what grows only when the
+//! run has ended and the file is made anew, with fixed dimensions.
 mod attribute_digests;
 mod contact_area;
 mod creation;

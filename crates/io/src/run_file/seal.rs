@@ -61,7 +61,7 @@ impl Seal<'_> {
     pub(super) fn make(&self, path: &Path, place: &Place) -> hdf5::Result<()> {
         let old = hdf5_file::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
         let new = open_for_writing(place.temporary())?;
-        let source = Source { file: &old, events: self.events };
+        let source = Source { file: &old, events: self.events, digests: &self.digests };
         lay_out(&new, self.header, self.start_time, Some(source))?;
         self.write(new)
     }

@@ -7,6 +7,7 @@ use plateau_core::model::mesh::Mesh;
 use plateau_core::model::state::Base;
 use plateau_core::observe::{ABSENT, Map};
 
+use super::storage::copy_map;
 use crate::hdf5_file::writing::write_text;
 
 /// A status with the member names that run files use.
@@ -114,18 +115,9 @@ impl Statuses {
         write(dataset, values, rows)
     }
 
-    /// Copies the maps of all moments into an empty dataset.
+    /// Copies the maps of all moments into a dataset of their shape.
     pub(super) fn copy(self, from: &Dataset, to: &Dataset) -> hdf5::Result<()> {
-        fn copy<T: Stored>(from: &Dataset, to: &Dataset) -> hdf5::Result<()> {
-            to.resize(from.shape())?;
-            // One moment after the other: in memory they are not small.
-            for moment in 0..from.shape()[0] {
-                let level = from.read_slice_2d::<T, _>(s![moment, .., ..])?;
-                to.write_slice(&level, s![moment, .., ..])?;
-            }
-            Ok(())
-        }
-        let copy = if self.outlined { copy::<OutlinedStatus> } else { copy::<StoredStatus> };
+        let copy = if self.outlined { copy_map::<OutlinedStatus> } else { copy_map::<StoredStatus> };
         copy(from, to)
     }
 }

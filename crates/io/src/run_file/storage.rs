@@ -1,5 +1,7 @@
 //! Storage of series and maps: their chunks, and how large a run file becomes with them at most.
 
+use hdf5::{Dataset, H5Type};
+use ndarray::s;
 use plateau_core::model::mesh::Mesh;
 use plateau_core::observe::extra::Extra;
 use plateau_core::observe::{Map, quantities};
@@ -12,12 +14,47 @@ const SERIES_CHUNK: (u64, u64) = (64, 512);
 /// Chunks of a series that is as long as expected.
 const CHUNKS_PER_SERIES: u64 = 64;
 /// Bytes in one chunk of a map before compression, at most.
-pub(super) const MAP_CHUNK_BYTES: usize = 512 * 1024;
+const MAP_CHUNK_BYTES: usize = 512 * 1024;
+/// Moments in one chunk of a map that never changes, at most: who reads one of them reads them all.
+const MOMENTS_PER_CHUNK: usize = 16;
+/// Cells of one moment in such a chunk, at most. Deflate finds what comes again within 32 KiB (RFC 1951), and shuffle makes the
+/// first bytes of all values come first, then the second ones, so that a cell comes again after as many bytes as there are cells.
+const REPEATED_CELLS: usize = 16 * 1024;
 
 /// Times in one chunk of a series of which so many are expected.
 pub(super) fn series_chunk(expected_samples: u64) -> usize {
     let (shortest, longest) = SERIES_CHUNK;
     (expected_samples / CHUNKS_PER_SERIES).clamp(shortest, longest) as usize
+}
+
+/// Shape of the chunks of maps: equal parts by columns of one moment, or of several moments with equal maps, which deflate then
+/// stores hardly more than once.
+pub(super) fn map_chunk(equal_moments: usize, columns: usize, rows: usize, bytes_per_value: usize) -> [usize; 3] {
+    let moments = equal_moments.div_ceil(equal_moments.div_ceil(MOMENTS_PER_CHUNK));
+    let most_cells = MAP_CHUNK_BYTES / (moments * bytes_per_value);
+    let most_cells = if moments == 1 { most_cells } else { most_cells.min(REPEATED_CELLS) };
+    let parts = (columns * rows).div_ceil(most_cells).min(columns);
+    [moments, columns.div_ceil(parts), rows]
+}
+
+/// Copies the maps of all moments into a dataset of their shape, chunk by chunk. Those in one chunk are equal.
+pub(super) fn copy_map<T: H5Type + Clone>(from: &Dataset, to: &Dataset) -> hdf5::Result<()> {
+    let (shape, chunk) = (to.shape(), to.chunk().unwrap_or_default());
+    let (&[moments, columns, rows], &[in_chunk, columns_in_chunk, _]) = (&shape[..], &chunk[..]) else {
+        return Err("a map has no chunks".into());
+    };
+    for start in (0..moments).step_by(in_chunk) {
+        let map = from.read_slice_2d::<T, _>(s![start, .., ..])?;
+        let end = moments.min(start + in_chunk);
+        for first in (0..columns).step_by(columns_in_chunk) {
+            let last = columns.min(first + columns_in_chunk);
+            let part = map.slice(s![first..last, ..]);
+            let repeated = part.broadcast((end - start, last - first, rows)).map(|repeated| repeated.to_owned());
+            let repeated = repeated.ok_or("a map is not of the shape of its dataset")?;
+            to.write_slice(&repeated, s![start..end, first..last, ..])?;
+        }
+    }
+    Ok(())
 }
 
 /// Bytes of names, attributes and pages that are not full, at most, unless texts are long.
