@@ -7,6 +7,8 @@
 >>> area = run.plateau.mean("contact_area")
 >>> print(f"{area.value * 1e6:.2f} mm2, standard error {area.error * 1e6:.2f} mm2")
 0.51 mm2, standard error 0.03 mm2
+>>> print(area)
+(5.10 ± 0.30)e-07 m2 from 5.80051 to 20 s
 
 All quantities are in SI units. The guide is docs/python.md of the project.
 """

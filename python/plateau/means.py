@@ -17,7 +17,7 @@ ROUNDING = 1e-9
 
 
 class Mean(NamedTuple):
-    """Mean of a quantity over a part of a run.
+    """Mean of a quantity over a part of a run. Printed, it has its unit, and as many digits as its error tells.
 
     Attributes
     ----------
@@ -29,6 +29,13 @@ class Mean(NamedTuple):
         The part, s.
     revolutions : float
         Simulated revolutions of the disc in it; NaN if they are not known.
+    unit : str
+        Unit of value and error; ``"1"`` for plain numbers.
+
+    Examples
+    --------
+    >>> print(Mean(5.1234e-07, 2.849e-08, 54.0, 60.0, 85.0, "m2"))
+    (5.12 ± 0.28)e-07 m2 from 54 to 60 s
     """
 
     value: float
@@ -36,6 +43,20 @@ class Mean(NamedTuple):
     start: float
     end: float
     revolutions: float
+    unit: str = "1"
+
+    def __str__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        part = f"{unit} from {self.start:g} to {self.end:g} s"
+        if not (np.isfinite(self.value) and np.isfinite(self.error) and self.error > 0):
+            return f"{self.value:.4g}{part}"
+        # Two digits of the error, and the value to the same place.
+        place = int(f"{self.error:.1e}".split("e")[1]) - 1
+        size = max(int(f"{number:.15e}".split("e")[1]) for number in (self.value, self.error))
+        if place <= 0 and -4 <= size < 6:
+            return f"{self.value:.{-place}f} ± {self.error:.{-place}f}{part}"
+        scale = float(f"1e{size}")
+        return f"({self.value / scale:.{size - place}f} ± {self.error / scale:.{size - place}f})e{size:+03d}{part}"
 
 
 def standard_error(values: Array) -> float:
@@ -93,11 +114,12 @@ def last_tenth(time: Array, revolutions: Array | None) -> tuple[float, float]:
     return (0.0 if first == 0 else float(time[first - 1])), float(time[-1])
 
 
-def mean_between(time: Array, integral: Array, revolutions: Array | None, start: float, end: float) -> Mean:
+def mean_between(time: Array, integral: Array, revolutions: Array | None, start: float, end: float, known_time: Array | None = None) -> Mean:
     """Mean between two times, from the integral over time: exact if these are times of samples.
 
     For the error, the part is divided into blocks of equal length: one for each interval between samples, but none shorter than a
-    simulated revolution; `standard_error` takes into account that blocks are correlated.
+    simulated revolution; `standard_error` takes into account that blocks are correlated. Blocks in which the quantity has no value
+    are left out.
 
     Parameters
     ----------
@@ -109,22 +131,35 @@ def mean_between(time: Array, integral: Array, revolutions: Array | None, start:
         Simulated revolutions until then.
     start, end : float
         The part, s.
+    known_time : array, shape (samples,), optional
+        Time until each of them in which the quantity has a value, s: the mean is over this time. By default all of it.
 
     Returns
     -------
     Mean
+        NaN if the quantity has no value in the part.
     """
     if not 0 <= start < end <= time[-1] * (1 + ROUNDING):
         raise InputError(f"from {start:g} to {end:g} s: expected times in order, between 0 and {time[-1]:g} s")
-    known, sums = np.concatenate([[0.0], time]), np.concatenate([[0.0], integral])
+    def cumulative(values: Array) -> Array:
+        return np.concatenate([[0.0], values])
+
+    known, sums = cumulative(time), cumulative(integral)
+    durations = known if known_time is None else cumulative(known_time)
     blocks, turns = 1 + int(((start < time) & (time < end)).sum()), float("nan")
     if revolutions is not None:
-        turned = np.interp([start, end], known, np.concatenate([[0.0], revolutions]))
+        turned = np.interp([start, end], known, cumulative(revolutions))
         turns = float(turned[1] - turned[0])
         blocks = min(blocks, int(turns * (1 + ROUNDING)))
-    at = np.interp([start, end], known, sums)
-    error = float("nan")
+
+    def means(edges: Array) -> Array:
+        parts, lengths = (np.diff(np.interp(edges, known, values)) for values in (sums, durations))
+        # A difference of sums is rounded: what is left of nothing is no time.
+        there = lengths > ROUNDING * np.diff(edges)
+        return parts[there] / lengths[there]
+
+    whole, error = means(np.array([start, end])), float("nan")
     if blocks >= LEAST_PARTS:
-        edges = np.interp(np.linspace(start, end, blocks + 1), known, sums)
-        error = standard_error(np.diff(edges) * (blocks / (end - start)))
-    return Mean(float((at[1] - at[0]) / (end - start)), error, start, end, turns)
+        values = means(np.linspace(start, end, blocks + 1))
+        error = standard_error(values) if len(values) >= LEAST_PARTS else error
+    return Mean(float(whole[0]) if len(whole) else float("nan"), error, start, end, turns)

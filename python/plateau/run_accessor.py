@@ -63,8 +63,8 @@ class RunAccessor:
         """Mean of a series over a part of the run, with its standard error.
 
         The mean of the contact area is calculated from its integral, which includes every step. It is the number that ``plateau run``
-        prints. In other series, a sample represents the time since the previous sample. `plateau.means.mean_between` describes the
-        standard error. It takes into account that neighbouring values are correlated.
+        prints. In other series, a sample represents the time since the previous sample; where a sample has no value, as a temperature
+        of a lifted pin, this time is left out. `plateau.means.mean_between` describes the standard error. It takes into account that neighbouring values are correlated.
 
         Parameters
         ----------
@@ -92,6 +92,8 @@ class RunAccessor:
         True
         >>> plateau.open_run("quick.h5").plateau.mean("filled_fraction", "30 s", "1 min").start
         30.0
+        >>> str(plateau.open_run("quick.h5").plateau.mean("contact_area")).endswith(" m2 from 45.8005 to 60 s")
+        True
         """
         time = self._sample_times()
         if series in TOTALS and series in self._run["series"]:
@@ -100,10 +102,13 @@ class RunAccessor:
                 f"rate({series!r}) is how fast it grows, series[{series!r}].iloc[-1] how much it is at the end"
             )
         if f"{series}_integral" in self._run["series"]:
-            integral = self._values(f"series/{series}_integral")
+            found = self._mean_of(time, self._values(f"series/{series}_integral"), start, end)
         else:
-            integral = np.cumsum(self._values(f"series/{series}") * np.diff(time, prepend=0.0))
-        return self._mean_of(time, integral, start, end)
+            values, steps = self._values(f"series/{series}"), np.diff(time, prepend=0.0)
+            there = np.isfinite(values)
+            integral, known = np.cumsum(np.where(there, values, 0.0) * steps), np.cumsum(there * steps)
+            found = self._mean_of(time, integral, start, end, None if there.all() else known)
+        return found._replace(unit=self._unit(series))
 
     def rate(self, series: str, start: float | str | None = None, end: float | str | None = None) -> Mean:
         """Mean growth rate of a total over a part of the run, with its standard error.
@@ -136,13 +141,21 @@ class RunAccessor:
         values = self._values(f"series/{series}")
         if series not in TOTALS:
             raise InputError(f"{series} is no total since the start of the run: take mean({series!r})")
-        return self._mean_of(self._sample_times(), values, start, end)
+        unit = self._unit(series)
+        found = self._mean_of(self._sample_times(), values, start, end)
+        per_second = unit.removesuffix(" s") if unit.endswith(" s") else f"{unit} s-1"
+        return found._replace(unit=per_second.removeprefix("1 "))
 
-    def _mean_of(self, time: Array, integral: Array, start: float | str | None, end: float | str | None) -> Mean:
+    def _mean_of(
+        self, time: Array, integral: Array, start: float | str | None, end: float | str | None, known_time: Array | None = None
+    ) -> Mean:
         revolutions = self._revolutions()
         first, last = last_tenth(time, revolutions)
-        part = [seconds(default if given is None else given) for given, default in ((start, first), (end, last))]
-        return mean_between(time, integral, revolutions, *part)
+        begin, stop = (seconds(default if given is None else given) for given, default in ((start, first), (end, last)))
+        return mean_between(time, integral, revolutions, begin, stop, known_time)
+
+    def _unit(self, series: str) -> str:
+        return str(array(self._run, f"series/{series}").attrs.get("units", "1"))
 
     def build_up(self, body: str) -> xarray.DataArray:
         """Thickness of the build-up on every cell: the distance of the height from the substrate, away from the body.

@@ -323,6 +323,16 @@ class Studies(InFolder):
         self.assertAlmostEqual(found.table.loc[("worn", "load"), "effect"] / (worn[10.0] - worn[5.0]), 1.0, delta=1e-9)
         self.assertAlmostEqual(response["mean"] / made.table["worn [m3]"].mean(), 1.0, delta=1e-9)
 
+    def test_the_table_has_the_units_of_the_study(self):
+        study = STUDY.replace("operation.normal_force", "operation.rotational_speed").replace('"5 N", "10 N"', '"425 rpm", "850 rpm"')
+        pathlib.Path("speeds.toml").write_text(study.replace('"4e-14 1/Pa"', '"4e-14 m^2/N"'))
+        made = plateau.sweep("speeds.toml", progress=False)
+        # Where the levels have several units, it is that of SI. Data has SI units.
+        self.assertEqual(list(made.table)[4:6], ["load [rpm]", "wear [1/Pa]"])
+        self.assertEqual(sorted(set(made.table["load [rpm]"])), [425, 850])
+        np.testing.assert_allclose(made.data["load"], made.table["load [rpm]"] * 2 * np.pi / 60, rtol=1e-15)
+        self.assertEqual(set(made.table["wear [1/Pa]"]), {2e-14, 4e-14})
+
     def test_a_study_that_is_wrong(self):
         pathlib.Path("bad.toml").write_text(STUDY.replace("5 N", "5 kg"))
         with self.assertRaisesRegex(plateau.InputError, "(?s)bad.toml.*5 kg"):

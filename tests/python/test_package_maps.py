@@ -58,6 +58,35 @@ class Means(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "expected times in order"):
                 means.mean_between(time, time, None, *part)
 
+    def test_a_mean_is_over_the_time_in_which_there_is_a_value(self):
+        # A value of 2 for 30 s, none for 40 s, 5 for 30 s.
+        time = np.arange(1.0, 101.0)
+        there = (time <= 30) | (time > 70)
+        integral, known = np.cumsum(np.where(time <= 30, 2.0, 5.0) * there), np.cumsum(there * 1.0)
+
+        def mean(start, end):
+            return means.mean_between(time, integral, None, start, end, known)
+
+        self.assertEqual([mean(*part).value for part in ((0, 30), (70, 100), (20, 90), (20, 50))], [2.0, 5.0, 4.0, 2.0])
+        self.assertTrue(np.isnan(mean(40, 60).value))
+        # Blocks without a value tell nothing of the error: ten of 2 and twenty of 5.
+        self.assertAlmostEqual(mean(20, 90).error, means.standard_error(np.repeat([2.0, 5.0], [10, 20])), delta=1e-12)
+        self.assertTrue(np.isnan(mean(28, 60).error))
+
+    def test_a_mean_is_printed_with_its_unit_and_the_digits_that_are_known(self):
+        # By hand: two digits of the error, the value to the same place.
+        printed = {
+            (5.1234e-7, 2.849e-8, "m2"): "(5.12 ± 0.28)e-07 m2",
+            (300.123, 0.0999, "K"): "300.12 ± 0.10 K",
+            (0.41268, 0.00231, "1"): "0.4127 ± 0.0023",
+            (123456.0, 12345.6, "Pa"): "(1.23 ± 0.12)e+05 Pa",
+            (2e7, 9.96e5, "Pa"): "(2.00 ± 0.10)e+07 Pa",
+            (3.91877e-7, np.nan, "m2"): "3.919e-07 m2",
+            (np.nan, np.nan, "K"): "nan K",
+        }
+        for (value, error, unit), text in printed.items():
+            self.assertEqual(str(means.Mean(value, error, 54.0, 60.0, 85.0, unit)), f"{text} from 54 to 60 s")
+
 
 class MadeUpMaps(unittest.TestCase):
     def test_means_count_areas_and_leave_out_what_is_not_there(self):
@@ -323,6 +352,17 @@ class Pauses(InFolder):
         # A series itself is drawn as it is.
         [single] = run.plateau.plot("contact_area").lines
         self.assertTrue(np.isfinite(single.get_ydata()).all())
+        # A lifted pin has no displacement: the mean is over the samples that have one, also after the pause.
+        with h5py.File("quick.h5") as file:
+            time, values = file["time"][:], file["series/displacement"][:]
+        there, steps = np.isfinite(values), np.diff(time, prepend=0.0)
+        self.assertFalse(there.all())
+        for first, last in ((5, 15), (15, 50), (45, 70), (0, len(time) - 1)):
+            part = np.arange(len(time)) > first
+            part &= (np.arange(len(time)) <= last) & there
+            expected = (values * steps)[part].sum() / steps[part].sum()
+            self.assertAlmostEqual(run.plateau.mean("displacement", time[first], time[last]).value / expected, 1.0, delta=1e-12)
+        self.assertTrue(np.isnan(run.plateau.mean("displacement", 2.5, 3.5).value))
 
 
 class Unfinished(InFolder):

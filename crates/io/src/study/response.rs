@@ -260,17 +260,22 @@ fn value_at(time: &[f64], values: &[f64], at: f64) -> Option<f64> {
         return Some(values[after]);
     }
     let share = (at - time[after - 1]) / (time[after] - time[after - 1]);
-    Some(values[after - 1] + share * (values[after] - values[after - 1]))
+    // A sample has its value even where the one before it has none.
+    Some(if share == 1.0 { values[after] } else { values[after - 1] + share * (values[after] - values[after - 1]) })
 }
 
-/// The mean of the line through the samples.
+/// The mean of the line through the samples, over the time in which there is one: while the pin is lifted, a series may have no
+/// value.
 fn mean(time: &[f64], values: &[f64], from: f64, to: f64) -> Option<f64> {
     let mut places = vec![(from, value_at(time, values, from)?)];
     let inside = time.iter().zip(values).filter(|(time, _)| (from < **time) && (**time < to));
     places.extend(inside.map(|(time, value)| (*time, *value)));
     places.push((to, value_at(time, values, to)?));
-    let area: f64 = places.windows(2).map(|pair| (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1) / 2.0).sum();
-    Some(area / (to - from))
+    let pieces = places.windows(2).map(|pair| (pair[1].0 - pair[0].0, (pair[0].1 + pair[1].1) / 2.0));
+    let (area, duration) = pieces
+        .filter(|(_, mean)| mean.is_finite())
+        .fold((0.0, 0.0), |(area, duration), (length, mean)| (area + length * mean, duration + length));
+    (duration > 0.0).then_some(area / duration)
 }
 
 /// The integral of that line over time since t = 0; the first sample stands for what is before it.
@@ -309,6 +314,13 @@ mod tests {
         // Trapezia: (2 + 4)/2 · 1 + 4 · 1 over 2 s.
         assert_eq!(ask(Question::Mean(2.0, 4.0), &ramp), Some(3.5));
         assert_eq!(ask(Question::End, &[]), None);
+        // Lifted at 3 s: by hand, (2 + 4)/2 over 1 s, (6 + 8)/2 over 1 s; then the window with no value at all.
+        let lifted = [2.0, 4.0, f64::NAN, 6.0, 8.0];
+        assert_eq!(
+            [ask(Question::Mean(1.0, 5.0), &lifted), ask(Question::Mean(4.0, 5.0), &lifted)],
+            [Some(5.0), Some(7.0)]
+        );
+        assert_eq!([ask(Question::Mean(2.2, 3.8), &lifted), ask(Question::At(4.0), &lifted)], [None, Some(6.0)]);
         let series = |times: [f64; 2]| {
             let series = MeasuredSeries::new(times.to_vec(), vec![2.0, 4.5], vec![0.5, 1.0], 0.0).unwrap();
             Question::Measured(Arc::new(SeriesFile {

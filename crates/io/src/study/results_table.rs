@@ -1,4 +1,5 @@
-//! The results of a study as a table of text: a line for each run, numbers in SI units, units in the head.
+//! The results of a study as a table of text: a line for each run, units in the head: those in which the study states its factors,
+//! and SI units of responses.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -6,6 +7,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use super::collected::{Collected, CollectedRun, State, error_name};
+use super::level::Level;
 use super::plan::Plan;
 use super::record::unit_of;
 
@@ -20,7 +22,8 @@ struct Column {
 
 /// Head and lines: number, point, replicate and state of each run, its factors and responses, and why it failed.
 ///
-/// Quantities are numbers in the unit that stands behind the name, as in `load [N]`; words, and numbers without a unit, stand
+/// Quantities are numbers in the unit that stands behind the name, as in `speed [rpm]`: in that of the study, if it states all
+/// levels of a factor in one, or in SI units; words, and numbers without a unit, stand
 /// as the study has them. A response that a run does not give is an empty cell. A response that has a standard error is
 /// followed by it.
 pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
@@ -42,13 +45,18 @@ pub fn table(plan: &Plan, collected: &Collected) -> Vec<Vec<String>> {
         State::Finished | State::Missing => String::new(),
     });
     for (at, factor) in study.factors.iter().enumerate() {
-        let unit = factor.unit();
-        let is_quantity = !["", "1"].contains(&unit)
-            && collected.runs.iter().all(|run| run.run.levels.get(at).is_some_and(|level| level.number.is_some()));
-        columns.push(column(&factor.name, "factor", if is_quantity { unit } else { "" }, &|run| {
+        let levels: Option<Vec<&Level>> = collected.runs.iter().map(|run| run.run.levels.get(at)).collect();
+        let levels = levels.filter(|levels| levels.iter().all(|level| level.number.is_some()));
+        let is_quantity = !["", "1"].contains(&factor.unit()) && levels.is_some();
+        let stated = levels.and_then(|levels| stated_unit(&levels)).filter(|_| is_quantity);
+        let unit = stated.unwrap_or(if is_quantity { factor.unit() } else { "" });
+        columns.push(column(&factor.name, "factor", unit, &|run| {
             let level = run.run.levels.get(at);
-            let number = level.and_then(|level| level.number).filter(|_| is_quantity);
-            number.map_or_else(|| level.map_or_else(String::new, |level| level.label.clone()), exactly)
+            let number = |level: &Level| if stated.is_some() { Some(level.split()?.0) } else { level.number };
+            level
+                .and_then(number)
+                .filter(|_| is_quantity)
+                .map_or_else(|| level.map_or_else(String::new, |level| level.label.clone()), exactly)
         }));
     }
     for (at, response) in study.responses.iter().enumerate() {
@@ -84,6 +92,13 @@ pub fn is_results_table(path: &Path) -> bool {
     read.is_some_and(|read| read.is_ok()) && found == first.as_bytes()
 }
 
+/// The unit in which all of some levels are stated, if it is one.
+fn stated_unit<'a>(levels: &[&'a Level]) -> Option<&'a str> {
+    let unit = |level: &&'a Level| level.split().map(|(_, unit)| unit).filter(|unit| !unit.is_empty());
+    let first = unit(levels.first()?)?;
+    levels.iter().all(|level| unit(level) == Some(first)).then_some(first)
+}
+
 /// A number with all its digits.
 fn exactly(number: f64) -> String {
     format!("{number:?}")
@@ -107,7 +122,20 @@ impl Names {
 
 #[cfg(test)]
 mod tests {
-    use super::Names;
+    use super::{Level, Names, stated_unit};
+
+    #[test]
+    fn levels_in_one_unit_have_that_of_the_study() {
+        let unit = |texts: [&str; 2]| {
+            let levels = texts.map(|text| Level::parse("operation.rotational_speed", text));
+            stated_unit(&levels.each_ref()).map(str::to_owned)
+        };
+        assert_eq!(unit(["425 rpm", "8.5e2 rpm"]).as_deref(), Some("rpm"));
+        assert_eq!(
+            [unit(["425 rpm", "89 rad/s"]), unit(["425", "850"]), unit(["none", "425 rpm"])],
+            [None, None, None]
+        );
+    }
 
     #[test]
     fn heads_have_units_and_differ() {
